@@ -1,0 +1,33 @@
+//! Flattens 3D triangle meshes into the plane, and proves, shows and repairs what happens on the way.
+//!
+//! The mathematics is that of Karni, Gotsman and Gortler, "Free-Boundary Linear Parameterization of
+//! 3D Meshes in the Presence of Constraints" (2005), called *the paper* in these pages.
+//!
+//! Layers, each importing only from those above it:
+//!
+//! ```text
+//! geom   mesh         the plane · connectivity and 3D positions
+//!    \   /   \
+//!   linalg   examples sparse LLT and LU · built-in meshes
+//!      |        |
+//!    solver     |     the paper: weights, systems, methods, verdict, distortion
+//!      |   \    |
+//!      |    io  |     files in and out
+//!      |   /   /
+//!    session          one open document: commands, undo, background job
+//!      |
+//!     view            pure maths between document and pixels
+//!  ____|____          feature "gui" below this line
+//!  render  |          wgpu pipelines and buffers
+//!       \  |
+//!        ui           egui panels
+//!        |
+//!       app · cli     the window · the command line
+//! ```
+
+pub mod examples;
+pub mod geom;
+pub mod io;
+pub mod linalg;
+pub mod mesh;
+pub mod solver;

@@ -1,0 +1,240 @@
+//! A mesh proved to be a disk, with index halfedges.
+//!
+//! Halfedge `3 f + k` is side `k` of triangle `f`. The outer sides of the boundary edges follow behind, in the
+//! order of the boundary loop, so that every edge has exactly two halfedges and every halfedge a twin.
+
+use glam::DVec3;
+
+use super::edges::{EdgeTable, side_ends};
+use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
+
+/// A connected, consistently oriented 2-manifold with one boundary loop and Euler number 1.
+///
+/// The only way to one is the diagnosis, so whatever takes a `DiskMesh` need not check it again.
+#[derive(Clone, Debug)]
+pub struct DiskMesh {
+    mesh: TriMesh,
+    twin: Vec<u32>,
+    edge: Vec<u32>,
+    halfedge_of_edge: Vec<u32>,
+    /// An outgoing halfedge per vertex; at a boundary vertex the one that begins its fan.
+    halfedge_of_vertex: Vec<u32>,
+    boundary_loop: Vec<VertexId>,
+    /// Place in the boundary loop, or `u32::MAX` inside.
+    boundary_place: Vec<u32>,
+}
+
+impl DiskMesh {
+    /// Joins the halfedges of a mesh that the diagnosis found to be a disk.
+    pub(super) fn join(mesh: TriMesh, table: &EdgeTable) -> Self {
+        let side_count = 3 * mesh.face_count();
+        let mut twin = vec![u32::MAX; side_count];
+        let mut outer_of_tail = vec![u32::MAX; mesh.vertex_count()];
+        let mut boundary_count = 0;
+        for sides in table.edges() {
+            if let &[a, b] = sides {
+                twin[a as usize] = b;
+                twin[b as usize] = a;
+            } else {
+                let (tail, _) = side_ends(&mesh.triangles, sides[0]);
+                outer_of_tail[tail.index()] = sides[0];
+                boundary_count += 1;
+            }
+        }
+        let first = twin.iter().position(|&t| t == u32::MAX).expect("a disk has a boundary");
+        let mut boundary_loop = Vec::with_capacity(boundary_count);
+        let mut boundary_place = vec![u32::MAX; mesh.vertex_count()];
+        let mut side = u32::try_from(first).expect("a side fits");
+        for place in 0..u32::try_from(boundary_count).expect("a boundary fits") {
+            let (tail, head) = side_ends(&mesh.triangles, side);
+            boundary_loop.push(tail);
+            boundary_place[tail.index()] = place;
+            twin[side as usize] = u32::try_from(twin.len()).expect("a halfedge fits");
+            twin.push(side);
+            side = outer_of_tail[head.index()];
+        }
+        let (edge, halfedge_of_edge) = number_edges(&twin);
+        let mut halfedge_of_vertex = vec![u32::MAX; mesh.vertex_count()];
+        for side in (0..u32::try_from(side_count).expect("a side fits")).rev() {
+            let (tail, _) = side_ends(&mesh.triangles, side);
+            let held = &mut halfedge_of_vertex[tail.index()];
+            if outer_of_tail[tail.index()] == u32::MAX || outer_of_tail[tail.index()] == side {
+                *held = side;
+            }
+        }
+        Self { mesh, twin, edge, halfedge_of_edge, halfedge_of_vertex, boundary_loop, boundary_place }
+    }
+
+    /// Positions and triangles.
+    pub fn mesh(&self) -> &TriMesh {
+        &self.mesh
+    }
+
+    /// Position of a vertex, mesh units.
+    pub fn position(&self, vertex: VertexId) -> DVec3 {
+        self.mesh.positions[vertex.index()]
+    }
+
+    /// Corners of a face, counter-clockwise.
+    pub fn face(&self, face: FaceId) -> [VertexId; 3] {
+        self.mesh.triangles[face.index()]
+    }
+
+    /// Number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.mesh.vertex_count()
+    }
+
+    /// Number of faces.
+    pub fn face_count(&self) -> usize {
+        self.mesh.face_count()
+    }
+
+    /// Number of undirected edges.
+    pub fn edge_count(&self) -> usize {
+        self.halfedge_of_edge.len()
+    }
+
+    /// Number of halfedges, the outer sides of the boundary included: twice the edges.
+    pub fn halfedge_count(&self) -> usize {
+        self.twin.len()
+    }
+
+    /// All vertices.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = VertexId> + Clone + use<> {
+        (0..self.vertex_count()).map(VertexId::from_index)
+    }
+
+    /// All faces.
+    pub fn faces(&self) -> impl ExactSizeIterator<Item = FaceId> + Clone + use<> {
+        (0..self.face_count()).map(FaceId::from_index)
+    }
+
+    /// All undirected edges.
+    pub fn edges(&self) -> impl ExactSizeIterator<Item = EdgeId> + Clone + use<> {
+        (0..self.edge_count()).map(EdgeId::from_index)
+    }
+
+    /// All halfedges.
+    pub fn halfedges(&self) -> impl ExactSizeIterator<Item = HalfedgeId> + Clone + use<> {
+        (0..self.halfedge_count()).map(HalfedgeId::from_index)
+    }
+
+    /// The vertex that a halfedge leaves.
+    pub fn tail(&self, halfedge: HalfedgeId) -> VertexId {
+        if self.is_outer(halfedge) {
+            self.head(self.twin(halfedge))
+        } else {
+            side_ends(&self.mesh.triangles, halfedge.number()).0
+        }
+    }
+
+    /// The vertex that a halfedge runs to.
+    pub fn head(&self, halfedge: HalfedgeId) -> VertexId {
+        if self.is_outer(halfedge) {
+            self.tail(self.twin(halfedge))
+        } else {
+            side_ends(&self.mesh.triangles, halfedge.number()).1
+        }
+    }
+
+    /// The other halfedge of the same edge.
+    pub fn twin(&self, halfedge: HalfedgeId) -> HalfedgeId {
+        HalfedgeId::new(self.twin[halfedge.index()])
+    }
+
+    /// The halfedge after this one around its face, or, outside, along the boundary.
+    pub fn next(&self, halfedge: HalfedgeId) -> HalfedgeId {
+        self.turn(halfedge, 1)
+    }
+
+    /// The halfedge before this one around its face, or, outside, along the boundary.
+    pub fn previous(&self, halfedge: HalfedgeId) -> HalfedgeId {
+        self.turn(halfedge, 2)
+    }
+
+    fn turn(&self, halfedge: HalfedgeId, by: usize) -> HalfedgeId {
+        let h = halfedge.index();
+        let inner = 3 * self.face_count();
+        if h < inner {
+            return HalfedgeId::from_index(h - h % 3 + (h + by) % 3);
+        }
+        // Outside runs against the loop: the next outer side is the one before it in the loop.
+        let count = self.boundary_loop.len();
+        let step = if by == 1 { count - 1 } else { 1 };
+        HalfedgeId::from_index(inner + (h - inner + step) % count)
+    }
+
+    /// Whether a halfedge lies outside the surface, along its boundary.
+    pub fn is_outer(&self, halfedge: HalfedgeId) -> bool {
+        halfedge.index() >= 3 * self.face_count()
+    }
+
+    /// The face to the left of a halfedge, `None` outside.
+    pub fn face_of(&self, halfedge: HalfedgeId) -> Option<FaceId> {
+        (!self.is_outer(halfedge)).then(|| FaceId::from_index(halfedge.index() / 3))
+    }
+
+    /// The edge that a halfedge is a side of.
+    pub fn edge_of(&self, halfedge: HalfedgeId) -> EdgeId {
+        EdgeId::new(self.edge[halfedge.index()])
+    }
+
+    /// The first halfedge of an edge, inside the surface.
+    pub fn halfedge(&self, edge: EdgeId) -> HalfedgeId {
+        HalfedgeId::new(self.halfedge_of_edge[edge.index()])
+    }
+
+    /// Ends of an edge, in the direction of its first halfedge.
+    pub fn ends(&self, edge: EdgeId) -> [VertexId; 2] {
+        let h = self.halfedge(edge);
+        [self.tail(h), self.head(h)]
+    }
+
+    /// Whether an edge lies on the boundary.
+    pub fn is_boundary_edge(&self, edge: EdgeId) -> bool {
+        self.is_outer(self.twin(self.halfedge(edge)))
+    }
+
+    /// Vertices of the boundary, counter-clockwise: the surface lies to the left.
+    pub fn boundary_loop(&self) -> &[VertexId] {
+        &self.boundary_loop
+    }
+
+    /// The edge from place `place` of the boundary loop to the next.
+    pub fn boundary_edge(&self, place: usize) -> EdgeId {
+        self.edge_of(HalfedgeId::from_index(3 * self.face_count() + place))
+    }
+
+    /// Where a vertex stands in the boundary loop, `None` inside.
+    pub fn boundary_place(&self, vertex: VertexId) -> Option<usize> {
+        let place = self.boundary_place[vertex.index()];
+        (place != u32::MAX).then_some(place as usize)
+    }
+
+    /// Outgoing halfedges of a vertex, counter-clockwise. At a boundary vertex the fan begins at the boundary and
+    /// ends with the outer halfedge.
+    pub fn outgoing(&self, vertex: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
+        let first = HalfedgeId::new(self.halfedge_of_vertex[vertex.index()]);
+        let mut at = Some(first);
+        std::iter::from_fn(move || {
+            let here = at?;
+            at = (!self.is_outer(here)).then(|| self.twin(self.previous(here))).filter(|&h| h != first);
+            Some(here)
+        })
+    }
+}
+
+/// Numbers edges by their lower halfedge.
+fn number_edges(twin: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut edge = vec![0_u32; twin.len()];
+    let mut halfedge_of_edge = Vec::with_capacity(twin.len() / 2);
+    for (h, &other) in (0_u32..).zip(twin) {
+        if h < other {
+            edge[h as usize] = u32::try_from(halfedge_of_edge.len()).expect("an edge fits");
+            edge[other as usize] = edge[h as usize];
+            halfedge_of_edge.push(h);
+        }
+    }
+    (edge, halfedge_of_edge)
+}

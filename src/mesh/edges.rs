@@ -1,0 +1,78 @@
+//! Which triangle sides lie on the same edge, whatever the state of the mesh.
+//!
+//! Sides are sorted into buckets by their lower vertex (a counting sort), then within each short bucket by the
+//! higher one: linear time on ordinary meshes.
+
+use super::VertexId;
+
+/// Sides of triangles grouped by the undirected edge that they lie on.
+///
+/// Side `3 f + k` runs from corner `k` of triangle `f` to its corner `k + 1` (modulo 3).
+#[derive(Clone, Debug)]
+pub struct EdgeTable {
+    /// All sides, those of one edge next to each other; within an edge in ascending order.
+    sides: Vec<u32>,
+    /// Where each edge's sides begin, and the end of the last.
+    starts: Vec<u32>,
+}
+
+/// Tail and head of a side.
+pub(super) fn side_ends(triangles: &[[VertexId; 3]], side: u32) -> (VertexId, VertexId) {
+    let (face, corner) = (side as usize / 3, side as usize % 3);
+    (triangles[face][corner], triangles[face][(corner + 1) % 3])
+}
+
+impl EdgeTable {
+    /// Groups the sides of triangles over `vertex_count` vertices. Sides with equal ends form edges too.
+    pub fn new(vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
+        let side_count = u32::try_from(3 * triangles.len()).expect("a mesh has fewer than 2^32 sides");
+        let low = |side: u32| {
+            let (a, b) = side_ends(triangles, side);
+            a.min(b).index()
+        };
+        let high = |side: u32| {
+            let (a, b) = side_ends(triangles, side);
+            a.max(b).number()
+        };
+        let mut bucket_end = vec![0_u32; vertex_count + 1];
+        for side in 0..side_count {
+            bucket_end[low(side) + 1] += 1;
+        }
+        for v in 0..vertex_count {
+            bucket_end[v + 1] += bucket_end[v];
+        }
+        let mut sides = vec![0_u32; side_count as usize];
+        let mut cursor = bucket_end.clone();
+        for side in 0..side_count {
+            let place = &mut cursor[low(side)];
+            sides[*place as usize] = side;
+            *place += 1;
+        }
+        let mut starts = vec![0_u32];
+        for v in 0..vertex_count {
+            let range = bucket_end[v] as usize..bucket_end[v + 1] as usize;
+            let begin = bucket_end[v];
+            let bucket = &mut sides[range];
+            bucket.sort_unstable_by_key(|&side| (high(side), side));
+            for (offset, pair) in (begin + 1..).zip(bucket.windows(2)) {
+                if high(pair[0]) != high(pair[1]) {
+                    starts.push(offset);
+                }
+            }
+            if !bucket.is_empty() {
+                starts.push(bucket_end[v + 1]);
+            }
+        }
+        Self { sides, starts }
+    }
+
+    /// Number of undirected edges.
+    pub fn edge_count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The sides of each edge.
+    pub fn edges(&self) -> impl Iterator<Item = &[u32]> {
+        self.starts.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
+    }
+}

@@ -1,0 +1,79 @@
+//! How a caller watches a solve and stops it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::SolveError;
+
+/// What a solve is busy with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// Computing weights and the matrix.
+    Assemble,
+    /// Ordering the unknowns and planning the factorization.
+    Analyze,
+    /// Factoring the matrix.
+    Factor,
+    /// Solving and refining.
+    Solve,
+    /// Taking the exact verdict.
+    Verify,
+}
+
+impl Phase {
+    /// Lower-case words for the screen and the terminal.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Assemble => "assembling",
+            Self::Analyze => "ordering",
+            Self::Factor => "factoring",
+            Self::Solve => "solving",
+            Self::Verify => "proving",
+        }
+    }
+}
+
+/// The caller's hand on a running solve: a flag to stop it, and a place to hear how far it is.
+#[derive(Clone, Copy)]
+pub struct Control<'a> {
+    cancel: &'a AtomicBool,
+    report: &'a (dyn Fn(Phase) + Sync),
+}
+
+impl std::fmt::Debug for Control<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Control").field("cancel", &self.cancel).finish_non_exhaustive()
+    }
+}
+
+/// Never raised.
+static GO_ON: AtomicBool = AtomicBool::new(false);
+
+impl<'a> Control<'a> {
+    /// Stops when `cancel` is raised; calls `report` at the start of each phase.
+    pub fn new(cancel: &'a AtomicBool, report: &'a (dyn Fn(Phase) + Sync)) -> Self {
+        Self { cancel, report }
+    }
+
+    /// Runs to the end in silence.
+    pub fn unattended() -> Control<'static> {
+        Control { cancel: &GO_ON, report: &|_| {} }
+    }
+
+    /// The flag that stops the work.
+    pub fn cancel(&self) -> &'a AtomicBool {
+        self.cancel
+    }
+
+    /// Announces a phase.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`] where the caller asked to stop.
+    pub fn enter(&self, phase: Phase) -> Result<(), SolveError> {
+        if self.cancel.load(Ordering::Relaxed) {
+            return Err(SolveError::Cancelled);
+        }
+        (self.report)(phase);
+        Ok(())
+    }
+}

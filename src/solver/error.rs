@@ -1,0 +1,77 @@
+//! Everything that can stop a solve.
+
+use crate::mesh::{FaceId, VertexId};
+
+/// Why no embedding was produced.
+///
+/// An embedding with flipped faces is *not* an error: it is a result, described by its verdict.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// A corner's weight is infinite or not a number.
+    #[error(
+        "face {face} has a corner whose weight is not finite: its edges are too long or too short for 64-bit numbers"
+    )]
+    NotFinite {
+        /// The face that owns the corner.
+        face: FaceId,
+    },
+
+    /// Two pins on one place leave the similarity undetermined.
+    #[error("vertices {first} and {second} are pinned to the same place: move one of them")]
+    CoincidentPins {
+        /// The vertex that was pinned there first.
+        first: VertexId,
+        /// The other vertex.
+        second: VertexId,
+    },
+
+    /// A pin on a vertex that the mesh does not have.
+    #[error("vertex {vertex} is pinned, but the mesh has only {count} vertices (numbered from 0)")]
+    NoSuchVertex {
+        /// The vertex asked for.
+        vertex: VertexId,
+        /// How many vertices there are.
+        count: usize,
+    },
+
+    /// A pin's target is infinite or not a number.
+    #[error("the target of pinned vertex {vertex} is not finite")]
+    TargetNotFinite {
+        /// The pinned vertex.
+        vertex: VertexId,
+    },
+
+    /// A choice of method and family that has no meaning.
+    #[error("{method} does not go with the family {family}: {remedy}")]
+    FamilyNotApplicable {
+        /// The method's name.
+        method: &'static str,
+        /// The family's name.
+        family: String,
+        /// What to choose instead.
+        remedy: &'static str,
+    },
+
+    /// The linear solver found the matrix singular.
+    #[error("the system is singular at vertex {vertex}: choose other pins or another family")]
+    Singular {
+        /// The vertex whose equation depends on the others.
+        vertex: VertexId,
+    },
+
+    /// The linear solver returned, but its answer does not satisfy the system.
+    #[error(
+        "relative residual {residual:.1e} is above the limit {limit:.1e}: the answer would be wrong, so there is none"
+    )]
+    ResidualTooLarge {
+        /// ‖Ax − b‖ / ‖b‖.
+        residual: f64,
+        /// The limit in force.
+        limit: f64,
+    },
+
+    /// The caller asked the solve to stop.
+    #[error("the solve was cancelled")]
+    Cancelled,
+}

@@ -1,0 +1,11 @@
+//! The paper: weights, systems, methods, verdict and distortion. Knows no screen and no file.
+
+mod control;
+mod error;
+mod method;
+mod solution;
+
+pub use control::{Control, Phase};
+pub use error::SolveError;
+pub use method::{BoundaryShape, Family, Method, Settings};
+pub use solution::{PhaseSeconds, Solution};

@@ -1,0 +1,48 @@
+//! What a solve gives back.
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use crate::mesh::VertexId;
+
+/// An embedding and the numbers of the solve that made it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// One position per vertex of the mesh, in the plane.
+    pub embedding: Vec<DVec2>,
+    /// The pins in force: the user's, or the two gauge pins where there were none. Empty for a convex boundary.
+    pub pins: BTreeMap<VertexId, DVec2>,
+    /// Whether the pins are gauge pins that the solver chose by itself.
+    pub gauge_completed: bool,
+    /// ‖Ax − b‖ / ‖b‖ of the linear solve, measured on the original system.
+    pub residual: f64,
+    /// Pivots too small to divide by that were replaced.
+    pub replaced_pivots: usize,
+    /// Corners whose weight hit a bound, being degenerate.
+    pub bounded_corners: usize,
+    /// Bytes of the matrix's factors.
+    pub factor_bytes: usize,
+    /// Where the time went.
+    pub seconds: PhaseSeconds,
+}
+
+/// Seconds by phase of a solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PhaseSeconds {
+    /// Weights and matrix.
+    pub assemble: f64,
+    /// Ordering and symbolic analysis.
+    pub analyze: f64,
+    /// Numeric factorization.
+    pub factor: f64,
+    /// Substitution and refinement.
+    pub solve: f64,
+}
+
+impl PhaseSeconds {
+    /// All phases together.
+    pub fn total(&self) -> f64 {
+        self.assemble + self.analyze + self.factor + self.solve
+    }
+}
