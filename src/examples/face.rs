@@ -1,0 +1,86 @@
+//! The face mesh: rays from inside the sculpture meet its surface; the mask is what they reach within a wavy rim.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+
+use super::caps::{project, rim, stretch, unproject};
+use super::fill::{Sheet, fill, walk_along};
+use super::random::Random;
+use super::sculpt::distance;
+use crate::mesh::TriMesh;
+
+/// Where the rays begin.
+const CENTRE: DVec3 = DVec3::new(0.0, -0.02, -0.12);
+
+/// Edge length away from the features.
+const COARSE: f64 = 0.056;
+/// Edge length on them.
+const FINE: f64 = 0.0135;
+
+/// Rounds of settling. The first move points to where the sculpture needs them.
+const ROUNDS: usize = 14;
+
+/// Middle, half-axes of the regions that need short edges, mirrored at x = 0.
+const FEATURES: [[DVec3; 2]; 3] = [
+    [DVec3::new(0.295, 0.135, 0.52), DVec3::new(0.19, 0.11, 0.20)],
+    [DVec3::new(0.0, -0.26, 0.76), DVec3::new(0.19, 0.12, 0.20)],
+    [DVec3::new(0.0, -0.55, 0.63), DVec3::new(0.27, 0.10, 0.20)],
+];
+
+/// Wanted edge length at a point of the surface.
+fn spacing(p: DVec3) -> f64 {
+    let q = DVec3::new(p.x.abs(), p.y, p.z);
+    let near = FEATURES.iter().map(|[c, r]| ((q - c) / r).length() - 1.0).fold(f64::INFINITY, f64::min);
+    FINE + (COARSE - FINE) * (near / 2.2).clamp(0.0, 1.0)
+}
+
+/// The outermost point of the sculpture on the ray in a direction.
+fn surface(p: DVec2) -> DVec3 {
+    let direction = unproject(p);
+    let mut t = 1.35;
+    for _ in 0..60 {
+        let d = distance(CENTRE + t * direction);
+        // The sculpture's distance may overshoot near thin parts.
+        t -= 0.8 * d;
+        if d.abs() < 1e-7 {
+            break;
+        }
+    }
+    CENTRE + t * direction
+}
+
+/// Polar angle of the rim from +z, radians; a turn of 0 is +x, a quarter is up.
+fn rim_angle(turn: f64) -> f64 {
+    let a = TAU * turn;
+    let up = a.sin();
+    let base = 106.0 - if up > 0.0 { 34.0 } else { 31.0 } * up * up;
+    (base + 2.2 * (7.0 * a + 0.6).sin() + 1.3 * (11.0 * a + 2.0).cos()).to_radians()
+}
+
+/// The chart is tabulated up to here in each direction.
+const REACH: f64 = 1.6;
+/// Cells of the table in a row.
+const CELLS: usize = 110;
+
+/// Wanted edge lengths in cells of the chart: the sculpture is too slow to ask for every point tried.
+fn spacing_table() -> Vec<f64> {
+    let centre = |i: usize| REACH * (2.0 * (i as f64 + 0.5) / CELLS as f64 - 1.0);
+    let cells = (0..CELLS).flat_map(|j| (0..CELLS).map(move |i| DVec2::new(centre(i), centre(j))));
+    cells.map(|p| spacing(surface(p))).collect()
+}
+
+/// The mask, y up, looking to +z.
+pub(super) fn face() -> TriMesh {
+    let mut random = Random::new(0xface);
+    let table = spacing_table();
+    let in_chart = |p: DVec2| {
+        let [i, j] =
+            ((p + REACH) / (2.0 * REACH) * CELLS as f64).to_array().map(|x| (x.max(0.0) as usize).min(CELLS - 1));
+        table[j * CELLS + i] / (0.8 * stretch(p))
+    };
+    let outline = walk_along(&rim(rim_angle), &|p| COARSE / (0.8 * stretch(p)), &mut random);
+    let mut plane = fill(&outline, &in_chart, &mut random);
+    plane.settle(&Sheet { surface: &surface, chart: &|x| project(x - CENTRE), spacing: &spacing }, ROUNDS);
+    plane.raise(&surface)
+}

@@ -1,0 +1,3 @@
+//! Tests of the core, in one crate so that it is linked once.
+
+mod examples;
