@@ -15,24 +15,41 @@ const CENTRE: DVec3 = DVec3::new(0.0, -0.02, -0.12);
 
 /// Edge length away from the features.
 const COARSE: f64 = 0.056;
-/// Edge length on them.
-const FINE: f64 = 0.0135;
+/// How fast the edges may become longer away from a feature.
+const GROWTH: f64 = 0.20;
 
 /// Rounds of settling. The first move points to where the sculpture needs them.
 const ROUNDS: usize = 14;
 
-/// Middle, half-axes of the regions that need short edges, mirrored at x = 0.
-const FEATURES: [[DVec3; 2]; 3] = [
-    [DVec3::new(0.295, 0.135, 0.52), DVec3::new(0.19, 0.11, 0.20)],
-    [DVec3::new(0.0, -0.26, 0.76), DVec3::new(0.19, 0.12, 0.20)],
-    [DVec3::new(0.0, -0.55, 0.63), DVec3::new(0.27, 0.10, 0.20)],
+/// A region, mirrored at x = 0, that needs short edges.
+struct Feature {
+    centre: DVec3,
+    half_axes: DVec3,
+    spacing: f64,
+}
+
+const fn feature(centre: [f64; 3], half_axes: [f64; 3], spacing: f64) -> Feature {
+    Feature { centre: DVec3::from_array(centre), half_axes: DVec3::from_array(half_axes), spacing }
+}
+
+const FEATURES: [Feature; 6] = [
+    // Eye, brow, bridge, tip and wings of the nose, mouth, chin.
+    feature([0.295, 0.130, 0.50], [0.165, 0.075, 0.20], 0.0102),
+    feature([0.290, 0.340, 0.50], [0.250, 0.070, 0.20], 0.034),
+    feature([0.0, 0.02, 0.66], [0.090, 0.200, 0.15], 0.028),
+    feature([0.0, -0.270, 0.74], [0.180, 0.090, 0.20], 0.0155),
+    feature([0.0, -0.560, 0.63], [0.265, 0.090, 0.20], 0.0130),
+    feature([0.0, -0.860, 0.55], [0.200, 0.120, 0.20], 0.033),
 ];
 
 /// Wanted edge length at a point of the surface.
 fn spacing(p: DVec3) -> f64 {
     let q = DVec3::new(p.x.abs(), p.y, p.z);
-    let near = FEATURES.iter().map(|[c, r]| ((q - c) / r).length() - 1.0).fold(f64::INFINITY, f64::min);
-    FINE + (COARSE - FINE) * (near / 2.2).clamp(0.0, 1.0)
+    let wanted = |f: &Feature| {
+        let outside = (((q - f.centre) / f.half_axes).length() - 1.0).max(0.0) * f.half_axes.min_element();
+        f.spacing + GROWTH * outside
+    };
+    FEATURES.iter().map(wanted).fold(COARSE, f64::min)
 }
 
 /// The outermost point of the sculpture on the ray in a direction.
@@ -54,7 +71,7 @@ fn surface(p: DVec2) -> DVec3 {
 fn rim_angle(turn: f64) -> f64 {
     let a = TAU * turn;
     let up = a.sin();
-    let base = 106.0 - if up > 0.0 { 34.0 } else { 31.0 } * up * up;
+    let base = 106.0 - if up > 0.0 { 30.0 } else { 31.0 } * up * up;
     (base + 2.2 * (7.0 * a + 0.6).sin() + 1.3 * (11.0 * a + 2.0).cos()).to_radians()
 }
 

@@ -44,12 +44,12 @@ pub(super) fn distance(p: DVec3) -> f64 {
 }
 
 fn skull(p: DVec3) -> f64 {
-    let mut d = ellipsoid(p, at(0.0, 0.46, -0.24), at(0.74, 0.82, 0.87));
-    d = join(d, ellipsoid(p, at(0.0, -0.28, -0.05), at(0.58, 0.72, 0.62)), 0.25);
+    let mut d = ellipsoid(p, at(0.0, 0.43, -0.24), at(0.73, 0.82, 0.87));
+    d = join(d, ellipsoid(p, at(0.0, -0.28, -0.05), at(0.61, 0.72, 0.62)), 0.25);
     // Cheekbones, cheeks, jaw, chin, neck.
     d = join(d, ellipsoid(p, at(0.41, -0.07, 0.26), at(0.19, 0.13, 0.20)), 0.20);
     d = join(d, ellipsoid(p, at(0.29, -0.38, 0.30), at(0.20, 0.24, 0.20)), 0.20);
-    d = join(d, bar(p, [at(0.47, -0.50, -0.12), at(0.10, -0.86, 0.40)], [0.12, 0.12]), 0.18);
+    d = join(d, bar(p, [at(0.44, -0.46, -0.16), at(0.10, -0.86, 0.40)], [0.11, 0.12]), 0.24);
     d = join(d, ellipsoid(p, at(0.0, -0.85, 0.49), at(0.17, 0.12, 0.14)), 0.16);
     d = join(d, bar(p, [at(0.0, -0.6, -0.30), at(0.0, -1.5, -0.34)], [0.36, 0.38]), 0.15);
     // Brow ridge over the bridge, temples pressed in.
@@ -68,57 +68,75 @@ fn nose(p: DVec3, d: f64) -> f64 {
     cut(d, ellipsoid(p, at(0.064, -0.330, 0.735), at(0.032, 0.030, 0.055)), 0.035)
 }
 
+/// Rises from 0 at `from` to 1 at `to`, smoothly.
+fn ramp(x: f64, from: f64, to: f64) -> f64 {
+    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// A bump of height 1 and about this width.
+fn bump(x: f64, width: f64) -> f64 {
+    (-(x / width).powi(2)).exp()
+}
+
+/// Half the width of the mouth.
+const MOUTH_HALF_WIDTH: f64 = 0.262;
+
+/// Half a mouth: the lips stand out from the muzzle by an amount that depends on the place seen from the front.
 fn mouth(p: DVec3, d: f64) -> f64 {
-    let mut d = join(d, ellipsoid(p, at(0.0, -0.53, 0.40), at(0.29, 0.25, 0.25)), 0.14);
-    d = cut(d, bar(p, [at(0.0, -0.36, 0.700), at(0.0, -0.465, 0.690)], [0.022, 0.028]), 0.06);
-    d = cut(d, ellipsoid(p, at(0.0, -0.725, 0.70), at(0.15, 0.045, 0.075)), 0.12);
-    // Lips: a bow above, a fuller bar below, and the line between them.
-    let upper = join(
-        bar(p, [at(0.0, -0.515, 0.648), at(0.06, -0.503, 0.645)], [0.036, 0.040]),
-        bar(p, [at(0.06, -0.503, 0.645), at(0.235, -0.560, 0.510)], [0.040, 0.020]),
-        0.03,
-    );
-    let lower = join(
-        bar(p, [at(0.0, -0.612, 0.632), at(0.09, -0.608, 0.618)], [0.052, 0.050]),
-        bar(p, [at(0.09, -0.608, 0.618), at(0.225, -0.565, 0.515)], [0.050, 0.018]),
-        0.03,
-    );
-    d = join(d, upper, 0.04);
-    d = join(d, lower, 0.04);
-    let line = bar(p, [at(0.0, -0.558, 0.705), at(0.10, -0.552, 0.685)], [0.020, 0.020]);
-    let line = line.min(bar(p, [at(0.10, -0.552, 0.685), at(0.262, -0.570, 0.545)], [0.020, 0.018]));
-    cut(d, line, 0.035)
+    let d = join(d, ellipsoid(p, at(0.0, -0.53, 0.40), at(0.28, 0.25, 0.25)), 0.14);
+    let d = cut(d, ellipsoid(p, at(0.0, -0.735, 0.70), at(0.15, 0.045, 0.075)), 0.12);
+    let front = ramp(p.z, 0.25, 0.40);
+    if front == 0.0 || (p.y + 0.52).abs() > 0.3 {
+        return d;
+    }
+    let x = p.x / MOUTH_HALF_WIDTH;
+    let arch = (1.0 - x * x).max(0.0);
+    let present = ramp(arch, 0.0, 0.45);
+    // Above and below the line between the lips, in shares of the lips' heights.
+    let line = p.y + 0.560 + 0.010 * x * x - 0.006 * bump(p.x, 0.05);
+    let upper = line / (0.022 + 0.046 * arch + 0.012 * bump(p.x - 0.055, 0.045));
+    let lower = -line / (0.022 + 0.074 * arch);
+    let lips = if line > 0.0 {
+        0.024 * ramp(upper, -0.1, 0.60) * (1.0 - ramp(upper, 0.55, 1.35))
+    } else {
+        0.029 * ramp(lower, -0.2, 0.70) * (1.0 - ramp(lower, 0.60, 1.35))
+    };
+    let philtrum = ramp(p.y, -0.515, -0.475) * (1.0 - ramp(p.y, -0.385, -0.340));
+    let philtrum = philtrum * (0.009 * bump(p.x - 0.052, 0.026) - 0.014 * bump(p.x, 0.030));
+    let groove = 0.014 * bump(line, if line > 0.0 { 0.014 } else { 0.024 }) * ramp(arch, -0.02, 0.20);
+    let corner = 0.022 * bump((p.x - 0.262).hypot(p.y + 0.572), 0.035);
+    d - front * (lips * present + philtrum - groove - corner)
 }
 
 /// Centre of the eyeball on the positive side.
-const EYE: DVec3 = at(0.295, 0.125, 0.375);
+const EYE: DVec3 = at(0.295, 0.125, 0.340);
 /// Radius of the eyeball.
-const EYE_RADIUS: f64 = 0.155;
+const EYE_RADIUS: f64 = 0.190;
 /// Thickness of the lids.
-const LID: f64 = 0.024;
+const LID: f64 = 0.021;
 /// Half the width of the opening.
 const EYE_HALF_WIDTH: f64 = 0.142;
 
 fn eyes(p: DVec3, d: f64) -> f64 {
-    let d = cut(d, ellipsoid(p, at(0.27, 0.145, 0.62), at(0.19, 0.115, 0.13)), 0.14);
+    let d = cut(d, ellipsoid(p, at(0.27, 0.150, 0.62), at(0.19, 0.115, 0.13)), 0.14);
     let q = p - EYE;
     let ball = q.length() - EYE_RADIUS;
-    let mut d = join(d, ball - LID, 0.05);
+    // The lids, a shell around the ball that fades into the socket.
+    let d = join(d, ball - LID + 0.05 * ramp(q.y.abs(), 0.07, 0.20), 0.05);
     // The opening, an almond seen from the front: below zero inside.
     let x = q.x / EYE_HALF_WIDTH;
     let arch = 1.0 - x * x;
     let tilt = 0.012 * x;
-    let upper = q.y - tilt - 0.064 * arch * (1.0 - 0.10 * x);
-    let lower = tilt - 0.046 * arch * (1.0 + 0.10 * x) - q.y;
+    let upper = q.y - tilt - 0.058 * arch * (1.0 - 0.10 * x);
+    let lower = tilt - 0.042 * arch * (1.0 + 0.10 * x) - q.y;
     let opening = -join(-upper, -lower, 0.02);
     // The fold above the upper lid, fading out at the corners.
-    let fold = (upper - 0.036).abs().max(q.x.abs() - EYE_HALF_WIDTH) - 0.004;
-    d = cut(d, fold.max(ball - 0.06).max(-q.z), 0.035);
-    d = cut(d, opening.max(-ball - 0.03).max(-q.z), 0.018);
-    // The ball, with the iris pressed in.
-    let iris = (q.x * q.x + (q.y - 0.008).powi(2)).sqrt();
-    let rim = (iris - 0.052).abs() - 0.002;
-    let ball = cut(ball, rim.max(-q.z), 0.012);
-    let ball = cut(ball, (iris - 0.018).max(-q.z).max(-ball - 0.03), 0.02);
-    d.min(ball)
+    let fold = 0.016 * bump(upper - 0.040, 0.013) * ramp(arch, -0.15, 0.35) * ramp(q.z, 0.0, 0.08);
+    let d = cut(d + fold, opening.max(-ball - 0.03).max(-q.z), 0.022);
+    // The ball, with the iris pressed in and the pupil deeper.
+    let iris = q.x.hypot(q.y - 0.010);
+    let front = ramp(q.z, 0.0, 0.05);
+    let hollow = 0.013 * (1.0 - ramp(iris, 0.038, 0.056)) + 0.016 * (1.0 - ramp(iris, 0.006, 0.028));
+    d.min(ball + front * hollow)
 }
