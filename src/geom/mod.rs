@@ -1,1 +1,5 @@
 //! To be written.
+
+mod picture;
+
+pub use picture::Picture;

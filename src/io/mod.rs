@@ -7,6 +7,10 @@ mod obj_line;
 mod obj_read;
 mod obj_texture;
 mod obj_write;
+mod output;
+pub mod raster;
+mod report;
+mod svg;
 
 pub use atomic::write_atomically;
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError, WriteError};
@@ -14,3 +18,6 @@ pub use obj::{NO_TEXTURE, ObjMesh, Statement, Texture};
 pub use obj_read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
 pub use obj_texture::TextureMesh;
 pub use obj_write::write_obj;
+pub use output::{Output, OutputKind};
+pub use report::{MeshReport, PinsReport, Report, Seconds, StepReport, peak_memory_bytes};
+pub use svg::write_svg;

@@ -1,4 +1,5 @@
 //! Tests of the core: everything below the screen.
 
 mod common;
+mod examples;
 mod mesh;
