@@ -24,7 +24,7 @@ fn half(from: DVec2, to: DVec2) -> Option<Half> {
     if !(from.is_finite() && to.is_finite()) || from == to {
         return None;
     }
-    Some(if to.y > from.y || (to.y == from.y && to.x > from.x) { Half::Up } else { Half::Down })
+    Some(if to.y > from.y || (to.y >= from.y && to.x > from.x) { Half::Up } else { Half::Down })
 }
 
 /// The number of times that the direction passes the angle 0 counter-clockwise; `None` where it turns exactly back.
