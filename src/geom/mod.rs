@@ -1,5 +1,11 @@
-//! To be written.
+//! The plane: exact predicates on points, segments and closed polygons, and pictures. Knows no mesh.
 
+mod crossings;
+mod orient;
 mod picture;
+mod polygon;
 
+pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, segments_meet};
+pub use orient::{Orientation, orientation};
 pub use picture::Picture;
+pub use polygon::{turning_number, winding_number};

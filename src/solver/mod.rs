@@ -4,8 +4,10 @@ mod control;
 mod error;
 mod method;
 mod solution;
+mod verdict;
 
 pub use control::{Control, Phase};
 pub use error::SolveError;
 pub use method::{BoundaryShape, Family, Method, Settings};
 pub use solution::{PhaseSeconds, Solution};
+pub use verdict::{Verdict, verdict};

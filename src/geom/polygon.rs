@@ -1,0 +1,126 @@
+//! How often a closed polygon turns, and how often it winds around a point: exact integers, no angle is summed.
+//!
+//! # Method
+//!
+//! Directions are sorted into two half-turns: *up* holds the angles [0, π), *down* holds [π, 2π). A direction's half
+//! follows from comparing coordinates, which is exact. A walk that turns by less than π at a time passes the angle 0
+//! exactly where it goes from down to up while turning left (+1) or from up to down while turning right (−1).
+
+use glam::DVec2;
+
+use super::{Orientation, orientation};
+
+/// The half-turn that a direction belongs to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Half {
+    /// Angles in [0, π).
+    Up,
+    /// Angles in [π, 2π).
+    Down,
+}
+
+/// The half of the direction from one point to another; `None` where they coincide or are not finite.
+fn half(from: DVec2, to: DVec2) -> Option<Half> {
+    if !(from.is_finite() && to.is_finite()) || from == to {
+        return None;
+    }
+    Some(if to.y > from.y || (to.y >= from.y && to.x > from.x) { Half::Up } else { Half::Down })
+}
+
+/// The number of times that the direction passes the angle 0 counter-clockwise; `None` where it turns exactly back.
+fn passes(before: Half, after: Half, turn: Orientation) -> Option<i64> {
+    match (before, after, turn) {
+        (Half::Down, Half::Up, Orientation::CounterClockwise) => Some(1),
+        (Half::Up, Half::Down, Orientation::Clockwise) => Some(-1),
+        (Half::Down, Half::Up, Orientation::Collinear) | (Half::Up, Half::Down, Orientation::Collinear) => None,
+        _ => Some(0),
+    }
+}
+
+/// The turning number of a closed polygon: full turns to the left of its edge directions, once around.
+///
+/// A simple polygon turns once: 1 counter-clockwise, −1 clockwise. `None` where an edge has length zero or turns
+/// exactly back at its end, where a coordinate is not finite, and for fewer than three corners.
+pub fn turning_number(polygon: &[DVec2]) -> Option<i64> {
+    let count = polygon.len();
+    if count < 3 {
+        return None;
+    }
+    let mut turns = 0;
+    for i in 0..count {
+        let [a, b, c] = [polygon[i], polygon[(i + 1) % count], polygon[(i + 2) % count]];
+        turns += passes(half(a, b)?, half(b, c)?, orientation(a, b, c)?)?;
+    }
+    Some(turns)
+}
+
+/// The winding number of a closed polygon around a point: full turns to the left of the direction from the point.
+///
+/// `None` where the polygon passes through the point, or a coordinate is not finite.
+pub fn winding_number(polygon: &[DVec2], around: DVec2) -> Option<i64> {
+    let mut turns = 0;
+    let mut before = *polygon.last()?;
+    for &after in polygon {
+        let (first, second) = (half(around, before)?, half(around, after)?);
+        // Within one half nothing passes 0, and the point cannot lie between: no need for the exact turn.
+        if first != second {
+            turns += passes(first, second, orientation(around, before, after)?)?;
+        }
+        before = after;
+    }
+    Some(turns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(corners: &[[i32; 2]]) -> Vec<DVec2> {
+        corners.iter().map(|&[x, y]| DVec2::new(f64::from(x), f64::from(y))).collect()
+    }
+
+    #[test]
+    fn a_square_turns_once_whichever_corner_comes_first() {
+        let mut square = points(&[[0, 0], [1, 0], [1, 1], [0, 1]]);
+        for _ in 0..4 {
+            assert_eq!(turning_number(&square), Some(1));
+            square.rotate_left(1);
+        }
+        square.reverse();
+        assert_eq!(turning_number(&square), Some(-1));
+    }
+
+    #[test]
+    fn a_bow_tie_does_not_turn() {
+        assert_eq!(turning_number(&points(&[[0, 0], [1, 1], [1, 0], [0, 1]])), Some(0));
+    }
+
+    #[test]
+    fn a_pentagram_turns_twice_and_winds_twice_around_its_middle() {
+        let star = points(&[[0, 10], [-6, -8], [9, 3], [-9, 3], [6, -8]]);
+        assert_eq!(turning_number(&star), Some(2));
+        assert_eq!(winding_number(&star, DVec2::ZERO), Some(2));
+        assert_eq!(winding_number(&star, DVec2::new(0.0, 8.0)), Some(1));
+        assert_eq!(winding_number(&star, DVec2::new(20.0, 3.0)), Some(0));
+    }
+
+    #[test]
+    fn corners_in_the_middle_of_a_side_change_nothing() {
+        assert_eq!(turning_number(&points(&[[0, 0], [1, 0], [2, 0], [2, 2], [1, 2], [0, 2], [0, 1]])), Some(1));
+    }
+
+    #[test]
+    fn an_edge_of_length_zero_or_a_spike_has_no_turning_number() {
+        assert_eq!(turning_number(&points(&[[0, 0], [1, 0], [1, 0], [0, 1]])), None);
+        assert_eq!(turning_number(&points(&[[0, 0], [2, 0], [1, 0], [0, 1]])), None);
+    }
+
+    #[test]
+    fn there_is_no_winding_around_a_point_of_the_polygon() {
+        let square = points(&[[0, 0], [2, 0], [2, 2], [0, 2]]);
+        for on_it in [DVec2::new(1.0, 0.0), DVec2::new(2.0, 1.0), DVec2::new(0.0, 2.0)] {
+            assert_eq!(winding_number(&square, on_it), None);
+        }
+        assert_eq!(winding_number(&square, DVec2::ONE), Some(1));
+    }
+}
