@@ -25,9 +25,11 @@
 //!       app · cli     the window · the command line
 //! ```
 
+pub mod cli;
 pub mod examples;
 pub mod geom;
 pub mod io;
 pub mod linalg;
 pub mod mesh;
+pub mod session;
 pub mod solver;

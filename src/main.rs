@@ -1,1 +1,40 @@
-fn main() {}
+//! Chooses between the editor and the command line.
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+use freebound::cli::{Arguments, run, run_example};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match arguments.command {
+        Some(command) => run(&command),
+        None => open(arguments.file),
+    }
+}
+
+#[cfg(feature = "gui")]
+fn open(file: Option<std::path::PathBuf>) -> ExitCode {
+    let has_file = file.is_some();
+    match freebound::app::run(file) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) if has_file => {
+            eprintln!("freebound: {reason}. Without a screen use: freebound flatten MESH -o OUT.obj");
+            ExitCode::FAILURE
+        }
+        Err(reason) => {
+            eprintln!("freebound: {reason}; flattening the built-in example without a screen instead");
+            run_example()
+        }
+    }
+}
+
+#[cfg(not(feature = "gui"))]
+fn open(file: Option<std::path::PathBuf>) -> ExitCode {
+    if file.is_some() {
+        eprintln!("freebound: this build has no editor. Use: freebound flatten MESH -o OUT.obj");
+        return ExitCode::from(2);
+    }
+    eprintln!("freebound: this build has no editor; flattening the built-in example instead");
+    run_example()
+}

@@ -53,6 +53,15 @@ pub enum SolveError {
         remedy: &'static str,
     },
 
+    /// A boundary with too few vertices for the shape that it should lie on.
+    #[error("the boundary has {found} vertices, a square needs {needed}: choose a circle")]
+    BoundaryTooShort {
+        /// Vertices of the boundary loop.
+        found: usize,
+        /// Vertices that the shape needs.
+        needed: usize,
+    },
+
     /// The linear solver found the matrix singular.
     #[error("the system is singular at vertex {vertex}: choose other pins or another family")]
     Singular {

@@ -68,12 +68,17 @@ pub enum Family {
 }
 
 impl Family {
+    /// d = r.
+    pub const CONFORMAL_POWER: f64 = 1.0;
+    /// d = 1/r.
+    pub const WACHSPRESS_POWER: f64 = -1.0;
+
     /// The power p of d = rᵖ; `None` for the families that are not three-point.
     pub const fn power(self) -> Option<f64> {
         match self {
-            Self::Conformal => Some(1.0),
+            Self::Conformal => Some(Self::CONFORMAL_POWER),
             Self::MeanValue => Some(0.0),
-            Self::Wachspress => Some(-1.0),
+            Self::Wachspress => Some(Self::WACHSPRESS_POWER),
             Self::Power(p) => Some(p),
             Self::Uniform | Self::ShapePreserving => None,
         }

@@ -17,6 +17,9 @@ pub struct Solution {
     pub gauge_completed: bool,
     /// ‖Ax − b‖ / ‖b‖ of the linear solve, measured on the original system.
     pub residual: f64,
+    /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sizes of their terms: how far the
+    /// embedding is from satisfying the boundary condition everywhere. Vertices on a convex boundary have no equation.
+    pub equation_residual: f64,
     /// Pivots too small to divide by that were replaced.
     pub replaced_pivots: usize,
     /// Corners whose weight hit a bound, being degenerate.

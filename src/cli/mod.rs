@@ -1,0 +1,26 @@
+//! The command line: the same library without a screen.
+
+mod args;
+mod check;
+mod example;
+mod exit;
+mod flatten;
+mod methods;
+mod progress;
+
+use std::process::ExitCode;
+
+pub use args::{Arguments, Command, FlattenArguments};
+pub use example::run_example;
+pub use exit::{Failure, Status};
+
+/// Runs a command and says how it ended.
+pub fn run(command: &Command) -> ExitCode {
+    progress::stop_on_interrupt();
+    let outcome = match command {
+        Command::Flatten(arguments) => flatten::run(arguments),
+        Command::Check(arguments) => check::run(arguments),
+        Command::Methods => methods::run(),
+    };
+    exit::conclude(outcome)
+}

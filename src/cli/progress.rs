@@ -1,0 +1,80 @@
+//! Progress on a terminal, and Ctrl-C.
+
+use std::io::{IsTerminal as _, Write as _};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::{Duration, Instant};
+
+/// Work shorter than this goes by without a word.
+const QUIET: Duration = Duration::from_millis(500);
+
+/// Time between two looks at the clock.
+const TICK: Duration = Duration::from_millis(100);
+
+/// Raised by Ctrl-C.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// The flag that Ctrl-C raises.
+pub(super) fn interrupted() -> &'static AtomicBool {
+    &INTERRUPTED
+}
+
+/// Makes Ctrl-C raise the flag; a second one ends the process at once. Files are written aside and renamed, so
+/// neither leaves one half-written.
+pub(super) fn stop_on_interrupt() {
+    let handler = || {
+        if INTERRUPTED.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    if let Err(error) = ctrlc::set_handler(handler) {
+        eprintln!("freebound: Ctrl-C will end the program without clearing up: {error}");
+    }
+}
+
+/// What the program is doing, shown on a terminal once it takes over half a second.
+#[derive(Debug, Default)]
+pub(super) struct Progress {
+    doing: Mutex<&'static str>,
+}
+
+impl Progress {
+    /// Names what begins now.
+    pub(super) fn enter(&self, words: &'static str) {
+        if let Ok(mut doing) = self.doing.lock() {
+            *doing = words;
+        }
+    }
+
+    /// Runs `work` while a line on the terminal follows it.
+    pub(super) fn follow<T>(&self, work: impl FnOnce() -> T) -> T {
+        if !std::io::stderr().is_terminal() {
+            return work();
+        }
+        std::thread::scope(|scope| {
+            let (done, wait) = sync_channel::<()>(0);
+            let ticker = std::thread::Builder::new().name("progress".to_owned()).spawn_scoped(scope, move || {
+                let start = Instant::now();
+                while wait.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
+                    if start.elapsed() >= QUIET {
+                        self.show(start.elapsed());
+                    }
+                }
+                if start.elapsed() >= QUIET {
+                    eprint!("\r\x1b[K");
+                }
+            });
+            let result = work();
+            drop(done);
+            drop(ticker);
+            result
+        })
+    }
+
+    fn show(&self, elapsed: Duration) {
+        let doing = self.doing.lock().map_or("working", |doing| *doing);
+        eprint!("\r\x1b[K{doing} … {:.1} s", elapsed.as_secs_f64());
+        std::io::stderr().flush().ok();
+    }
+}

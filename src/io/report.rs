@@ -1,0 +1,153 @@
+//! The report: one JSON object per run.
+
+use serde::Serialize;
+
+use crate::mesh::DiskMesh;
+use crate::solver::{DistortionSummary, Settings, Solution, Verdict};
+
+/// Everything that a run has to say. Field names are part of the interface.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// Version of the program.
+    pub freebound: &'static str,
+    /// The input.
+    pub mesh: MeshReport,
+    /// Method by its name on the command line; absent where texture coordinates were only checked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<&'static str>,
+    /// Family by its name on the command line, where the method has a choice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub family: Option<String>,
+    /// Pinned vertices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pins: Option<PinsReport>,
+    /// Each step of each rung.
+    pub steps: Vec<StepReport>,
+    /// The exact verdict on the coordinates as written.
+    pub verdict: Verdict,
+    /// Distortion summed up.
+    pub distortion: DistortionSummary,
+    /// Vertices that the mesh did not have before.
+    pub new_vertices: usize,
+    /// Where the time went.
+    pub seconds: Seconds,
+    /// Most memory that the process held, where the system tells.
+    pub peak_memory_bytes: Option<u64>,
+}
+
+/// The input mesh.
+#[derive(Debug, Serialize)]
+pub struct MeshReport {
+    /// Where it came from.
+    pub path: String,
+    /// Number of vertices.
+    pub vertices: usize,
+    /// Number of triangles.
+    pub faces: usize,
+    /// Vertices of the boundary loop.
+    pub boundary_vertices: usize,
+    /// Interior edges that join two boundary vertices.
+    pub dividing_edges: usize,
+    /// Triangles with two boundary edges.
+    pub ears: usize,
+}
+
+impl MeshReport {
+    /// Describes a mesh that came from `path`.
+    pub fn new(path: String, mesh: &DiskMesh) -> Self {
+        Self {
+            path,
+            vertices: mesh.vertex_count(),
+            faces: mesh.face_count(),
+            boundary_vertices: mesh.boundary_loop().len(),
+            dividing_edges: mesh.dividing_edges().len(),
+            ears: mesh.ears().len(),
+        }
+    }
+}
+
+/// The pins of a run.
+#[derive(Debug, Serialize)]
+pub struct PinsReport {
+    /// How the pinned vertices' equations are treated.
+    pub treatment: &'static str,
+    /// Pins of the user's.
+    pub count: usize,
+    /// Largest distance of a pinned vertex from its target.
+    pub max_error: f64,
+}
+
+/// One step of one rung.
+#[derive(Clone, Debug, Serialize)]
+pub struct StepReport {
+    /// The rung's method.
+    pub rung: &'static str,
+    /// Place in the run.
+    pub index: usize,
+    /// Flipped faces.
+    pub flipped_faces: usize,
+    /// Boundary crossings.
+    pub boundary_crossings: usize,
+    /// Overwound vertices.
+    pub overwound_vertices: usize,
+    /// Turning number of the boundary.
+    pub turning_number: Option<i64>,
+    /// Largest move of a vertex since the step before.
+    pub max_move: Option<f64>,
+    /// ‖Ax − b‖ / ‖b‖ of the linear solve.
+    pub residual: f64,
+    /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sum of their terms' sizes.
+    pub equation_residual: f64,
+    /// Pivots that were too small and replaced.
+    pub replaced_pivots: usize,
+    /// Degenerate corners whose weight was bounded.
+    pub bounded_corners: usize,
+    /// Bytes of the matrix's factors.
+    pub factor_bytes: usize,
+    /// Seconds of the step.
+    pub seconds: f64,
+}
+
+impl StepReport {
+    /// The single step of a linear method.
+    pub fn linear(settings: &Settings, solution: &Solution, verdict: &Verdict) -> Self {
+        Self {
+            rung: settings.method.name(),
+            index: 0,
+            flipped_faces: verdict.flipped_faces.len(),
+            boundary_crossings: verdict.boundary_crossings.len(),
+            overwound_vertices: verdict.overwound_vertices.len(),
+            turning_number: verdict.turning_number,
+            max_move: None,
+            residual: solution.residual,
+            equation_residual: solution.equation_residual,
+            replaced_pivots: solution.replaced_pivots,
+            bounded_corners: solution.bounded_corners,
+            factor_bytes: solution.factor_bytes,
+            seconds: solution.seconds.total(),
+        }
+    }
+}
+
+/// Seconds by phase of a run.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Seconds {
+    /// Reading and diagnosing the mesh.
+    pub read: f64,
+    /// Solving.
+    pub solve: f64,
+    /// Verdict and distortion.
+    pub verify: f64,
+    /// Writing the results, the report excepted.
+    pub write: f64,
+    /// From the start to the report.
+    pub total: f64,
+}
+
+/// Most memory that this process has held so far, where the system tells (Linux).
+pub fn peak_memory_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kibibytes * 1024)
+}

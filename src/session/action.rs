@@ -1,0 +1,52 @@
+//! Something the user asked for. [`Session::handle`](super::Session::handle) carries it out.
+
+use std::path::PathBuf;
+
+use glam::DVec2;
+
+use super::SaveRequest;
+use crate::examples::Example;
+use crate::mesh::VertexId;
+use crate::solver::Settings;
+
+/// One request.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Opens a mesh file.
+    Open(PathBuf),
+    /// Opens a built-in mesh.
+    OpenExample(Example),
+    /// Forgets the files opened last.
+    ClearRecent,
+    /// Pins vertices where they lie.
+    Fix(Vec<VertexId>),
+    /// Moves a pin, as part of a drag. A gauge pin becomes the user's, with all others.
+    MovePin {
+        /// The pinned vertex.
+        vertex: VertexId,
+        /// Where it is to go, in the plane of the embedding.
+        target: DVec2,
+    },
+    /// Ends a drag.
+    EndGesture,
+    /// Frees vertices.
+    Unpin(Vec<VertexId>),
+    /// Frees all vertices.
+    UnpinAll,
+    /// Chooses method and weights.
+    SetSettings(Settings),
+    /// Chooses method and weights as part of a drag of a slider.
+    SlideSettings(Settings),
+    /// Takes back the last edit.
+    Undo,
+    /// Repeats the last edit taken back.
+    Redo,
+    /// Solves again.
+    Solve,
+    /// Stops what is going on in the background.
+    Cancel,
+    /// Writes a file.
+    Save(SaveRequest),
+    /// Takes a message off the screen.
+    Dismiss(u64),
+}

@@ -1,0 +1,21 @@
+//! One open document: what the user edits, its history, and the work that goes on in the background. No screen.
+
+mod action;
+mod document;
+mod job;
+mod load;
+mod message;
+mod recent;
+mod save;
+mod solve;
+mod state;
+
+pub use action::Action;
+pub use document::{Command, Document, History};
+pub use job::{Job, JobContext, Poll};
+pub use load::{Model, Surface};
+pub use message::{Element, Message, Place, Severity};
+pub use recent::RecentFiles;
+pub use save::{Finished, SaveRequest};
+pub use solve::{Outcome, OutputFit};
+pub use state::{Busy, Session};

@@ -1,0 +1,424 @@
+//! The session itself: one place where requests are carried out.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::{
+    Action, Command, Document, Finished, History, Job, Message, Model, Outcome, Place, Poll, RecentFiles, SaveRequest,
+    Severity, Surface,
+};
+use crate::io::{ReadError, WriteError};
+use crate::mesh::VertexId;
+use crate::solver::{Control, Phase, Pins, Prepared, Settings, SolveError, Verdict};
+
+/// Asks the screen to look again; called from background threads.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+type LoadJob = Job<(), Result<Model, ReadError>>;
+type SolveJob = Job<Phase, Result<Outcome, SolveError>>;
+type SaveJob = Job<(), Result<(PathBuf, Verdict), WriteError>>;
+
+/// What goes on in the background.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Busy {
+    /// Reading and diagnosing a mesh.
+    Loading,
+    /// Solving; the phase where it is known.
+    Solving(Option<Phase>),
+    /// Writing a file.
+    Saving,
+}
+
+/// A solve that runs, and what it was asked for.
+struct Solving {
+    job: SolveJob,
+    settings: Settings,
+    pinned: Vec<VertexId>,
+    phase: Option<Phase>,
+}
+
+/// One open document and the work on it.
+pub struct Session {
+    wake: Wake,
+    model: Option<Arc<Model>>,
+    /// Counts the meshes opened, so that a screen can tell when to draw anew.
+    model_revision: u64,
+    document: Document,
+    history: History,
+    outcome: Option<Arc<Outcome>>,
+    /// Counts the outcomes, for the same reason.
+    outcome_revision: u64,
+    /// Kept from solves that succeeded, to be used again while a pin is dragged.
+    prepared: Option<Arc<Prepared>>,
+    loading: Option<LoadJob>,
+    /// The file that is being loaded, to be remembered once it is open.
+    loading_path: Option<PathBuf>,
+    solving: Option<Solving>,
+    /// Whether the document changed since the running solve began.
+    solve_again: bool,
+    saving: Option<SaveJob>,
+    messages: Vec<Message>,
+    next_message: u64,
+    recent: RecentFiles,
+}
+
+impl std::fmt::Debug for Session {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Session").field("document", &self.document).field("busy", &self.busy()).finish_non_exhaustive()
+    }
+}
+
+impl Session {
+    /// An empty session. `wake` is called from background threads when there is something to [`poll`](Self::poll).
+    pub fn new(wake: Wake, recent: RecentFiles) -> Self {
+        Self {
+            wake,
+            model: None,
+            model_revision: 0,
+            document: Document::default(),
+            history: History::default(),
+            outcome: None,
+            outcome_revision: 0,
+            prepared: None,
+            loading: None,
+            loading_path: None,
+            solving: None,
+            solve_again: false,
+            saving: None,
+            messages: Vec::new(),
+            next_message: 0,
+            recent,
+        }
+    }
+
+    /// The open mesh.
+    pub fn model(&self) -> Option<&Arc<Model>> {
+        self.model.as_ref()
+    }
+
+    /// Changes whenever another mesh is open.
+    pub fn model_revision(&self) -> u64 {
+        self.model_revision
+    }
+
+    /// What the user edits.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Undo and redo.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// The newest finished solve.
+    pub fn outcome(&self) -> Option<&Arc<Outcome>> {
+        self.outcome.as_ref()
+    }
+
+    /// Changes whenever there is another outcome, or none any more.
+    pub fn outcome_revision(&self) -> u64 {
+        self.outcome_revision
+    }
+
+    /// Whether the outcome on the screen belongs to the document as it is now.
+    pub fn is_current(&self) -> bool {
+        self.outcome.as_ref().is_some_and(|outcome| {
+            outcome.settings == self.document.settings
+                && (!self.document.settings.method.uses_pins() || outcome.pins == self.document.pins)
+        })
+    }
+
+    /// What goes on in the background.
+    pub fn busy(&self) -> Option<Busy> {
+        if self.loading.is_some() {
+            return Some(Busy::Loading);
+        }
+        if let Some(solving) = &self.solving {
+            return Some(Busy::Solving(solving.phase));
+        }
+        self.saving.as_ref().map(|_| Busy::Saving)
+    }
+
+    /// What has been said and not dismissed.
+    pub fn messages(&self) -> &[Message] {
+        &self.messages
+    }
+
+    /// The files opened last.
+    pub fn recent(&self) -> &RecentFiles {
+        &self.recent
+    }
+
+    /// Carries out a request. Work that takes time goes on in the background.
+    pub fn handle(&mut self, action: Action) {
+        match action {
+            Action::Open(path) => self.open(Some(path.clone()), move || Model::read(&path)),
+            Action::OpenExample(example) => self.open(None, move || Ok(Model::example(example))),
+            Action::ClearRecent => self.recent.clear(),
+            Action::Fix(vertices) => self.fix(&vertices),
+            Action::MovePin { vertex, target } => self.move_pin(vertex, target),
+            Action::EndGesture => self.history.end_gesture(),
+            Action::Unpin(vertices) => self.unpin(&vertices),
+            Action::UnpinAll => self.unpin(&self.document.pins.keys().copied().collect::<Vec<_>>()),
+            Action::SetSettings(settings) => {
+                if settings != self.document.settings {
+                    self.history.apply(Command::SetSettings(settings), &mut self.document);
+                    self.solve();
+                }
+            }
+            Action::SlideSettings(settings) => {
+                if settings != self.document.settings {
+                    self.history.apply_in_gesture(Command::SetSettings(settings), &mut self.document);
+                    self.solve();
+                }
+            }
+            Action::Undo => {
+                if self.history.undo(&mut self.document) {
+                    self.solve();
+                }
+            }
+            Action::Redo => {
+                if self.history.redo(&mut self.document) {
+                    self.solve();
+                }
+            }
+            Action::Solve => self.solve(),
+            Action::Cancel => self.cancel(),
+            Action::Save(request) => self.save(request),
+            Action::Dismiss(id) => self.messages.retain(|message| message.id != id),
+        }
+    }
+
+    /// Takes in what the background has finished. Call once per frame.
+    pub fn poll(&mut self) {
+        self.poll_loading();
+        self.poll_solving();
+        self.poll_saving();
+    }
+
+    fn open(&mut self, path: Option<PathBuf>, read: impl FnOnce() -> Result<Model, ReadError> + Send + 'static) {
+        match Job::spawn("load", self.waker(), move |_| read()) {
+            Ok(job) => {
+                self.loading = Some(job);
+                self.loading_path = path;
+            }
+            Err(error) => self.fail(Place::Mesh, format!("no thread to load with: {error}"), None),
+        }
+    }
+
+    fn poll_loading(&mut self) {
+        let Some(job) = &self.loading else { return };
+        let loaded = match job.poll() {
+            Poll::Running => return,
+            Poll::Done(loaded) => loaded,
+            Poll::Lost => {
+                self.loading = None;
+                return self.fail(Place::Mesh, lost("loading"), Some(REPORT_IT));
+            }
+        };
+        self.loading = None;
+        let path = self.loading_path.take();
+        match loaded {
+            Ok(model) => {
+                if let Some(path) = path {
+                    self.recent.remember(&path);
+                }
+                self.take_model(model);
+            }
+            Err(error) => self.fail(Place::Mesh, error.to_string(), Some(error.remedy())),
+        }
+    }
+
+    /// Puts a mesh on the table. The document before it is gone, its history with it.
+    fn take_model(&mut self, model: Model) {
+        self.messages.clear();
+        if let Surface::Faulty(_, diagnosis) = &model.surface {
+            for fault in &diagnosis.faults {
+                let id = self.next_id();
+                self.messages.push(Message {
+                    id,
+                    severity: Severity::Error,
+                    place: Place::Mesh,
+                    text: fault.message(),
+                    remedy: Some(fault.remedy().to_owned()),
+                    element: fault.first_element(),
+                });
+            }
+        }
+        self.model = Some(Arc::new(model));
+        self.model_revision += 1;
+        self.document = Document { pins: Pins::new(), settings: self.document.settings };
+        self.history = History::default();
+        self.outcome = None;
+        self.outcome_revision += 1;
+        self.prepared = None;
+        self.solving = None;
+        self.solve();
+    }
+
+    fn fix(&mut self, vertices: &[VertexId]) {
+        let Some(outcome) = self.outcome.clone() else { return };
+        let fresh = vertices.iter().filter(|v| !self.document.pins.contains_key(v));
+        let pin = |&vertex: &VertexId| Command::SetPin {
+            vertex,
+            target: outcome.solution.embedding.get(vertex.index()).copied(),
+        };
+        let commands: Vec<Command> = fresh.map(pin).collect();
+        if !commands.is_empty() {
+            self.history.apply(Command::Together(commands), &mut self.document);
+            self.solve();
+        }
+    }
+
+    fn move_pin(&mut self, vertex: VertexId, target: glam::DVec2) {
+        if !self.document.pins.contains_key(&vertex) {
+            // A gauge pin: from here on all of them are the user's, each where it lies.
+            let Some(outcome) = &self.outcome else { return };
+            let adopt = |(&vertex, &target)| Command::SetPin { vertex, target: Some(target) };
+            let adopted: Vec<Command> = outcome.solution.pins.iter().map(adopt).collect();
+            self.history.apply_in_gesture(Command::Together(adopted), &mut self.document);
+        }
+        self.history.apply_in_gesture(Command::SetPin { vertex, target: Some(target) }, &mut self.document);
+        self.solve();
+    }
+
+    fn unpin(&mut self, vertices: &[VertexId]) {
+        let pinned = vertices.iter().filter(|v| self.document.pins.contains_key(v));
+        let commands: Vec<Command> = pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect();
+        if !commands.is_empty() {
+            self.history.apply(Command::Together(commands), &mut self.document);
+            self.solve();
+        }
+    }
+
+    /// Starts a solve, or lets the running one finish first where it only has other targets: then a pin that is
+    /// dragged is followed at the pace of the solver. Any other running solve is replaced.
+    fn solve(&mut self) {
+        let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
+        let pinned: Vec<VertexId> = self.document.pins.keys().copied().collect();
+        if let Some(running) = &self.solving
+            && running.settings == self.document.settings
+            && running.pinned == pinned
+        {
+            self.solve_again = true;
+            return;
+        }
+        self.solve_again = false;
+        let Document { pins, settings } = self.document.clone();
+        let prepared = self.prepared.clone();
+        let work = move |context: &super::JobContext<Phase>| {
+            let report = |phase| context.report(phase);
+            Outcome::compute(&disk, &settings, &pins, prepared, Control::new(context.cancel_flag(), &report))
+        };
+        match Job::spawn("solve", self.waker(), work) {
+            Ok(job) => self.solving = Some(Solving { job, settings, pinned, phase: None }),
+            Err(error) => self.fail(Place::Embedding, format!("no thread to solve with: {error}"), None),
+        }
+    }
+
+    fn poll_solving(&mut self) {
+        let Some(solving) = &mut self.solving else { return };
+        solving.phase = solving.job.latest_progress().or(solving.phase);
+        let solved = match solving.job.poll() {
+            Poll::Running => return,
+            Poll::Done(solved) => solved,
+            Poll::Lost => {
+                self.solving = None;
+                return self.fail(Place::Embedding, lost("solving"), Some(REPORT_IT));
+            }
+        };
+        self.solving = None;
+        match solved {
+            Ok(outcome) => {
+                self.messages.retain(|message| message.place != Place::Embedding);
+                self.prepared = Some(Arc::clone(&outcome.prepared));
+                self.outcome = Some(Arc::new(outcome));
+                self.outcome_revision += 1;
+            }
+            Err(SolveError::Cancelled) => {}
+            Err(error) => {
+                self.messages.retain(|message| message.place != Place::Embedding);
+                self.fail(Place::Embedding, error.to_string(), None);
+            }
+        }
+        if std::mem::take(&mut self.solve_again) {
+            self.solve();
+        }
+    }
+
+    fn cancel(&mut self) {
+        self.loading = None;
+        if let Some(solving) = &self.solving {
+            solving.job.cancel();
+        }
+        self.solve_again = false;
+    }
+
+    fn save(&mut self, request: SaveRequest) {
+        let (Some(model), Some(outcome)) = (self.model.clone(), self.outcome.clone()) else {
+            return self.fail(Place::Embedding, "there is nothing to save yet: open a mesh first".to_owned(), None);
+        };
+        let work = move |_: &super::JobContext<()>| {
+            let disk = model.disk().expect("only a disk has an outcome");
+            let finished = Finished::new(&model, disk, &outcome, request.fit, 0.0);
+            finished.write(request.kind, &request.path)?;
+            Ok((request.path, finished.verdict().clone()))
+        };
+        match Job::spawn("save", self.waker(), work) {
+            Ok(job) => self.saving = Some(job),
+            Err(error) => self.fail(Place::Embedding, format!("no thread to save with: {error}"), None),
+        }
+    }
+
+    fn poll_saving(&mut self) {
+        let Some(job) = &self.saving else { return };
+        let saved = match job.poll() {
+            Poll::Running => return,
+            Poll::Done(saved) => saved,
+            Poll::Lost => {
+                self.saving = None;
+                return self.fail(Place::Embedding, lost("saving"), Some(REPORT_IT));
+            }
+        };
+        self.saving = None;
+        match saved {
+            Ok((path, verdict)) => {
+                let id = self.next_id();
+                let text = format!("wrote {} ({})", path.display(), verdict.summary());
+                self.messages.push(Message {
+                    id,
+                    severity: Severity::Note,
+                    place: Place::Embedding,
+                    text,
+                    remedy: None,
+                    element: None,
+                });
+            }
+            Err(error) => self.fail(Place::Embedding, error.to_string(), None),
+        }
+    }
+
+    fn fail(&mut self, place: Place, text: String, remedy: Option<&str>) {
+        let id = self.next_id();
+        let remedy = remedy.map(str::to_owned);
+        self.messages.push(Message { id, severity: Severity::Error, place, text, remedy, element: None });
+    }
+
+    fn next_id(&mut self) -> u64 {
+        self.next_message += 1;
+        self.next_message
+    }
+
+    fn waker(&self) -> impl FnOnce() + Send + 'static {
+        let wake = Arc::clone(&self.wake);
+        move || wake()
+    }
+}
+
+/// What to do about a panic.
+const REPORT_IT: &str = "this is a bug in Freebound: please report it with the mesh";
+
+fn lost(what: &str) -> String {
+    format!("{what} stopped unexpectedly")
+}

@@ -1,0 +1,82 @@
+//! Methods and families as a person meets them: name, one line, source.
+
+/// One thing to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CatalogueEntry {
+    /// Its name on the command line and in reports.
+    pub name: &'static str,
+    /// Its name on the screen.
+    pub title: &'static str,
+    /// What it does, in one line.
+    pub about: &'static str,
+    /// The paper's section, or where else it comes from.
+    pub source: &'static str,
+}
+
+/// All methods, in the order of menus.
+pub const METHODS: &[CatalogueEntry] = &[
+    CatalogueEntry {
+        name: "natural",
+        title: "Natural boundary",
+        about: "free boundary from two pins or yours, one linear solve",
+        source: "paper §3.3, eq. 2 and 3",
+    },
+    CatalogueEntry {
+        name: "convex",
+        title: "Convex boundary",
+        about: "boundary on a circle or a square (--boundary), inside at barycentres",
+        source: "Tutte 1963, Floater 1997",
+    },
+    CatalogueEntry {
+        name: "lscm",
+        title: "Least-squares conformal",
+        about: "least-squares conformal map; equals natural with conformal weights",
+        source: "Lévy et al. 2002",
+    },
+    CatalogueEntry {
+        name: "levy",
+        title: "Lévy, summed",
+        about: "Lévy's triangle equations summed around each vertex",
+        source: "paper §3.2",
+    },
+];
+
+/// All families, in the order of menus.
+pub const FAMILIES: &[CatalogueEntry] = &[
+    CatalogueEntry {
+        name: "conformal",
+        title: "Conformal",
+        about: "d = r: cotangents, keeps angles",
+        source: "paper §3.1; Pinkall and Polthier 1993",
+    },
+    CatalogueEntry {
+        name: "mean-value",
+        title: "Mean value",
+        about: "d = 1: always positive",
+        source: "paper §3.1; Floater 2003",
+    },
+    CatalogueEntry {
+        name: "wachspress",
+        title: "Wachspress",
+        about: "d = 1/r",
+        source: "paper §3.1; Wachspress 1975",
+    },
+    CatalogueEntry {
+        name: "power:P",
+        title: "Power",
+        about: "d = rᴾ: Wachspress at −1, mean value at 0, conformal at 1",
+        source: "paper §3.1; Floater, Hormann and Kós 2006",
+    },
+    CatalogueEntry {
+        name: "uniform",
+        title: "Uniform",
+        about: "all weights equal; convex boundary only",
+        source: "Tutte 1963",
+    },
+    CatalogueEntry {
+        name: "shape-preserving",
+        title: "Shape-preserving",
+        about: "averaged barycentric coordinates; convex boundary only",
+        source: "Floater 1997",
+    },
+];

@@ -1,0 +1,183 @@
+//! One equation per vertex, kept as one coefficient per halfedge.
+//!
+//! The equation of vertex v is `Σ a_h (z_head(h) − z_v) = 0` over its outgoing halfedges h. Every method of this
+//! project has that form: coefficients are real where the boundary is prescribed and complex where it is free.
+
+use glam::DVec2;
+use num_complex::Complex;
+use rayon::prelude::*;
+
+use super::SolveError;
+use super::weights::{Corner, CornerWeights, three_point_weights};
+use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
+
+/// Coefficients of all vertex equations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equations<T> {
+    /// For each halfedge the coefficient of `z_head − z_tail` in the equation of its tail.
+    pub coefficients: Vec<T>,
+    /// Degenerate corners whose weight was bounded.
+    pub bounded_corners: usize,
+}
+
+impl Equations<f64> {
+    /// The same equations with complex coefficients.
+    pub fn to_complex(&self) -> Equations<Complex<f64>> {
+        let coefficients = self.coefficients.iter().map(|&a| Complex::new(a, 0.0)).collect();
+        Equations { coefficients, bounded_corners: self.bounded_corners }
+    }
+}
+
+impl<T: Coefficient> Equations<T> {
+    /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
+    pub fn residual(&self, mesh: &DiskMesh, embedding: &[DVec2], has_equation: impl Fn(VertexId) -> bool) -> f64 {
+        let mut sums = vec![(Complex::ZERO, 0.0); mesh.vertex_count()];
+        for (h, &coefficient) in mesh.halfedges().zip(&self.coefficients) {
+            let tail = mesh.tail(h);
+            let along = embedding[mesh.head(h).index()] - embedding[tail.index()];
+            let term = coefficient.times(Complex::new(along.x, along.y));
+            let (sum, size) = &mut sums[tail.index()];
+            *sum += term;
+            *size += term.norm();
+        }
+        let (left, whole) = mesh.vertices().filter(|&v| has_equation(v)).fold((0.0, 0.0), |(left, whole), v| {
+            let (sum, size) = sums[v.index()];
+            (left + sum.norm_sqr(), whole + size * size)
+        });
+        if whole > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
+    }
+}
+
+/// Three-point weights with offset d = rᵖ, without the boundary's i-terms: paper eq. (2).
+///
+/// # Errors
+///
+/// [`SolveError::NotFinite`] where a weight overflows.
+pub fn barycentric(mesh: &DiskMesh, power: f64) -> Result<Equations<f64>, SolveError> {
+    let scale = length_scale(mesh);
+    sum_corners(mesh, |corner| {
+        let scaled = Corner::at(corner.map(|x| x * scale));
+        three_point_weights(&scaled, power)
+    })
+}
+
+/// The natural boundary equations for offset d = rᵖ: paper eq. (2) inside and eq. (3) on the boundary.
+///
+/// # Errors
+///
+/// [`SolveError::NotFinite`] where a weight overflows.
+pub fn natural(mesh: &DiskMesh, power: f64) -> Result<Equations<Complex<f64>>, SolveError> {
+    let scale = length_scale(mesh);
+    let mut equations = barycentric(mesh, power)?.to_complex();
+    for place in 0..mesh.boundary_loop().len() {
+        let outer = HalfedgeId::from_index(3 * mesh.face_count() + place);
+        let inner = mesh.twin(outer);
+        let length = (mesh.position(mesh.head(inner)) * scale - mesh.position(mesh.tail(inner)) * scale).length();
+        let offset_share = length.powf(power - 1.0);
+        // A fan begins with the inner side of one boundary edge and ends with the outer side of another.
+        equations.coefficients[inner.index()].im -= offset_share;
+        equations.coefficients[outer.index()].im += offset_share;
+    }
+    Ok(equations)
+}
+
+/// Lévy's corner equations `(r₁/r₂)(z₂−z₀) − e^{iα}(z₁−z₀) = 0`, summed around each vertex (paper §3.2).
+///
+/// # Errors
+///
+/// [`SolveError::NotFinite`] where an edge has no length.
+pub fn levy(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
+    let scale = length_scale(mesh);
+    sum_corners(mesh, |corner| {
+        let Corner { radii: [r1, r2], cross, dot, .. } = Corner::at(corner.map(|x| x * scale));
+        let rotation = Complex::new(dot, cross) / (r1 * r2);
+        CornerWeights { shares: [-rotation, Complex::new(r1 / r2, 0.0)], bounded: false }
+    })
+}
+
+/// Least-squares conformal maps (Lévy et al. 2002, eq. 4): the normal equations of `Σ |W₀z₀ + W₁z₁ + W₂z₂|²/2T`.
+///
+/// `W₀` is the edge opposite corner 0 as a complex number in the triangle's own plane, and T its area. Written from
+/// that energy, not from cotangents, so that it can serve as a check of [`natural`] with conformal weights.
+///
+/// # Errors
+///
+/// [`SolveError::NotFinite`] where a triangle has no area.
+pub fn lscm(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
+    let scale = length_scale(mesh);
+    sum_corners(mesh, |corner| {
+        let [a, b, c] = corner.map(|x| x * scale);
+        let (u, w) = (b - a, c - a);
+        let (base, height) = (u.length(), u.cross(w).length() / u.length());
+        let local = [Complex::ZERO, Complex::new(base, 0.0), Complex::new(w.dot(u) / base, height)];
+        let opposite = [local[2] - local[1], local[0] - local[2], local[1] - local[0]];
+        // The energy's matrix is WᴴW/2T; its rows sum to zero, so off-diagonal entries say everything.
+        let share = |j: usize| -opposite[0].conj() * opposite[j] / (base * height);
+        CornerWeights { shares: [share(1), share(2)], bounded: false }
+    })
+}
+
+/// Equal weights on all edges (Tutte 1963).
+pub fn uniform(mesh: &DiskMesh) -> Equations<f64> {
+    Equations { coefficients: vec![1.0; mesh.halfedge_count()], bounded_corners: 0 }
+}
+
+/// Adds up what the corners give to the two halfedges that leave their vertex.
+fn sum_corners<T: Coefficient>(
+    mesh: &DiskMesh,
+    weights: impl Fn([glam::DVec3; 3]) -> CornerWeights<T> + Sync,
+) -> Result<Equations<T>, SolveError> {
+    let corner_of = |side: usize| {
+        let (f, k) = (side / 3, side % 3);
+        let x = mesh.mesh().corners(FaceId::from_index(f));
+        weights([x[k], x[(k + 1) % 3], x[(k + 2) % 3]])
+    };
+    let corners: Vec<CornerWeights<T>> = (0..3 * mesh.face_count()).into_par_iter().map(corner_of).collect();
+    let mut coefficients = vec![T::default(); mesh.halfedge_count()];
+    let mut bounded_corners = 0;
+    for (side, corner) in corners.iter().enumerate() {
+        if !corner.shares.iter().all(|&share| share.is_finite()) {
+            return Err(SolveError::NotFinite { face: FaceId::from_index(side / 3) });
+        }
+        bounded_corners += usize::from(corner.bounded);
+        let to_next = HalfedgeId::from_index(side);
+        let to_previous = mesh.twin(mesh.previous(to_next));
+        coefficients[to_next.index()] += corner.shares[0];
+        coefficients[to_previous.index()] += corner.shares[1];
+    }
+    Ok(Equations { coefficients, bounded_corners })
+}
+
+/// A factor that brings the mesh to a size near 1, so that no power of a length overflows.
+pub(super) fn length_scale(mesh: &DiskMesh) -> f64 {
+    let positions = &mesh.mesh().positions;
+    let extent = positions.iter().fold(0.0_f64, |m, x| m.max((*x - positions[0]).abs().max_element()));
+    let per_edge = extent / (mesh.face_count() as f64).sqrt();
+    if per_edge > 0.0 { 1.0 / per_edge } else { 1.0 }
+}
+
+/// What coefficients can be.
+pub(super) trait Coefficient: Copy + Default + Send + Sync + std::ops::AddAssign {
+    fn is_finite(self) -> bool;
+    fn times(self, z: Complex<f64>) -> Complex<f64>;
+}
+
+impl Coefficient for f64 {
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+
+    fn times(self, z: Complex<f64>) -> Complex<f64> {
+        z * self
+    }
+}
+
+impl Coefficient for Complex<f64> {
+    fn is_finite(self) -> bool {
+        self.re.is_finite() && self.im.is_finite()
+    }
+
+    fn times(self, z: Complex<f64>) -> Complex<f64> {
+        self * z
+    }
+}

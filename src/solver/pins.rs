@@ -1,0 +1,142 @@
+//! Pins: what the user prescribes, and the gauge pins that stand in where that is too little (paper §3.3).
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+
+use super::SolveError;
+use crate::mesh::{DiskMesh, VertexId};
+
+/// Positions prescribed to vertices. Ordered, so that solves are repeatable.
+pub type Pins = BTreeMap<VertexId, DVec2>;
+
+/// Checks that every pin can be met and that no two claim one place.
+///
+/// # Errors
+///
+/// The first pin at fault, by vertex.
+pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
+    let mut at: BTreeMap<[u64; 2], VertexId> = BTreeMap::new();
+    for (&vertex, target) in pins {
+        if vertex.index() >= mesh.vertex_count() {
+            return Err(SolveError::NoSuchVertex { vertex, count: mesh.vertex_count() });
+        }
+        if !target.is_finite() {
+            return Err(SolveError::TargetNotFinite { vertex });
+        }
+        // Adding zero makes one bit pattern of the two zeros.
+        let place = [(target.x + 0.0).to_bits(), (target.y + 0.0).to_bits()];
+        if let Some(&first) = at.get(&place) {
+            return Err(SolveError::CoincidentPins { first, second: vertex });
+        }
+        at.insert(place, vertex);
+    }
+    Ok(())
+}
+
+/// The default gauge: the farthest pair of boundary vertices on the x-axis, the lower id at the origin, at their
+/// distance in space.
+pub fn gauge_pins(mesh: &DiskMesh) -> Pins {
+    let [a, b] = farthest_pair(mesh);
+    let distance = mesh.position(a).distance(mesh.position(b));
+    BTreeMap::from([(a.min(b), DVec2::ZERO), (a.max(b), DVec2::new(distance, 0.0))])
+}
+
+/// The two boundary vertices farthest apart in space.
+///
+/// Pairs of boxes are compared, largest bound first; a pair whose boxes cannot hold a longer distance than the best
+/// one found is dropped, so that the work stays near linear even on a circle.
+pub fn farthest_pair(mesh: &DiskMesh) -> [VertexId; 2] {
+    let mut ids: Vec<VertexId> = mesh.boundary_loop().to_vec();
+    ids.sort_unstable();
+    let points: Vec<DVec3> = ids.iter().map(|&v| mesh.position(v)).collect();
+    let mut order: Vec<u32> = (0..).take(ids.len()).collect();
+    let tree = BoxTree::new(&points, &mut order);
+    let mut search = FarthestSearch { points: &points, order: &order, best: (-1.0, [0, 0]) };
+    search.descend(&tree, &tree);
+    let (_, [a, b]) = search.best;
+    [ids[a as usize], ids[b as usize]]
+}
+
+/// Points in a leaf.
+const LEAF: usize = 8;
+
+/// A binary tree of boxes over a range of `order`.
+struct BoxTree {
+    low: DVec3,
+    high: DVec3,
+    range: std::ops::Range<usize>,
+    halves: Option<Box<[BoxTree; 2]>>,
+}
+
+impl BoxTree {
+    fn new(points: &[DVec3], order: &mut [u32]) -> Self {
+        Self::over(points, order, 0)
+    }
+
+    fn over(points: &[DVec3], order: &mut [u32], begin: usize) -> Self {
+        let at = |i: u32| points[i as usize];
+        let (low, high) = order
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &i| (low.min(at(i)), high.max(at(i))));
+        let range = begin..begin + order.len();
+        if order.len() <= LEAF {
+            return Self { low, high, range, halves: None };
+        }
+        let axis = (high - low).max_position();
+        let middle = order.len() / 2;
+        order.select_nth_unstable_by(middle, |&i, &j| at(i)[axis].total_cmp(&at(j)[axis]).then(i.cmp(&j)));
+        let (left, right) = order.split_at_mut(middle);
+        let halves = [Self::over(points, left, begin), Self::over(points, right, begin + middle)];
+        Self { low, high, range, halves: Some(Box::new(halves)) }
+    }
+
+    /// No point of this box is farther from a point of the other than this.
+    fn farthest_bound(&self, other: &Self) -> f64 {
+        (self.high - other.low).abs().max((other.high - self.low).abs()).length_squared()
+    }
+}
+
+struct FarthestSearch<'a> {
+    points: &'a [DVec3],
+    order: &'a [u32],
+    best: (f64, [u32; 2]),
+}
+
+impl FarthestSearch<'_> {
+    fn descend(&mut self, a: &BoxTree, b: &BoxTree) {
+        if a.farthest_bound(b) <= self.best.0 {
+            return;
+        }
+        match (&a.halves, &b.halves) {
+            (None, None) => self.compare(a, b),
+            (Some(halves), other) if other.is_none() || a.range.len() >= b.range.len() => {
+                self.descend_both([&halves[0], &halves[1]], b);
+            }
+            (_, Some(halves)) => self.descend_both([&halves[0], &halves[1]], a),
+            (Some(_), None) => unreachable!("taken above"),
+        }
+    }
+
+    fn descend_both(&mut self, halves: [&BoxTree; 2], other: &BoxTree) {
+        let [first, second] = halves;
+        if first.farthest_bound(other) >= second.farthest_bound(other) {
+            self.descend(first, other);
+            self.descend(second, other);
+        } else {
+            self.descend(second, other);
+            self.descend(first, other);
+        }
+    }
+
+    fn compare(&mut self, a: &BoxTree, b: &BoxTree) {
+        for &i in &self.order[a.range.clone()] {
+            for &j in &self.order[b.range.clone()] {
+                let squared = self.points[i as usize].distance_squared(self.points[j as usize]);
+                if squared > self.best.0 && i != j {
+                    self.best = (squared, [i.min(j), i.max(j)]);
+                }
+            }
+        }
+    }
+}

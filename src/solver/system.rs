@@ -1,0 +1,124 @@
+//! The linear system of the free vertices: vertex equations with the pinned vertices eliminated (paper §3.3).
+//!
+//! With F the free and P the pinned vertices, `A_FF z_F = −A_FP t`. The pattern depends on the mesh and on which
+//! vertices are pinned; weights and targets only change values.
+
+use std::collections::BTreeMap;
+use std::ops::{AddAssign, Mul, SubAssign};
+
+use nalgebra_sparse::CscMatrix;
+use nalgebra_sparse::pattern::SparsityPattern;
+
+use super::equations::Equations;
+use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
+
+/// Marks a vertex without a row and a halfedge without an entry.
+const NONE: u32 = u32::MAX;
+
+/// Which vertices are unknown, and where each coefficient stands in the matrix.
+#[derive(Clone, Debug)]
+pub struct FreeSystem {
+    free: Vec<VertexId>,
+    row_of_vertex: Vec<u32>,
+    pattern: SparsityPattern,
+    /// For each halfedge the place of entry (tail, head), `NONE` where an end is pinned.
+    slot_of_halfedge: Vec<u32>,
+    /// For each row the place of its diagonal entry.
+    slot_of_diagonal: Vec<u32>,
+    /// Halfedges from a free to a pinned vertex.
+    to_pinned: Vec<HalfedgeId>,
+}
+
+impl FreeSystem {
+    /// Lays out the system of all vertices that are not pinned.
+    pub fn new(mesh: &DiskMesh, is_pinned: impl Fn(VertexId) -> bool) -> Self {
+        let mut row_of_vertex = vec![NONE; mesh.vertex_count()];
+        let free: Vec<VertexId> = mesh.vertices().filter(|&v| !is_pinned(v)).collect();
+        for (row, v) in (0_u32..).zip(&free) {
+            row_of_vertex[v.index()] = row;
+        }
+        let mut slot_of_halfedge = vec![NONE; mesh.halfedge_count()];
+        let mut slot_of_diagonal = Vec::with_capacity(free.len());
+        let mut to_pinned = Vec::new();
+        let mut starts = Vec::with_capacity(free.len() + 1);
+        let mut rows: Vec<usize> = Vec::with_capacity(free.len() + mesh.halfedge_count());
+        let mut column: Vec<(u32, HalfedgeId)> = Vec::new();
+        starts.push(0);
+        for &v in &free {
+            column.clear();
+            for h in mesh.outgoing(v) {
+                let row = row_of_vertex[mesh.head(h).index()];
+                if row == NONE {
+                    to_pinned.push(h);
+                } else {
+                    // The entry (tail, head) of the halfedge that comes in along this edge stands in this column.
+                    column.push((row, mesh.twin(h)));
+                }
+            }
+            column.sort_unstable_by_key(|&(row, _)| row);
+            let own = row_of_vertex[v.index()];
+            let below = column.partition_point(|&(row, _)| row < own);
+            let place = |offset: usize| u32::try_from(rows.len() + offset).expect("entries fit");
+            slot_of_diagonal.push(place(below));
+            for (i, &(_, h)) in column.iter().enumerate() {
+                slot_of_halfedge[h.index()] = place(i + usize::from(i >= below));
+            }
+            rows.extend(column[..below].iter().map(|&(row, _)| row as usize));
+            rows.push(own as usize);
+            rows.extend(column[below..].iter().map(|&(row, _)| row as usize));
+            starts.push(rows.len());
+        }
+        let pattern = SparsityPattern::try_from_offsets_and_indices(free.len(), free.len(), starts, rows)
+            .expect("columns were sorted and neighbours are distinct");
+        Self { free, row_of_vertex, pattern, slot_of_halfedge, slot_of_diagonal, to_pinned }
+    }
+
+    /// The vertices whose positions are unknown, in the order of the rows.
+    pub fn free(&self) -> &[VertexId] {
+        &self.free
+    }
+
+    /// Where the matrix has entries. Symmetric, with a full diagonal.
+    pub fn pattern(&self) -> &SparsityPattern {
+        &self.pattern
+    }
+
+    /// The matrix `−A_FF`; positive definite where the coefficients are conformal.
+    pub fn negated_matrix<T>(&self, mesh: &DiskMesh, equations: &Equations<T>) -> CscMatrix<T>
+    where
+        T: Copy + Default + AddAssign + SubAssign,
+    {
+        let mut values = vec![T::default(); self.pattern.nnz()];
+        for (h, &coefficient) in mesh.halfedges().zip(&equations.coefficients) {
+            let row = self.row_of_vertex[mesh.tail(h).index()];
+            if row == NONE {
+                continue;
+            }
+            values[self.slot_of_diagonal[row as usize] as usize] += coefficient;
+            let slot = self.slot_of_halfedge[h.index()];
+            if slot != NONE {
+                values[slot as usize] -= coefficient;
+            }
+        }
+        CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values).expect("one value per entry was made")
+    }
+
+    /// The vector `A_FP t`, the right-hand side that goes with [`negated_matrix`](Self::negated_matrix).
+    pub fn pinned_terms<T, P>(
+        &self,
+        mesh: &DiskMesh,
+        equations: &Equations<T>,
+        targets: &BTreeMap<VertexId, P>,
+    ) -> Vec<P>
+    where
+        T: Copy + Mul<P, Output = P>,
+        P: Copy + Default + AddAssign,
+    {
+        let mut terms = vec![P::default(); self.free.len()];
+        for &h in &self.to_pinned {
+            let row = self.row_of_vertex[mesh.tail(h).index()];
+            terms[row as usize] += equations.coefficients[h.index()] * targets[&mesh.head(h)];
+        }
+        terms
+    }
+}
