@@ -6,7 +6,9 @@ use std::time::Instant;
 use super::args::CheckArguments;
 use super::flatten::disk_of;
 use super::{Failure, Status};
-use crate::io::{MeshReport, Report, Seconds, WriteError, peak_memory_bytes, write_atomically};
+use crate::io::{
+    MeshReport, Report, Seconds, TextureError, TextureMesh, WriteError, peak_memory_bytes, verdict_as_in_file, write_atomically,
+};
 use crate::mesh::DiskMesh;
 use crate::session::Model;
 use crate::solver::{distortion, verdict};
@@ -14,7 +16,7 @@ use crate::solver::{distortion, verdict};
 pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let start = Instant::now();
     let model = Model::read(&arguments.mesh)?;
-    let Some(texture) = model.source.texture_mesh()? else {
+    let Some(texture) = texture_of(&model)? else {
         let mesh = disk_of(&model)?;
         let notes = MeshReport::new(model.path_words(), mesh);
         println!(
@@ -41,7 +43,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
             family: None,
             pins: None,
             steps: Vec::new(),
-            verdict: verdict.numbered_as_in_file(mesh.mesh()),
+            verdict: verdict_as_in_file(&verdict, mesh.mesh()),
             distortion: distortion.summary,
             new_vertices: 0,
             seconds: Seconds { read, verify: total - read, total, ..Seconds::default() },
@@ -50,6 +52,15 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         write_report(&report, path)?;
     }
     Ok(if verdict.planar { Status::Fine } else { Status::NotPlanar })
+}
+
+/// The mesh of the texture coordinates, `None` where the file has none.
+fn texture_of(model: &Model) -> Result<Option<TextureMesh>, Failure> {
+    match model.source.texture_mesh() {
+        Ok(texture) => Ok(Some(texture)),
+        Err(TextureError::None) => Ok(None),
+        Err(error) => Err(error.into()),
+    }
 }
 
 fn write_report(report: &Report, path: &Path) -> Result<(), WriteError> {

@@ -24,7 +24,7 @@ pub fn run_example() -> ExitCode {
 
 fn flatten_example() -> Result<Status, Failure> {
     let folder = Path::new(FOLDER);
-    std::fs::create_dir_all(folder).map_err(|error| WriteError::new(folder, error))?;
+    std::fs::create_dir_all(folder).map_err(|error| WriteError { path: folder.to_owned(), source: error })?;
     let [mesh, picture, report] = ["face.obj", "face.png", "face.json"].map(|name| folder.join(name));
     let job = HeadlessJob {
         settings: Settings::default(),

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use crate::io::{ReadError, WriteError};
+use crate::io::{ReadError, TextureError, WriteError};
 use crate::mesh::Diagnosis;
 use crate::solver::SolveError;
 
@@ -22,6 +22,9 @@ pub enum Failure {
     /// The file cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
+    /// The texture coordinates make no mesh.
+    #[error("{0}: give every corner texture coordinates, or none")]
+    Texture(#[from] TextureError),
     /// The mesh is not a disk.
     #[error("{path} cannot be flattened as it is\n{diagnosis}")]
     NotADisk {
@@ -45,9 +48,12 @@ impl Failure {
     /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 130 interrupted.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Read(_) | Self::NotADisk { .. } | Self::Solve(SolveError::NotFinite { .. }) => 3,
+            Self::Read(_) | Self::Texture(_) | Self::NotADisk { .. } | Self::Solve(SolveError::NotFinite { .. }) => 3,
             Self::Solve(SolveError::Cancelled) => 130,
-            Self::Solve(SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. }) | Self::Write(_) => 1,
+            Self::Solve(
+                SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
+            )
+            | Self::Write(_) => 1,
             Self::Solve(_) | Self::Usage(_) => 2,
         }
     }

@@ -19,5 +19,5 @@ pub use obj_read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with}
 pub use obj_texture::TextureMesh;
 pub use obj_write::write_obj;
 pub use output::{Output, OutputKind};
-pub use report::{MeshReport, PinsReport, Report, Seconds, StepReport, peak_memory_bytes};
+pub use report::{MeshReport, PinsReport, Report, Seconds, StepReport, peak_memory_bytes, verdict_as_in_file};
 pub use svg::write_svg;

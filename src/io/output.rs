@@ -1,15 +1,23 @@
 //! The files that a finished flattening is written to, by their kind.
 
+use std::io::{self, Write as _};
 use std::path::Path;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use super::raster::picture_of_result;
+use super::raster::{Canvas, Paint, View, mesh_picture, plane_picture};
 use super::report::Report;
 use super::svg::write_svg;
 use super::{ObjMesh, WriteError, write_atomically, write_obj};
+use crate::geom::Picture;
 use crate::mesh::DiskMesh;
 use crate::solver::Verdict;
+
+/// Width and height of each half of a picture, pixels.
+const PICTURE_SIZE: u32 = 900;
+
+/// Fields of the checker across the layout.
+const CHECKER_FIELDS: f64 = 40.0;
 
 /// Kinds of files that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +69,20 @@ pub struct Output<'a> {
 }
 
 impl Output<'_> {
+    /// The mesh under a checker of its texture coordinates, seen from the side that most faces look to; beside it the
+    /// layout.
+    fn picture(&self) -> Picture {
+        let mesh = self.mesh.mesh();
+        let eye = self.mesh.faces().map(|face| mesh.double_area_vector(face)).sum();
+        let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
+        let extent = self.coordinates.iter().fold(0.0_f64, |m, z| m.max((*z - self.coordinates[0]).abs().max_element()));
+        let checker = Paint::Checker { coordinates: self.coordinates, size: extent / CHECKER_FIELDS };
+        let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
+        let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, checker);
+        let drawing = Canvas::drawing(PICTURE_SIZE, PICTURE_SIZE);
+        before.beside(&plane_picture(self.coordinates, &mesh.triangles, &drawing, Paint::Clay))
+    }
+
     /// Writes one file: aside first, then renamed, so that it is never half-written.
     ///
     /// # Errors
@@ -70,9 +92,7 @@ impl Output<'_> {
         write_atomically(path, |out| match kind {
             OutputKind::Obj => write_obj(out, self.source, self.coordinates),
             OutputKind::Svg => write_svg(out, self.mesh, self.coordinates, self.verdict),
-            OutputKind::Png => picture_of_result(self.mesh, self.coordinates, self.verdict)
-                .write_png(out)
-                .map_err(std::io::Error::other),
+            OutputKind::Png => self.picture().write_png(out).map_err(io::Error::other),
             OutputKind::Json => {
                 serde_json::to_writer_pretty(&mut *out, self.report)?;
                 writeln!(out)

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, FaceId, TriMesh};
 use crate::solver::{DistortionSummary, Settings, Solution, Verdict};
 
 /// Everything that a run has to say. Field names are part of the interface.
@@ -142,6 +142,14 @@ pub struct Seconds {
     pub write: f64,
     /// From the start to the report.
     pub total: f64,
+}
+
+/// The verdict with faces numbered as the file numbers them: a polygon is at fault where one of its triangles is.
+pub fn verdict_as_in_file(verdict: &Verdict, mesh: &TriMesh) -> Verdict {
+    let mut flipped_faces: Vec<FaceId> =
+        verdict.flipped_faces.iter().map(|&face| FaceId::new(mesh.polygon(face))).collect();
+    flipped_faces.dedup();
+    Verdict { flipped_faces, ..verdict.clone() }
 }
 
 /// Most memory that this process has held so far, where the system tells (Linux).

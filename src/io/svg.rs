@@ -18,7 +18,7 @@ const MARGIN: f64 = 20.0;
 /// # Errors
 ///
 /// If `out` cannot be written.
-pub fn write_svg(out: &mut dyn Write, mesh: &DiskMesh, embedding: &[DVec2], verdict: &Verdict) -> io::Result<()> {
+pub fn write_svg(out: &mut impl Write, mesh: &DiskMesh, embedding: &[DVec2], verdict: &Verdict) -> io::Result<()> {
     let frame = Frame::of(embedding);
     let extent = frame.extent();
     writeln!(
@@ -60,7 +60,7 @@ pub fn write_svg(out: &mut dyn Write, mesh: &DiskMesh, embedding: &[DVec2], verd
 }
 
 fn write_edge(
-    out: &mut dyn Write,
+    out: &mut impl Write,
     mesh: &DiskMesh,
     edge: EdgeId,
     at: &impl Fn(crate::mesh::VertexId) -> DVec2,
@@ -69,7 +69,7 @@ fn write_edge(
     write!(out, "M{:.3} {:.3}L{:.3} {:.3}", a.x, a.y, b.x, b.y)
 }
 
-fn write_closed(out: &mut dyn Write, points: &[DVec2]) -> io::Result<()> {
+fn write_closed(out: &mut impl Write, points: &[DVec2]) -> io::Result<()> {
     for (i, point) in points.iter().enumerate() {
         write!(out, "{}{:.3} {:.3}", if i == 0 { 'M' } else { 'L' }, point.x, point.y)?;
     }

@@ -1,1 +1,30 @@
-//! To be written.
+//! Sparse linear systems: Cholesky for Hermitian matrices, a multifrontal LU for unsymmetric values on a symmetric
+//! pattern, refinement and residuals. Knows no mesh.
+//!
+//! ```text
+//! Analysis::new(kind, pattern)     ordering and symbolic factorization, once a pattern
+//!     .factor(matrix, cancel)      numeric factorization, once a matrix
+//!         .solve(matrix, rhs)      solve, refine, measure the residual
+//! ```
+//!
+//! | file | what |
+//! |---|---|
+//! | `order.rs` | fill-reducing order (AMD), elimination tree, postorder |
+//! | `llt.rs` | Hermitian: faer's supernodal Cholesky |
+//! | `lu/` | unsymmetric: our multifrontal LU |
+//! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
+
+mod analysis;
+mod error;
+mod gmres;
+mod llt;
+mod lu;
+mod order;
+mod refine;
+mod scalar;
+mod sparse;
+
+pub use analysis::{Analysis, Factor, FactorStats, Kind};
+pub use error::LinalgError;
+pub use refine::Solved;
+pub use scalar::Scalar;

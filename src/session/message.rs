@@ -1,6 +1,6 @@
 //! What the session has to tell a person: what happened, where, and what to do.
 
-use crate::mesh::{EdgeId, FaceId, VertexId};
+use crate::mesh::VertexId;
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,17 +20,6 @@ pub enum Place {
     Embedding,
 }
 
-/// A part of the mesh that a message or a defect is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Element {
-    /// A vertex.
-    Vertex(VertexId),
-    /// An edge.
-    Edge(EdgeId),
-    /// A face.
-    Face(FaceId),
-}
-
 /// One thing said.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Message {
@@ -44,6 +33,6 @@ pub struct Message {
     pub text: String,
     /// What to do about it.
     pub remedy: Option<String>,
-    /// The element concerned.
-    pub element: Option<Element>,
+    /// Vertices of the element concerned, to be shown; empty where it is about the whole.
+    pub vertices: Vec<VertexId>,
 }

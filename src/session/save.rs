@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::{Model, Outcome, OutputFit};
 use crate::io::{
-    MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, WriteError, peak_memory_bytes,
+    MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, WriteError, peak_memory_bytes, verdict_as_in_file,
 };
 use crate::mesh::DiskMesh;
 use crate::solver::{Verdict, distortion, verdict};
@@ -58,7 +58,7 @@ impl<'a> Finished<'a> {
                 max_error: outcome.pin_error(),
             }),
             steps: vec![StepReport::linear(settings, &outcome.solution, &outcome.verdict)],
-            verdict: verdict.numbered_as_in_file(mesh.mesh()),
+            verdict: verdict_as_in_file(&verdict, mesh.mesh()),
             distortion: summary,
             new_vertices: 0,
             seconds: Seconds {

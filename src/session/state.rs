@@ -8,7 +8,7 @@ use super::{
     Severity, Surface,
 };
 use crate::io::{ReadError, WriteError};
-use crate::mesh::VertexId;
+use crate::mesh::{Elements, Fault, TriMesh, VertexId};
 use crate::solver::{Control, Phase, Pins, Prepared, Settings, SolveError, Verdict};
 
 /// Asks the screen to look again; called from background threads.
@@ -242,7 +242,7 @@ impl Session {
                     place: Place::Mesh,
                     text: fault.message(),
                     remedy: Some(fault.remedy().to_owned()),
-                    element: fault.first_element(),
+                    vertices: first_vertices(fault, model.mesh()),
                 });
             }
         }
@@ -392,7 +392,7 @@ impl Session {
                     place: Place::Embedding,
                     text,
                     remedy: None,
-                    element: None,
+                    vertices: Vec::new(),
                 });
             }
             Err(error) => self.fail(Place::Embedding, error.to_string(), None),
@@ -402,7 +402,7 @@ impl Session {
     fn fail(&mut self, place: Place, text: String, remedy: Option<&str>) {
         let id = self.next_id();
         let remedy = remedy.map(str::to_owned);
-        self.messages.push(Message { id, severity: Severity::Error, place, text, remedy, element: None });
+        self.messages.push(Message { id, severity: Severity::Error, place, text, remedy, vertices: Vec::new() });
     }
 
     fn next_id(&mut self) -> u64 {
@@ -413,6 +413,17 @@ impl Session {
     fn waker(&self) -> impl FnOnce() + Send + 'static {
         let wake = Arc::clone(&self.wake);
         move || wake()
+    }
+}
+
+/// Vertices of the first element of a fault.
+fn first_vertices(fault: &Fault, mesh: &TriMesh) -> Vec<VertexId> {
+    match fault.elements() {
+        Elements::Nothing => Vec::new(),
+        Elements::Vertices(vertices) => vertices[..1].to_vec(),
+        Elements::Edges(edges) => edges[0].to_vec(),
+        Elements::Faces(faces) => mesh.triangles[faces.triangles[0].index()].to_vec(),
+        Elements::Loops(loops) => loops[0].clone(),
     }
 }
 

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::SolveError;
 use super::weights::{Corner, CornerWeights, three_point_weights};
+use crate::linalg::Scalar;
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 
 /// Coefficients of all vertex equations.
@@ -28,14 +29,14 @@ impl Equations<f64> {
     }
 }
 
-impl<T: Coefficient> Equations<T> {
+impl Equations<Complex<f64>> {
     /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
     pub fn residual(&self, mesh: &DiskMesh, embedding: &[DVec2], has_equation: impl Fn(VertexId) -> bool) -> f64 {
-        let mut sums = vec![(Complex::ZERO, 0.0); mesh.vertex_count()];
+        let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.coefficients) {
             let tail = mesh.tail(h);
             let along = embedding[mesh.head(h).index()] - embedding[tail.index()];
-            let term = coefficient.times(Complex::new(along.x, along.y));
+            let term = coefficient * Complex::new(along.x, along.y);
             let (sum, size) = &mut sums[tail.index()];
             *sum += term;
             *size += term.norm();
@@ -123,7 +124,7 @@ pub fn uniform(mesh: &DiskMesh) -> Equations<f64> {
 }
 
 /// Adds up what the corners give to the two halfedges that leave their vertex.
-fn sum_corners<T: Coefficient>(
+fn sum_corners<T: Scalar>(
     mesh: &DiskMesh,
     weights: impl Fn([glam::DVec3; 3]) -> CornerWeights<T> + Sync,
 ) -> Result<Equations<T>, SolveError> {
@@ -133,10 +134,10 @@ fn sum_corners<T: Coefficient>(
         weights([x[k], x[(k + 1) % 3], x[(k + 2) % 3]])
     };
     let corners: Vec<CornerWeights<T>> = (0..3 * mesh.face_count()).into_par_iter().map(corner_of).collect();
-    let mut coefficients = vec![T::default(); mesh.halfedge_count()];
+    let mut coefficients = vec![T::ZERO; mesh.halfedge_count()];
     let mut bounded_corners = 0;
     for (side, corner) in corners.iter().enumerate() {
-        if !corner.shares.iter().all(|&share| share.is_finite()) {
+        if !corner.shares.iter().all(|&share| share.is_finite_scalar()) {
             return Err(SolveError::NotFinite { face: FaceId::from_index(side / 3) });
         }
         bounded_corners += usize::from(corner.bounded);
@@ -154,30 +155,4 @@ pub(super) fn length_scale(mesh: &DiskMesh) -> f64 {
     let extent = positions.iter().fold(0.0_f64, |m, x| m.max((*x - positions[0]).abs().max_element()));
     let per_edge = extent / (mesh.face_count() as f64).sqrt();
     if per_edge > 0.0 { 1.0 / per_edge } else { 1.0 }
-}
-
-/// What coefficients can be.
-pub(super) trait Coefficient: Copy + Default + Send + Sync + std::ops::AddAssign {
-    fn is_finite(self) -> bool;
-    fn times(self, z: Complex<f64>) -> Complex<f64>;
-}
-
-impl Coefficient for f64 {
-    fn is_finite(self) -> bool {
-        f64::is_finite(self)
-    }
-
-    fn times(self, z: Complex<f64>) -> Complex<f64> {
-        z * self
-    }
-}
-
-impl Coefficient for Complex<f64> {
-    fn is_finite(self) -> bool {
-        self.re.is_finite() && self.im.is_finite()
-    }
-
-    fn times(self, z: Complex<f64>) -> Complex<f64> {
-        self * z
-    }
 }

@@ -80,6 +80,13 @@ pub enum SolveError {
         limit: f64,
     },
 
+    /// The linear solver could not take the system.
+    #[error("the linear solver failed: {reason}")]
+    Linear {
+        /// What it said.
+        reason: String,
+    },
+
     /// The caller asked the solve to stop.
     #[error("the solve was cancelled")]
     Cancelled,

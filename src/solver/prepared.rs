@@ -166,7 +166,7 @@ impl Prepared {
         let (stats, bounded_corners, equation_residual) = match &self.values {
             Values::Free(factored) => factored.told(|equations| equations.residual(mesh, &embedding, |_| true)),
             Values::Prescribed(factored) => {
-                factored.told(|equations| equations.residual(mesh, &embedding, |v| !on_convex(v)))
+                factored.told(|equations| equations.to_complex().residual(mesh, &embedding, |v| !on_convex(v)))
             }
         };
         Ok(Solution {
@@ -201,7 +201,7 @@ impl Prepared {
         factored: &Factored<f64>,
         pins: &Pins,
     ) -> Result<(Vec<DVec2>, f64), SolveError> {
-        let mut solve_axis = |axis: usize| {
+        let solve_axis = |axis: usize| {
             let targets: BTreeMap<VertexId, f64> = pins.iter().map(|(&v, t)| (v, t[axis])).collect();
             let terms = self.system.pinned_terms(mesh, &factored.equations, &targets);
             factored.factor.solve(&factored.matrix, &terms).map_err(|error| self.named(error))
@@ -271,5 +271,6 @@ fn in_vertices(error: LinalgError, free: &[VertexId]) -> SolveError {
         LinalgError::Singular { row } | LinalgError::NotPositiveDefinite { row } | LinalgError::NotFinite { row } => {
             SolveError::Singular { vertex: free[row] }
         }
+        other => SolveError::Linear { reason: other.to_string() },
     }
 }

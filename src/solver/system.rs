@@ -4,12 +4,13 @@
 //! vertices are pinned; weights and targets only change values.
 
 use std::collections::BTreeMap;
-use std::ops::{AddAssign, Mul, SubAssign};
+use std::ops::{AddAssign, Mul};
 
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::equations::Equations;
+use crate::linalg::Scalar;
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// Marks a vertex without a row and a halfedge without an entry.
@@ -86,9 +87,9 @@ impl FreeSystem {
     /// The matrix `−A_FF`; positive definite where the coefficients are conformal.
     pub fn negated_matrix<T>(&self, mesh: &DiskMesh, equations: &Equations<T>) -> CscMatrix<T>
     where
-        T: Copy + Default + AddAssign + SubAssign,
+        T: Scalar,
     {
-        let mut values = vec![T::default(); self.pattern.nnz()];
+        let mut values = vec![T::ZERO; self.pattern.nnz()];
         for (h, &coefficient) in mesh.halfedges().zip(&equations.coefficients) {
             let row = self.row_of_vertex[mesh.tail(h).index()];
             if row == NONE {

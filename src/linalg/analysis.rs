@@ -1,0 +1,228 @@
+//! The one interface of the layer: analyse a pattern, factor a matrix, solve.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use faer::Conj;
+use nalgebra_sparse::CscMatrix;
+use nalgebra_sparse::pattern::SparsityPattern;
+
+use super::LinalgError;
+use super::llt::{Llt, LltAnalysis};
+use super::lu::{Lu, LuAnalysis};
+use super::order::{Pattern, order};
+use super::refine::{Solved, System, refined};
+use super::scalar::Scalar;
+use super::sparse::{Operation, check_finite};
+
+/// What is known of the values of a matrix. The pattern is symmetric, diagonal included, in both cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A or −A is Hermitian positive definite; both triangles are stored.
+    Hermitian,
+    /// Any values.
+    General,
+}
+
+/// Ordering and symbolic factorization of a pattern, for any number of matrices of either scalar. Clones share it.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    shared: Arc<Shared>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    pattern: Pattern,
+    symbolic: Symbolic,
+}
+
+#[derive(Debug)]
+enum Symbolic {
+    Llt(LltAnalysis),
+    Lu(LuAnalysis),
+}
+
+/// A factored matrix. It keeps what it needs of its [`Analysis`], but not the matrix.
+#[derive(Debug)]
+pub struct Factor<T> {
+    shared: Arc<Shared>,
+    numeric: Numeric<T>,
+}
+
+#[derive(Debug)]
+enum Numeric<T> {
+    Llt(Llt<T>),
+    Lu(Lu<T>),
+}
+
+/// The size of a factorization, and what was done to make it possible.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FactorStats {
+    /// Pivots that were too small and were replaced. Zero for a Cholesky factorization.
+    pub replaced_pivots: usize,
+    /// Numbers that are kept, explicit zeros included.
+    pub factor_nonzeros: usize,
+    /// Their memory, in bytes.
+    pub factor_bytes: usize,
+    /// The most numeric memory in use at one time while factoring, the factors included, in bytes.
+    pub peak_bytes: usize,
+}
+
+impl Analysis {
+    /// Orders the pattern and finds the pattern of its factors.
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::NotSquare`], [`LinalgError::PatternNotSymmetric`] (which includes a missing diagonal entry) and
+    /// [`LinalgError::TooLarge`].
+    pub fn new(kind: Kind, pattern: &SparsityPattern) -> Result<Self, LinalgError> {
+        let pattern = Pattern::checked(pattern)?;
+        let elimination = order(&pattern)?;
+        let symbolic = match kind {
+            Kind::Hermitian => Symbolic::Llt(LltAnalysis::new(&pattern, &elimination.order)?),
+            Kind::General => Symbolic::Lu(LuAnalysis::new(&pattern, &elimination)?),
+        };
+        Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
+    }
+
+    /// Factors a matrix of the analysed pattern. The LU looks at `cancel` at every supernode, the Cholesky
+    /// factorization only before and after.
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::OtherPattern`], [`LinalgError::NotFinite`], [`LinalgError::NotPositiveDefinite`] for a Hermitian
+    /// matrix, [`LinalgError::Singular`] for a general one, [`LinalgError::TooLarge`], [`LinalgError::Cancelled`].
+    pub fn factor<T: Scalar>(&self, matrix: &CscMatrix<T>, cancel: &AtomicBool) -> Result<Factor<T>, LinalgError> {
+        let Shared { pattern, symbolic } = &*self.shared;
+        if !pattern.is_that_of(matrix) {
+            return Err(LinalgError::OtherPattern);
+        }
+        check_finite(matrix)?;
+        let cancelled = || if cancel.load(Ordering::Relaxed) { Err(LinalgError::Cancelled) } else { Ok(()) };
+        cancelled()?;
+        let numeric = match symbolic {
+            Symbolic::Llt(analysis) => Numeric::Llt(analysis.factor(pattern, matrix)?),
+            Symbolic::Lu(analysis) => Numeric::Lu(analysis.factor(pattern, matrix, cancel)?),
+        };
+        cancelled()?;
+        let factor = Factor { shared: Arc::clone(&self.shared), numeric };
+        factor.check_regular(matrix)?;
+        Ok(factor)
+    }
+}
+
+impl<T: Scalar> Factor<T> {
+    /// Solves A x = b with iterative refinement against `matrix`, which must be the matrix that was factored.
+    ///
+    /// # Errors
+    ///
+    /// [`LinalgError::ResidualTooLarge`] when neither refinement nor GMRES makes the residual good;
+    /// [`LinalgError::NotFinite`] for a broken right-hand side; [`LinalgError::WrongLength`],
+    /// [`LinalgError::OtherPattern`].
+    pub fn solve(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+        self.one(matrix, Operation::Plain, rhs)
+    }
+
+    /// Solves Aᵀ x = b, otherwise as [`Factor::solve`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Factor::solve`].
+    pub fn solve_transpose(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+        self.one(matrix, Operation::Transpose, rhs)
+    }
+
+    /// Solves Aᴴ x = b, otherwise as [`Factor::solve`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Factor::solve`].
+    pub fn solve_adjoint(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+        self.one(matrix, Operation::Adjoint, rhs)
+    }
+
+    /// Solves A X = B for several right-hand sides, stored one after another; so is the answer. The residual is that
+    /// of the worst column.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Factor::solve`].
+    pub fn solve_many(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+        self.run(matrix, Operation::Plain, rhs)
+    }
+
+    /// Solves Aᴴ X = B, otherwise as [`Factor::solve_many`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Factor::solve`].
+    pub fn solve_adjoint_many(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+        self.run(matrix, Operation::Adjoint, rhs)
+    }
+
+    /// Size of the factors and number of replaced pivots.
+    pub fn stats(&self) -> FactorStats {
+        match &self.numeric {
+            Numeric::Llt(llt) => llt.stats(),
+            Numeric::Lu(lu) => lu.stats(),
+        }
+    }
+
+    fn one(&self, matrix: &CscMatrix<T>, operation: Operation, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+        let order = self.shared.pattern.order();
+        if rhs.len() != order {
+            return Err(LinalgError::WrongLength { order, found: rhs.len() });
+        }
+        self.run(matrix, operation, rhs)
+    }
+
+    fn run(&self, matrix: &CscMatrix<T>, operation: Operation, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+        let order = self.shared.pattern.order();
+        if matrix.nrows() != order || matrix.nnz() != self.shared.pattern.rows.len() {
+            return Err(LinalgError::OtherPattern);
+        }
+        if rhs.len().checked_rem(order).unwrap_or(rhs.len()) != 0 {
+            return Err(LinalgError::WrongLength { order, found: rhs.len() });
+        }
+        if let Some(place) = rhs.iter().position(|value| !value.is_finite_scalar()) {
+            return Err(LinalgError::NotFinite { row: place % order });
+        }
+        let solve = |columns: &mut [T]| self.solve_in_place(operation, columns);
+        let row_scale = match (&self.numeric, operation) {
+            (Numeric::Lu(lu), Operation::Plain) => Some(lu.row_scale()),
+            _ => None,
+        };
+        refined(&System { matrix, operation, row_scale, solve: &solve }, rhs)
+    }
+
+    fn solve_in_place(&self, operation: Operation, columns: &mut [T]) {
+        match (&self.shared.symbolic, &self.numeric) {
+            (Symbolic::Llt(analysis), Numeric::Llt(llt)) => {
+                // A = Aᴴ, so Aᵀ is the conjugate of A.
+                let conj = if operation == Operation::Transpose { Conj::Yes } else { Conj::No };
+                analysis.solve_in_place(llt, columns, conj);
+            }
+            (Symbolic::Lu(analysis), Numeric::Lu(lu)) => lu.solve_in_place(analysis, operation, columns),
+            _ => unreachable!("a factor is made by its own analysis"),
+        }
+    }
+
+    /// Where pivots were replaced, tells a singular matrix from one that only wanted another order of elimination: a
+    /// right-hand side with a part in every direction has a solution only if the matrix is regular.
+    fn check_regular(&self, matrix: &CscMatrix<T>) -> Result<(), LinalgError> {
+        let Numeric::Lu(lu) = &self.numeric else { return Ok(()) };
+        let Some(row) = lu.first_replaced_row() else { return Ok(()) };
+        let probe = |(index, scale): (usize, &f64)| T::from_real((0.5 + spread(index)) / scale);
+        let rhs: Vec<T> = lu.row_scale().iter().enumerate().map(probe).collect();
+        match self.run(matrix, Operation::Plain, &rhs) {
+            Err(LinalgError::ResidualTooLarge { .. }) => Err(LinalgError::Singular { row }),
+            other => other.map(|_| ()),
+        }
+    }
+}
+
+/// A number in [0, 1) that looks random: multiples of the golden ratio, modulo one (Weyl's sequence).
+fn spread(index: usize) -> f64 {
+    const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
+    (index as f64 * GOLDEN_RATIO).fract()
+}

@@ -1,0 +1,148 @@
+//! GMRES for a system whose factors were disturbed by replaced pivots.
+//!
+//! Saad and Schultz 1986, preconditioned from the right with the factors M and, for rows of very different sizes, with
+//! the rows scaled by R⁻¹:
+//!
+//! ```text
+//! minimise ‖R⁻¹ (b − A (x + M⁻¹ V y))‖   over the Krylov space V of R⁻¹ A M⁻¹
+//! ```
+//!
+//! k replaced pivots change A by a matrix of rank k, so about k + 1 steps suffice.
+
+use super::refine::System;
+use super::scalar::Scalar;
+use super::sparse::{norm, residual};
+
+/// Steps before a restart; each keeps a vector.
+const RESTART: usize = 30;
+/// Restarts before giving up.
+const MOST_RESTARTS: usize = 4;
+/// A restart ends when the residual has fallen this far; the next begins from the true residual.
+const REDUCTION: f64 = 1e-13;
+
+/// Improves `x` in place; returns the number of steps.
+pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> usize {
+    if x.iter().any(|x| !x.is_finite_scalar()) {
+        x.fill(T::ZERO);
+    }
+    let mut steps = 0;
+    let mut before = f64::INFINITY;
+    for _ in 0..MOST_RESTARTS {
+        let mut r = scaled_residual(system, x, b);
+        let size = norm(r.iter().copied());
+        // Written so that a NaN ends it.
+        if !(size < 0.5 * before) || size == 0.0 {
+            return steps;
+        }
+        before = size;
+        r.iter_mut().for_each(|r| *r = r.scaled(size.recip()));
+        let mut space =
+            Krylov { basis: vec![r], triangle: Vec::new(), rotations: Vec::new(), rhs: vec![T::from_real(size)] };
+        while space.triangle.len() < RESTART && space.extend(system) && space.remaining() > REDUCTION * size {}
+        steps += space.triangle.len();
+        let mut correction = space.combination();
+        (system.solve)(&mut correction);
+        if correction.iter().any(|value| !value.is_finite_scalar()) {
+            return steps;
+        }
+        x.iter_mut().zip(&correction).for_each(|(x, &correction)| *x += correction);
+    }
+    steps
+}
+
+/// R⁻¹ (b − op(A) x).
+fn scaled_residual<T: Scalar>(system: &System<'_, T>, x: &[T], b: &[T]) -> Vec<T> {
+    let mut r = vec![T::ZERO; b.len()];
+    residual(system.matrix, system.operation, x, b, &mut r);
+    if let Some(scale) = system.row_scale {
+        r.iter_mut().zip(scale).for_each(|(r, &scale)| *r = r.scaled(scale));
+    }
+    r
+}
+
+/// An orthonormal basis of the Krylov space and the least-squares problem in it, made triangular by rotations.
+struct Krylov<T> {
+    basis: Vec<Vec<T>>,
+    /// Columns of the triangular factor.
+    triangle: Vec<Vec<T>>,
+    /// Cosine and sine of each rotation.
+    rotations: Vec<(f64, T)>,
+    rhs: Vec<T>,
+}
+
+impl<T: Scalar> Krylov<T> {
+    /// Adds one vector. False when the space cannot grow.
+    fn extend(&mut self, system: &System<'_, T>) -> bool {
+        let mut direction = self.basis.last().expect("begins with one").clone();
+        (system.solve)(&mut direction);
+        let zero = vec![T::ZERO; direction.len()];
+        let mut next = scaled_residual(system, &direction, &zero);
+        next.iter_mut().for_each(|value| *value = -*value);
+        let before = norm(next.iter().copied());
+        let mut column: Vec<T> = vec![T::ZERO; self.basis.len()];
+        // Twice is enough (Kahan and Parlett) to stay orthogonal.
+        for _ in 0..2 {
+            for (entry, known) in column.iter_mut().zip(&self.basis) {
+                let part = known.iter().zip(&next).fold(T::ZERO, |sum, (&q, &v)| sum + q.conjugated() * v);
+                next.iter_mut().zip(known).for_each(|(v, &q)| *v -= part * q);
+                *entry += part;
+            }
+        }
+        let left = norm(next.iter().copied());
+        if !before.is_finite() || before == 0.0 {
+            return false;
+        }
+        self.rotate(column, left);
+        let grows = left > f64::EPSILON * before;
+        if grows {
+            next.iter_mut().for_each(|value| *value = value.scaled(left.recip()));
+            self.basis.push(next);
+        }
+        grows
+    }
+
+    /// Applies the rotations so far to a new column and adds the one that removes `left` below its diagonal.
+    fn rotate(&mut self, mut column: Vec<T>, left: f64) {
+        for (k, &(cosine, sine)) in self.rotations.iter().enumerate() {
+            let (upper, lower) = (column[k], column[k + 1]);
+            column[k] = upper.scaled(cosine) + sine * lower;
+            column[k + 1] = lower.scaled(cosine) - sine.conjugated() * upper;
+        }
+        let k = column.len() - 1;
+        let diagonal = column[k];
+        let modulus = norm(std::iter::once(diagonal));
+        let length = modulus.hypot(left);
+        let (cosine, sine) =
+            if modulus == 0.0 { (0.0, T::ONE) } else { (modulus / length, diagonal.scaled(left / (modulus * length))) };
+        column[k] = diagonal.scaled(cosine) + sine.scaled(left);
+        let above = self.rhs[k];
+        self.rhs[k] = above.scaled(cosine);
+        self.rhs.push(-(sine.conjugated() * above));
+        self.rotations.push((cosine, sine));
+        self.triangle.push(column);
+    }
+
+    /// Norm of the residual of the least-squares problem.
+    fn remaining(&self) -> f64 {
+        self.rhs.last().map_or(0.0, |last| norm(std::iter::once(*last)))
+    }
+
+    /// V y.
+    fn combination(&self) -> Vec<T> {
+        let count = self.triangle.len();
+        let mut y = self.rhs[..count].to_vec();
+        for k in (0..count).rev() {
+            let diagonal = self.triangle[k][k];
+            y[k] = if diagonal == T::ZERO { T::ZERO } else { y[k] / diagonal };
+            for (row, &entry) in self.triangle[k][..k].iter().enumerate() {
+                let known = y[k];
+                y[row] -= entry * known;
+            }
+        }
+        let mut sum = vec![T::ZERO; self.basis[0].len()];
+        for (&y, known) in y.iter().zip(&self.basis) {
+            sum.iter_mut().zip(known).for_each(|(sum, &q)| *sum += y * q);
+        }
+        sum
+    }
+}

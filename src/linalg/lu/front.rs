@@ -1,0 +1,87 @@
+//! One front: assembly, elimination, update.
+
+use faer::{Accum, MatMut, MatRef, Par, linalg};
+
+use super::pivot::{Pivots, factor_block};
+use super::symbolic::{Entry, Shape};
+use crate::linalg::scalar::Scalar;
+
+/// A dense front under way. The two panels are the factor's own memory.
+pub(super) struct Front<'a, T> {
+    pub(super) shape: Shape,
+    /// `height` × `columns`.
+    pub(super) left: &'a mut [T],
+    /// `columns` × `below`.
+    pub(super) right: &'a mut [T],
+    /// `below` × `below`.
+    pub(super) update: &'a mut [T],
+}
+
+impl<T: Scalar> Front<'_, T> {
+    /// Adds a child's update; `relative` are its rows in this front, ascending.
+    pub(super) fn extend_add(&mut self, update: &[T], relative: &[u32]) {
+        let Shape { columns, below } = self.shape;
+        let height = self.shape.height();
+        if relative.is_empty() {
+            return;
+        }
+        let inside = relative.partition_point(|&row| (row as usize) < columns);
+        let (upper_rows, lower_rows) = relative.split_at(inside);
+        for (source, &column) in update.chunks_exact(relative.len()).zip(relative) {
+            let column = column as usize;
+            if column < columns {
+                scatter_add(&mut self.left[column * height..][..height], relative, 0, source);
+            } else {
+                let column = column - columns;
+                let (upper, lower) = source.split_at(inside);
+                scatter_add(&mut self.right[column * columns..][..columns], upper_rows, 0, upper);
+                scatter_add(&mut self.update[column * below..][..below], lower_rows, columns, lower);
+            }
+        }
+    }
+
+    /// Eliminates the front's columns and leaves the Schur complement in `update`.
+    pub(super) fn eliminate(&mut self, pivots: &mut Pivots<'_>, par: Par) {
+        let Shape { columns, below } = self.shape;
+        let height = self.shape.height();
+        factor_block(self.left, height, self.right, pivots);
+        if below == 0 {
+            return;
+        }
+        let (block, mut lower) = mat_mut(self.left, height, columns).split_at_row_mut(columns);
+        let block = block.as_ref();
+        let mut right = mat_mut(self.right, columns, below);
+        linalg::triangular_solve::solve_unit_lower_triangular_in_place(block, right.as_mut(), par);
+        // L₂₁ U₁₁ = A₂₁ as U₁₁ᵀ L₂₁ᵀ = A₂₁ᵀ.
+        linalg::triangular_solve::solve_lower_triangular_in_place(
+            block.transpose(),
+            lower.as_mut().transpose_mut(),
+            par,
+        );
+        let update = mat_mut(self.update, below, below);
+        linalg::matmul::matmul(update, Accum::Add, lower.as_ref(), right.as_ref(), -T::ONE, par);
+    }
+}
+
+/// Writes a supernode's entries of the scaled matrix into its block.
+pub(super) fn scatter<T: Scalar>(block: &mut [T], entries: &[Entry], scaled: impl Fn(usize) -> T) {
+    for entry in entries {
+        block[entry.target as usize] = scaled(entry.source as usize);
+    }
+}
+
+fn scatter_add<T: Scalar>(target: &mut [T], rows: &[u32], first: usize, source: &[T]) {
+    for (&row, &value) in rows.iter().zip(source) {
+        target[row as usize - first] += value;
+    }
+}
+
+/// A column-major slice as a matrix.
+pub(super) fn mat<T>(values: &[T], rows: usize, columns: usize) -> MatRef<'_, T> {
+    MatRef::from_column_major_slice(values, rows, columns)
+}
+
+/// A column-major slice as a matrix to be changed.
+pub(super) fn mat_mut<T>(values: &mut [T], rows: usize, columns: usize) -> MatMut<'_, T> {
+    MatMut::from_column_major_slice_mut(values, rows, columns)
+}

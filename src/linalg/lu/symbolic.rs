@@ -1,0 +1,242 @@
+//! Symbolic factorization: the pattern of every front, and where each number goes.
+//!
+//! Everything that depends on the pattern alone is found here once, so that the numeric factorization neither searches
+//! nor sorts: `relative` says where the rows of an update lie in the parent's front, `entries` where the entries of A
+//! lie in theirs.
+
+use super::supernodes::{Supernodes, supernodes};
+use super::units::{Unit, units};
+use crate::linalg::LinalgError;
+use crate::linalg::order::{Elimination, NONE, Order, Pattern, narrow};
+
+/// An entry of the caller's matrix and its place in the kept part of a front.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    /// Position among the matrix's values.
+    pub(super) source: u32,
+    /// Position in the supernode's block: L panel first, then U panel.
+    pub(super) target: u32,
+}
+
+/// Sizes of one front.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape {
+    /// Columns that the supernode eliminates.
+    pub(super) columns: usize,
+    /// Rows, and columns, that it passes to its parent.
+    pub(super) below: usize,
+}
+
+impl Shape {
+    /// Order of the front.
+    pub(super) fn height(self) -> usize {
+        self.columns + self.below
+    }
+    /// Entries of the L panel, diagonal block included.
+    pub(super) fn left_len(self) -> usize {
+        self.height() * self.columns
+    }
+    /// Entries that are kept: both panels.
+    pub(super) fn kept_len(self) -> usize {
+        self.left_len() + self.columns * self.below
+    }
+    /// Entries of the update.
+    pub(super) fn update_len(self) -> usize {
+        self.below * self.below
+    }
+    /// Multiplications, to leading order.
+    pub(super) fn work(self) -> f64 {
+        let (c, p) = (self.columns as f64, self.below as f64);
+        c * (c * c / 3.0 + c * p + p * p)
+    }
+}
+
+/// The pattern of L and U, supernode by supernode, in a postorder of the supernode tree.
+#[derive(Debug)]
+pub(crate) struct LuAnalysis {
+    pub(super) order: Order,
+    /// First column of each supernode, and the order of the matrix last.
+    pub(super) begin: Vec<u32>,
+    pub(super) parent: Vec<u32>,
+    row_offsets: Vec<u32>,
+    rows: Vec<u32>,
+    relative: Vec<u32>,
+    entry_offsets: Vec<u32>,
+    entries: Vec<Entry>,
+    child_offsets: Vec<u32>,
+    children: Vec<u32>,
+    pub(super) units: Vec<Unit>,
+    pub(super) unit_of: Vec<u32>,
+}
+
+impl LuAnalysis {
+    pub(crate) fn new(pattern: &Pattern, elimination: &Elimination) -> Result<Self, LinalgError> {
+        let Supernodes { begin, parent, below, columns } = supernodes(elimination);
+        let order = elimination.order.then(&columns);
+        let row_offsets = running_sum(&below);
+        let rows = front_rows(&pattern.permuted_upper(&order), &begin, &parent, &row_offsets);
+        let (child_offsets, children) = children(&parent);
+        let mut this = Self {
+            order,
+            begin,
+            parent,
+            row_offsets,
+            rows,
+            relative: Vec::new(),
+            entry_offsets: Vec::new(),
+            entries: Vec::new(),
+            child_offsets,
+            children,
+            units: Vec::new(),
+            unit_of: Vec::new(),
+        };
+        // Places inside a front are counted in 32 bits: fronts up to order 65,535.
+        let too_large = |s| u32::try_from(this.shape(s).height().pow(2)).is_err();
+        if (0..this.count()).any(too_large) {
+            return Err(LinalgError::TooLarge { order: pattern.order() });
+        }
+        this.relative = this.relative_rows();
+        this.place_entries(pattern);
+        let work: Vec<f64> = (0..this.count()).map(|s| this.shape(s).work()).collect();
+        (this.units, this.unit_of) = units(&this.parent, &work);
+        Ok(this)
+    }
+
+    /// Number of supernodes.
+    pub(super) fn count(&self) -> usize {
+        self.parent.len()
+    }
+
+    pub(super) fn shape(&self, supernode: usize) -> Shape {
+        let columns = (self.begin[supernode + 1] - self.begin[supernode]) as usize;
+        Shape { columns, below: (self.row_offsets[supernode + 1] - self.row_offsets[supernode]) as usize }
+    }
+
+    /// Rows below the diagonal block, ascending, in the order of elimination.
+    pub(super) fn rows(&self, supernode: usize) -> &[u32] {
+        &self.rows[self.row_offsets[supernode] as usize..self.row_offsets[supernode + 1] as usize]
+    }
+
+    /// The same rows as positions in the parent's front.
+    pub(super) fn relative(&self, supernode: usize) -> &[u32] {
+        &self.relative[self.row_offsets[supernode] as usize..self.row_offsets[supernode + 1] as usize]
+    }
+
+    pub(super) fn entries(&self, supernode: usize) -> &[Entry] {
+        &self.entries[self.entry_offsets[supernode] as usize..self.entry_offsets[supernode + 1] as usize]
+    }
+
+    pub(super) fn children(&self, supernode: usize) -> &[u32] {
+        &self.children[self.child_offsets[supernode] as usize..self.child_offsets[supernode + 1] as usize]
+    }
+
+    fn relative_rows(&self) -> Vec<u32> {
+        let mut relative = Vec::with_capacity(self.rows.len());
+        for supernode in 0..self.count() {
+            let Some(&parent) = self.parent.get(supernode).filter(|&&parent| parent != NONE) else { continue };
+            let parent = parent as usize;
+            let (begin, end) = (self.begin[parent], self.begin[parent + 1]);
+            let mut parents_rows = self.rows(parent).iter().zip(end - begin..);
+            for &row in self.rows(supernode) {
+                relative.push(if row < end {
+                    row - begin
+                } else {
+                    let found = parents_rows.by_ref().find(|&(&other, _)| other == row);
+                    found.expect("a child's rows lie in its parent's front").1
+                });
+            }
+        }
+        relative
+    }
+
+    fn place_entries(&mut self, pattern: &Pattern) {
+        let mirror = mirrored_positions(pattern);
+        let mut local = vec![0u32; pattern.order()];
+        let mut entries = Vec::with_capacity(pattern.rows.len());
+        let mut offsets = vec![0u32];
+        for supernode in 0..self.count() {
+            let Shape { columns, below } = self.shape(supernode);
+            let (begin, end) = (self.begin[supernode], self.begin[supernode + 1]);
+            let height = narrow(columns + below);
+            for (&row, place) in self.rows(supernode).iter().zip(0..) {
+                local[row as usize] = place;
+            }
+            for column in begin..end {
+                let old = self.order.new_to_old[column as usize] as usize;
+                let place = column - begin;
+                for source in pattern.offsets[old]..pattern.offsets[old + 1] {
+                    let row = self.order.old_to_new[pattern.rows[source as usize] as usize];
+                    if row >= end {
+                        let below = local[row as usize];
+                        let target = height * place + narrow(columns) + below;
+                        entries.push(Entry { source, target });
+                        let target = height * narrow(columns) + narrow(columns) * below + place;
+                        entries.push(Entry { source: mirror[source as usize], target });
+                    } else if row >= begin {
+                        entries.push(Entry { source, target: height * place + row - begin });
+                    }
+                }
+            }
+            offsets.push(narrow(entries.len()));
+        }
+        (self.entry_offsets, self.entries) = (offsets, entries);
+    }
+}
+
+fn running_sum(counts: &[u32]) -> Vec<u32> {
+    let mut total = 0usize;
+    let later = counts.iter().map(|&count| {
+        total += count as usize;
+        narrow(total)
+    });
+    std::iter::once(0).chain(later).collect()
+}
+
+/// The rows of every front below its diagonal block: row k lies in the fronts on the way up the tree from each
+/// entry (k, i), i < k, of A to the supernode of k itself.
+fn front_rows(upper: &Pattern, begin: &[u32], parent: &[u32], offsets: &[u32]) -> Vec<u32> {
+    let mut owner = Vec::with_capacity(upper.order());
+    for (supernode, pair) in begin.windows(2).enumerate() {
+        owner.resize(pair[1] as usize, narrow(supernode));
+    }
+    let mut next = offsets.to_vec();
+    let mut rows = vec![0u32; next[parent.len()] as usize];
+    let mut seen = vec![NONE; parent.len()];
+    for row in 0..upper.order() {
+        for &column in upper.column(row) {
+            let mut supernode = owner[column as usize] as usize;
+            while supernode != owner[row] as usize && seen[supernode] != narrow(row) {
+                seen[supernode] = narrow(row);
+                rows[next[supernode] as usize] = narrow(row);
+                next[supernode] += 1;
+                supernode = parent[supernode] as usize;
+            }
+        }
+    }
+    debug_assert!(next[..parent.len()] == offsets[1..], "counts and patterns agree");
+    rows
+}
+
+/// Children of every node, ascending.
+fn children(parent: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut counts = vec![0u32; parent.len()];
+    parent.iter().filter(|&&above| above != NONE).for_each(|&above| counts[above as usize] += 1);
+    let offsets = running_sum(&counts);
+    let mut next = offsets.clone();
+    let mut children = vec![0u32; offsets[parent.len()] as usize];
+    for (node, &above) in parent.iter().enumerate().filter(|(_, above)| **above != NONE) {
+        children[next[above as usize] as usize] = narrow(node);
+        next[above as usize] += 1;
+    }
+    (offsets, children)
+}
+
+/// For every entry (i, j) the position of the entry (j, i).
+fn mirrored_positions(pattern: &Pattern) -> Vec<u32> {
+    let mut next: Vec<u32> = pattern.offsets[..pattern.order()].to_vec();
+    let position = |&row: &u32| {
+        next[row as usize] += 1;
+        next[row as usize] - 1
+    };
+    pattern.rows.iter().map(position).collect()
+}

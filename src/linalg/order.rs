@@ -1,0 +1,227 @@
+//! The order of elimination: approximate minimum degree, made a postorder of the elimination tree.
+//!
+//! AMD (Amestoy, Davis and Duff 1996, through faer) keeps the fill small; a postorder of the elimination tree changes
+//! neither fill nor flops but numbers every subtree contiguously, which supernodes and parallel subtrees need.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::perm::PermRef;
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+use faer::sparse::linalg::cholesky::simplicial;
+use nalgebra_sparse::CscMatrix;
+use nalgebra_sparse::pattern::SparsityPattern;
+
+use super::LinalgError;
+
+/// "No parent" in a tree of `u32`.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// A symmetric pattern with 32-bit indices, columns sorted.
+#[derive(Clone, Debug)]
+pub(super) struct Pattern {
+    pub(super) offsets: Vec<u32>,
+    pub(super) rows: Vec<u32>,
+}
+
+impl Pattern {
+    /// Copies a pattern after checking that it is square and symmetric and has its diagonal.
+    pub(super) fn checked(pattern: &SparsityPattern) -> Result<Self, LinalgError> {
+        let order = pattern.major_dim();
+        if pattern.minor_dim() != order {
+            return Err(LinalgError::NotSquare { rows: pattern.minor_dim(), columns: order });
+        }
+        // faer keeps a sign bit to itself.
+        if i32::try_from(pattern.nnz()).is_err() {
+            return Err(LinalgError::TooLarge { order });
+        }
+        let narrowed = |indices: &[usize]| indices.iter().map(|&index| narrow(index)).collect();
+        let this = Self { offsets: narrowed(pattern.major_offsets()), rows: narrowed(pattern.minor_indices()) };
+        this.check_symmetric()?;
+        Ok(this)
+    }
+
+    /// Order of the matrix.
+    pub(super) fn order(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// The rows of one column.
+    pub(super) fn column(&self, column: usize) -> &[u32] {
+        &self.rows[self.offsets[column] as usize..self.offsets[column + 1] as usize]
+    }
+
+    /// The same pattern as faer sees it.
+    pub(super) fn as_faer(&self) -> SymbolicSparseColMatRef<'_, u32> {
+        let n = self.order();
+        SymbolicSparseColMatRef::new_checked(n, n, &self.offsets, None, &self.rows)
+    }
+
+    /// Whether a matrix has just these entries.
+    pub(super) fn is_that_of<T>(&self, matrix: &CscMatrix<T>) -> bool {
+        let same = |narrow: &[u32], wide: &[usize]| {
+            narrow.len() == wide.len() && narrow.iter().zip(wide).all(|(&narrow, &wide)| narrow as usize == wide)
+        };
+        matrix.nrows() == self.order()
+            && same(&self.offsets, matrix.pattern().major_offsets())
+            && same(&self.rows, matrix.pattern().minor_indices())
+    }
+
+    /// Walks the columns once: entry (i, j) of column j must be the next unread entry of row j in column i.
+    fn check_symmetric(&self) -> Result<(), LinalgError> {
+        let mut next: Vec<u32> = self.offsets[..self.order()].to_vec();
+        for column in 0..self.order() {
+            let fault = |row: u32| LinalgError::PatternNotSymmetric { row: row as usize, column };
+            let rows = self.column(column);
+            if rows.binary_search(&narrow(column)).is_err() {
+                return Err(fault(narrow(column)));
+            }
+            for &row in rows {
+                let position = &mut next[row as usize];
+                if *position >= self.offsets[row as usize + 1] || self.rows[*position as usize] != narrow(column) {
+                    return Err(fault(row));
+                }
+                *position += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// The upper triangle of the pattern renumbered by `order`, columns sorted.
+    pub(super) fn permuted_upper(&self, order: &Order) -> Self {
+        let n = self.order();
+        let mut offsets = vec![0u32; n + 1];
+        let upper = |new_row: usize| {
+            let lane = self.column(order.new_to_old[new_row] as usize);
+            lane.iter().map(|&old| order.old_to_new[old as usize]).filter(move |&column| column as usize >= new_row)
+        };
+        for row in 0..n {
+            upper(row).for_each(|column| offsets[column as usize + 1] += 1);
+        }
+        for column in 0..n {
+            offsets[column + 1] += offsets[column];
+        }
+        let mut next = offsets.clone();
+        let mut rows = vec![0u32; offsets[n] as usize];
+        for row in 0..n {
+            for column in upper(row) {
+                rows[next[column as usize] as usize] = narrow(row);
+                next[column as usize] += 1;
+            }
+        }
+        Self { offsets, rows }
+    }
+}
+
+/// An index that [`Pattern::checked`] has already found to fit.
+pub(super) fn narrow(index: usize) -> u32 {
+    u32::try_from(index).expect("orders and positions were checked to fit 32 bits")
+}
+
+/// A renumbering of rows and columns alike.
+#[derive(Clone, Debug)]
+pub(super) struct Order {
+    pub(super) new_to_old: Vec<u32>,
+    pub(super) old_to_new: Vec<u32>,
+}
+
+impl Order {
+    /// The order in which new index `k` stands for `new_to_old[k]`.
+    pub(super) fn from_new_to_old(new_to_old: Vec<u32>) -> Self {
+        let mut old_to_new = vec![0; new_to_old.len()];
+        for (new, &old) in new_to_old.iter().enumerate() {
+            old_to_new[old as usize] = narrow(new);
+        }
+        Self { new_to_old, old_to_new }
+    }
+
+    /// The order that applies `self` and then `later` to the result.
+    pub(super) fn then(&self, later: &[u32]) -> Self {
+        Self::from_new_to_old(later.iter().map(|&middle| self.new_to_old[middle as usize]).collect())
+    }
+
+    /// The same as a faer permutation.
+    pub(super) fn as_faer(&self) -> PermRef<'_, u32> {
+        PermRef::new_checked(&self.new_to_old, &self.old_to_new, self.new_to_old.len())
+    }
+}
+
+/// Elimination order with its tree: `parent[j]` is the first row below the diagonal of column j of the factor, and
+/// `counts[j]` the number of entries of that column, diagonal included.
+pub(super) struct Elimination {
+    pub(super) order: Order,
+    pub(super) parent: Vec<u32>,
+    pub(super) counts: Vec<u32>,
+}
+
+/// Orders a pattern by AMD and a postorder of the elimination tree.
+pub(super) fn order(pattern: &Pattern) -> Result<Elimination, LinalgError> {
+    let n = pattern.order();
+    let degree = minimum_degree(pattern)?;
+    let upper = pattern.permuted_upper(&degree);
+    let (parent, counts) = elimination_tree(&upper);
+    let post = postorder(&parent);
+    let mut position = vec![0u32; n];
+    for (new, &old) in post.iter().enumerate() {
+        position[old as usize] = narrow(new);
+    }
+    let renamed = |old: u32| if parent[old as usize] == NONE { NONE } else { position[parent[old as usize] as usize] };
+    Ok(Elimination {
+        order: degree.then(&post),
+        parent: post.iter().map(|&old| renamed(old)).collect(),
+        counts: post.iter().map(|&old| counts[old as usize]).collect(),
+    })
+}
+
+fn minimum_degree(pattern: &Pattern) -> Result<Order, LinalgError> {
+    let n = pattern.order();
+    let too_large = LinalgError::TooLarge { order: n };
+    let scratch = amd::order_scratch::<u32>(n, pattern.rows.len());
+    let mut memory = MemBuffer::try_new(scratch).map_err(|_| too_large.clone())?;
+    let (mut new_to_old, mut old_to_new) = (vec![0; n], vec![0; n]);
+    let control = amd::Control::default();
+    amd::order(&mut new_to_old, &mut old_to_new, pattern.as_faer(), control, MemStack::new(&mut memory))
+        .map_err(|_| too_large)?;
+    Ok(Order { new_to_old, old_to_new })
+}
+
+/// Parent and column count of every column, from the upper triangle (faer's walk over row subtrees).
+fn elimination_tree(upper: &Pattern) -> (Vec<u32>, Vec<u32>) {
+    let n = upper.order();
+    let (mut tree, mut counts) = (vec![0i32; n], vec![0u32; n]);
+    let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<u32>(n, upper.rows.len());
+    let mut memory = MemBuffer::new(scratch);
+    let stack = MemStack::new(&mut memory);
+    simplicial::prefactorize_symbolic_cholesky::<u32>(&mut tree, &mut counts, upper.as_faer(), stack);
+    // faer writes −1 for a root, which is `NONE` in two's complement.
+    (tree.into_iter().map(i32::cast_unsigned).collect(), counts)
+}
+
+/// A postorder of a forest: children before parents, subtrees contiguous, siblings in their given order.
+pub(super) fn postorder(parent: &[u32]) -> Vec<u32> {
+    let n = parent.len();
+    let (mut first_child, mut sibling) = (vec![NONE; n], vec![NONE; n]);
+    for node in (0..n).rev() {
+        if parent[node] != NONE {
+            sibling[node] = first_child[parent[node] as usize];
+            first_child[parent[node] as usize] = narrow(node);
+        }
+    }
+    let mut post = Vec::with_capacity(n);
+    let mut stack = Vec::new();
+    for root in (0..n).filter(|&node| parent[node] == NONE) {
+        stack.push(narrow(root));
+        while let Some(&node) = stack.last() {
+            let child = std::mem::replace(&mut first_child[node as usize], NONE);
+            if child == NONE {
+                stack.pop();
+                post.push(node);
+                first_child[node as usize] = NONE;
+            } else {
+                // The next visit of this node goes on with the child's sibling.
+                first_child[node as usize] = sibling[child as usize];
+                stack.push(child);
+            }
+        }
+    }
+    post
+}

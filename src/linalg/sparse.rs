@@ -1,0 +1,97 @@
+//! Products of a compressed-column matrix with a vector, and norms.
+
+use nalgebra_sparse::CscMatrix;
+
+use super::LinalgError;
+use super::scalar::Scalar;
+
+/// Which of the three systems of a matrix is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Operation {
+    /// A x = b.
+    Plain,
+    /// Aᵀ x = b.
+    Transpose,
+    /// Aᴴ x = b.
+    Adjoint,
+}
+
+/// Writes `rhs − op(A) x` into `out`.
+pub(super) fn residual<T: Scalar>(matrix: &CscMatrix<T>, operation: Operation, x: &[T], rhs: &[T], out: &mut [T]) {
+    let (offsets, rows, values) = matrix.csc_data();
+    out.copy_from_slice(rhs);
+    let columns = offsets.windows(2).map(|pair| (&rows[pair[0]..pair[1]], &values[pair[0]..pair[1]]));
+    match operation {
+        Operation::Plain => {
+            for ((rows, values), &xj) in columns.zip(x) {
+                for (&row, &value) in rows.iter().zip(values) {
+                    out[row] -= value * xj;
+                }
+            }
+        }
+        Operation::Transpose => {
+            for ((rows, values), out) in columns.zip(out) {
+                *out -= rows.iter().zip(values).fold(T::ZERO, |sum, (&row, &value)| sum + value * x[row]);
+            }
+        }
+        Operation::Adjoint => {
+            for ((rows, values), out) in columns.zip(out) {
+                *out -= rows.iter().zip(values).fold(T::ZERO, |sum, (&row, &value)| sum + value.conjugated() * x[row]);
+            }
+        }
+    }
+}
+
+/// The Euclidean norm, scaled so that it neither overflows nor underflows.
+pub(super) fn norm<T: Scalar>(vector: impl Iterator<Item = T> + Clone) -> f64 {
+    let largest = vector.clone().fold(0.0, |largest: f64, v| if v.size() <= largest { largest } else { v.size() });
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    // Two factors, because 1/largest overflows where `largest` is subnormal.
+    let half = power_of_two_near(largest).sqrt().recip();
+    let sum: f64 = vector.map(|v| v.scaled(half).scaled(half).squared_modulus()).sum();
+    sum.sqrt() / half / half
+}
+
+/// The power of two at or just below a positive number, so that dividing by it rounds nothing. For numbers below the
+/// normal range it is the smallest normal number.
+pub(super) fn power_of_two_near(value: f64) -> f64 {
+    const EXPONENT_MASK: u64 = 0x7ff0_0000_0000_0000;
+    f64::from_bits(value.to_bits() & EXPONENT_MASK).max(f64::MIN_POSITIVE)
+}
+
+/// The first row that holds an entry which is not finite.
+///
+/// # Errors
+///
+/// [`LinalgError::NotFinite`] names it.
+pub(super) fn check_finite<T: Scalar>(matrix: &CscMatrix<T>) -> Result<(), LinalgError> {
+    let broken = matrix.row_indices().iter().zip(matrix.values()).filter(|(_, value)| !value.is_finite_scalar());
+    broken.map(|(&row, _)| row).min().map_or(Ok(()), |row| Err(LinalgError::NotFinite { row }))
+}
+
+/// The componentwise backward error maxᵢ |r|ᵢ / (|op(A)||x| + |b|)ᵢ of an answer with residual `r`, sizes measured by
+/// [`Scalar::size`]. A row with both 0 counts as 0.
+pub(super) fn backward_error<T: Scalar>(
+    matrix: &CscMatrix<T>,
+    operation: Operation,
+    x: &[T],
+    rhs: &[T],
+    r: &[T],
+) -> f64 {
+    let (offsets, rows, values) = matrix.csc_data();
+    let mut scale: Vec<f64> = rhs.iter().map(|b| b.size()).collect();
+    for (column, pair) in offsets.windows(2).enumerate() {
+        let entries = rows[pair[0]..pair[1]].iter().zip(&values[pair[0]..pair[1]]);
+        if operation == Operation::Plain {
+            let size = x[column].size();
+            entries.for_each(|(&row, value)| scale[row] += value.size() * size);
+        } else {
+            scale[column] += entries.map(|(&row, value)| value.size() * x[row].size()).sum::<f64>();
+        }
+    }
+    // `max` would drop a NaN.
+    let worse = |worst: f64, ratio: f64| if ratio <= worst { worst } else { ratio };
+    r.iter().zip(scale).filter(|(r, _)| r.size() != 0.0).map(|(r, scale)| r.size() / scale).fold(0.0, worse)
+}
