@@ -1,4 +1,9 @@
 //! Tests of the core: everything below the screen.
 
 mod common;
+mod distortion;
 mod mesh;
+mod verdict;
+mod verdict_cases;
+mod verdict_oracle;
+mod verdict_random;

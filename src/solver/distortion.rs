@@ -1,0 +1,209 @@
+//! How far an embedding is from an isometry: angles, areas and stretch, per face and summed up.
+//!
+//! # Equations
+//!
+//! On a face the map from the surface to the plane is linear; J is its 2×2 matrix in a frame of the face, and
+//! σ₁ ≥ σ₂ ≥ 0 are J's singular values after the embedding was scaled to the total area of the surface, so that no
+//! measure depends on the embedding's size. With A the area on the surface and A′ the area in the plane:
+//!
+//! ```text
+//! angle        σ₁ / σ₂                         1 where angles are kept
+//! area         σ₁ σ₂ = A′ / A                  1 where the area is kept
+//! stretch L²   √((1/σ₁² + 1/σ₂²) / 2)          root mean square length on the surface of unit vectors of the plane
+//! stretch L∞   1/σ₂                            the greatest such length
+//!
+//! with J = (a b; c d):    σ₁ = (|(a + d, c − b)| + |(a − d, b + c)|) / 2,    σ₁ σ₂ = |ad − bc|
+//! ```
+//!
+//! Summed up, in the mean a face counts by its area A on the surface:
+//!
+//! ```text
+//! mean q = Σ A q / Σ A      stretch L² = √(Σ A L²² / Σ A)      stretch L∞ = max L∞
+//! ```
+//!
+//! The 99th percentile is weighted alike: the least value that 99 % of the surface does not exceed. The mean of
+//! A′/A is 1 whatever the embedding, so areas are summed up as max(A′/A, A/A′), 1 at best as the angles.
+//!
+//! Source of the stretch: P. Sander, J. Snyder, S. Gortler, H. Hoppe, "Texture Mapping Progressive Meshes", 2001, with
+//! Γ = 1/σ₂ and γ = 1/σ₁.
+//!
+//! # Degenerate faces
+//!
+//! Areas are unsigned: a flipped face counts as its mirror image does; that it is flipped the verdict tells. A face of
+//! area zero in the plane, or with a corner that is not finite, has area 0 and all else infinite. A face of area zero
+//! on the surface has no J; its values are all 1 and it does not count in any sum, percentile or maximum. No value is
+//! ever NaN. JSON has no infinity and shows `null` for it.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::mesh::{DiskMesh, TriMesh, VertexId};
+
+/// Distortion of one face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceDistortion {
+    /// σ₁/σ₂, at least 1.
+    pub angle: f64,
+    /// A′/A at equal total areas: below 1 where the face shrank, above where it grew.
+    pub area: f64,
+    /// Root mean square stretch from the plane to the surface.
+    pub stretch_l2: f64,
+    /// Greatest stretch from the plane to the surface.
+    pub stretch_linf: f64,
+}
+
+/// Distortion of an embedding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distortion {
+    /// One entry per face.
+    pub faces: Vec<FaceDistortion>,
+    /// All faces together.
+    pub summary: DistortionSummary,
+}
+
+/// Distortion summed up over the surface; the report's object of that name.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DistortionSummary {
+    /// Of σ₁/σ₂.
+    pub angle: Spread,
+    /// Of max(A′/A, A/A′).
+    pub area: Spread,
+    /// Root mean square stretch from the plane to the surface.
+    pub stretch_l2: f64,
+    /// Greatest stretch from the plane to the surface.
+    pub stretch_linf: f64,
+}
+
+/// How a quantity is spread over the surface. Infinite values are shown as `null` in JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// Mean, weighted by area on the surface.
+    pub mean: f64,
+    /// The least value that 99 % of the surface does not exceed.
+    pub p99: f64,
+    /// The greatest value.
+    pub max: f64,
+}
+
+/// Measures the distortion of an embedding.
+///
+/// # Panics
+///
+/// If the embedding does not have one position per vertex.
+pub fn distortion(mesh: &DiskMesh, embedding: &[DVec2]) -> Distortion {
+    assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
+    let maps = face_maps(mesh.mesh(), embedding);
+    let total = |of: fn(&FaceMap) -> f64| maps.iter().map(of).filter(|area| area.is_finite()).sum::<f64>();
+    let (area_in_embedding, area) = (total(|map| map.double_area * map.determinant), total(|map| map.double_area));
+    // Multiplies a squared length in the plane to make the total areas equal.
+    let scale = area / area_in_embedding;
+    let faces: Vec<FaceDistortion> = maps.iter().map(|map| map.distortion(scale)).collect();
+    let weights: Vec<f64> = maps.iter().map(|map| map.double_area).collect();
+    let summary = summary(&faces, &weights);
+    Distortion { faces, summary }
+}
+
+/// The linear map of one face, in units of the extents of surface and embedding.
+#[derive(Clone, Copy)]
+struct FaceMap {
+    /// Twice the area on the surface, 0 where it cannot be told from 0.
+    double_area: f64,
+    /// |det J|.
+    determinant: f64,
+    /// σ₁.
+    greater: f64,
+}
+
+/// Faces that share the work of one task.
+const FACES_PER_TASK: usize = 4096;
+
+/// The maps of all faces.
+fn face_maps(mesh: &TriMesh, embedding: &[DVec2]) -> Vec<FaceMap> {
+    let extent = |greatest: f64, size: f64| if size.is_finite() { greatest.max(size) } else { greatest };
+    let in_space =
+        reciprocal(mesh.positions.iter().map(|&p| (p - mesh.positions[0]).abs().max_element()).fold(0.0, extent));
+    let origin = embedding.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
+    let in_plane = reciprocal(embedding.iter().map(|&p| (p - origin).abs().max_element()).fold(0.0, extent));
+    let map = |triangle: &[VertexId; 3]| {
+        let [a, b, c] = triangle.map(|v| mesh.positions[v.index()]);
+        let [p, q, r] = triangle.map(|v| embedding[v.index()]);
+        FaceMap::new([(b - a) * in_space, (c - a) * in_space], [(q - p) * in_plane, (r - p) * in_plane])
+    };
+    mesh.triangles.par_iter().with_min_len(FACES_PER_TASK).map(map).collect()
+}
+
+/// One over an extent, kept finite, so that squares of lengths neither underflow nor overflow.
+fn reciprocal(extent: f64) -> f64 {
+    /// The greatest factor, 1/length: an extent below its reciprocal is as good as zero beside any other.
+    const GREATEST: f64 = 1e307;
+    extent.recip().min(GREATEST)
+}
+
+impl FaceMap {
+    /// The map that takes two edges of a face, from one corner, to two edges in the plane.
+    fn new([first, second]: [DVec3; 2], [first_in_plane, second_in_plane]: [DVec2; 2]) -> Self {
+        let double_area = first.cross(second).length();
+        let length = first.length();
+        // J takes (length, 0) and (along, height) to the edges in the plane.
+        let (along, height) = (first.dot(second) / length, double_area / length);
+        let column = first_in_plane / length;
+        let other = (second_in_plane - column * along) / height;
+        let determinant = (first_in_plane.perp_dot(second_in_plane) / double_area).abs();
+        let like_turn = DVec2::new(column.x + other.y, column.y - other.x);
+        let like_mirror = DVec2::new(column.x - other.y, column.y + other.x);
+        Self { double_area, determinant, greater: f64::midpoint(like_turn.length(), like_mirror.length()) }
+    }
+
+    /// The measures, squared lengths in the plane multiplied by `scale`.
+    fn distortion(self, scale: f64) -> FaceDistortion {
+        let Self { double_area, determinant, greater } = self;
+        if double_area == 0.0 {
+            return FaceDistortion { angle: 1.0, area: 1.0, stretch_l2: 1.0, stretch_linf: 1.0 };
+        }
+        if !(determinant > 0.0 && determinant.is_finite() && greater.is_finite() && scale.is_finite()) {
+            let infinite = f64::INFINITY;
+            return FaceDistortion { angle: infinite, area: 0.0, stretch_l2: infinite, stretch_linf: infinite };
+        }
+        // Not the difference of the two lengths, which cancels.
+        let lesser = determinant / greater;
+        FaceDistortion {
+            angle: (greater / lesser).max(1.0),
+            area: determinant * scale,
+            stretch_l2: greater.hypot(lesser) / (determinant * (2.0 * scale).sqrt()),
+            stretch_linf: 1.0 / (lesser * scale.sqrt()),
+        }
+    }
+}
+
+/// Sums up the distortion of faces, each counted by its weight.
+fn summary(faces: &[FaceDistortion], weights: &[f64]) -> DistortionSummary {
+    let weighted = |of: fn(&FaceDistortion) -> f64| -> Vec<(f64, f64)> {
+        faces.iter().zip(weights).filter(|&(_, &weight)| weight > 0.0).map(|(face, &w)| (of(face), w)).collect()
+    };
+    let squares = Spread::new(weighted(|face| face.stretch_l2.powi(2)));
+    DistortionSummary {
+        angle: Spread::new(weighted(|face| face.angle)),
+        area: Spread::new(weighted(|face| face.area.max(face.area.recip()))),
+        stretch_l2: squares.mean.sqrt(),
+        stretch_linf: weighted(|face| face.stretch_linf).into_iter().map(|(value, _)| value).fold(1.0, f64::max),
+    }
+}
+
+impl Spread {
+    /// The spread of values with positive weights; 1 where there are none.
+    fn new(mut weighted: Vec<(f64, f64)>) -> Self {
+        /// The part of the surface that may exceed the percentile.
+        const BEYOND: f64 = 0.01;
+        let total: f64 = weighted.iter().map(|&(_, weight)| weight).sum();
+        let mean = weighted.iter().map(|&(value, weight)| value * weight).sum::<f64>() / total;
+        weighted.sort_unstable_by(|first, second| second.0.total_cmp(&first.0));
+        let Some(&(max, _)) = weighted.first() else { return Self { mean: 1.0, p99: 1.0, max: 1.0 } };
+        let mut above = 0.0;
+        let p99 = weighted.iter().find(|&&(_, weight)| {
+            above += weight;
+            above > BEYOND * total
+        });
+        Self { mean, p99: p99.map_or(max, |&(value, _)| value), max }
+    }
+}
