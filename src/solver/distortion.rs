@@ -126,9 +126,12 @@ fn face_maps(mesh: &TriMesh, embedding: &[DVec2]) -> Vec<FaceMap> {
     let origin = embedding.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
     let in_plane = reciprocal(embedding.iter().map(|&p| (p - origin).abs().max_element()).fold(0.0, extent));
     let map = |triangle: &[VertexId; 3]| {
-        let [a, b, c] = triangle.map(|v| mesh.positions[v.index()]);
-        let [p, q, r] = triangle.map(|v| embedding[v.index()]);
-        FaceMap::new([(b - a) * in_space, (c - a) * in_space], [(q - p) * in_plane, (r - p) * in_plane])
+        let corners = triangle.map(|v| mesh.positions[v.index()]);
+        let images = triangle.map(|v| embedding[v.index()]);
+        FaceMap::new(
+            [1, 2].map(|k| (corners[k] - corners[0]) * in_space),
+            [1, 2].map(|k| (images[k] - images[0]) * in_plane),
+        )
     };
     mesh.triangles.par_iter().with_min_len(FACES_PER_TASK).map(map).collect()
 }

@@ -17,8 +17,8 @@ fn grid(n: u32, place: impl Fn(DVec2) -> DVec3) -> DiskMesh {
     let positions =
         (0..=n).flat_map(|j| (0..=n).map(move |i| DVec2::new(f64::from(i), f64::from(j)) / f64::from(n))).map(place);
     let square = |i, j| {
-        let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
-        [[a, b, c], [a, c, d]]
+        let [low, high] = [vertex(i, j), vertex(i + 1, j + 1)];
+        [[low, vertex(i + 1, j), high], [low, high, vertex(i, j + 1)]]
     };
     let triangles: Vec<[u32; 3]> = (0..n).flat_map(|j| (0..n).flat_map(move |i| square(i, j))).collect();
     DiskMesh::try_from(TriMesh::new(positions.collect(), &triangles)).expect("a grid is a disk")
@@ -39,7 +39,7 @@ fn tilted(p: DVec2) -> DVec3 {
 
 /// Asserts what every face and every summary has under one linear map with these singular values, whose product is 1.
 fn assert_uniform(found: &Distortion, greater: f64, lesser: f64) {
-    let stretch_l2 = ((greater.powi(-2) + lesser.powi(-2)) / 2.0).sqrt();
+    let stretch_l2 = f64::midpoint(greater.powi(-2), lesser.powi(-2)).sqrt();
     for face in &found.faces {
         assert_near(face.angle, greater / lesser, TOLERANCE);
         assert_near(face.area, 1.0, TOLERANCE);

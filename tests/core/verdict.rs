@@ -17,13 +17,13 @@ fn judge(case: &Case) -> Verdict {
 }
 
 fn faces(numbers: &[u32]) -> Vec<FaceId> {
-    numbers.iter().map(|&n| FaceId::new(n)).collect()
+    numbers.iter().map(|&number| FaceId::new(number)).collect()
 }
 
 /// Crossings as pairs of edges, each named by its vertices; all in ascending order.
 fn crossings(case: &Case) -> Vec<[[u32; 2]; 2]> {
     let mesh = case.mesh();
-    let ends = |edge: EdgeId| mesh.ends(edge).map(|v| v.number());
+    let ends = |edge: EdgeId| mesh.ends(edge).map(VertexId::number);
     let mut found: Vec<_> =
         judge(case).boundary_crossings.iter().map(|&[e, f]| sorted_pair(ends(e), ends(f))).collect();
     found.sort_unstable();

@@ -18,11 +18,11 @@ impl Random {
     /// A whole number in `low..=high`.
     pub(super) fn integer(&mut self, low: i32, high: i32) -> i32 {
         let count = u64::from(high.abs_diff(low)) + 1;
-        low + i32::try_from(self.next() % count).unwrap()
+        low + i32::try_from(self.next() % count).expect("a small range")
     }
 
     pub(super) fn index(&mut self, count: usize) -> usize {
-        usize::try_from(self.next() % count as u64).unwrap()
+        usize::try_from(self.next() % count as u64).expect("less than count")
     }
 
     /// Between 0 and 1.
@@ -54,14 +54,14 @@ impl Case {
 
 /// Vertex 0 in the middle of the given link.
 pub(super) fn fan(middle: DVec2, link: &[DVec2]) -> Case {
-    let count = u32::try_from(link.len()).unwrap();
+    let count = u32::try_from(link.len()).expect("few vertices");
     let triangles = (0..count).map(|i| [0, 1 + i, 1 + (i + 1) % count]).collect();
     Case { triangles, embedding: std::iter::once(middle).chain(link.iter().copied()).collect() }
 }
 
 /// A strip of triangles between two rows of vertices, the lower even, the upper odd.
 pub(super) fn strip(embedding: Vec<DVec2>) -> Case {
-    let last = u32::try_from(embedding.len()).unwrap() - 2;
+    let last = u32::try_from(embedding.len()).expect("few vertices") - 2;
     let triangles = (0..last).map(|i| if i % 2 == 0 { [i, i + 2, i + 1] } else { [i, i + 1, i + 2] }).collect();
     Case { triangles, embedding }
 }
@@ -82,15 +82,17 @@ fn triangulated(random: &mut Random, corner_count: u32) -> Vec<[u32; 3]> {
 /// Turns some interior edges to the other diagonal of their two triangles.
 fn turn_edges(random: &mut Random, triangles: &mut [[u32; 3]]) {
     for _ in 0..4 {
-        let (f, g) = (random.index(triangles.len()), random.index(triangles.len()));
-        let k = random.index(3);
-        let [a, b, c] = [0, 1, 2].map(|i| triangles[f][(k + i) % 3]);
-        let Some(corner) = (0..3).find(|&i| triangles[g][i] == b && triangles[g][(i + 1) % 3] == a) else { continue };
-        let d = triangles[g][(corner + 2) % 3];
-        let joined = triangles.iter().any(|t| t.contains(&c) && t.contains(&d));
+        let (face, other) = (random.index(triangles.len()), random.index(triangles.len()));
+        let turn = random.index(3);
+        triangles[face].rotate_left(turn);
+        let [tail, head, apex] = triangles[face];
+        let from_head = |k: usize| triangles[other][k] == head && triangles[other][(k + 1) % 3] == tail;
+        let Some(corner) = (0..3).find(|&k| from_head(k)) else { continue };
+        let far = triangles[other][(corner + 2) % 3];
+        let joined = triangles.iter().any(|t| t.contains(&apex) && t.contains(&far));
         if !joined {
-            triangles[f] = [c, d, b];
-            triangles[g] = [d, c, a];
+            triangles[face] = [apex, far, head];
+            triangles[other] = [far, apex, tail];
         }
     }
 }
@@ -106,13 +108,13 @@ fn convex(random: &mut Random) -> Case {
     };
     let mut embedding: Vec<DVec2> = (0..corner_count).map(corner).collect();
     for _ in 0..random.index(3) {
-        let inserted = u32::try_from(embedding.len()).unwrap();
-        let f = random.index(triangles.len());
-        let [a, b, c] = triangles[f];
-        let [x, y, z] = [0, 1, 2].map(|_| 0.1 + random.fraction());
-        let at = |v: u32| embedding[v as usize];
-        embedding.push((at(a) * x + at(b) * y + at(c) * z) / (x + y + z));
-        triangles[f] = [a, b, inserted];
+        let inserted = u32::try_from(embedding.len()).expect("few vertices");
+        let face = random.index(triangles.len());
+        let [a, b, c] = triangles[face];
+        let shares = [0, 1, 2].map(|_| 0.1 + random.fraction());
+        let sum: DVec2 = (0..3).map(|k| embedding[triangles[face][k] as usize] * shares[k]).sum();
+        embedding.push(sum / shares.iter().sum::<f64>());
+        triangles[face] = [a, b, inserted];
         triangles.extend([[b, c, inserted], [c, a, inserted]]);
     }
     Case { triangles, embedding }

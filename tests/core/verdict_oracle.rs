@@ -37,7 +37,7 @@ pub(super) fn examine(triangles: &[[u32; 3]], embedding: &[DVec2]) -> Answer {
     Answer {
         flipped_faces: (0..triangles.len()).filter(|&face| signs[face] != upright).collect(),
         boundary_crossings: boundary_crossings(&boundary, &points),
-        overwound_vertices: (0..u32::try_from(points.len()).unwrap())
+        overwound_vertices: (0..u32::try_from(points.len()).expect("few vertices"))
             .filter(|v| !boundary.contains(v) && is_overwound(*v, triangles, &signs, upright, &points))
             .collect(),
         turning_number: turning_number(&boundary, &points),
@@ -52,7 +52,7 @@ fn points(embedding: &[DVec2]) -> Vec<Point> {
     let exact = |value: f64| BigRational::from_float(value).expect("the oracle takes finite numbers only");
     let points: Vec<[BigRational; 2]> = embedding.iter().map(|p| [exact(p.x), exact(p.y)]).collect();
     // Denominators of floating-point numbers are powers of two: the greatest is a multiple of all.
-    let denominator = points.iter().flatten().map(|c| c.denom().clone()).max().unwrap();
+    let denominator = points.iter().flatten().map(|c| c.denom().clone()).max().expect("a case has vertices");
     let mut points: Vec<Point> =
         points.iter().map(|p| [0, 1].map(|i| p[i].numer() * (&denominator / p[i].denom()))).collect();
     let twos = points.iter().flatten().filter_map(BigInt::trailing_zeros).min().unwrap_or(0);
@@ -83,9 +83,9 @@ fn boundary_loop(triangles: &[[u32; 3]]) -> Vec<u32> {
     let sides: Vec<[u32; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     let next: BTreeMap<u32, u32> =
         sides.iter().filter(|&&[a, b]| !sides.contains(&[b, a])).map(|&[a, b]| (a, b)).collect();
-    let mut boundary = vec![*next.keys().next().unwrap()];
+    let mut boundary = vec![*next.keys().next().expect("a disk has a boundary")];
     while boundary.len() < next.len() {
-        boundary.push(next[boundary.last().unwrap()]);
+        boundary.push(next[&boundary[boundary.len() - 1]]);
     }
     boundary
 }
@@ -112,11 +112,11 @@ fn common([a, b]: [&Point; 2], [c, d]: [&Point; 2]) -> Common {
             std::cmp::Ordering::Greater => Common::Nothing,
         };
     }
-    // a + s (b − a) = c + t (d − c), by Cramer's rule; s and t times the determinant.
-    let s = (&c[0] - &a[0]) * (&d[1] - &c[1]) - (&c[1] - &a[1]) * (&d[0] - &c[0]);
-    let t = (&c[0] - &a[0]) * (&b[1] - &a[1]) - (&c[1] - &a[1]) * (&b[0] - &a[0]);
+    // a + s (b − a) = c + t (d − c), by Cramer's rule: numerators of s and t.
+    let of_first = (&c[0] - &a[0]) * (&d[1] - &c[1]) - (&c[1] - &a[1]) * (&d[0] - &c[0]);
+    let of_second = (&c[0] - &a[0]) * (&b[1] - &a[1]) - (&c[1] - &a[1]) * (&b[0] - &a[0]);
     let zero_to_one = BigInt::ZERO.min(determinant.clone())..=BigInt::ZERO.max(determinant);
-    if zero_to_one.contains(&s) && zero_to_one.contains(&t) { Common::OnePoint } else { Common::Nothing }
+    if zero_to_one.contains(&of_first) && zero_to_one.contains(&of_second) { Common::OnePoint } else { Common::Nothing }
 }
 
 fn boundary_crossings(boundary: &[u32], points: &[Point]) -> Vec<[[u32; 2]; 2]> {
@@ -149,7 +149,7 @@ fn angle(cross: &BigInt, dot: &BigInt) -> f64 {
     const BITS: u32 = 60;
     let size = |x: &BigInt| BigInt::from(x.magnitude().clone());
     let greatest = size(cross).max(size(dot));
-    let scaled = |x: &BigInt| i64::try_from((x << BITS) / &greatest).unwrap() as f64;
+    let scaled = |x: &BigInt| i64::try_from((x << BITS) / &greatest).expect("at most 2^60") as f64;
     f64::from(sign(cross)) * scaled(&size(cross)).atan2(scaled(dot))
         + if sign(cross) == 0 && sign(dot) < 0 { std::f64::consts::PI } else { 0.0 }
 }

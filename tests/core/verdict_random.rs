@@ -1,6 +1,6 @@
 //! The verdict against the rational oracle on 100,000 random small maps of disks: all fields, and one-to-one or not.
 
-use freebound::mesh::EdgeId;
+use freebound::mesh::{EdgeId, VertexId};
 use freebound::solver::verdict;
 use glam::DVec2;
 
@@ -11,7 +11,7 @@ use super::verdict_oracle::{Answer, examine, sorted_pair};
 fn assert_agreement(case: &Case) -> bool {
     let mesh = case.mesh();
     let verdict = verdict(&mesh, &case.embedding);
-    let vertices_of = |edge: EdgeId| mesh.ends(edge).map(|v| v.number());
+    let vertices_of = |edge: EdgeId| mesh.ends(edge).map(VertexId::number);
     let mut crossings: Vec<_> =
         verdict.boundary_crossings.iter().map(|&[e, f]| sorted_pair(vertices_of(e), vertices_of(f))).collect();
     crossings.sort_unstable();
