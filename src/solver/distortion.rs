@@ -126,9 +126,12 @@ fn face_maps(mesh: &TriMesh, embedding: &[DVec2]) -> Vec<FaceMap> {
     let origin = embedding.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
     let in_plane = reciprocal(embedding.iter().map(|&p| (p - origin).abs().max_element()).fold(0.0, extent));
     let map = |triangle: &[VertexId; 3]| {
-        let [a, b, c] = triangle.map(|v| mesh.positions[v.index()]);
-        let [p, q, r] = triangle.map(|v| embedding[v.index()]);
-        FaceMap::new([(b - a) * in_space, (c - a) * in_space], [(q - p) * in_plane, (r - p) * in_plane])
+        let corners = triangle.map(|v| mesh.positions[v.index()]);
+        let images = triangle.map(|v| embedding[v.index()]);
+        FaceMap::new(
+            [1, 2].map(|k| (corners[k] - corners[0]) * in_space),
+            [1, 2].map(|k| (images[k] - images[0]) * in_plane),
+        )
     };
     mesh.triangles.par_iter().with_min_len(FACES_PER_TASK).map(map).collect()
 }
@@ -181,13 +184,18 @@ fn summary(faces: &[FaceDistortion], weights: &[f64]) -> DistortionSummary {
     let weighted = |of: fn(&FaceDistortion) -> f64| -> Vec<(f64, f64)> {
         faces.iter().zip(weights).filter(|&(_, &weight)| weight > 0.0).map(|(face, &w)| (of(face), w)).collect()
     };
-    let squares = Spread::new(weighted(|face| face.stretch_l2.powi(2)));
     DistortionSummary {
         angle: Spread::new(weighted(|face| face.angle)),
         area: Spread::new(weighted(|face| face.area.max(face.area.recip()))),
-        stretch_l2: squares.mean.sqrt(),
+        stretch_l2: mean(&weighted(|face| face.stretch_l2.powi(2))).sqrt(),
         stretch_linf: weighted(|face| face.stretch_linf).into_iter().map(|(value, _)| value).fold(1.0, f64::max),
     }
+}
+
+/// The mean of values with positive weights; 1 where there are none.
+fn mean(weighted: &[(f64, f64)]) -> f64 {
+    let total: f64 = weighted.iter().map(|&(_, weight)| weight).sum();
+    if weighted.is_empty() { 1.0 } else { weighted.iter().map(|&(value, weight)| value * weight).sum::<f64>() / total }
 }
 
 impl Spread {
@@ -196,7 +204,7 @@ impl Spread {
         /// The part of the surface that may exceed the percentile.
         const BEYOND: f64 = 0.01;
         let total: f64 = weighted.iter().map(|&(_, weight)| weight).sum();
-        let mean = weighted.iter().map(|&(value, weight)| value * weight).sum::<f64>() / total;
+        let mean = mean(&weighted);
         weighted.sort_unstable_by(|first, second| second.0.total_cmp(&first.0));
         let Some(&(max, _)) = weighted.first() else { return Self { mean: 1.0, p99: 1.0, max: 1.0 } };
         let mut above = 0.0;

@@ -10,7 +10,7 @@
 //! # What goes wrong, by kind
 //!
 //! * A *flipped face*: its orientation is negative, or zero, or a corner is not finite.
-//! * A *boundary crossing*: two boundary edges that meet other than at a shared end (see [`crate::geom::crossings`]).
+//! * A *boundary crossing*: two boundary edges that meet other than at a shared end (see [`crossings()`]).
 //!   Edges with an end that is not finite take no part; their faces are flipped already.
 //! * An *overwound vertex*: all faces around an interior vertex are positive, yet its link winds around it twice or
 //!   more. A map without flipped faces and crossings has none, by the theorem.

@@ -1,0 +1,186 @@
+//! Small disks and maps of them into the plane, for the tests of the verdict.
+
+use freebound::mesh::{DiskMesh, TriMesh};
+use glam::{DVec2, DVec3};
+
+/// Random numbers that are the same everywhere: `SplitMix64` (G. Steele, D. Lea, C. Flood, 2014).
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    pub(super) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A whole number in `low..=high`.
+    pub(super) fn integer(&mut self, low: i32, high: i32) -> i32 {
+        let count = u64::from(high.abs_diff(low)) + 1;
+        low + i32::try_from(self.next() % count).expect("a small range")
+    }
+
+    pub(super) fn index(&mut self, count: usize) -> usize {
+        usize::try_from(self.next() % count as u64).expect("less than count")
+    }
+
+    /// Between 0 and 1.
+    pub(super) fn fraction(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A point with whole coordinates from 0 to `size`.
+    pub(super) fn grid_point(&mut self, size: i32) -> DVec2 {
+        DVec2::new(f64::from(self.integer(0, size)), f64::from(self.integer(0, size)))
+    }
+}
+
+/// A map of a disk into the plane.
+#[derive(Clone, Debug)]
+pub(super) struct Case {
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) embedding: Vec<DVec2>,
+}
+
+impl Case {
+    /// The disk in space; its shape there is of no interest, but no three vertices lie on a line.
+    pub(super) fn mesh(&self) -> DiskMesh {
+        let on_a_curve = |i: usize| DVec3::new(i as f64, (i * i) as f64, (i * i * i) as f64);
+        let positions = (0..self.embedding.len()).map(on_a_curve).collect();
+        DiskMesh::try_from(TriMesh::new(positions, &self.triangles)).expect("the cases are disks")
+    }
+}
+
+/// Vertex 0 in the middle of the given link.
+pub(super) fn fan(middle: DVec2, link: &[DVec2]) -> Case {
+    let count = u32::try_from(link.len()).expect("few vertices");
+    let triangles = (0..count).map(|i| [0, 1 + i, 1 + (i + 1) % count]).collect();
+    Case { triangles, embedding: std::iter::once(middle).chain(link.iter().copied()).collect() }
+}
+
+/// A strip of triangles between two rows of vertices, the lower even, the upper odd.
+pub(super) fn strip(embedding: Vec<DVec2>) -> Case {
+    let last = u32::try_from(embedding.len()).expect("few vertices") - 2;
+    let triangles = (0..last).map(|i| if i % 2 == 0 { [i, i + 2, i + 1] } else { [i, i + 1, i + 2] }).collect();
+    Case { triangles, embedding }
+}
+
+/// A random triangulation of a polygon without new vertices.
+fn triangulated(random: &mut Random, corner_count: u32) -> Vec<[u32; 3]> {
+    let mut corners: Vec<u32> = (0..corner_count).collect();
+    let mut triangles = Vec::new();
+    while corners.len() > 2 {
+        let i = random.index(corners.len());
+        let (before, after) = ((i + corners.len() - 1) % corners.len(), (i + 1) % corners.len());
+        triangles.push([corners[before], corners[i], corners[after]]);
+        corners.remove(i);
+    }
+    triangles
+}
+
+/// Turns some interior edges to the other diagonal of their two triangles.
+fn turn_edges(random: &mut Random, triangles: &mut [[u32; 3]]) {
+    for _ in 0..4 {
+        let (face, other) = (random.index(triangles.len()), random.index(triangles.len()));
+        let turn = random.index(3);
+        triangles[face].rotate_left(turn);
+        let [tail, head, apex] = triangles[face];
+        let from_head = |k: usize| triangles[other][k] == head && triangles[other][(k + 1) % 3] == tail;
+        let Some(corner) = (0..3).find(|&k| from_head(k)) else { continue };
+        let far = triangles[other][(corner + 2) % 3];
+        let joined = triangles.iter().any(|t| t.contains(&apex) && t.contains(&far));
+        if !joined {
+            triangles[face] = [apex, far, head];
+            triangles[other] = [far, apex, tail];
+        }
+    }
+}
+
+/// A random disk with a convex embedding and some vertices inside.
+fn convex(random: &mut Random) -> Case {
+    let corner_count = random.integer(3, 6);
+    let mut triangles = triangulated(random, corner_count.unsigned_abs());
+    let turn = random.fraction();
+    let corner = |i: i32| {
+        let angle = std::f64::consts::TAU * (f64::from(i) + turn) / f64::from(corner_count);
+        DVec2::new(4.0 * angle.cos(), 3.0 * angle.sin())
+    };
+    let mut embedding: Vec<DVec2> = (0..corner_count).map(corner).collect();
+    for _ in 0..random.index(3) {
+        let inserted = u32::try_from(embedding.len()).expect("few vertices");
+        let face = random.index(triangles.len());
+        let [a, b, c] = triangles[face];
+        let shares = [0, 1, 2].map(|_| 0.1 + random.fraction());
+        let sum: DVec2 = (0..3).map(|k| embedding[triangles[face][k] as usize] * shares[k]).sum();
+        embedding.push(sum / shares.iter().sum::<f64>());
+        triangles[face] = [a, b, inserted];
+        triangles.extend([[b, c, inserted], [c, a, inserted]]);
+    }
+    Case { triangles, embedding }
+}
+
+/// A fan whose link goes around once or twice, sometimes folded.
+fn star(random: &mut Random) -> Case {
+    let turns = random.integer(1, 2);
+    let count = random.integer(3 * turns, 4 + 2 * turns);
+    let spoke = |i: i32| {
+        let angle = std::f64::consts::TAU * f64::from(turns * i) / f64::from(count);
+        DVec2::from_angle(angle) * (1.0 + 3.0 * random.fraction())
+    };
+    fan(DVec2::ZERO, &(0..count).map(spoke).collect::<Vec<_>>())
+}
+
+/// A random disk on whole coordinates: almost never one-to-one, often degenerate.
+pub(super) fn grid_case(random: &mut Random) -> Case {
+    let size = random.integer(1, 6);
+    let mut case = match random.index(3) {
+        0 => star(random),
+        1 => {
+            let count = random.index(4) + 3;
+            strip(vec![DVec2::ZERO; count])
+        }
+        _ => {
+            let mut case = convex(random);
+            turn_edges(random, &mut case.triangles);
+            case
+        }
+    };
+    case.embedding.fill_with(|| random.grid_point(size));
+    case
+}
+
+/// A disk embedded one-to-one, or nearly: some vertices moved, the whole sometimes mirrored.
+pub(super) fn nearly_planar_case(random: &mut Random) -> Case {
+    let mut case = match random.index(3) {
+        0 => star(random),
+        1 => {
+            let count = random.integer(3, 7);
+            strip((0..count).map(|i| DVec2::new(f64::from(i - i % 2), f64::from(3 * (i % 2)))).collect())
+        }
+        _ => convex(random),
+    };
+    if random.index(2) == 0 {
+        // Whole coordinates make what is nearly degenerate degenerate.
+        case.embedding.iter_mut().for_each(|p| *p = (*p * 2.0).round());
+    }
+    for _ in 0..random.index(3) {
+        let moved = random.index(case.embedding.len());
+        case.embedding[moved] = random.grid_point(8) - DVec2::splat(4.0);
+    }
+    if random.index(4) == 0 {
+        case.embedding.iter_mut().for_each(|p| p.x = -p.x);
+    }
+    case
+}
+
+/// Moves every coordinate by a few units of its last place.
+pub(super) fn nudge(random: &mut Random, embedding: &mut [DVec2]) {
+    for point in embedding {
+        for coordinate in [&mut point.x, &mut point.y] {
+            for _ in 0..random.index(3) {
+                *coordinate = if random.index(2) == 0 { coordinate.next_up() } else { coordinate.next_down() };
+            }
+        }
+    }
+}
