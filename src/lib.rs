@@ -30,4 +30,7 @@ pub mod geom;
 pub mod io;
 pub mod linalg;
 pub mod mesh;
+#[cfg(feature = "gui")]
+pub mod render;
 pub mod solver;
+pub mod view;

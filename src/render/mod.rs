@@ -1,0 +1,1 @@
+//! wgpu pipelines and buffers.
