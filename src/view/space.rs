@@ -136,7 +136,7 @@ impl UnitPlane {
 ///
 /// Embeddings of meshes with a small boundary squeeze triangles over more than ten decades of length. One f32 would
 /// show them as a single point however far one zooms in.
-pub(super) fn split_point(point: DVec2) -> [f32; 4] {
+pub(crate) fn split_point(point: DVec2) -> [f32; 4] {
     let high = point.as_vec2();
     let low = (point - high.as_dvec2()).as_vec2();
     [high.x, high.y, low.x, low.y]
