@@ -25,9 +25,9 @@ fn quad_corner(vertex_index: u32) -> vec2<f32> {
 // A quad around the segment between two points of clip space with w > 0.
 fn quad(vertex_index: u32, a: vec4<f32>, b: vec4<f32>) -> Corner {
     let half_pane = 0.5 * pane.plane_scale.zw;
-    let from = a.xy / a.w * half_pane;
-    let to = b.xy / b.w * half_pane;
-    let span = to - from;
+    let start = a.xy / a.w * half_pane;
+    let stop = b.xy / b.w * half_pane;
+    let span = stop - start;
     let long = length(span);
     let along = select(vec2<f32>(1.0, 0.0), span / max(long, 1e-20), long > 1e-6);
     let across = vec2<f32>(-along.y, along.x);

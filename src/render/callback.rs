@@ -6,7 +6,7 @@ use eframe::wgpu;
 use egui::epaint::ViewportInPixels;
 
 use super::frame::{MeshFrame, PaneId, PlaneFrame};
-use super::gpu::{Gpu, Io, Stats};
+use super::gpu::{Gpu, Io, Place, Stats};
 use super::uniforms::PaneSize;
 
 /// Compiles the pipelines and puts them where the panes find them. Once per window.
@@ -52,13 +52,13 @@ impl CallbackTrait for PaneCallback {
     ) -> Vec<wgpu::CommandBuffer> {
         if let Some(gpu) = resources.get_mut::<Gpu>() {
             let mut io = Io { device, queue, encoder };
-            let size = pane_size(self.rect, screen);
+            let place = Place { pane: self.pane, size: pane_size(self.rect, screen) };
             match &self.content {
                 Content::Mesh(frame) => {
-                    gpu.prepare(&mut io, self.pane, size, frame.picture.as_ref(), |planner| planner.mesh(frame));
+                    gpu.prepare(&mut io, place, frame.picture.as_ref(), |planner| planner.mesh(frame));
                 }
                 Content::Plane(frame) => {
-                    gpu.prepare(&mut io, self.pane, size, frame.picture.as_ref(), |planner| planner.plane(frame));
+                    gpu.prepare(&mut io, place, frame.picture.as_ref(), |planner| planner.plane(frame));
                 }
             }
         }

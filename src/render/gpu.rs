@@ -88,8 +88,7 @@ impl Gpu {
     pub(super) fn prepare(
         &mut self,
         io: &mut Io<'_>,
-        pane: PaneId,
-        size: PaneSize,
+        Place { pane, size }: Place,
         picture: Option<&PictureLayer>,
         plan: impl FnOnce(&mut Planner<'_>) -> Plan,
     ) {
@@ -161,6 +160,13 @@ pub(super) struct Io<'a> {
     pub(super) device: &'a wgpu::Device,
     pub(super) queue: &'a wgpu::Queue,
     pub(super) encoder: &'a mut wgpu::CommandEncoder,
+}
+
+/// Which pane, and its size on the screen.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub(super) pane: PaneId,
+    pub(super) size: PaneSize,
 }
 
 impl PaneState {

@@ -111,8 +111,8 @@ const fn buffer<const N: usize>(
     stride: u64,
     step_mode: wgpu::VertexStepMode,
     attributes: &'static [wgpu::VertexAttribute; N],
-) -> Option<wgpu::VertexBufferLayout<'static>> {
-    Some(wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes })
+) -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes }
 }
 
 const PER_VERTEX: wgpu::VertexStepMode = wgpu::VertexStepMode::Vertex;
@@ -120,22 +120,22 @@ const PER_LINE: wgpu::VertexStepMode = wgpu::VertexStepMode::Instance;
 
 /// `MeshArrays::corner_positions`, `corner_normals`, `PlaneArrays::corners`, `FacePaint::corners`.
 static MESH_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 4] = [
-    buffer(12, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x3]),
-    buffer(8, PER_VERTEX, &wgpu::vertex_attr_array![1 => Snorm16x4]),
-    buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![2 => Float32x4]),
-    buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![3 => Unorm8x4]),
+    Some(buffer(12, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x3])),
+    Some(buffer(8, PER_VERTEX, &wgpu::vertex_attr_array![1 => Snorm16x4])),
+    Some(buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![2 => Float32x4])),
+    Some(buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![3 => Unorm8x4])),
 ];
 /// `PlaneArrays::corners`, `FacePaint::corners`.
 static PLANE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
-    buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4]),
-    buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![1 => Unorm8x4]),
+    Some(buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4])),
+    Some(buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![1 => Unorm8x4])),
 ];
 /// Two points in unit space.
 static MESH_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
-    [buffer(24, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3])];
+    [Some(buffer(24, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3]))];
 /// Two split points.
 static PLANE_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
-    [buffer(32, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4])];
+    [Some(buffer(32, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4]))];
 
 /// What tells one pipeline from another.
 struct Recipe<'a> {

@@ -8,7 +8,8 @@ use eframe::wgpu;
 use super::cache::{Cache, Key};
 use super::frame::{LineLayer, MeshFrame, PictureLayer, PlaneFrame, Style};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
-use crate::view::{FacePaint, MeshArrays, Palette, PlaneArrays};
+use crate::mesh::VertexId;
+use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PlaneArrays};
 
 /// Share of its distance by which a line comes nearer to the eye than the surface that it lies on.
 const LIFT: f32 = 0.0015;
@@ -100,7 +101,7 @@ impl Planner<'_> {
 
         for layer in &frame.lines {
             let key = Key::MeshLines(mesh.revision(), layer.edges.revision());
-            self.ensure_with(key, || segments(mesh.points(), layer.edges.ends().iter().map(|e| e.map(|v| v.index()))));
+            self.ensure_with(key, || segments(mesh.points(), vertex_pairs(&layer.edges)));
             plan.push_line(line_draw(key, layer.edges.ends().len()), self.line(layer, LIFT));
         }
         if let Some((paint, uniforms)) = self.outline(&frame.style, &frame.palette, frame.paint.as_ref(), LIFT) {
@@ -135,7 +136,7 @@ impl Planner<'_> {
 
         for layer in &frame.lines {
             let key = Key::PlaneLines(plane.revision(), layer.edges.revision());
-            self.ensure_with(key, || segments(plane.points(), layer.edges.ends().iter().map(|e| e.map(|v| v.index()))));
+            self.ensure_with(key, || segments(plane.points(), vertex_pairs(&layer.edges)));
             plan.push_line(line_draw(key, layer.edges.ends().len()), self.line(layer, 0.0));
         }
         if let Some((paint, uniforms)) = self.outline(&frame.style, &frame.palette, frame.paint.as_ref(), 0.0) {
@@ -210,6 +211,10 @@ fn line_draw(key: Key, count: usize) -> Draw {
     Draw { buffers: vec![key], count: u32::try_from(count).unwrap_or(0) }
 }
 
+fn vertex_pairs(edges: &EdgeList) -> impl Iterator<Item = [usize; 2]> + '_ {
+    edges.ends().iter().map(|ends| ends.map(VertexId::index))
+}
+
 /// Begin and end of each line; lines to vertices that are not there shrink to a point.
 fn segments<P: Copy + Default + bytemuck::Pod>(points: &[P], ends: impl Iterator<Item = [usize; 2]>) -> Vec<P> {
     ends.flat_map(|ends| ends.map(|v| points.get(v).copied().unwrap_or_default())).collect()
@@ -218,7 +223,7 @@ fn segments<P: Copy + Default + bytemuck::Pod>(points: &[P], ends: impl Iterator
 /// Ends of the three sides of each flipped face.
 fn flipped_sides<'a>(mesh: &'a MeshArrays, paint: &'a FacePaint) -> impl Iterator<Item = [usize; 2]> + 'a {
     paint.flipped().iter().flat_map(|face| {
-        let [a, b, c] = mesh.triangles().get(face.index()).map_or([usize::MAX; 3], |t| t.map(|v| v.index()));
+        let [a, b, c] = mesh.triangles().get(face.index()).map_or([usize::MAX; 3], |t| t.map(VertexId::index));
         [[a, b], [b, c], [c, a]]
     })
 }

@@ -134,11 +134,11 @@ fn enters(ray: Ray, inverse: DVec3, [low, high]: [DVec3; 2], limit: f64) -> bool
 /// Where a ray meets a triangle, from either side: distance, weight of corner 1, weight of corner 2.
 ///
 /// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection" (1997).
-fn meet(ray: Ray, [a, b, c]: [DVec3; 3]) -> Option<[f64; 3]> {
-    let (to_b, to_c) = (b - a, c - a);
+fn meet(ray: Ray, corners: [DVec3; 3]) -> Option<[f64; 3]> {
+    let [to_b, to_c] = [corners[1] - corners[0], corners[2] - corners[0]];
     let p = ray.direction.cross(to_c);
     let determinant = to_b.dot(p);
-    let from_a = ray.origin - a;
+    let from_a = ray.origin - corners[0];
     let u = from_a.dot(p) / determinant;
     let q = from_a.cross(to_b);
     let v = ray.direction.dot(q) / determinant;
