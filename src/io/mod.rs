@@ -1,1 +1,16 @@
-//! To be written.
+//! Files in and out.
+
+mod atomic;
+mod error;
+mod obj;
+mod obj_line;
+mod obj_read;
+mod obj_texture;
+mod obj_write;
+
+pub use atomic::write_atomically;
+pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError, WriteError};
+pub use obj::{NO_TEXTURE, ObjMesh, Statement, Texture};
+pub use obj_read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
+pub use obj_texture::TextureMesh;
+pub use obj_write::write_obj;

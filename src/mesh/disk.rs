@@ -22,11 +22,18 @@ pub struct DiskMesh {
     boundary_loop: Vec<VertexId>,
     /// Place in the boundary loop, or `u32::MAX` inside.
     boundary_place: Vec<u32>,
+    dividing_edges: Vec<[VertexId; 2]>,
+    ears: Vec<FaceId>,
 }
 
 impl DiskMesh {
     /// Joins the halfedges of a mesh that the diagnosis found to be a disk.
-    pub(super) fn join(mesh: TriMesh, table: &EdgeTable) -> Self {
+    pub(super) fn join(
+        mesh: TriMesh,
+        table: &EdgeTable,
+        dividing_edges: Vec<[VertexId; 2]>,
+        ears: Vec<FaceId>,
+    ) -> Self {
         let side_count = 3 * mesh.face_count();
         let mut twin = vec![u32::MAX; side_count];
         let mut outer_of_tail = vec![u32::MAX; mesh.vertex_count()];
@@ -62,7 +69,27 @@ impl DiskMesh {
                 *held = side;
             }
         }
-        Self { mesh, twin, edge, halfedge_of_edge, halfedge_of_vertex, boundary_loop, boundary_place }
+        Self {
+            mesh,
+            twin,
+            edge,
+            halfedge_of_edge,
+            halfedge_of_vertex,
+            boundary_loop,
+            boundary_place,
+            dividing_edges,
+            ears,
+        }
+    }
+
+    /// Interior edges between two boundary vertices, by their ends: the theorems on planarity do not cover them.
+    pub fn dividing_edges(&self) -> &[[VertexId; 2]] {
+        &self.dividing_edges
+    }
+
+    /// Triangles with two boundary edges or three.
+    pub fn ears(&self) -> &[FaceId] {
+        &self.ears
     }
 
     /// Positions and triangles.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::triangulate::triangulate;
 use super::{TriMesh, VertexId};
 
 /// A list of polygons over shared vertices, kept whole so that it can be written back as it was read.
@@ -32,6 +33,37 @@ impl PolygonMesh {
     /// Corners of one polygon, in file order.
     pub fn face(&self, polygon: usize) -> &[VertexId] {
         &self.corners[self.corner_range(polygon)]
+    }
+
+    /// Cuts every polygon into triangles, in file order; see the module `triangulate` for how.
+    ///
+    /// Polygons with fewer than three corners vanish. A corner beyond the last vertex is kept for the diagnosis to name.
+    pub fn triangulate(&self) -> TriMesh {
+        let (places, polygon_of) = self.triangle_places();
+        let triangles = places.iter().map(|triangle| triangle.map(|place| self.corners[place as usize])).collect();
+        TriMesh { positions: self.positions.clone(), triangles, polygon_of }
+    }
+
+    /// Triangles as places in `corners`, and the polygon of each where they are not one to one.
+    pub(crate) fn triangle_places(&self) -> (Vec<[u32; 3]>, Option<Vec<u32>>) {
+        let Some(starts) = &self.starts else {
+            let count = u32::try_from(self.corners.len() / 3).expect("a mesh has fewer than 2^32 corners");
+            return ((0..count).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect(), None);
+        };
+        let mut places = Vec::with_capacity(self.corners.len());
+        let mut polygon_of = Vec::with_capacity(self.corners.len());
+        let mut points = Vec::new();
+        for (polygon, bounds) in (0..).zip(starts.windows(2)) {
+            points.clear();
+            let corners = &self.corners[bounds[0] as usize..bounds[1] as usize];
+            points.extend(corners.iter().map(|v| self.positions.get(v.index()).copied().unwrap_or(DVec3::NAN)));
+            triangulate(&points, |triangle| {
+                let place = |corner| bounds[0] + u32::try_from(corner).expect("a corner fits");
+                places.push(triangle.map(place));
+                polygon_of.push(polygon);
+            });
+        }
+        (places, Some(polygon_of))
     }
 }
 

@@ -1,0 +1,61 @@
+//! Files that are written whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use super::error::WriteError;
+
+/// Bytes gathered before they are handed to the operating system.
+const BUFFER: usize = 256 << 10;
+
+/// Writes a file aside, in the same folder, and renames it when it is complete; on an error nothing is left behind and
+/// an older file of that name stays as it was.
+///
+/// A link is followed, so that the file it names is replaced. Something that is no regular file, such as a pipe, is
+/// written to directly, because renaming would replace it.
+///
+/// # Errors
+///
+/// [`WriteError`] names the path and says what went wrong.
+pub fn write_atomically(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    write_inner(path, write).map_err(|source| WriteError { path: path.to_owned(), source })
+}
+
+fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let present = fs::metadata(&target).ok();
+    if present.as_ref().is_some_and(|data| !data.is_file()) {
+        let mut out = BufWriter::with_capacity(BUFFER, File::options().write(true).open(&target)?);
+        write(&mut out)?;
+        return out.flush();
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".freebound-");
+    let permissions = present.map(|data| data.permissions());
+    #[cfg(unix)]
+    {
+        // As any new file, less what the umask takes away; the default of `tempfile` shuts out all others.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let aside = builder.tempfile_in(folder_of(&target))?;
+    let (file, aside) = aside.into_parts();
+    if let Some(permissions) = permissions {
+        file.set_permissions(permissions)?;
+    }
+    let mut out = BufWriter::with_capacity(BUFFER, file);
+    write(&mut out)?;
+    out.into_inner().map_err(io::IntoInnerError::into_error)?;
+    aside.persist(&target).map_err(|error| error.error)
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}

@@ -1,0 +1,85 @@
+//! Whether a triangle has an area at all, as far as its coordinates can tell.
+//!
+//! # Criterion
+//!
+//! With `L` the longest edge and `M` the largest coordinate by amount, a triangle has zero area where
+//!
+//! ```text
+//! |(b − a) × (c − a)| ≤ 4 ε L M
+//! ```
+//!
+//! that is, where its height over `L` is at most 4 ε M. A coordinate as large as `M` is itself known to ε M / 2 only,
+//! so the corners lie on one line up to the rounding of the coordinates. Coincident corners and exactly collinear ones
+//! always satisfy it. A thin triangle that merely *looks* flat does not: its height is many times larger.
+
+use glam::DVec3;
+
+/// Height over the longest edge, in units of ε M, up to which corners count as collinear.
+const COLLINEAR: f64 = 4.0;
+
+/// Coordinates beyond this, or below its reciprocal, are brought near 1 before they are multiplied.
+const LARGE: f64 = 1e50;
+
+/// Whether three finite points lie on a line up to the rounding of their coordinates.
+pub(super) fn is_zero_area(corners: [DVec3; 3]) -> bool {
+    let size = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+    if size == 0.0 {
+        return true;
+    }
+    if size > LARGE || size < LARGE.recip() {
+        // Twice, because the reciprocal of a subnormal number is infinite. A power of two: nothing is rounded.
+        let half = half_power(size);
+        return flat(corners.map(|p| p / half / half), size / half / half);
+    }
+    flat(corners, size)
+}
+
+fn flat([a, b, c]: [DVec3; 3], size: f64) -> bool {
+    let (ab, ac, bc) = (b - a, c - a, c - b);
+    let longest = ab.length_squared().max(ac.length_squared()).max(bc.length_squared()).sqrt();
+    ab.cross(ac).length() <= COLLINEAR * f64::EPSILON * longest * size
+}
+
+/// A power of two near the square root of a positive number.
+fn half_power(size: f64) -> f64 {
+    (size.log2() / 2.0).round().exp2()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A right triangle with legs 1 and `height`, moved by `at` and scaled.
+    fn triangle(height: f64, at: f64, scale: f64) -> [DVec3; 3] {
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, height, 0.0]].map(|p| (DVec3::from(p) + at) * scale)
+    }
+
+    #[test]
+    fn thirds_of_a_segment_are_collinear_at_every_scale() {
+        let end = DVec3::new(0.7, -1.3, 2.9);
+        for scale in [5e-324, 1e-310, 1e-200, 1e-30, 1.0, 1e30, 1e200, 1e308] {
+            let points = [DVec3::ZERO, end / 3.0, end].map(|p| p * (scale / 3.0));
+            assert!(is_zero_area(points), "{scale:e}");
+        }
+    }
+
+    #[test]
+    fn thin_triangles_have_an_area_at_every_scale() {
+        for scale in [1e-290, 1e-200, 1e-30, 1.0, 1e30, 1e200, 1e307] {
+            assert!(!is_zero_area(triangle(1e-12, 0.0, scale)), "{scale:e}");
+        }
+    }
+
+    #[test]
+    fn a_height_lost_in_the_rounding_of_large_coordinates_is_none() {
+        assert!(is_zero_area(triangle(2e-16, 1.0, 1.0)));
+        assert!(is_zero_area(triangle(1e-9, 1e8, 1.0)));
+        assert!(!is_zero_area(triangle(1e-6, 1e8, 1.0)));
+    }
+
+    #[test]
+    fn coincident_corners_have_no_area() {
+        let p = DVec3::new(0.1, 0.2, 0.3);
+        assert!(is_zero_area([p, p, p * 2.0]) && is_zero_area([p, p, p]) && is_zero_area([DVec3::ZERO; 3]));
+    }
+}

@@ -1,0 +1,277 @@
+//! Is a mesh a disk, and if not, what are all the reasons?
+//!
+//! A disk is a connected, consistently oriented 2-manifold with one boundary loop and no handles, whose positions are
+//! finite and whose faces have an area. [`diagnose`] names every fault of a mesh at once; a mesh without faults becomes
+//! a [`DiskMesh`], and only so.
+//!
+//! Limits: handles are counted only where no edge has three faces or more and the surface has two sides, because the
+//! number means nothing elsewhere.
+
+use std::fmt;
+
+use super::area::is_zero_area;
+use super::edges::{EdgeTable, side_ends};
+use super::fault::{FaceList, Fault};
+use super::orientation::Orientation;
+use super::topology::Topology;
+use super::{DiskMesh, FaceId, TriMesh, VertexId};
+
+/// Everything that can be said about a mesh before it is flattened.
+///
+/// Counts of edges, loops and components are those of the mesh without the faces that are set aside: see [`Fault`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Diagnosis {
+    /// Whatever keeps the mesh from being a disk.
+    pub faults: Vec<Fault>,
+    /// Interior edges between two boundary vertices: no fault, but the theorems on planarity do not cover them.
+    pub dividing_edges: Vec<[VertexId; 2]>,
+    /// Triangles with two boundary edges or three: no fault either, for the same reason.
+    pub ears: Vec<FaceId>,
+    /// Vertices, referenced or not.
+    pub vertex_count: usize,
+    /// Triangles.
+    pub face_count: usize,
+    /// Undirected edges.
+    pub edge_count: usize,
+    /// Edges with one face.
+    pub boundary_edge_count: usize,
+    /// Closed chains of boundary edges.
+    pub boundary_loop_count: usize,
+    /// Parts that hang together at vertices at least.
+    pub component_count: usize,
+    /// Referenced vertices − edges + triangles.
+    pub euler: i64,
+    /// Handles of all components; `None` where the number means nothing.
+    pub genus: Option<usize>,
+}
+
+impl Diagnosis {
+    /// Whether the mesh is a disk: whether there are no faults.
+    pub fn is_disk(&self) -> bool {
+        self.faults.is_empty()
+    }
+
+    fn add(&mut self, fault: Fault) {
+        if fault.is_present() {
+            self.faults.push(fault);
+        }
+    }
+}
+
+impl fmt::Display for Diagnosis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_disk() {
+            return write!(f, "the mesh is a disk");
+        }
+        for (place, fault) in self.faults.iter().enumerate() {
+            if place > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{fault}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Diagnosis {}
+
+/// Names all faults of a mesh.
+pub fn diagnose(mesh: &TriMesh) -> Diagnosis {
+    examine(mesh).0
+}
+
+impl TryFrom<TriMesh> for DiskMesh {
+    type Error = Box<Diagnosis>;
+
+    /// Takes a mesh that is a disk.
+    ///
+    /// # Errors
+    ///
+    /// The diagnosis, if there are faults.
+    fn try_from(mesh: TriMesh) -> Result<Self, Self::Error> {
+        match examine(&mesh) {
+            (diagnosis, Some(table)) if diagnosis.is_disk() => {
+                Ok(Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears))
+            }
+            (diagnosis, _) => Err(Box::new(diagnosis)),
+        }
+    }
+}
+
+/// The diagnosis, and the edge table of the whole mesh where no face had to be set aside.
+fn examine(mesh: &TriMesh) -> (Diagnosis, Option<EdgeTable>) {
+    let mut diagnosis =
+        Diagnosis { vertex_count: mesh.vertex_count(), face_count: mesh.face_count(), ..Diagnosis::default() };
+    diagnosis.add(not_finite(mesh));
+    if mesh.triangles.is_empty() {
+        diagnosis.add(Fault::NoFaces);
+        diagnosis.genus = Some(0);
+        return (diagnosis, None);
+    }
+    let (missing, repeated) = unsound_faces(mesh);
+    let mut sound = Sound::without(mesh, missing.iter().chain(&repeated));
+    let mut table = EdgeTable::new(mesh.vertex_count(), sound.triangles(mesh));
+    let duplicates = sound.duplicates(mesh, &table);
+    if !duplicates.is_empty() {
+        sound = Sound::without(mesh, missing.iter().chain(&repeated).chain(&duplicates));
+        table = EdgeTable::new(mesh.vertex_count(), sound.triangles(mesh));
+    }
+    diagnosis.add(Fault::MissingVertices(FaceList::new(mesh, missing.clone())));
+    diagnosis.add(Fault::RepeatedVertices(FaceList::new(mesh, repeated)));
+    diagnosis.add(Fault::DuplicateFaces(FaceList::new(mesh, duplicates)));
+    diagnosis.add(Fault::ZeroArea(zero_area_faces(mesh, &sound)));
+    let topology = Topology::explore(table, mesh.vertex_count(), sound.triangles(mesh));
+    describe(&mut diagnosis, mesh, &sound, &topology);
+    let table = sound.kept.is_none().then_some(topology.table);
+    (diagnosis, table)
+}
+
+fn not_finite(mesh: &TriMesh) -> Fault {
+    let finite = |v: &VertexId| mesh.positions[v.index()].is_finite();
+    Fault::NotFinite((0..mesh.vertex_count()).map(VertexId::from_index).filter(|v| !finite(v)).collect())
+}
+
+/// Faces with a corner beyond the last vertex, and faces that name a vertex twice.
+fn unsound_faces(mesh: &TriMesh) -> (Vec<FaceId>, Vec<FaceId>) {
+    let (mut missing, mut repeated) = (Vec::new(), Vec::new());
+    for (f, &[a, b, c]) in mesh.triangles.iter().enumerate() {
+        if a.max(b).max(c).index() >= mesh.vertex_count() {
+            missing.push(FaceId::from_index(f));
+        } else if a == b || b == c || c == a {
+            repeated.push(FaceId::from_index(f));
+        }
+    }
+    (missing, repeated)
+}
+
+/// The faces that the topology is made of.
+struct Sound {
+    /// The kept triangles and their places in the mesh; `None` where all are kept.
+    kept: Option<(Vec<[VertexId; 3]>, Vec<FaceId>)>,
+}
+
+impl Sound {
+    fn without<'a>(mesh: &TriMesh, faces: impl Iterator<Item = &'a FaceId> + Clone) -> Self {
+        if faces.clone().next().is_none() {
+            return Self { kept: None };
+        }
+        let mut keep = vec![true; mesh.face_count()];
+        faces.for_each(|f| keep[f.index()] = false);
+        let faces: Vec<FaceId> = (0..mesh.face_count()).filter(|&f| keep[f]).map(FaceId::from_index).collect();
+        Self { kept: Some((faces.iter().map(|f| mesh.triangles[f.index()]).collect(), faces)) }
+    }
+
+    fn triangles<'a>(&'a self, mesh: &'a TriMesh) -> &'a [[VertexId; 3]] {
+        self.kept.as_ref().map_or(&mesh.triangles, |(triangles, _)| triangles)
+    }
+
+    /// The mesh's number of a kept triangle.
+    fn face(&self, kept: usize) -> FaceId {
+        self.kept.as_ref().map_or_else(|| FaceId::from_index(kept), |(_, faces)| faces[kept])
+    }
+
+    /// Faces with the same three vertices as an earlier one. The edge table tells whether a search is needed.
+    fn duplicates(&self, mesh: &TriMesh, table: &EdgeTable) -> Vec<FaceId> {
+        let triangles = self.triangles(mesh);
+        let far = |side: u32| triangles[side as usize / 3][(side as usize + 2) % 3];
+        let suspect = |sides: &[u32]| match *sides {
+            [_] => false,
+            [a, b] => far(a) == far(b),
+            _ => true,
+        };
+        if !table.edges().any(suspect) {
+            return Vec::new();
+        }
+        let mut sorted: Vec<([VertexId; 3], FaceId)> =
+            triangles.iter().enumerate().map(|(f, &corners)| (ascending(corners), self.face(f))).collect();
+        sorted.sort_unstable();
+        let repeats = sorted.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        let mut faces: Vec<FaceId> = repeats.map(|pair| pair[1].1).collect();
+        faces.sort_unstable();
+        faces
+    }
+}
+
+fn ascending(mut corners: [VertexId; 3]) -> [VertexId; 3] {
+    corners.sort_unstable();
+    corners
+}
+
+fn zero_area_faces(mesh: &TriMesh, sound: &Sound) -> FaceList {
+    let flat = |&f: &FaceId| {
+        let corners = mesh.corners(f);
+        corners.iter().all(|p| p.is_finite()) && is_zero_area(corners)
+    };
+    FaceList::new(mesh, (0..sound.triangles(mesh).len()).map(|f| sound.face(f)).filter(flat).collect())
+}
+
+/// Turns what the topology found into counts and faults.
+fn describe(diagnosis: &mut Diagnosis, mesh: &TriMesh, sound: &Sound, topology: &Topology) {
+    let triangles = sound.triangles(mesh);
+    let in_mesh = |faces: Vec<FaceId>| FaceList::new(mesh, faces.iter().map(|f| sound.face(f.index())).collect());
+    let orientation = Orientation::inspect(topology, triangles);
+    diagnosis.add(Fault::UnreferencedVertices(topology.unreferenced.clone()));
+    diagnosis.add(Fault::NonManifoldEdges(topology.crowded_edges.clone()));
+    diagnosis.add(Fault::NonManifoldVertices(topology.split_vertices.clone()));
+    let two_sided = orientation.one_sided_edges.is_empty();
+    diagnosis.add(Fault::MixedOrientation { edges: orientation.mixed_edges, faces: in_mesh(orientation.turn) });
+    diagnosis.add(Fault::NonOrientable(orientation.one_sided_edges));
+
+    let components = &topology.components;
+    let first_faces = |wanted: &dyn Fn(usize) -> bool| {
+        let chosen = components.iter().enumerate().filter(|&(c, _)| wanted(c));
+        in_mesh(chosen.map(|(_, component)| component.first_face).collect())
+    };
+    if components.len() > 1 {
+        let sizes = components.iter().map(|component| component.faces).collect();
+        diagnosis.add(Fault::SeveralComponents { first_faces: first_faces(&|_| true), sizes });
+    }
+    diagnosis.add(Fault::Closed(first_faces(&|c| components[c].loops == 0)));
+    let mut loops: Vec<Vec<VertexId>> = topology
+        .loops
+        .iter()
+        .filter(|boundary_loop| components[boundary_loop.component].loops > 1)
+        .map(|boundary_loop| boundary_loop.vertices.clone())
+        .collect();
+    loops.sort_by_key(|vertices| std::cmp::Reverse(vertices.len()));
+    diagnosis.add(Fault::SeveralBoundaryLoops(loops));
+    if two_sided && topology.crowded_edges.is_empty() {
+        let genus = components.iter().map(super::topology::Component::genus).sum();
+        diagnosis.add(Fault::Handles { genus, first_faces: first_faces(&|c| components[c].genus() > 0) });
+        diagnosis.genus = Some(genus);
+    }
+    count(diagnosis, triangles, topology);
+    diagnosis.ears = ears(topology).into_iter().map(|f| sound.face(f)).collect();
+    diagnosis.dividing_edges = dividing_edges(mesh.vertex_count(), triangles, topology);
+}
+
+fn count(diagnosis: &mut Diagnosis, triangles: &[[VertexId; 3]], topology: &Topology) {
+    let signed = |count: usize| i64::try_from(count).expect("counts are far below 2^63");
+    diagnosis.edge_count = topology.table.edge_count();
+    diagnosis.boundary_edge_count = topology.boundary.len();
+    diagnosis.boundary_loop_count = topology.loops.len();
+    diagnosis.component_count = topology.components.len();
+    diagnosis.euler = signed(topology.referenced_count) - signed(diagnosis.edge_count) + signed(triangles.len());
+}
+
+/// Triangles with two boundary sides or three.
+fn ears(topology: &Topology) -> Vec<usize> {
+    let mut faces: Vec<u32> = topology.boundary.iter().map(|side| side / 3).collect();
+    faces.sort_unstable();
+    let mut ears: Vec<usize> = faces.windows(2).filter(|w| w[0] == w[1]).map(|w| w[0] as usize).collect();
+    ears.dedup();
+    ears
+}
+
+/// Edges of two faces between two boundary vertices.
+fn dividing_edges(vertex_count: usize, triangles: &[[VertexId; 3]], topology: &Topology) -> Vec<[VertexId; 2]> {
+    let mut on_boundary = vec![false; vertex_count];
+    for &side in &topology.boundary {
+        let (tail, head) = side_ends(triangles, side);
+        on_boundary[tail.index()] = true;
+        on_boundary[head.index()] = true;
+    }
+    let ends = topology.table.edges().filter(|sides| sides.len() == 2).map(|sides| side_ends(triangles, sides[0]));
+    let divides = |&(tail, head): &(VertexId, VertexId)| on_boundary[tail.index()] && on_boundary[head.index()];
+    ends.filter(divides).map(|(tail, head)| [tail.min(head), tail.max(head)]).collect()
+}

@@ -1,0 +1,268 @@
+//! What can keep a mesh from being a disk, each fault with its elements and a remedy.
+
+use std::fmt::{self, Display};
+
+use super::{FaceId, TriMesh, VertexId};
+
+/// How many elements a message lists before it only counts the rest.
+const LISTED: usize = 5;
+
+/// Triangles, and the faces of the file that they are parts of.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FaceList {
+    /// Triangles, ascending unless said otherwise.
+    pub triangles: Vec<FaceId>,
+    /// The file's faces, each once, in the same order.
+    pub polygons: Vec<u32>,
+}
+
+impl FaceList {
+    /// Looks up the file's faces of triangles.
+    pub(super) fn new(mesh: &TriMesh, triangles: Vec<FaceId>) -> Self {
+        let mut polygons: Vec<u32> = triangles.iter().map(|&f| mesh.polygon(f)).collect();
+        // Triangles of one polygon follow each other.
+        polygons.dedup();
+        Self { triangles, polygons }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+}
+
+/// One thing that keeps a mesh from being a disk.
+///
+/// Faces that name a missing vertex, that name a vertex twice, or that repeat an earlier face are set aside first: the
+/// other faults are those of the mesh without them, so that what is left to do after removing them is known at once.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// There is no face at all.
+    NoFaces,
+    /// Faces name vertices that do not exist.
+    MissingVertices(FaceList),
+    /// Positions are infinite or not numbers.
+    NotFinite(Vec<VertexId>),
+    /// Faces name the same vertex twice.
+    RepeatedVertices(FaceList),
+    /// Faces have the same three vertices as an earlier one.
+    DuplicateFaces(FaceList),
+    /// No face uses these vertices.
+    UnreferencedVertices(Vec<VertexId>),
+    /// Faces without area: see the module `area` for the criterion.
+    ZeroArea(FaceList),
+    /// Edges of three faces or more.
+    NonManifoldEdges(Vec<[VertexId; 2]>),
+    /// Vertices whose faces form more than one fan.
+    NonManifoldVertices(Vec<VertexId>),
+    /// Some faces run around the other way; turning them over mends it.
+    MixedOrientation {
+        /// Edges that two faces run along in the same direction.
+        edges: Vec<[VertexId; 2]>,
+        /// The faces to turn over.
+        faces: FaceList,
+    },
+    /// The surface has one side only, like a Möbius strip; these edges clash.
+    NonOrientable(Vec<[VertexId; 2]>),
+    /// The faces do not hang together.
+    SeveralComponents {
+        /// The first face of each component.
+        first_faces: FaceList,
+        /// How many triangles each has.
+        sizes: Vec<usize>,
+    },
+    /// Components without a boundary; the first face of each.
+    Closed(FaceList),
+    /// Components with more than one boundary loop; their loops, the longest first.
+    SeveralBoundaryLoops(Vec<Vec<VertexId>>),
+    /// Components with handles.
+    Handles {
+        /// Handles in all.
+        genus: usize,
+        /// The first face of each component that has any.
+        first_faces: FaceList,
+    },
+}
+
+/// The elements of a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Elements<'a> {
+    /// The fault is about the mesh as a whole.
+    Nothing,
+    /// Vertices.
+    Vertices(&'a [VertexId]),
+    /// Edges, by their two vertices.
+    Edges(&'a [[VertexId; 2]]),
+    /// Faces.
+    Faces(&'a FaceList),
+    /// Boundary loops, by their vertices.
+    Loops(&'a [Vec<VertexId>]),
+}
+
+impl Elements<'_> {
+    /// Number of elements; faces count as the file counts them.
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Nothing => 0,
+            Self::Vertices(v) => v.len(),
+            Self::Edges(e) => e.len(),
+            Self::Faces(f) => f.polygons.len(),
+            Self::Loops(l) => l.len(),
+        }
+    }
+}
+
+impl Fault {
+    /// Whether there is anything in it: the diagnosis keeps only faults that are there.
+    pub(super) fn is_present(&self) -> bool {
+        match self.elements() {
+            Elements::Nothing => true,
+            Elements::Faces(faces) => !faces.is_empty(),
+            elements => elements.count() > 0,
+        }
+    }
+
+    /// A fixed lower-case name, for reports and tests.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::NoFaces => "no-faces",
+            Self::MissingVertices(_) => "missing-vertices",
+            Self::NotFinite(_) => "not-finite",
+            Self::RepeatedVertices(_) => "repeated-vertices",
+            Self::DuplicateFaces(_) => "duplicate-faces",
+            Self::UnreferencedVertices(_) => "unreferenced-vertices",
+            Self::ZeroArea(_) => "zero-area",
+            Self::NonManifoldEdges(_) => "non-manifold-edges",
+            Self::NonManifoldVertices(_) => "non-manifold-vertices",
+            Self::MixedOrientation { .. } => "mixed-orientation",
+            Self::NonOrientable(_) => "non-orientable",
+            Self::SeveralComponents { .. } => "several-components",
+            Self::Closed(_) => "closed",
+            Self::SeveralBoundaryLoops(_) => "several-boundary-loops",
+            Self::Handles { .. } => "handles",
+        }
+    }
+
+    /// Where the fault is.
+    pub fn elements(&self) -> Elements<'_> {
+        match self {
+            Self::NoFaces => Elements::Nothing,
+            Self::NotFinite(v) | Self::UnreferencedVertices(v) | Self::NonManifoldVertices(v) => Elements::Vertices(v),
+            Self::NonManifoldEdges(e) | Self::NonOrientable(e) => Elements::Edges(e),
+            Self::MissingVertices(f)
+            | Self::RepeatedVertices(f)
+            | Self::DuplicateFaces(f)
+            | Self::ZeroArea(f)
+            | Self::Closed(f)
+            | Self::MixedOrientation { faces: f, .. }
+            | Self::SeveralComponents { first_faces: f, .. }
+            | Self::Handles { first_faces: f, .. } => Elements::Faces(f),
+            Self::SeveralBoundaryLoops(loops) => Elements::Loops(loops),
+        }
+    }
+
+    /// What is wrong, how often, and the first few elements, numbered from 0 as in the file.
+    pub fn message(&self) -> String {
+        match self {
+            Self::NoFaces => "the mesh has no faces".to_owned(),
+            Self::MissingVertices(f) => faces("name a vertex that does not exist", "names", f),
+            Self::NotFinite(v) => vertices("a position that is infinite or not a number", v),
+            Self::RepeatedVertices(f) => faces("name a vertex twice", "names", f),
+            Self::DuplicateFaces(f) => faces("have the same vertices as an earlier face", "has", f),
+            Self::UnreferencedVertices(v) => vertices("no face", v),
+            Self::ZeroArea(f) => faces("have no area", "has", f),
+            Self::NonManifoldEdges(e) => edges("three or more faces", e),
+            Self::NonManifoldVertices(v) => vertices("more than one fan of faces", v),
+            Self::MixedOrientation { edges: e, faces: f } => format!(
+                "{}; the fewer faces, to be turned over: {}",
+                edges("two faces that run the same way", e),
+                listed(&f.polygons)
+            ),
+            Self::NonOrientable(e) => {
+                format!("the surface has only one side: {}", edges("two faces that run the same way", e))
+            }
+            Self::SeveralComponents { first_faces, sizes } => format!(
+                "{} components, of {} triangles, beginning with faces {}",
+                sizes.len(),
+                listed(sizes),
+                listed(&first_faces.polygons)
+            ),
+            Self::Closed(f) if f.triangles.len() == 1 => "the surface is closed: it has no boundary".to_owned(),
+            Self::Closed(f) => {
+                format!("{} components are closed: those of faces {}", f.triangles.len(), listed(&f.polygons))
+            }
+            Self::SeveralBoundaryLoops(loops) => {
+                let sizes: Vec<usize> = loops.iter().map(Vec::len).collect();
+                let starts: Vec<VertexId> = loops.iter().map(|l| l[0]).collect();
+                format!(
+                    "{} boundary loops, of {} edges, at vertices {}",
+                    loops.len(),
+                    listed(&sizes),
+                    listed(&numbers(&starts))
+                )
+            }
+            Self::Handles { genus, first_faces } => format!(
+                "{genus} {}, on the component of face {}",
+                if *genus == 1 { "handle" } else { "handles" },
+                listed(&first_faces.polygons)
+            ),
+        }
+    }
+
+    /// What to do about it.
+    pub const fn remedy(&self) -> &'static str {
+        match self {
+            Self::NoFaces => "export the surface with its faces",
+            Self::MissingVertices(_) => "export the file again: it is cut short or its indices are wrong",
+            Self::NotFinite(_) => "give these vertices real positions, or delete them with their faces",
+            Self::RepeatedVertices(_) => "delete these faces",
+            Self::DuplicateFaces(_) => "delete these faces and keep the first of each",
+            Self::UnreferencedVertices(_) => "delete these vertices",
+            Self::ZeroArea(_) => "merge coincident vertices, or collapse the shortest edge of each of these faces",
+            Self::NonManifoldEdges(_) => "delete or detach faces until two are left at each of these edges",
+            Self::NonManifoldVertices(_) => "split each of these vertices, one for each fan of faces",
+            Self::MixedOrientation { .. } => "turn these faces over",
+            Self::NonOrientable(_) => "cut the surface along a chain of edges, so that it gets two sides",
+            Self::SeveralComponents { .. } => "keep one component, or flatten each by itself",
+            Self::Closed(_) => "cut the surface open along a chain of edges, or delete a part that is not needed",
+            Self::SeveralBoundaryLoops(_) => "fill the holes, or cut the surface from one loop to another",
+            Self::Handles { .. } => "cut each handle open, and join the cuts to the boundary",
+        }
+    }
+}
+
+impl Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}; {}", self.name(), self.message(), self.remedy())
+    }
+}
+
+fn numbers(vertices: &[VertexId]) -> Vec<u32> {
+    vertices.iter().map(|v| v.number()).collect()
+}
+
+/// "3, 4 and 17 more".
+fn listed<T: Display>(items: &[T]) -> String {
+    let shown: Vec<String> = items.iter().take(LISTED).map(T::to_string).collect();
+    let more = items.len() - shown.len();
+    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
+}
+
+fn faces(many: &str, one: &str, list: &FaceList) -> String {
+    let words = match list.polygons.len() {
+        1 => format!("1 face {one} {}", many.split_once(' ').map_or(many, |(_, rest)| rest)),
+        count => format!("{count} faces {many}"),
+    };
+    format!("{words}: {}", listed(&list.polygons))
+}
+
+fn vertices(what: &str, list: &[VertexId]) -> String {
+    let noun = if list.len() == 1 { "vertex has" } else { "vertices have" };
+    format!("{} {noun} {what}: {}", list.len(), listed(&numbers(list)))
+}
+
+fn edges(what: &str, list: &[[VertexId; 2]]) -> String {
+    let noun = if list.len() == 1 { "edge has" } else { "edges have" };
+    let ends: Vec<String> = list.iter().map(|[a, b]| format!("{}-{}", a.number(), b.number())).collect();
+    format!("{} {noun} {what}: {}", list.len(), listed(&ends))
+}

@@ -1,0 +1,103 @@
+//! Disjoint sets, with and without a parity between members.
+
+/// Disjoint sets of `0..len` (union by size, path halving).
+#[derive(Clone, Debug)]
+pub(super) struct DisjointSets {
+    parent: Vec<u32>,
+}
+
+impl DisjointSets {
+    /// Every member by itself.
+    pub(super) fn new(len: usize) -> Self {
+        Self { parent: (0..u32::try_from(len).expect("fewer than 2^32 members")).collect() }
+    }
+
+    /// The member that stands for a set.
+    pub(super) fn find(&mut self, member: u32) -> u32 {
+        let mut at = member as usize;
+        loop {
+            let up = self.parent[at];
+            if up as usize == at {
+                return up;
+            }
+            let above = self.parent[up as usize];
+            self.parent[at] = above;
+            at = above as usize;
+        }
+    }
+
+    /// Joins two sets; the lower root stands for both. Returns whether they were apart.
+    pub(super) fn join(&mut self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.find(a), self.find(b));
+        self.parent[a.max(b) as usize] = a.min(b);
+        a != b
+    }
+}
+
+/// Disjoint sets in which every member also has a parity against the one that stands for its set.
+#[derive(Debug)]
+pub(super) struct ParitySets {
+    parent: Vec<u32>,
+    /// Parity against the parent.
+    odd: Vec<bool>,
+}
+
+impl ParitySets {
+    /// Every member by itself.
+    pub(super) fn new(len: usize) -> Self {
+        Self { parent: (0..u32::try_from(len).expect("fewer than 2^32 members")).collect(), odd: vec![false; len] }
+    }
+
+    /// The member that stands for a set, and the parity against it.
+    pub(super) fn find(&mut self, member: u32) -> (u32, bool) {
+        let mut at = member as usize;
+        let mut odd = false;
+        while self.parent[at] as usize != at {
+            let up = self.parent[at] as usize;
+            odd ^= self.odd[at];
+            self.odd[at] ^= self.odd[up];
+            self.parent[at] = self.parent[up];
+            // The new parent is the grandparent; the walk goes on from the old parent, whose parity is unchanged.
+            at = up;
+        }
+        (self.parent[at], odd)
+    }
+
+    /// Says that two members differ (`odd`) or agree. Returns whether that contradicts what was said before.
+    pub(super) fn relate(&mut self, a: u32, b: u32, odd: bool) -> bool {
+        let ((root_a, odd_a), (root_b, odd_b)) = (self.find(a), self.find(b));
+        if root_a == root_b {
+            return odd_a ^ odd_b != odd;
+        }
+        let (low, high) = (root_a.min(root_b), root_a.max(root_b));
+        self.parent[high as usize] = low;
+        self.odd[high as usize] = odd_a ^ odd_b ^ odd;
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_join_once() {
+        let mut sets = DisjointSets::new(5);
+        assert!(sets.join(3, 4) && sets.join(1, 3) && !sets.join(1, 4));
+        assert_eq!((0..5).map(|m| sets.find(m)).collect::<Vec<_>>(), [0, 1, 2, 1, 1]);
+    }
+
+    #[test]
+    fn parities_add_up_along_a_chain() {
+        let mut sets = ParitySets::new(64);
+        for m in (0..63).rev() {
+            assert!(!sets.relate(m, m + 1, m % 3 == 0));
+        }
+        let parity = |m: u32| (0..m).filter(|k| k % 3 == 0).count() % 2 == 1;
+        for m in 0..64 {
+            assert_eq!(sets.find(m).1, parity(m), "{m}");
+        }
+        assert!(sets.relate(0, 63, !parity(63)));
+        assert!(!sets.relate(0, 63, parity(63)));
+    }
+}

@@ -1,0 +1,4 @@
+//! Tests of the core: everything below the screen.
+
+mod common;
+mod mesh;
