@@ -25,11 +25,18 @@
 //!       app · cli     the window · the command line
 //! ```
 
+#[cfg(feature = "gui")]
+pub mod app;
 pub mod cli;
 pub mod examples;
 pub mod geom;
 pub mod io;
 pub mod linalg;
 pub mod mesh;
+#[cfg(feature = "gui")]
+pub mod render;
 pub mod session;
 pub mod solver;
+#[cfg(feature = "gui")]
+pub mod ui;
+pub mod view;

@@ -1,0 +1,88 @@
+//! The way into egui.
+
+use eframe::egui;
+use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
+use eframe::wgpu;
+use egui::epaint::ViewportInPixels;
+
+use super::frame::{MeshFrame, PaneId, PlaneFrame};
+use super::gpu::{Gpu, Io, Place, Stats};
+use super::uniforms::PaneSize;
+
+/// Compiles the pipelines and puts them where the panes find them. Once per window.
+pub fn install(state: &RenderState) {
+    let gpu = Gpu::new(&state.device, &state.queue, state.target_format);
+    state.renderer.write().callback_resources.insert(gpu);
+}
+
+/// What the renderer has done since [`install`]; `None` before it.
+pub fn stats(state: &RenderState) -> Option<Stats> {
+    state.renderer.read().callback_resources.get::<Gpu>().map(Gpu::stats)
+}
+
+/// The 3D pane, to be added to a painter. The rectangle must lie within the window.
+pub fn mesh_pane(pane: PaneId, rect: egui::Rect, frame: MeshFrame) -> egui::PaintCallback {
+    Callback::new_paint_callback(rect, PaneCallback { pane, rect, content: Content::Mesh(Box::new(frame)) })
+}
+
+/// The embedding's pane, to be added to a painter. The rectangle must lie within the window.
+pub fn plane_pane(pane: PaneId, rect: egui::Rect, frame: PlaneFrame) -> egui::PaintCallback {
+    Callback::new_paint_callback(rect, PaneCallback { pane, rect, content: Content::Plane(Box::new(frame)) })
+}
+
+enum Content {
+    Mesh(Box<MeshFrame>),
+    Plane(Box<PlaneFrame>),
+}
+
+struct PaneCallback {
+    pane: PaneId,
+    rect: egui::Rect,
+    content: Content,
+}
+
+impl CallbackTrait for PaneCallback {
+    fn prepare(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        screen: &ScreenDescriptor,
+        encoder: &mut wgpu::CommandEncoder,
+        resources: &mut CallbackResources,
+    ) -> Vec<wgpu::CommandBuffer> {
+        if let Some(gpu) = resources.get_mut::<Gpu>() {
+            let mut io = Io { device, queue, encoder };
+            let place = Place { pane: self.pane, size: pane_size(self.rect, screen) };
+            match &self.content {
+                Content::Mesh(frame) => {
+                    gpu.prepare(&mut io, place, frame.picture.as_ref(), |planner| planner.mesh(frame));
+                }
+                Content::Plane(frame) => {
+                    gpu.prepare(&mut io, place, frame.picture.as_ref(), |planner| planner.plane(frame));
+                }
+            }
+        }
+        Vec::new()
+    }
+
+    fn paint(
+        &self,
+        _info: egui::PaintCallbackInfo,
+        render_pass: &mut wgpu::RenderPass<'static>,
+        resources: &CallbackResources,
+    ) {
+        if let Some(gpu) = resources.get::<Gpu>() {
+            gpu.paint(self.pane, render_pass);
+        }
+    }
+}
+
+/// The rectangle in whole pixels, rounded as egui rounds the viewport that it paints into.
+fn pane_size(rect: egui::Rect, screen: &ScreenDescriptor) -> PaneSize {
+    let viewport = ViewportInPixels::from_points(&rect, screen.pixels_per_point, screen.size_in_pixels);
+    let side = |length: i32| u32::try_from(length).unwrap_or(0);
+    PaneSize {
+        in_pixels: [side(viewport.width_px), side(viewport.height_px)],
+        pixels_per_point: screen.pixels_per_point,
+    }
+}

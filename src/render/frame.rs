@@ -1,0 +1,130 @@
+//! What a pane shows in one frame. Cheap to make: the arrays are shared, the rest is small.
+
+use std::sync::Arc;
+
+use crate::mesh::FaceId;
+use crate::view::{
+    EdgeList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Srgb,
+};
+
+/// Tells panes apart, so that each keeps its own target. Two panes in one window must not share a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct PaneId(pub &'static str);
+
+/// Where the colours of the faces come from. Flipped faces show in their own colour in all of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// Clay on the mesh, one flat colour in the plane.
+    #[default]
+    Plain,
+    /// A checker in the plane, carried over to the mesh.
+    Checker,
+    /// The colours of the [`FacePaint`].
+    Paint,
+    /// The picture in the plane, carried over to the mesh.
+    Picture,
+}
+
+/// How the mesh's light is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normals {
+    /// Smooth but for creases.
+    #[default]
+    Smooth,
+    /// One per face.
+    Flat,
+}
+
+/// How faces look, apart from their colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// Where the colours come from.
+    pub shading: Shading,
+    /// How the mesh's light is computed.
+    pub normals: Normals,
+    /// Width of the wireframe in points, 0 for none.
+    pub wire_in_points: f32,
+    /// Width of the outline of flipped faces in points, 0 for none. It shows faces too thin to see.
+    pub flipped_outline_in_points: f32,
+    /// Side of a check, embedding units.
+    pub check_size: f64,
+    /// The face under the pointer.
+    pub hovered: Option<FaceId>,
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Self {
+            shading: Shading::Plain,
+            normals: Normals::Smooth,
+            wire_in_points: 0.0,
+            flipped_outline_in_points: 1.5,
+            check_size: 0.1,
+            hovered: None,
+        }
+    }
+}
+
+/// Edges drawn as lines of one colour and width.
+#[derive(Clone, Debug)]
+pub struct LineLayer {
+    /// Which edges.
+    pub edges: Arc<EdgeList>,
+    /// Their colour.
+    pub colour: Srgb,
+    /// Their width.
+    pub width_in_points: f32,
+}
+
+/// A picture in the plane.
+#[derive(Clone, Debug)]
+pub struct PictureLayer {
+    /// The pixels.
+    pub picture: Arc<Picture>,
+    /// Where the picture lies, embedding units: the unit square, unless the embedding is kept otherwise.
+    pub bounds: PlaneBox,
+    /// Opacity behind the embedding, 0 to 1. On faces it is opaque.
+    pub opacity: f32,
+}
+
+/// The 3D pane.
+#[derive(Clone, Debug)]
+pub struct MeshFrame {
+    /// The mesh.
+    pub mesh: Arc<MeshArrays>,
+    /// Its embedding, for checker and picture. Without one they stay plain.
+    pub plane: Option<Arc<PlaneArrays>>,
+    /// Colours and flags of the faces. Without it none is flipped.
+    pub paint: Option<Arc<FacePaint>>,
+    /// Lines, the later over the earlier.
+    pub lines: Vec<LineLayer>,
+    /// The picture for [`Shading::Picture`].
+    pub picture: Option<PictureLayer>,
+    /// From where it is seen.
+    pub camera: OrbitCamera,
+    /// How it looks.
+    pub style: Style,
+    /// Its colours.
+    pub palette: Palette,
+}
+
+/// The embedding's pane.
+#[derive(Clone, Debug)]
+pub struct PlaneFrame {
+    /// The mesh, for its faces.
+    pub mesh: Arc<MeshArrays>,
+    /// The embedding. Without one only the background shows.
+    pub plane: Option<Arc<PlaneArrays>>,
+    /// Colours and flags of the faces. Without it none is flipped.
+    pub paint: Option<Arc<FacePaint>>,
+    /// Lines, the later over the earlier.
+    pub lines: Vec<LineLayer>,
+    /// The picture behind the embedding.
+    pub picture: Option<PictureLayer>,
+    /// What part of the plane is seen.
+    pub camera: PlaneCamera,
+    /// How it looks.
+    pub style: Style,
+    /// Its colours.
+    pub palette: Palette,
+}

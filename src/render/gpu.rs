@@ -1,0 +1,323 @@
+//! What lives on the device from frame to frame: pipelines, buffers, and a target per pane.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use eframe::wgpu;
+
+use super::cache::{Cache, Key};
+use super::frame::{PaneId, PictureLayer};
+use super::pipelines::Pipelines;
+use super::plan::{Draw, Kind, LAYER_LIMIT, Plan, Planner};
+use super::target::Target;
+use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
+use crate::view::Revision;
+
+/// Distance of two lines' uniforms in their buffer: the largest alignment that a device may ask for.
+const LINE_STRIDE: u64 = 256;
+/// A pane that was not asked for during so many others is gone.
+const PANE_LIFETIME: u64 = 1000;
+
+/// What the renderer has done since it was installed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stats {
+    /// Vertex buffers and pictures that were filled.
+    pub uploads: u64,
+    /// The bytes of those.
+    pub uploaded_bytes: u64,
+    /// Pictures of panes that were drawn, because something in them had changed.
+    pub drawn_panes: u64,
+    /// Draw calls in those pictures.
+    pub draw_calls: u64,
+}
+
+/// All of it, kept among egui's callback resources.
+pub(super) struct Gpu {
+    pipelines: Pipelines,
+    cache: Cache,
+    pictures: BTreeMap<Option<Revision>, wgpu::TextureView>,
+    sampler: wgpu::Sampler,
+    panes: BTreeMap<PaneId, PaneState>,
+    tick: u64,
+    stats: Stats,
+}
+
+/// One pane from frame to frame.
+struct PaneState {
+    target: Target,
+    uniforms: wgpu::Buffer,
+    line_uniforms: wgpu::Buffer,
+    line_group: wgpu::BindGroup,
+    blit_group: wgpu::BindGroup,
+    /// What the target shows.
+    shown: Option<Plan>,
+    last_tick: u64,
+}
+
+impl Gpu {
+    /// Compiles the pipelines.
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, window_format: wgpu::TextureFormat) -> Self {
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("picture"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        // Stands for the picture where there is none.
+        let clear = picture_view(device, queue, [1, 1], &[0; 4]);
+        Self {
+            pipelines: Pipelines::new(device, window_format),
+            cache: Cache::default(),
+            pictures: BTreeMap::from([(None, clear)]),
+            sampler,
+            panes: BTreeMap::new(),
+            tick: 0,
+            stats: Stats::default(),
+        }
+    }
+
+    /// What was done so far.
+    pub(super) fn stats(&self) -> Stats {
+        Stats {
+            uploads: self.stats.uploads + self.cache.uploads,
+            uploaded_bytes: self.stats.uploaded_bytes + self.cache.uploaded_bytes,
+            ..self.stats
+        }
+    }
+
+    /// Draws a pane into its target if what it shows has changed.
+    pub(super) fn prepare(
+        &mut self,
+        io: &mut Io<'_>,
+        Place { pane, size }: Place,
+        picture: Option<&PictureLayer>,
+        plan: impl FnOnce(&mut Planner<'_>) -> Plan,
+    ) {
+        let [width, height] = size.in_pixels;
+        let limit = io.device.limits().max_texture_dimension_2d;
+        if width == 0 || height == 0 || width > limit || height > limit {
+            self.panes.remove(&pane);
+            return;
+        }
+        let plan = plan(&mut Planner { device: io.device, cache: &mut self.cache, size });
+        self.ensure_picture(io, picture);
+        self.tick += 1;
+        let tick = self.tick;
+        if self.panes.get(&pane).is_none_or(|state| state.target.size != size.in_pixels) {
+            self.panes.insert(pane, PaneState::new(io.device, &self.pipelines, size.in_pixels));
+        }
+        let state = self.panes.get_mut(&pane).expect("just put there");
+        state.last_tick = tick;
+        if state.shown.as_ref() != Some(&plan) {
+            state.upload_uniforms(io.queue, &plan);
+            let picture = self.pictures.get(&plan.picture).or_else(|| self.pictures.get(&None));
+            let picture = picture.expect("the clear picture stays");
+            let group = pane_group(io.device, &self.pipelines, &state.uniforms, (picture, &self.sampler));
+            let scene = Scene { pipelines: &self.pipelines, cache: &self.cache, group: &group };
+            self.stats.drawn_panes += 1;
+            self.stats.draw_calls += scene.draw(io.encoder, state, &plan);
+            state.shown = Some(plan);
+        }
+        self.forget(tick);
+    }
+
+    /// Puts a pane's picture into egui's window.
+    pub(super) fn paint(&self, pane: PaneId, pass: &mut wgpu::RenderPass<'static>) {
+        let Some(state) = self.panes.get(&pane).filter(|state| state.shown.is_some()) else {
+            return;
+        };
+        pass.set_pipeline(&self.pipelines.blit);
+        pass.set_bind_group(0, &state.blit_group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    fn ensure_picture(&mut self, io: &Io<'_>, layer: Option<&PictureLayer>) {
+        let Some(picture) = layer.map(|layer| &layer.picture) else {
+            return;
+        };
+        let limit = io.device.limits().max_texture_dimension_2d;
+        let key = Some(picture.revision());
+        if self.pictures.contains_key(&key) || picture.size().iter().any(|&side| side > limit) {
+            return;
+        }
+        self.stats.uploads += 1;
+        self.stats.uploaded_bytes += picture.pixels().len() as u64;
+        self.pictures.insert(key, picture_view(io.device, io.queue, picture.size(), picture.pixels()));
+    }
+
+    /// Drops what no pane shows any more.
+    fn forget(&mut self, tick: u64) {
+        self.panes.retain(|_, state| tick - state.last_tick < PANE_LIFETIME);
+        let shown = || self.panes.values().filter_map(|state| state.shown.as_ref());
+        let used: BTreeSet<Key> = shown().flat_map(Plan::keys).collect();
+        let pictures: BTreeSet<Revision> = shown().filter_map(|plan| plan.picture).collect();
+        self.cache.retain(&used);
+        self.pictures.retain(|key, _| key.is_none_or(|revision| pictures.contains(&revision)));
+    }
+}
+
+/// What egui hands to a callback.
+pub(super) struct Io<'a> {
+    pub(super) device: &'a wgpu::Device,
+    pub(super) queue: &'a wgpu::Queue,
+    pub(super) encoder: &'a mut wgpu::CommandEncoder,
+}
+
+/// Which pane, and its size on the screen.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub(super) pane: PaneId,
+    pub(super) size: PaneSize,
+}
+
+impl PaneState {
+    fn new(device: &wgpu::Device, pipelines: &Pipelines, size: [u32; 2]) -> Self {
+        let target = Target::new(device, size);
+        let uniforms = uniform_buffer(device, size_of::<PaneUniforms>() as u64);
+        let line_uniforms = uniform_buffer(device, LINE_STRIDE * LAYER_LIMIT as u64);
+        let line_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("line"),
+            layout: &pipelines.line_layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer: &line_uniforms,
+                    offset: 0,
+                    size: std::num::NonZeroU64::new(size_of::<LineUniforms>() as u64),
+                }),
+            }],
+        });
+        let blit_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("blit"),
+            layout: &pipelines.blit_layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&target.picture) },
+            ],
+        });
+        Self { target, uniforms, line_uniforms, line_group, blit_group, shown: None, last_tick: 0 }
+    }
+
+    fn upload_uniforms(&self, queue: &wgpu::Queue, plan: &Plan) {
+        queue.write_buffer(&self.uniforms, 0, &plan.uniforms);
+        for (layer, bytes) in (0..).zip(&plan.line_uniforms) {
+            queue.write_buffer(&self.line_uniforms, layer * LINE_STRIDE, bytes);
+        }
+    }
+}
+
+/// What the draw calls of a pane share.
+struct Scene<'a> {
+    pipelines: &'a Pipelines,
+    cache: &'a Cache,
+    group: &'a wgpu::BindGroup,
+}
+
+impl Scene<'_> {
+    /// Records the pane's picture and returns the number of draw calls.
+    fn draw(&self, encoder: &mut wgpu::CommandEncoder, state: &PaneState, plan: &Plan) -> u64 {
+        let [r, g, b, a] = plan.clear;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("freebound pane"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &state.target.samples,
+                depth_slice: None,
+                resolve_target: Some(&state.target.picture),
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a }),
+                    store: wgpu::StoreOp::Discard,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &state.target.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, self.group, &[]);
+        let (faces, lines) = match plan.kind {
+            Kind::Mesh => (&self.pipelines.mesh_faces, &self.pipelines.mesh_lines),
+            Kind::Plane => (&self.pipelines.plane_faces, &self.pipelines.plane_lines),
+        };
+        let mut calls = 0;
+        if plan.kind == Kind::Plane {
+            pass.set_pipeline(&self.pipelines.plane_background);
+            pass.draw(0..3, 0..1);
+            calls += 1;
+        }
+        pass.set_pipeline(faces);
+        for draw in &plan.faces {
+            if self.bind(&mut pass, draw) {
+                pass.draw(0..draw.count, 0..1);
+                calls += 1;
+            }
+        }
+        pass.set_pipeline(lines);
+        for (draw, offset) in plan.lines.iter().zip((0_u32..).step_by(256)) {
+            if self.bind(&mut pass, draw) {
+                pass.set_bind_group(1, &state.line_group, &[offset]);
+                pass.draw(0..6, 0..draw.count);
+                calls += 1;
+            }
+        }
+        calls
+    }
+
+    /// Binds the vertex buffers of a draw call. False if one could not be made.
+    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
+        for (slot, &key) in (0..).zip(&draw.buffers) {
+            let Some(buffer) = self.cache.get(key) else {
+                return false;
+            };
+            pass.set_vertex_buffer(slot, buffer.slice(..));
+        }
+        true
+    }
+}
+
+fn uniform_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("freebound uniforms"),
+        size,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+fn pane_group(
+    device: &wgpu::Device,
+    pipelines: &Pipelines,
+    uniforms: &wgpu::Buffer,
+    (picture, sampler): (&wgpu::TextureView, &wgpu::Sampler),
+) -> wgpu::BindGroup {
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("pane"),
+        layout: &pipelines.pane_layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(picture) },
+            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
+        ],
+    })
+}
+
+fn picture_view(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    [width, height]: [u32; 2],
+    pixels: &[u8],
+) -> wgpu::TextureView {
+    use wgpu::util::DeviceExt as _;
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some("picture"),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8UnormSrgb,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let texture = device.create_texture_with_data(queue, &descriptor, wgpu::util::TextureDataOrder::LayerMajor, pixels);
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}

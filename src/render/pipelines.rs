@@ -1,0 +1,293 @@
+//! The pipelines: which shader, which vertex buffers, how it blends, what it does to depth.
+
+use eframe::wgpu;
+use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, CompareFunction};
+
+use super::target::{COLOUR, DEPTH, SAMPLES};
+use super::uniforms::{LineUniforms, PaneUniforms};
+
+/// A shader with what it shares with others in front of it.
+#[derive(Clone, Copy, Debug)]
+pub struct ShaderFile {
+    /// Its file in `shaders/`.
+    pub name: &'static str,
+    /// Its whole text.
+    pub source: &'static str,
+}
+
+macro_rules! shader {
+    ($($file:literal),+) => {
+        ShaderFile {
+            name: [$($file),+][[$($file),+].len() - 1],
+            source: concat!($(include_str!(concat!("../../shaders/", $file)), "\n"),+),
+        }
+    };
+}
+
+const MESH: ShaderFile = shader!("common.wgsl", "faces.wgsl", "mesh.wgsl");
+const PLANE: ShaderFile = shader!("common.wgsl", "faces.wgsl", "plane.wgsl");
+const BACKGROUND: ShaderFile = shader!("common.wgsl", "background.wgsl");
+const LINES: ShaderFile = shader!("common.wgsl", "lines.wgsl");
+const BLIT: ShaderFile = shader!("common.wgsl", "blit.wgsl");
+
+/// All shaders, for tests that read them without a GPU.
+pub const SHADERS: [ShaderFile; 5] = [MESH, PLANE, BACKGROUND, LINES, BLIT];
+
+/// Everything that is made once per device.
+#[derive(Debug)]
+pub(super) struct Pipelines {
+    pub(super) pane_layout: wgpu::BindGroupLayout,
+    pub(super) line_layout: wgpu::BindGroupLayout,
+    pub(super) blit_layout: wgpu::BindGroupLayout,
+    pub(super) mesh_faces: wgpu::RenderPipeline,
+    pub(super) mesh_lines: wgpu::RenderPipeline,
+    pub(super) plane_background: wgpu::RenderPipeline,
+    pub(super) plane_faces: wgpu::RenderPipeline,
+    pub(super) plane_lines: wgpu::RenderPipeline,
+    pub(super) blit: wgpu::RenderPipeline,
+}
+
+impl Pipelines {
+    /// Compiles all pipelines for a device and the format of egui's window.
+    pub(super) fn new(device: &wgpu::Device, window_format: wgpu::TextureFormat) -> Self {
+        let pane_layout = pane_layout(device);
+        let line_layout = line_layout(device);
+        let blit_layout = blit_layout(device);
+        let blit_entry = if window_format.is_srgb() { "fs_linear" } else { "fs_gamma" };
+        let pane: Layouts<'_> = &[Some(&pane_layout)];
+        let lines: Layouts<'_> = &[Some(&pane_layout), Some(&line_layout)];
+        let pipeline = |recipe: &Recipe<'_>| recipe.build(device);
+        Self {
+            mesh_faces: pipeline(&Recipe { buffers: &MESH_BUFFERS, ..Recipe::faces(MESH, "fs_shaded", pane) }),
+            plane_faces: pipeline(&Recipe {
+                buffers: &PLANE_BUFFERS,
+                blend: Some(COUNTING),
+                writes: ColorWrites::ALL,
+                ..Recipe::faces(PLANE, "fs_flat", pane)
+            }),
+            plane_background: pipeline(&Recipe {
+                depth: Some((CompareFunction::Always, false)),
+                ..Recipe::faces(BACKGROUND, "fs_background", pane)
+            }),
+            mesh_lines: pipeline(&Recipe {
+                vertex_entry: "vs_mesh",
+                buffers: &MESH_LINE_BUFFERS,
+                ..Recipe::lines(lines)
+            }),
+            plane_lines: pipeline(&Recipe {
+                vertex_entry: "vs_plane",
+                buffers: &PLANE_LINE_BUFFERS,
+                depth: Some((CompareFunction::Always, false)),
+                ..Recipe::lines(lines)
+            }),
+            blit: pipeline(&Recipe {
+                depth: None,
+                samples: 1,
+                format: window_format,
+                writes: ColorWrites::ALL,
+                ..Recipe::faces(BLIT, blit_entry, &[Some(&blit_layout)])
+            }),
+            pane_layout,
+            line_layout,
+            blit_layout,
+        }
+    }
+}
+
+/// Colour covers, alpha counts how many faces lie on each other.
+const COUNTING: BlendState = BlendState {
+    color: BlendComponent::REPLACE,
+    alpha: BlendComponent {
+        src_factor: BlendFactor::One,
+        dst_factor: BlendFactor::One,
+        operation: BlendOperation::Add,
+    },
+};
+
+type Layouts<'a> = &'a [Option<&'a wgpu::BindGroupLayout>];
+type Buffers = [Option<wgpu::VertexBufferLayout<'static>>];
+
+const fn buffer<const N: usize>(
+    stride: u64,
+    step_mode: wgpu::VertexStepMode,
+    attributes: &'static [wgpu::VertexAttribute; N],
+) -> wgpu::VertexBufferLayout<'static> {
+    wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes }
+}
+
+const PER_VERTEX: wgpu::VertexStepMode = wgpu::VertexStepMode::Vertex;
+const PER_LINE: wgpu::VertexStepMode = wgpu::VertexStepMode::Instance;
+
+/// `MeshArrays::corner_positions`, `corner_normals`, `PlaneArrays::corners`, `FacePaint::corners`.
+static MESH_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 4] = [
+    Some(buffer(12, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x3])),
+    Some(buffer(8, PER_VERTEX, &wgpu::vertex_attr_array![1 => Snorm16x4])),
+    Some(buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![2 => Float32x4])),
+    Some(buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![3 => Unorm8x4])),
+];
+/// `PlaneArrays::corners`, `FacePaint::corners`.
+static PLANE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
+    Some(buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4])),
+    Some(buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![1 => Unorm8x4])),
+];
+/// Two points in unit space.
+static MESH_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
+    [Some(buffer(24, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3]))];
+/// Two split points.
+static PLANE_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
+    [Some(buffer(32, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4]))];
+
+/// What tells one pipeline from another.
+struct Recipe<'a> {
+    shader: ShaderFile,
+    vertex_entry: &'static str,
+    fragment_entry: &'static str,
+    layouts: Layouts<'a>,
+    buffers: &'a Buffers,
+    blend: Option<BlendState>,
+    writes: ColorWrites,
+    /// How depth is compared, and whether it is written.
+    depth: Option<(CompareFunction, bool)>,
+    samples: u32,
+    format: wgpu::TextureFormat,
+}
+
+impl<'a> Recipe<'a> {
+    fn faces(shader: ShaderFile, fragment_entry: &'static str, layouts: Layouts<'a>) -> Self {
+        Self {
+            shader,
+            vertex_entry: "vs_main",
+            fragment_entry,
+            layouts,
+            buffers: &[],
+            blend: None,
+            writes: ColorWrites::COLOR,
+            depth: Some((CompareFunction::LessEqual, true)),
+            samples: SAMPLES,
+            format: COLOUR,
+        }
+    }
+
+    fn lines(layouts: Layouts<'a>) -> Self {
+        Self {
+            shader: LINES,
+            vertex_entry: "vs_mesh",
+            fragment_entry: "fs_line",
+            layouts,
+            buffers: &[],
+            blend: Some(BlendState::ALPHA_BLENDING),
+            writes: ColorWrites::COLOR,
+            depth: Some((CompareFunction::LessEqual, false)),
+            samples: SAMPLES,
+            format: COLOUR,
+        }
+    }
+
+    fn build(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(self.shader.name),
+            source: wgpu::ShaderSource::Wgsl(self.shader.source.into()),
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(self.shader.name),
+            bind_group_layouts: self.layouts,
+            immediate_size: 0,
+        });
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(self.shader.name),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some(self.vertex_entry),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: self.buffers,
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: self.depth.map(|(compare, write)| wgpu::DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(write),
+                depth_compare: Some(compare),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: self.samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(self.fragment_entry),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: self.format,
+                    blend: self.blend,
+                    write_mask: self.writes,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+const BOTH_STAGES: wgpu::ShaderStages = wgpu::ShaderStages::VERTEX_FRAGMENT;
+
+fn uniform_entry(binding: u32, size: usize, has_dynamic_offset: Offset) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: BOTH_STAGES,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: matches!(has_dynamic_offset, Offset::PerLayer),
+            min_binding_size: std::num::NonZeroU64::new(size as u64),
+        },
+        count: None,
+    }
+}
+
+/// Whether one buffer holds the numbers of many draw calls.
+#[derive(Clone, Copy)]
+enum Offset {
+    None,
+    PerLayer,
+}
+
+fn texture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: true },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        },
+        count: None,
+    }
+}
+
+fn pane_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("pane"),
+        entries: &[
+            uniform_entry(0, size_of::<PaneUniforms>(), Offset::None),
+            texture_entry(1),
+            wgpu::BindGroupLayoutEntry {
+                binding: 2,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                count: None,
+            },
+        ],
+    })
+}
+
+fn line_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("line"),
+        entries: &[uniform_entry(0, size_of::<LineUniforms>(), Offset::PerLayer)],
+    })
+}
+
+fn blit_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("blit"),
+        entries: &[uniform_entry(0, size_of::<PaneUniforms>(), Offset::None), texture_entry(1)],
+    })
+}

@@ -1,0 +1,235 @@
+//! From a frame to draw calls: which buffers, in which order, with which small numbers.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use eframe::wgpu;
+
+use super::cache::{Cache, Key};
+use super::frame::{LineLayer, MeshFrame, PictureLayer, PlaneFrame, Style};
+use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
+use crate::mesh::VertexId;
+use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PlaneArrays};
+
+/// Share of its distance by which a line comes nearer to the eye than the surface that it lies on.
+const LIFT: f32 = 0.0015;
+/// The most line layers of a pane, outlines of flipped faces included.
+pub(super) const LAYER_LIMIT: usize = 16;
+
+/// What the draw calls of a pane draw with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Mesh,
+    Plane,
+}
+
+/// One draw call.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Draw {
+    /// Vertex buffers in the order of their slots.
+    pub(super) buffers: Vec<Key>,
+    /// Vertices of faces, instances of lines.
+    pub(super) count: u32,
+}
+
+/// Everything that a pane's picture depends on. Equal plans give equal pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Plan {
+    pub(super) kind: Kind,
+    pub(super) size: [u32; 2],
+    /// The bytes of [`PaneUniforms`].
+    pub(super) uniforms: Vec<u8>,
+    pub(super) faces: Vec<Draw>,
+    pub(super) lines: Vec<Draw>,
+    /// The bytes of a [`LineUniforms`] per line layer.
+    pub(super) line_uniforms: Vec<Vec<u8>>,
+    pub(super) picture: Option<crate::view::Revision>,
+    pub(super) clear: [f64; 4],
+}
+
+impl Plan {
+    /// All buffers that the pane needs.
+    pub(super) fn keys(&self) -> impl Iterator<Item = Key> + '_ {
+        self.faces.iter().chain(&self.lines).flat_map(|draw| draw.buffers.iter().copied())
+    }
+
+    fn new(kind: Kind, size: PaneSize, uniforms: &PaneUniforms, palette: &Palette) -> Self {
+        let [r, g, b, _] = palette.background.to_linear().map(f64::from);
+        Self {
+            kind,
+            size: size.in_pixels,
+            uniforms: bytemuck::bytes_of(uniforms).to_vec(),
+            faces: Vec::new(),
+            lines: Vec::new(),
+            line_uniforms: Vec::new(),
+            picture: None,
+            // Alpha counts faces; there are none yet.
+            clear: [r, g, b, 0.0],
+        }
+    }
+
+    fn push_line(&mut self, draw: Draw, uniforms: LineUniforms) {
+        if draw.count > 0 && self.lines.len() < LAYER_LIMIT {
+            self.lines.push(draw);
+            self.line_uniforms.push(bytemuck::bytes_of(&uniforms).to_vec());
+        }
+    }
+}
+
+/// Where buffers are made while planning.
+pub(super) struct Planner<'a> {
+    pub(super) device: &'a wgpu::Device,
+    pub(super) cache: &'a mut Cache,
+    pub(super) size: PaneSize,
+}
+
+impl Planner<'_> {
+    /// Plans the 3D pane and makes the buffers that it lacks.
+    pub(super) fn mesh(&mut self, frame: &MeshFrame) -> Plan {
+        let uniforms = PaneUniforms::of_mesh(frame, self.size);
+        let mut plan = Plan::new(Kind::Mesh, self.size, &uniforms, &frame.palette);
+        plan.picture = picture_revision(frame.picture.as_ref());
+        let mesh = &frame.mesh;
+        let count = corner_count(mesh);
+        let positions = Key::Positions(mesh.revision());
+        let normals = Key::Normals(mesh.revision());
+        self.ensure(positions, mesh.corner_positions());
+        self.ensure(normals, mesh.corner_normals());
+        let plane = self.plane_or_zeros(frame.plane.as_ref(), mesh);
+        let paint = self.paint_or_zeros(frame.paint.as_ref(), mesh);
+        plan.faces.push(Draw { buffers: vec![positions, normals, plane, paint], count });
+
+        for layer in &frame.lines {
+            let key = Key::MeshLines(mesh.revision(), layer.edges.revision());
+            self.ensure_with(key, || segments(mesh.points(), vertex_pairs(&layer.edges)));
+            plan.push_line(line_draw(key, layer.edges.ends().len()), self.line(layer, LIFT));
+        }
+        if let Some((paint, uniforms)) = self.outline(&frame.style, &frame.palette, frame.paint.as_ref(), LIFT) {
+            let key = Key::MeshLines(mesh.revision(), paint.revision());
+            self.ensure_with(key, || segments(mesh.points(), flipped_sides(mesh, paint)));
+            plan.push_line(line_draw(key, 3 * paint.flipped().len()), uniforms);
+        }
+        plan
+    }
+
+    /// Plans the embedding's pane and makes the buffers that it lacks.
+    pub(super) fn plane(&mut self, frame: &PlaneFrame) -> Plan {
+        let uniforms = PaneUniforms::of_plane(frame, self.size);
+        let mut plan = Plan::new(Kind::Plane, self.size, &uniforms, &frame.palette);
+        plan.picture = picture_revision(frame.picture.as_ref());
+        let Some(plane) = frame.plane.as_ref() else {
+            return plan;
+        };
+        let mesh = &frame.mesh;
+        // Flipped faces come first: they lie in front, and what lies behind them is then not drawn.
+        if let Some(paint) = frame.paint.as_ref().filter(|paint| !paint.flipped().is_empty()) {
+            let corners = Key::FlippedPlane(plane.revision(), paint.revision());
+            let colours = Key::FlippedPaint(paint.revision());
+            self.ensure_with(corners, || flipped_corners(plane.corners(), paint));
+            self.ensure_with(colours, || flipped_corners(paint.corners(), paint));
+            let count = u32::try_from(3 * paint.flipped().len()).unwrap_or(0);
+            plan.faces.push(Draw { buffers: vec![corners, colours], count });
+        }
+        let corners = self.plane_or_zeros(Some(plane), mesh);
+        let paint = self.paint_or_zeros(frame.paint.as_ref(), mesh);
+        plan.faces.push(Draw { buffers: vec![corners, paint], count: corner_count(mesh) });
+
+        for layer in &frame.lines {
+            let key = Key::PlaneLines(plane.revision(), layer.edges.revision());
+            self.ensure_with(key, || segments(plane.points(), vertex_pairs(&layer.edges)));
+            plan.push_line(line_draw(key, layer.edges.ends().len()), self.line(layer, 0.0));
+        }
+        if let Some((paint, uniforms)) = self.outline(&frame.style, &frame.palette, frame.paint.as_ref(), 0.0) {
+            let key = Key::PlaneLines(plane.revision(), paint.revision());
+            self.ensure_with(key, || segments(plane.points(), flipped_sides(mesh, paint)));
+            plan.push_line(line_draw(key, 3 * paint.flipped().len()), uniforms);
+        }
+        plan
+    }
+
+    fn ensure<T: bytemuck::Pod>(&mut self, key: Key, values: &[T]) {
+        self.cache.ensure(self.device, key, || Cow::Borrowed(bytemuck::cast_slice(values)));
+    }
+
+    fn ensure_with<T: bytemuck::Pod>(&mut self, key: Key, values: impl FnOnce() -> Vec<T>) {
+        self.cache.ensure(self.device, key, || Cow::Owned(bytemuck::cast_slice(&values()).to_vec()));
+    }
+
+    /// An embedding of another mesh is worse than none.
+    fn plane_or_zeros(&mut self, plane: Option<&Arc<PlaneArrays>>, mesh: &MeshArrays) -> Key {
+        match plane.filter(|plane| plane.corners().len() == mesh.corner_positions().len()) {
+            Some(plane) => {
+                self.ensure(Key::Plane(plane.revision()), plane.corners());
+                Key::Plane(plane.revision())
+            }
+            None => self.zeros(size_of::<[f32; 4]>(), mesh),
+        }
+    }
+
+    fn paint_or_zeros(&mut self, paint: Option<&Arc<FacePaint>>, mesh: &MeshArrays) -> Key {
+        match paint.filter(|paint| paint.corners().len() == mesh.corner_positions().len()) {
+            Some(paint) => {
+                self.ensure(Key::Paint(paint.revision()), paint.corners());
+                Key::Paint(paint.revision())
+            }
+            None => self.zeros(size_of::<[u8; 4]>(), mesh),
+        }
+    }
+
+    fn zeros(&mut self, stride: usize, mesh: &MeshArrays) -> Key {
+        let size = (stride * mesh.corner_positions().len()) as u64;
+        self.cache.ensure_zeros(self.device, size);
+        Key::Zeros(size)
+    }
+
+    fn line(&self, layer: &LineLayer, lift: f32) -> LineUniforms {
+        LineUniforms::new(layer.colour, layer.width_in_points, self.size.pixels_per_point, lift)
+    }
+
+    fn outline<'p>(
+        &self,
+        style: &Style,
+        palette: &Palette,
+        paint: Option<&'p Arc<FacePaint>>,
+        lift: f32,
+    ) -> Option<(&'p FacePaint, LineUniforms)> {
+        let width = style.flipped_outline_in_points;
+        let paint = paint.filter(|paint| width > 0.0 && !paint.flipped().is_empty())?;
+        Some((paint, LineUniforms::new(palette.flipped, width, self.size.pixels_per_point, lift)))
+    }
+}
+
+fn picture_revision(layer: Option<&PictureLayer>) -> Option<crate::view::Revision> {
+    layer.map(|layer| layer.picture.revision())
+}
+
+fn corner_count(mesh: &MeshArrays) -> u32 {
+    u32::try_from(mesh.corner_positions().len()).unwrap_or(0)
+}
+
+fn line_draw(key: Key, count: usize) -> Draw {
+    Draw { buffers: vec![key], count: u32::try_from(count).unwrap_or(0) }
+}
+
+fn vertex_pairs(edges: &EdgeList) -> impl Iterator<Item = [usize; 2]> + '_ {
+    edges.ends().iter().map(|ends| ends.map(VertexId::index))
+}
+
+/// Begin and end of each line; lines to vertices that are not there shrink to a point.
+fn segments<P: Copy + Default + bytemuck::Pod>(points: &[P], ends: impl Iterator<Item = [usize; 2]>) -> Vec<P> {
+    ends.flat_map(|ends| ends.map(|v| points.get(v).copied().unwrap_or_default())).collect()
+}
+
+/// Ends of the three sides of each flipped face.
+fn flipped_sides<'a>(mesh: &'a MeshArrays, paint: &'a FacePaint) -> impl Iterator<Item = [usize; 2]> + 'a {
+    paint.flipped().iter().flat_map(|face| {
+        let [a, b, c] = mesh.triangles().get(face.index()).map_or([usize::MAX; 3], |t| t.map(VertexId::index));
+        [[a, b], [b, c], [c, a]]
+    })
+}
+
+/// The corners of the flipped faces only.
+fn flipped_corners<T: Copy>(corners: &[T], paint: &FacePaint) -> Vec<T> {
+    let of_face = |face: usize| corners.get(3 * face..3 * face + 3).unwrap_or_default();
+    paint.flipped().iter().flat_map(|face| of_face(face.index()).iter().copied()).collect()
+}

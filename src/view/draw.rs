@@ -1,0 +1,290 @@
+//! What the GPU is given: arrays that never change once made, each with a revision of its own.
+//!
+//! Faces are drawn without an index buffer: corner `3 f + k` is corner `k` of face `f`. A vertex shader then knows
+//! face and corner from its running number, so flat colours and wireframes need neither a geometry shader nor a
+//! storage buffer, and runs on GLES 3. The price is that positions repeat about six times; in exchange the three
+//! streams (mesh, embedding, paint) change apart from each other, and only what changed is sent.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use glam::{DVec2, DVec3};
+
+use super::space::split_point;
+use super::{PlaneBox, Range, Scale, Sphere, UnitFrame, UnitPlane, crease_normals};
+use crate::mesh::{FaceId, VertexId};
+
+/// Says whether two arrays are the same: every array made in this process has its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Revision(u64);
+
+impl Revision {
+    /// A revision that nothing else has.
+    fn fresh() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(1);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
+/// The mesh in unit space. Made once per mesh; 100 k faces take some ten milliseconds, on any thread.
+#[derive(Debug)]
+pub struct MeshArrays {
+    revision: Revision,
+    frame: UnitFrame,
+    mean_normal: DVec3,
+    points: Vec<[f32; 3]>,
+    corner_positions: Vec<[f32; 3]>,
+    corner_normals: Vec<[i16; 4]>,
+    triangles: Vec<[VertexId; 3]>,
+}
+
+impl MeshArrays {
+    /// Draw arrays of triangles over shared positions.
+    ///
+    /// # Panics
+    ///
+    /// If a corner names a vertex that is not there.
+    pub fn new(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Self {
+        let frame = UnitFrame::of(Sphere::around(positions));
+        let points: Vec<[f32; 3]> = positions.iter().map(|&p| frame.unit_from_world(p).to_array()).collect();
+        let corner_positions = triangles.iter().flatten().map(|v| points[v.index()]).collect();
+        let normals = crease_normals(positions, triangles);
+        let area_vector = |t: &[VertexId; 3]| {
+            let [a, b, c] = t.map(|v| positions[v.index()]);
+            (b - a).cross(c - a)
+        };
+        Self {
+            revision: Revision::fresh(),
+            frame,
+            mean_normal: triangles.iter().map(area_vector).sum(),
+            points,
+            corner_positions,
+            corner_normals: normals.into_iter().map(packed_normal).collect(),
+            triangles: triangles.to_vec(),
+        }
+    }
+
+    /// Which mesh this is.
+    pub fn revision(&self) -> Revision {
+        self.revision
+    }
+
+    /// Where unit space lies in the world.
+    pub fn frame(&self) -> UnitFrame {
+        self.frame
+    }
+
+    /// The sum of the faces' area vectors: the side that the surface shows.
+    pub fn mean_normal(&self) -> DVec3 {
+        self.mean_normal
+    }
+
+    /// Corners of all faces.
+    pub fn triangles(&self) -> &[[VertexId; 3]] {
+        &self.triangles
+    }
+
+    /// Vertices in unit space.
+    pub fn points(&self) -> &[[f32; 3]] {
+        &self.points
+    }
+
+    /// Positions in unit space, corner by corner.
+    pub fn corner_positions(&self) -> &[[f32; 3]] {
+        &self.corner_positions
+    }
+
+    /// Normals, corner by corner, as 16-bit fractions; the fourth is nothing.
+    pub fn corner_normals(&self) -> &[[i16; 4]] {
+        &self.corner_normals
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "components of a unit vector times 32767")]
+fn packed_normal(normal: DVec3) -> [i16; 4] {
+    let n = (32767.0 * normal.clamp(DVec3::NEG_ONE, DVec3::ONE)).round();
+    [n.x as i16, n.y as i16, n.z as i16, 0]
+}
+
+/// An embedding in unit space, as sums of two f32, so that one can zoom in twelve decades. Made once per embedding.
+#[derive(Debug)]
+pub struct PlaneArrays {
+    revision: Revision,
+    frame: UnitPlane,
+    bounds: PlaneBox,
+    points: Vec<[f32; 4]>,
+    corners: Vec<[f32; 4]>,
+}
+
+impl PlaneArrays {
+    /// Draw arrays of an embedding, one point per vertex.
+    ///
+    /// # Panics
+    ///
+    /// If a corner names a vertex that is not there.
+    pub fn new(embedding: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
+        let bounds = PlaneBox::around(embedding);
+        let frame = UnitPlane::of(bounds);
+        let points: Vec<[f32; 4]> = embedding.iter().map(|&p| split_point(frame.unit_from_embedding(p))).collect();
+        let corners = triangles.iter().flatten().map(|v| points[v.index()]).collect();
+        Self { revision: Revision::fresh(), frame, bounds, points, corners }
+    }
+
+    /// Which embedding this is.
+    pub fn revision(&self) -> Revision {
+        self.revision
+    }
+
+    /// Where unit space lies in the plane.
+    pub fn frame(&self) -> UnitPlane {
+        self.frame
+    }
+
+    /// The smallest box around it.
+    pub fn bounds(&self) -> PlaneBox {
+        self.bounds
+    }
+
+    /// Vertices: high parts, then low parts.
+    pub fn points(&self) -> &[[f32; 4]] {
+        &self.points
+    }
+
+    /// The same, corner by corner.
+    pub fn corners(&self) -> &[[f32; 4]] {
+        &self.corners
+    }
+}
+
+/// A colour and flags per face. Made anew when a quantity, the verdict or the selection changes.
+#[derive(Debug)]
+pub struct FacePaint {
+    revision: Revision,
+    corners: Vec<[u8; 4]>,
+    flipped: Vec<FaceId>,
+}
+
+impl FacePaint {
+    /// The bit of a face that is flipped.
+    pub const FLIPPED: u8 = 1;
+    /// The bit of a face that is selected.
+    pub const SELECTED: u8 = 2;
+
+    /// White faces with the flipped ones marked. Faces that are not there are passed over.
+    pub fn plain(face_count: usize, flipped: &[FaceId]) -> Self {
+        Self::from_colours(vec![[255; 3]; face_count], flipped)
+    }
+
+    /// Faces coloured by a quantity, one value each, with the flipped ones marked.
+    pub fn by_value(values: &[f64], scale: Scale, range: Range, flipped: &[FaceId]) -> Self {
+        Self::from_colours(values.iter().map(|&v| scale.colour(v, range)).collect(), flipped)
+    }
+
+    fn from_colours(colours: Vec<[u8; 3]>, flipped: &[FaceId]) -> Self {
+        let mut corners = Vec::with_capacity(3 * colours.len());
+        for [r, g, b] in colours {
+            corners.extend([[r, g, b, 0]; 3]);
+        }
+        let mut paint = Self { revision: Revision::fresh(), corners, flipped: Vec::new() };
+        paint.mark(flipped, Self::FLIPPED);
+        paint.flipped = flipped.iter().copied().filter(|f| f.index() < paint.face_count()).collect();
+        paint
+    }
+
+    /// The same with some faces marked as selected.
+    #[must_use]
+    pub fn with_selected(mut self, selected: &[FaceId]) -> Self {
+        self.mark(selected, Self::SELECTED);
+        self.revision = Revision::fresh();
+        self
+    }
+
+    fn mark(&mut self, faces: &[FaceId], bit: u8) {
+        for face in faces {
+            let range = 3 * face.index()..3 * face.index() + 3;
+            for corner in self.corners.get_mut(range).into_iter().flatten() {
+                corner[3] |= bit;
+            }
+        }
+    }
+
+    /// Which colouring this is.
+    pub fn revision(&self) -> Revision {
+        self.revision
+    }
+
+    /// How many faces it colours.
+    pub fn face_count(&self) -> usize {
+        self.corners.len() / 3
+    }
+
+    /// Red, green, blue and the flags, corner by corner.
+    pub fn corners(&self) -> &[[u8; 4]] {
+        &self.corners
+    }
+
+    /// The flipped faces.
+    pub fn flipped(&self) -> &[FaceId] {
+        &self.flipped
+    }
+}
+
+/// Edges that are drawn as lines: the boundary, crossings, a path.
+#[derive(Debug)]
+pub struct EdgeList {
+    revision: Revision,
+    ends: Vec<[VertexId; 2]>,
+}
+
+impl EdgeList {
+    /// Edges by their ends.
+    pub fn new(ends: Vec<[VertexId; 2]>) -> Self {
+        Self { revision: Revision::fresh(), ends }
+    }
+
+    /// The closed line through the vertices of a boundary loop.
+    pub fn closed_loop(vertices: &[VertexId]) -> Self {
+        let next = vertices.iter().cycle().skip(1);
+        Self::new(vertices.iter().zip(next).map(|(&a, &b)| [a, b]).collect())
+    }
+
+    /// Which list this is.
+    pub fn revision(&self) -> Revision {
+        self.revision
+    }
+
+    /// The ends of each edge.
+    pub fn ends(&self) -> &[[VertexId; 2]] {
+        &self.ends
+    }
+}
+
+/// A picture behind the embedding and on the faces.
+#[derive(Debug)]
+pub struct Picture {
+    revision: Revision,
+    size: [u32; 2],
+    pixels: Vec<u8>,
+}
+
+impl Picture {
+    /// A picture from rows of sRGB pixels with straight alpha, the upper row first. `None` if the sizes do not agree.
+    pub fn new(size: [u32; 2], pixels: Vec<u8>) -> Option<Self> {
+        let expected = 4 * size[0] as usize * size[1] as usize;
+        (expected > 0 && pixels.len() == expected).then(|| Self { revision: Revision::fresh(), size, pixels })
+    }
+
+    /// Which picture this is.
+    pub fn revision(&self) -> Revision {
+        self.revision
+    }
+
+    /// Width and height, pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Four bytes per pixel, the upper row first.
+    pub fn pixels(&self) -> &[u8] {
+        &self.pixels
+    }
+}

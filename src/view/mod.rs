@@ -1,0 +1,36 @@
+//! Pure mathematics between the document and its pixels: cameras, picking, draw arrays, colour scales.
+//!
+//! Here f64 becomes f32. Nothing in this module knows a screen or a graphics card, so all of it is tested without.
+//!
+//! Spaces, as they appear in names:
+//!
+//! | space     | is                                                                                      |
+//! |-----------|-----------------------------------------------------------------------------------------|
+//! | world     | the mesh's own units, f64                                                               |
+//! | embedding | the plane's own units, f64                                                              |
+//! | unit      | world or embedding moved and scaled so that all lies in [−1, 1]: what the GPU holds, f32 |
+//! | clip      | of the graphics card: x, y in [−1, 1], y up, z in [0, 1]                                 |
+//! | pane      | points from a pane's upper left corner, y down                                          |
+
+mod bvh;
+mod colour;
+mod corners;
+mod draw;
+mod kdtree;
+mod orbit;
+mod palette;
+mod pick;
+mod plane;
+mod space;
+mod ticks;
+
+pub use colour::{Range, Scale};
+pub use corners::crease_normals;
+pub use draw::{EdgeList, FacePaint, MeshArrays, Picture, PlaneArrays, Revision};
+pub use orbit::{OrbitCamera, Ray, UpAxis};
+pub use palette::{Palette, Srgb};
+pub use pick::{PICK_RADIUS, PlanePicker, SurfaceHit, SurfacePicker, VertexPick, Visibility};
+pub use plane::{Grid, PlaneCamera};
+pub(crate) use space::split_point;
+pub use space::{PlaneBox, Sphere, UnitFrame, UnitPlane};
+pub use ticks::{Tick, nice_step_at_least, nice_step_at_most};

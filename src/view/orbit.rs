@@ -1,0 +1,262 @@
+//! The camera of the 3D pane: a turntable. It circles a pivot and up stays up.
+//!
+//! All of it is f64 in world units, whatever the size of the mesh; the product with the unit frame is rounded last.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
+
+use super::{Sphere, UnitFrame};
+
+/// Vertical angle of view, radians: about 35°, a portrait lens.
+const FIELD_OF_VIEW: f64 = 0.61;
+/// Room around a framed ball, as a factor of its distance.
+const FRAME_MARGIN: f64 = 1.04;
+/// Radians per point of an orbit drag: half a turn in about 450 points.
+const ORBIT_RATE: f64 = 0.007;
+/// Nearest and farthest distance to the pivot, in radii of the scene.
+const DISTANCE_LIMITS: [f64; 2] = [1e-5, 1e3];
+/// Distance of the near plane as a share of the distance to the pivot, when the eye is inside the scene.
+const NEAR_SHARE: f64 = 1e-3;
+/// Yaw and pitch by which the first view turns away from a frontal one, radians, so that depth shows.
+const FIRST_TURN: DVec2 = DVec2::new(0.35, 0.2);
+
+/// Which axis of the world points up on the screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UpAxis {
+    /// As in most models of characters and scans.
+    #[default]
+    Y,
+    /// As in terrain, engineering and Blender.
+    Z,
+}
+
+/// A half-line of the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it begins.
+    pub origin: DVec3,
+    /// Where it goes, length 1.
+    pub direction: DVec3,
+}
+
+impl Ray {
+    /// The point at a distance from the origin.
+    pub fn at(self, distance: f64) -> DVec3 {
+        self.origin + distance * self.direction
+    }
+}
+
+/// A turntable camera about a pivot. Sizes and pointers are in points of the pane, y down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrbitCamera {
+    pivot: DVec3,
+    distance: f64,
+    yaw: f64,
+    pitch: f64,
+    up_axis: UpAxis,
+    scene: Sphere,
+}
+
+impl OrbitCamera {
+    /// A camera that sees the whole ball from the front, turned a little.
+    pub fn framing(scene: Sphere, up_axis: UpAxis) -> Self {
+        let mut camera = Self {
+            pivot: scene.center,
+            distance: scene.radius,
+            yaw: FIRST_TURN.x,
+            pitch: FIRST_TURN.y,
+            up_axis,
+            scene,
+        };
+        camera.frame(scene, DVec2::ONE);
+        camera
+    }
+
+    /// A camera that sees the ball from the side that the surface faces, turned a little.
+    ///
+    /// `mean_normal` is the sum of the faces' area vectors; where it vanishes the view is frontal.
+    pub fn facing(scene: Sphere, up_axis: UpAxis, mean_normal: DVec3) -> Self {
+        let mut camera = Self::framing(scene, up_axis);
+        if let Some(normal) = mean_normal.try_normalize() {
+            let back = camera.turntable_from_world(normal);
+            let pitch = back.y.clamp(-1.0, 1.0).asin();
+            // Near the pole the direction around it says nothing.
+            if back.x.hypot(back.z) > 0.1 {
+                camera.yaw += back.x.atan2(back.z);
+            }
+            // Away from the poles, so that a face that looks straight up is seen from above at a slant.
+            camera.pitch = (pitch + FIRST_TURN.y).clamp(-1.0, 1.0);
+        }
+        camera
+    }
+
+    /// Turns about the pivot by a drag in points.
+    pub fn orbit(&mut self, drag_in_points: DVec2) {
+        self.yaw = (self.yaw - ORBIT_RATE * drag_in_points.x).rem_euclid(TAU);
+        self.pitch = (self.pitch + ORBIT_RATE * drag_in_points.y).clamp(-FRAC_PI_2, FRAC_PI_2);
+    }
+
+    /// Moves sideways, so that what lies at the pivot's depth follows a drag in points.
+    pub fn pan(&mut self, drag_in_points: DVec2, pane_size: DVec2) {
+        let scale = self.world_per_point(pane_size);
+        let [right, up, _] = self.axes();
+        self.pivot += scale * (drag_in_points.y * up - drag_in_points.x * right);
+    }
+
+    /// Comes nearer (`factor` < 1) or goes away such that `anchor` stays where it is on the screen.
+    ///
+    /// The anchor is best the point of the surface under the pointer, else [`Self::point_at_pivot_depth`].
+    pub fn zoom_about(&mut self, anchor: DVec3, factor: f64) {
+        if !(factor.is_finite() && factor > 0.0) {
+            return;
+        }
+        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
+        let wanted = (self.distance * factor).clamp(nearest, farthest);
+        let factor = wanted / self.distance;
+        self.pivot = anchor + factor * (self.pivot - anchor);
+        self.distance = wanted;
+    }
+
+    /// The point under the pointer, at the depth of the pivot.
+    pub fn point_at_pivot_depth(&self, pointer: DVec2, pane_size: DVec2) -> DVec3 {
+        let ray = self.ray(pointer, pane_size);
+        let [_, _, back] = self.axes();
+        ray.at(self.distance / -ray.direction.dot(back))
+    }
+
+    /// Makes a point the one to turn about, and brings it to the middle of the pane.
+    pub fn set_pivot(&mut self, pivot: DVec3) {
+        let [_, _, back] = self.axes();
+        let depth = (self.eye() - pivot).dot(back);
+        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
+        self.distance = depth.clamp(nearest, farthest);
+        self.pivot = pivot;
+    }
+
+    /// Shows a whole ball in a pane of this size, in the direction that it looks in.
+    pub fn frame(&mut self, ball: Sphere, pane_size: DVec2) {
+        let half = FIELD_OF_VIEW / 2.0;
+        let aspect = aspect_ratio(pane_size);
+        let half_across = (half.tan() * aspect).atan();
+        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
+        self.pivot = ball.center;
+        self.distance = (FRAME_MARGIN * ball.radius / half.min(half_across).sin()).clamp(nearest, farthest);
+    }
+
+    /// Part of the way to another camera: `share` 0 is this one, 1 the other.
+    #[must_use]
+    pub fn toward(&self, goal: &Self, share: f64) -> Self {
+        // The shorter way around.
+        let turn = (goal.yaw - self.yaw + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
+        Self {
+            pivot: self.pivot.lerp(goal.pivot, share),
+            distance: self.distance * (goal.distance / self.distance).powf(share),
+            yaw: self.yaw + share * turn,
+            pitch: self.pitch + share * (goal.pitch - self.pitch),
+            ..*goal
+        }
+    }
+
+    /// Where the eye is.
+    pub fn eye(&self) -> DVec3 {
+        let [_, _, back] = self.axes();
+        self.pivot + self.distance * back
+    }
+
+    /// The point that the camera turns about.
+    pub fn pivot(&self) -> DVec3 {
+        self.pivot
+    }
+
+    /// Distance between eye and pivot, world units.
+    pub fn distance(&self) -> f64 {
+        self.distance
+    }
+
+    /// World units per point at the depth of the pivot.
+    pub fn world_per_point(&self, pane_size: DVec2) -> f64 {
+        2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / pane_size.y.max(1.0)
+    }
+
+    /// The way from the world to clip space, in full precision.
+    pub fn clip_from_world(&self, pane_size: DVec2) -> DMat4 {
+        let [near, far] = self.depth_range();
+        let clip_from_view =
+            glam::dcamera::rh::proj::directx::perspective(FIELD_OF_VIEW, aspect_ratio(pane_size), near, far);
+        clip_from_view * self.view_from_world()
+    }
+
+    /// The way from unit space to clip space, as the GPU takes it.
+    pub fn clip_from_unit(&self, frame: UnitFrame, pane_size: DVec2) -> Mat4 {
+        (self.clip_from_world(pane_size) * frame.world_from_unit()).as_mat4()
+    }
+
+    /// The way from world directions to those of the eye: x right, y up, z towards the eye.
+    pub fn view_from_world(&self) -> DMat4 {
+        let [right, up, back] = self.axes();
+        let rotation = DMat4::from_cols(right.extend(0.0), up.extend(0.0), back.extend(0.0), DVec4::W).transpose();
+        rotation * DMat4::from_translation(-self.eye())
+    }
+
+    /// The half-line from the eye through a point of the pane.
+    pub fn ray(&self, pointer: DVec2, pane_size: DVec2) -> Ray {
+        let [right, up, back] = self.axes();
+        let across = (FIELD_OF_VIEW / 2.0).tan();
+        let clip = clip_from_pane(pointer, pane_size);
+        let direction = across * (clip.x * aspect_ratio(pane_size) * right + clip.y * up) - back;
+        Ray { origin: self.eye(), direction: direction / direction.length() }
+    }
+
+    /// Where a world point shows in the pane; `None` behind the eye. It may lie outside the pane.
+    pub fn pane_from_world(&self, position_in_world: DVec3, pane_size: DVec2) -> Option<DVec2> {
+        pane_from_clip(self.clip_from_world(pane_size) * position_in_world.extend(1.0), pane_size)
+    }
+
+    /// Right, up and backwards (from the pivot to the eye), each of length 1.
+    fn axes(&self) -> [DVec3; 3] {
+        let (sin_yaw, cos_yaw) = self.yaw.sin_cos();
+        let (sin_pitch, cos_pitch) = self.pitch.sin_cos();
+        let back = DVec3::new(sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch);
+        let right = DVec3::new(cos_yaw, 0.0, -sin_yaw);
+        [right, back.cross(right), back].map(|axis| self.world_from_turntable(axis))
+    }
+
+    fn world_from_turntable(&self, v: DVec3) -> DVec3 {
+        match self.up_axis {
+            UpAxis::Y => v,
+            UpAxis::Z => DVec3::new(v.x, -v.z, v.y),
+        }
+    }
+
+    fn turntable_from_world(&self, v: DVec3) -> DVec3 {
+        match self.up_axis {
+            UpAxis::Y => v,
+            UpAxis::Z => DVec3::new(v.x, v.z, -v.y),
+        }
+    }
+
+    /// Near and far plane that hold the scene and no more than it.
+    fn depth_range(&self) -> [f64; 2] {
+        let to_center = self.eye().distance(self.scene.center);
+        let reach = 1.01 * self.scene.radius;
+        let far = to_center + reach;
+        [(to_center - reach).max(NEAR_SHARE * self.distance), far.max(2.0 * self.distance)]
+    }
+}
+
+/// Width over height, 1 for a pane without area.
+fn aspect_ratio(pane_size: DVec2) -> f64 {
+    let aspect = pane_size.x / pane_size.y;
+    if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 }
+}
+
+fn clip_from_pane(point: DVec2, pane_size: DVec2) -> DVec2 {
+    let share = point / pane_size.max(DVec2::ONE);
+    DVec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y)
+}
+
+/// Where a point in clip space shows in the pane, `None` behind the eye.
+pub(super) fn pane_from_clip(clip: DVec4, pane_size: DVec2) -> Option<DVec2> {
+    (clip.w > 0.0).then(|| DVec2::new(1.0 + clip.x / clip.w, 1.0 - clip.y / clip.w) / 2.0 * pane_size.max(DVec2::ONE))
+}

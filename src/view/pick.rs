@@ -1,0 +1,162 @@
+//! What lies under the pointer: the nearest vertex in either pane, and the point of the surface.
+
+use glam::{DMat4, DVec2, DVec3};
+
+use super::bvh::{Bvh, Visit};
+use super::kdtree::KdTree;
+use super::orbit::pane_from_clip;
+use super::{OrbitCamera, PlaneCamera, Ray};
+use crate::mesh::{FaceId, VertexId};
+
+/// How far from the pointer a vertex can be picked, points.
+pub const PICK_RADIUS: f64 = 12.0;
+/// A face hides a vertex when it is nearer to the eye by more than this share of the distance. It lets the two
+/// sides of a cut, which lie at the same place, both be seen.
+const HIDING_MARGIN: f64 = 1e-6;
+
+/// Which vertices of the surface can be picked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Visibility {
+    /// Those that no face hides.
+    #[default]
+    Visible,
+    /// All of them: X-ray.
+    All,
+}
+
+/// A vertex near the pointer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexPick {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// Its distance from the pointer, points.
+    pub distance_in_points: f64,
+}
+
+/// A point of the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceHit {
+    /// The face that it lies in.
+    pub face: FaceId,
+    /// Where it lies in the world.
+    pub point: DVec3,
+    /// Its weights with regard to the face's corners; they sum to 1.
+    pub weights: [f64; 3],
+    /// Its distance from the ray's origin, world units.
+    pub distance: f64,
+}
+
+/// Picks in the 3D pane. Made once per mesh, on any thread.
+#[derive(Clone, Debug)]
+pub struct SurfacePicker {
+    positions: Vec<DVec3>,
+    triangles: Vec<[VertexId; 3]>,
+    bvh: Bvh,
+}
+
+impl SurfacePicker {
+    /// Prepares picking on triangles over shared positions.
+    ///
+    /// # Panics
+    ///
+    /// If a corner names a vertex that is not there.
+    pub fn new(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Self {
+        let corners: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(|v| positions[v.index()])).collect();
+        Self { positions: positions.to_vec(), triangles: triangles.to_vec(), bvh: Bvh::new(&corners) }
+    }
+
+    /// The first point of the surface on a ray.
+    pub fn hit(&self, ray: Ray) -> Option<SurfaceHit> {
+        let (number, [distance, u, v]) =
+            self.bvh.first_hit(ray, f64::INFINITY, |number| self.corners(number), |_| true)?;
+        Some(SurfaceHit { face: FaceId::new(number), point: ray.at(distance), weights: [1.0 - u - v, u, v], distance })
+    }
+
+    /// The vertex nearest to the pointer, among those within [`PICK_RADIUS`].
+    pub fn nearest_vertex(
+        &self,
+        camera: &OrbitCamera,
+        pane_size: DVec2,
+        pointer: DVec2,
+        visibility: Visibility,
+    ) -> Option<VertexPick> {
+        let mut near = self.vertices_near(&camera.clip_from_world(pane_size), pane_size, pointer);
+        near.sort_unstable_by(|a, b| {
+            a.distance_in_points.total_cmp(&b.distance_in_points).then(a.vertex.cmp(&b.vertex))
+        });
+        near.dedup_by_key(|pick| pick.vertex);
+        let eye = camera.eye();
+        near.into_iter().find(|pick| visibility == Visibility::All || self.is_visible(pick.vertex, eye))
+    }
+
+    /// Whether no face lies between the eye and a vertex.
+    pub fn is_visible(&self, vertex: VertexId, eye: DVec3) -> bool {
+        let to_vertex = self.positions[vertex.index()] - eye;
+        let Some(direction) = to_vertex.try_normalize() else {
+            return true;
+        };
+        let limit = to_vertex.length() * (1.0 - HIDING_MARGIN);
+        let other = |number: u32| !self.triangles[number as usize].contains(&vertex);
+        self.bvh.first_hit(Ray { origin: eye, direction }, limit, |number| self.corners(number), other).is_none()
+    }
+
+    fn corners(&self, number: u32) -> [DVec3; 3] {
+        self.triangles[number as usize].map(|v| self.positions[v.index()])
+    }
+
+    /// Vertices within the pick radius, some of them more than once.
+    fn vertices_near(&self, clip_from_world: &DMat4, pane_size: DVec2, pointer: DVec2) -> Vec<VertexPick> {
+        let mut near = Vec::new();
+        self.bvh.visit(
+            |low, high| box_visit([low, high], clip_from_world, pane_size, pointer),
+            |number| {
+                for vertex in self.triangles[number as usize] {
+                    let clip = *clip_from_world * self.positions[vertex.index()].extend(1.0);
+                    // Nothing before the near plane is drawn.
+                    let shown = pane_from_clip(clip, pane_size).filter(|_| clip.z >= 0.0);
+                    let distance_in_points = shown.map_or(f64::INFINITY, |p| p.distance(pointer));
+                    if distance_in_points <= PICK_RADIUS {
+                        near.push(VertexPick { vertex, distance_in_points });
+                    }
+                }
+            },
+        );
+        near
+    }
+}
+
+/// Whether a box may show within the pick radius of the pointer.
+fn box_visit([low, high]: [DVec3; 2], clip_from_world: &DMat4, pane_size: DVec2, pointer: DVec2) -> Visit {
+    let mut shown = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    for corner in 0..8 {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        let clip = *clip_from_world * DVec3::new(pick(0), pick(1), pick(2)).extend(1.0);
+        // A box that reaches behind the eye may show anywhere.
+        let Some(point) = pane_from_clip(clip, pane_size) else {
+            return Visit::Enter;
+        };
+        shown = [shown[0].min(point), shown[1].max(point)];
+    }
+    let nearest = pointer.clamp(shown[0], shown[1]);
+    if nearest.distance_squared(pointer) <= PICK_RADIUS * PICK_RADIUS { Visit::Enter } else { Visit::Skip }
+}
+
+/// Picks in the embedding's pane. Made once per embedding.
+#[derive(Clone, Debug)]
+pub struct PlanePicker {
+    tree: KdTree,
+}
+
+impl PlanePicker {
+    /// Prepares picking of the vertices of an embedding.
+    pub fn new(embedding: &[DVec2]) -> Self {
+        Self { tree: KdTree::new(embedding) }
+    }
+
+    /// The vertex nearest to the pointer, among those within [`PICK_RADIUS`].
+    pub fn nearest_vertex(&self, camera: &PlaneCamera, pane_size: DVec2, pointer: DVec2) -> Option<VertexPick> {
+        let query = camera.embedding_from_pane(pointer, pane_size);
+        let (number, distance) = self.tree.nearest(query, PICK_RADIUS / camera.points_per_unit())?;
+        Some(VertexPick { vertex: VertexId::new(number), distance_in_points: distance * camera.points_per_unit() })
+    }
+}

@@ -1,0 +1,128 @@
+//! The camera of the embedding's pane: shift and scale, never a turn. y points up in the plane, down in the pane.
+
+use glam::{DAffine2, DVec2};
+
+use super::ticks::nice_step_at_least;
+use super::{PlaneBox, UnitPlane};
+
+/// The share of a pane that a framed box fills.
+const FRAME_SHARE: f64 = 0.9;
+/// Least and greatest scale, relative to that which shows the framed box whole. Zooming in ends where f64 does.
+const ZOOM_LIMITS: [f64; 2] = [1e-3, 1e12];
+/// Least distance of two grid lines, points.
+const GRID_SPACING: f64 = 18.0;
+
+/// What part of the embedding plane a pane shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaneCamera {
+    center: DVec2,
+    points_per_unit: f64,
+    scale_limits: [f64; 2],
+}
+
+/// Lines of the background, spaced by 1, 2 or 5 times a power of ten.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// Distance of two faint lines, embedding units.
+    pub step: f64,
+    /// Every so many faint lines there is a stronger one, at a multiple of a power of ten.
+    pub steps_per_major: u32,
+}
+
+impl PlaneCamera {
+    /// A camera that shows a whole box in a pane of this size, in points.
+    pub fn framing(bounds: PlaneBox, pane_size: DVec2) -> Self {
+        let scale = frame_scale(bounds, pane_size);
+        Self { center: bounds.center(), points_per_unit: scale, scale_limits: ZOOM_LIMITS.map(|limit| limit * scale) }
+    }
+
+    /// Shows a whole box. The limits of zooming stay those of the scene.
+    pub fn frame(&mut self, bounds: PlaneBox, pane_size: DVec2) {
+        self.center = bounds.center();
+        self.points_per_unit = frame_scale(bounds, pane_size).clamp(self.scale_limits[0], self.scale_limits[1]);
+    }
+
+    /// Moves the plane along with a drag in points.
+    pub fn pan(&mut self, drag_in_points: DVec2) {
+        self.center -= drag_in_points * DVec2::new(1.0, -1.0) / self.points_per_unit;
+    }
+
+    /// Enlarges (`factor` > 1) or shrinks such that what lies under the pointer stays there.
+    pub fn zoom_at(&mut self, pointer: DVec2, factor: f64, pane_size: DVec2) {
+        if !(factor.is_finite() && factor > 0.0) {
+            return;
+        }
+        let fixed = self.embedding_from_pane(pointer, pane_size);
+        let wanted = (self.points_per_unit * factor).clamp(self.scale_limits[0], self.scale_limits[1]);
+        self.center = fixed + (self.center - fixed) * (self.points_per_unit / wanted);
+        self.points_per_unit = wanted;
+    }
+
+    /// Part of the way to another camera: `share` 0 is this one, 1 the other.
+    #[must_use]
+    pub fn toward(&self, goal: &Self, share: f64) -> Self {
+        let ratio = (goal.points_per_unit / self.points_per_unit).powf(share);
+        Self {
+            center: self.center.lerp(goal.center, share),
+            points_per_unit: self.points_per_unit * ratio,
+            scale_limits: goal.scale_limits,
+        }
+    }
+
+    /// The point of the plane in the middle of the pane.
+    pub fn center(&self) -> DVec2 {
+        self.center
+    }
+
+    /// Points per embedding unit.
+    pub fn points_per_unit(&self) -> f64 {
+        self.points_per_unit
+    }
+
+    /// Which point of the plane lies under a point of the pane.
+    pub fn embedding_from_pane(&self, point_in_pane: DVec2, pane_size: DVec2) -> DVec2 {
+        self.center + (point_in_pane - pane_size / 2.0) * DVec2::new(1.0, -1.0) / self.points_per_unit
+    }
+
+    /// Where a point of the plane shows in the pane. It may lie outside.
+    pub fn pane_from_embedding(&self, point: DVec2, pane_size: DVec2) -> DVec2 {
+        (point - self.center) * DVec2::new(1.0, -1.0) * self.points_per_unit + pane_size / 2.0
+    }
+
+    /// The way from the plane to clip space.
+    pub fn clip_from_embedding(&self, pane_size: DVec2) -> DAffine2 {
+        let scale = 2.0 * self.points_per_unit / pane_size.max(DVec2::ONE);
+        DAffine2 { matrix2: glam::DMat2::from_diagonal(scale), translation: -scale * self.center }
+    }
+
+    /// The pane's middle in an embedding's unit space, and clip units per unit of that space.
+    pub fn unit_view(&self, frame: UnitPlane, pane_size: DVec2) -> (DVec2, DVec2) {
+        let scale = 2.0 * self.points_per_unit * frame.embedding_per_unit() / pane_size.max(DVec2::ONE);
+        (frame.unit_from_embedding(self.center), scale)
+    }
+
+    /// The part of the plane that the pane shows.
+    pub fn visible(&self, pane_size: DVec2) -> PlaneBox {
+        let half = pane_size / 2.0 / self.points_per_unit;
+        PlaneBox { min: self.center - half, max: self.center + half }
+    }
+
+    /// The background grid for the present scale.
+    pub fn grid(&self) -> Grid {
+        let step = nice_step_at_least(GRID_SPACING / self.points_per_unit);
+        let leading = step / 10_f64.powf(step.log10().floor());
+        let steps_per_major = match leading {
+            ..1.5 => 10,
+            1.5..3.0 => 5,
+            _ => 2,
+        };
+        Grid { step, steps_per_major }
+    }
+}
+
+fn frame_scale(bounds: PlaneBox, pane_size: DVec2) -> f64 {
+    let extent = bounds.extent();
+    // A side without length does not limit the scale.
+    let size = bounds.size().max(DVec2::splat(extent * 1e-9));
+    (FRAME_SHARE * pane_size.max(DVec2::ONE) / size).min_element().max(f64::MIN_POSITIVE)
+}

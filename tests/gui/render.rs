@@ -1,0 +1,355 @@
+//! Pictures of the panes, a few pixels of each.
+//!
+//! Both panes show a sheet of two by two squares in the z = 0 plane, cut into triangles. In its embedding one corner
+//! can be folded over.
+
+use std::sync::Arc;
+
+use eframe::egui;
+use eframe::egui_wgpu::{RenderState, RendererOptions};
+use egui_kittest::Harness;
+use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
+use freebound::mesh::{FaceId, VertexId};
+use freebound::render::{
+    LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Shading, Style, install, mesh_pane, plane_pane,
+    stats,
+};
+use freebound::view::{
+    EdgeList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Sphere, Srgb,
+    UpAxis,
+};
+use glam::{DVec2, DVec3};
+use image::RgbaImage;
+
+const PANE: PaneId = PaneId("test");
+/// Size of the window in points, and where the pane lies in it.
+const WINDOW: f32 = 200.0;
+const RECT: egui::Rect = egui::Rect { min: egui::pos2(20.0, 30.0), max: egui::pos2(180.0, 190.0) };
+const PANE_SIZE: DVec2 = DVec2::splat(160.0);
+
+/// Colours that are easily told apart.
+const PALETTE: Palette = Palette {
+    background: Srgb([250, 250, 250, 255]),
+    grid: Srgb([250, 250, 250, 255]),
+    unit_square: Srgb([250, 250, 250, 255]),
+    clay: Srgb([200, 200, 200, 255]),
+    clay_back: Srgb([40, 60, 200, 255]),
+    plane_face: Srgb([0, 200, 0, 255]),
+    overlap: Srgb([0, 0, 0, 255]),
+    checker: [Srgb([255, 255, 255, 255]), Srgb([0, 0, 0, 255])],
+    wire: Srgb([0, 0, 0, 255]),
+    flipped: Srgb([255, 0, 0, 255]),
+    selection: Srgb([255, 255, 0, 128]),
+    hover: Srgb([255, 255, 0, 128]),
+};
+
+fn id(v: u32) -> VertexId {
+    VertexId::new(v)
+}
+
+/// Vertices 0 1 2 / 3 4 5 / 6 7 8 at the integer points from (−1, −1) to (1, 1), eight counter-clockwise faces.
+fn sheet() -> (Vec<DVec3>, Vec<[VertexId; 3]>) {
+    let positions = (0..9).map(|k| DVec3::new(f64::from(k % 3) - 1.0, f64::from(k / 3) - 1.0, 0.0)).collect();
+    let squares = [0, 1, 3, 4];
+    let triangles =
+        squares.iter().flat_map(|&s| [[id(s), id(s + 1), id(s + 4)], [id(s), id(s + 4), id(s + 3)]]).collect();
+    (positions, triangles)
+}
+
+/// The device, and a window with one pane whose callback `paint` makes anew every frame.
+struct Window {
+    state: RenderState,
+    harness: Harness<'static>,
+}
+
+impl Window {
+    fn new(paint: impl Fn() -> egui::PaintCallback + 'static) -> Self {
+        let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+        install(&state);
+        let harness = Harness::builder()
+            .with_size(egui::Vec2::splat(WINDOW))
+            .with_pixels_per_point(1.0)
+            .renderer(WgpuTestRenderer::from_render_state(state.clone()))
+            .build_ui(move |ui| {
+                ui.painter().add(paint());
+            });
+        Self { state, harness }
+    }
+
+    fn picture(&mut self) -> RgbaImage {
+        self.harness.step();
+        self.harness.render().expect("the driver draws")
+    }
+}
+
+fn camera_in_front() -> OrbitCamera {
+    let (positions, _) = sheet();
+    let mut camera = OrbitCamera::framing(Sphere::around(&positions), UpAxis::Y);
+    // Undo the turn of the first view: 0.35 and 0.2 rad at 0.007 rad a point.
+    camera.orbit(DVec2::new(50.0, -0.2 / 0.007));
+    camera
+}
+
+fn mesh_frame() -> MeshFrame {
+    let (positions, triangles) = sheet();
+    MeshFrame {
+        mesh: Arc::new(MeshArrays::new(&positions, &triangles)),
+        plane: None,
+        paint: None,
+        lines: Vec::new(),
+        picture: None,
+        camera: camera_in_front(),
+        style: Style::default(),
+        palette: PALETTE,
+    }
+}
+
+/// The sheet's own x and y as its embedding, with vertex 2, its lower right corner, moved to `corner`.
+fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
+    let (positions, triangles) = sheet();
+    let mut embedding: Vec<DVec2> = positions.iter().map(|p| p.truncate()).collect();
+    embedding[2] = corner;
+    let box_of_sheet = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
+    PlaneFrame {
+        plane: Some(Arc::new(PlaneArrays::new(&embedding, &triangles))),
+        paint: Some(Arc::new(FacePaint::plain(triangles.len(), flipped))),
+        lines: Vec::new(),
+        picture: None,
+        camera: PlaneCamera::framing(box_of_sheet, PANE_SIZE),
+        style: Style { flipped_outline_in_points: 0.0, ..Style::default() },
+        palette: PALETTE,
+        mesh: Arc::new(MeshArrays::new(&positions, &triangles)),
+    }
+}
+
+fn mesh_picture(frame: MeshFrame) -> RgbaImage {
+    Window::new(move || mesh_pane(PANE, RECT, frame.clone())).picture()
+}
+
+fn plane_picture(frame: PlaneFrame) -> RgbaImage {
+    Window::new(move || plane_pane(PANE, RECT, frame.clone())).picture()
+}
+
+/// The pixel that shows a point of the embedding.
+fn plane_pixel(picture: &RgbaImage, frame: &PlaneFrame, point: DVec2) -> [u8; 3] {
+    let in_pane = frame.camera.pane_from_embedding(point, PANE_SIZE);
+    pixel(picture, in_pane.x, in_pane.y)
+}
+
+/// The pixel at a place of the pane, points from its upper left corner.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a small picture")]
+fn pixel(picture: &RgbaImage, x: f64, y: f64) -> [u8; 3] {
+    let (x, y) = (x + f64::from(RECT.min.x), y + f64::from(RECT.min.y));
+    let [r, g, b, _] = picture.get_pixel(x as u32, y as u32).0;
+    [r, g, b]
+}
+
+/// The mean colour of a square of seven pixels: hatching averages out.
+fn mean_about(picture: &RgbaImage, frame: &PlaneFrame, point: DVec2) -> [f64; 3] {
+    let middle = frame.camera.pane_from_embedding(point, PANE_SIZE);
+    let mut sum = [0.0; 3];
+    for k in 0..49 {
+        let rgb = pixel(picture, middle.x + f64::from(k % 7) - 3.0, middle.y + f64::from(k / 7) - 3.0);
+        sum = std::array::from_fn(|c| sum[c] + f64::from(rgb[c]) / 49.0);
+    }
+    sum
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_pane_fills_its_rectangle_and_nothing_else() {
+    let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
+    frame.palette.background = Srgb([10, 120, 240, 255]);
+    frame.palette.grid = frame.palette.background;
+    frame.palette.unit_square = frame.palette.background;
+    let picture = plane_picture(frame);
+    // sRGB goes to the window as it came, within the rounding of a byte.
+    for (x, y) in [(0.0, 0.0), (159.0, 0.0), (0.0, 159.0), (159.0, 159.0)] {
+        let [r, g, b] = pixel(&picture, x, y);
+        assert!(r.abs_diff(10) <= 1 && g.abs_diff(120) <= 1 && b.abs_diff(240) <= 1, "{x} {y}: {r} {g} {b}");
+    }
+    for (x, y) in [(-1.0, 80.0), (160.0, 80.0), (80.0, -1.0), (80.0, 160.0)] {
+        assert_ne!(pixel(&picture, x, y)[2], 240, "{x} {y} is outside");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_flipped_face_is_red_in_the_plane_and_lies_on_top() {
+    // Faces 2 and 3 are the square between 1, 2, 5 and 4; with 2 at (−0.5, 0.5) face 2, of 1, 2 and 5, is turned over.
+    let frame = plane_frame(DVec2::new(-0.5, 0.5), &[FaceId::new(2)]);
+    let picture = plane_picture(frame.clone());
+    let [r, g, _] = mean_about(&picture, &frame, DVec2::new(0.1, -0.05));
+    assert!(r > 200.0 && g < 150.0, "flipped, over others: {r} {g}");
+    let [r, g, _] = mean_about(&picture, &frame, DVec2::new(-0.5, -0.5));
+    assert!(r < 20.0 && g > 180.0, "not flipped: {r} {g}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_thin_flipped_face_shows_by_its_outline() {
+    // Turned over by a hundred thousandth of a pixel.
+    let mut frame = plane_frame(DVec2::new(0.5 - 1e-7, -0.5 + 1e-7), &[FaceId::new(2)]);
+    frame.style.flipped_outline_in_points = 2.0;
+    let picture = plane_picture(frame.clone());
+    let [r, g, b] = plane_pixel(&picture, &frame, DVec2::new(0.25, -0.75));
+    assert!(r > 200 && g < 100 && b < 100, "{r} {g} {b}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn overlapping_faces_are_darker_than_single_ones() {
+    let frame = plane_frame(DVec2::new(-0.5, 0.5), &[FaceId::new(2)]);
+    let picture = plane_picture(frame.clone());
+    // Face 3 is not flipped but reaches over its neighbours, up to vertex 2.
+    let [_, single, _] = mean_about(&picture, &frame, DVec2::new(-0.6, -0.7));
+    let folded = plane_frame(DVec2::new(-0.5, 0.5), &[]);
+    let picture = plane_picture(folded.clone());
+    let [_, double, _] = mean_about(&picture, &folded, DVec2::new(0.1, -0.05));
+    assert!(double < single - 40.0, "{double} against {single}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn the_back_of_the_mesh_has_its_own_colour() {
+    let front = mesh_frame();
+    let mut back = front.clone();
+    // Half a turn at 0.007 rad a point.
+    back.camera.orbit(DVec2::new(std::f64::consts::PI / 0.007, 0.0));
+    let [r, _, b] = pixel(&mesh_picture(front), 80.0, 80.0);
+    assert!(r > 120 && r.abs_diff(b) < 20, "clay in front: {r} {b}");
+    let [r, _, b] = pixel(&mesh_picture(back), 80.0, 80.0);
+    assert!(b > 100 && r < b / 2, "blue behind: {r} {b}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn flipped_faces_are_red_on_the_mesh_in_every_shading() {
+    for shading in [Shading::Plain, Shading::Checker, Shading::Paint, Shading::Picture] {
+        let mut frame = mesh_frame();
+        let plane = plane_frame(DVec2::new(1.0, -1.0), &(0..8).map(FaceId::new).collect::<Vec<_>>());
+        frame.style = Style { shading, normals: Normals::Flat, ..plane.style };
+        (frame.plane, frame.paint) = (plane.plane, plane.paint);
+        let [r, g, b] = pixel(&mesh_picture(frame), 60.0, 70.0);
+        assert!(r > 120 && g < r / 3 && b < r / 3, "{shading:?}: {r} {g} {b}");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn the_checker_is_anchored_at_the_origin_in_both_panes() {
+    let mut plane = plane_frame(DVec2::new(1.0, -1.0), &[]);
+    plane.style.shading = Shading::Checker;
+    plane.style.check_size = 0.5;
+    let mut mesh = mesh_frame();
+    (mesh.plane, mesh.style) = (plane.plane.clone(), plane.style);
+    let flat = plane_picture(plane.clone());
+    let lit = mesh_picture(mesh.clone());
+    // Middles of checks around the origin.
+    for (x, y, is_light) in [(0.25, 0.25, true), (-0.25, 0.25, false), (-0.25, -0.25, true), (0.75, 0.25, false)] {
+        let [r, ..] = plane_pixel(&flat, &plane, DVec2::new(x, y));
+        assert_eq!(r > 128, is_light, "plane, {x} {y}: {r}");
+        let in_pane = mesh.camera.pane_from_world(DVec3::new(x, y, 0.0), PANE_SIZE).expect("before the eye");
+        let [r, ..] = pixel(&lit, in_pane.x, in_pane.y);
+        assert_eq!(r > 80, is_light, "mesh, {x} {y}: {r}");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn lines_lie_where_their_vertices_lie() {
+    let edges = Arc::new(EdgeList::new(vec![[id(3), id(4)]]));
+    let layer = LineLayer { edges, colour: Srgb([0, 0, 255, 255]), width_in_points: 4.0 };
+    let mut plane = plane_frame(DVec2::new(1.0, -1.0), &[]);
+    plane.lines.push(layer.clone());
+    let picture = plane_picture(plane.clone());
+    let [r, _, b] = plane_pixel(&picture, &plane, DVec2::new(-0.5, 0.0));
+    assert!(b > 240 && r < 10, "on the line: {r} {b}");
+    let [.., b] = plane_pixel(&picture, &plane, DVec2::new(-0.5, 0.1));
+    assert!(b < 10, "beside it: {b}");
+    let mut mesh = mesh_frame();
+    mesh.lines.push(layer);
+    let in_pane = mesh.camera.pane_from_world(DVec3::new(-0.5, 0.0, 0.0), PANE_SIZE).expect("before the eye");
+    let [r, _, b] = pixel(&mesh_picture(mesh), in_pane.x, in_pane.y);
+    assert!(b > 240 && r < 10, "on the mesh: {r} {b}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn the_picture_lies_in_its_box_upper_row_up() {
+    let pixels = [[255, 0, 0, 255], [0, 0, 255, 255]].concat();
+    let picture = Arc::new(Picture::new([1, 2], pixels).expect("two pixels"));
+    let bounds = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
+    let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
+    frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0 });
+    frame.style.shading = Shading::Picture;
+    let mut behind = frame.clone();
+    behind.plane = None;
+    for (what, frame) in [("faces", frame), ("background", behind)] {
+        let picture = plane_picture(frame.clone());
+        let upper = plane_pixel(&picture, &frame, DVec2::new(0.2, 0.8));
+        let lower = plane_pixel(&picture, &frame, DVec2::new(0.2, -0.8));
+        assert!(upper[0] > 240 && upper[2] < 20, "{what}, above: {upper:?}");
+        assert!(lower[2] > 240 && lower[0] < 20, "{what}, below: {lower:?}");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_detail_of_a_billionth_still_has_a_shape() {
+    // The lower right corner comes within 2e-9 of vertex 5 at (1, 0), then the camera goes there.
+    let near = 2e-9;
+    let mut frame = plane_frame(DVec2::new(1.0 - near, -near), &[]);
+    let corner = PlaneBox { min: DVec2::new(1.0 - 2.0 * near, -2.0 * near), max: DVec2::new(1.0, 0.0) };
+    frame.camera.frame(corner, PANE_SIZE);
+    let picture = plane_picture(frame.clone());
+    // The boundary runs from (0, −1) to the corner and on to vertex 5: above it is face, below it is background.
+    let [r, g, _] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 1.0 * near, -0.5 * near));
+    assert!(r < 10 && g > 180, "inside: {r} {g}");
+    let [r, ..] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 0.5 * near, -1.5 * near));
+    assert!(r > 240, "outside: {r}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn an_unchanged_frame_sends_and_draws_nothing() {
+    let frame = mesh_frame();
+    let mut window = Window::new(move || mesh_pane(PANE, RECT, frame.clone()));
+    let first = window.picture();
+    let after_first = stats(&window.state).expect("installed");
+    assert!(after_first.uploads >= 2, "positions and normals: {after_first:?}");
+    let second = window.picture();
+    assert_eq!(stats(&window.state), Some(after_first));
+    assert_eq!(first, second, "and shows the same");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_moved_camera_draws_with_one_call_and_sends_no_buffer() {
+    let camera = Arc::new(std::sync::Mutex::new(camera_in_front()));
+    let (shared, frame) = (Arc::clone(&camera), mesh_frame());
+    let mut window = Window::new(move || {
+        let camera = *shared.lock().expect("one thread");
+        mesh_pane(PANE, RECT, MeshFrame { camera, ..frame.clone() })
+    });
+    window.picture();
+    let before = stats(&window.state).expect("installed");
+    camera.lock().expect("one thread").orbit(DVec2::new(30.0, 10.0));
+    window.picture();
+    let after = stats(&window.state).expect("installed");
+    assert_eq!(after.uploads, before.uploads);
+    assert_eq!(after.drawn_panes, before.drawn_panes + 1);
+    assert_eq!(after.draw_calls, before.draw_calls + 1);
+}
+
+#[test]
+fn a_pane_without_a_graphics_card_stays_empty() {
+    let (mesh, plane) = (mesh_frame(), plane_frame(DVec2::ONE, &[]));
+    let mut harness = Harness::new_ui(move |ui| {
+        ui.painter().add(mesh_pane(PANE, RECT, mesh.clone()));
+        ui.painter().add(plane_pane(PaneId("plane"), RECT, plane.clone()));
+        ui.label("still here");
+    });
+    harness.step();
+    egui_kittest::kittest::Queryable::get_by_label(&harness, "still here");
+}
