@@ -141,11 +141,15 @@ fn format_of_word(word: &[u8]) -> Option<&'static str> {
     })
 }
 
+/// What a file with a zero byte is, going by its beginning.
 fn not_text(head: &[u8], lines_before: u64) -> ReadError {
-    if lines_before == 0 && head.starts_with(b"glTF") {
-        return ReadError::NotReadYet { format: "glTF" };
-    }
-    ReadError::NotText
+    let first_line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    let format = match Words::new(first_line).next() {
+        _ if lines_before > 0 => None,
+        _ if head.starts_with(b"glTF") => Some("glTF"),
+        word => word.and_then(format_of_word),
+    };
+    format.map_or(ReadError::NotText, |format| ReadError::NotReadYet { format })
 }
 
 /// The mesh as far as it is read.

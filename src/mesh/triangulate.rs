@@ -78,13 +78,13 @@ struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    fn turn_at(&self, at: usize) -> f64 {
-        turn(self.points[self.previous[at]], self.points[at], self.points[self.next[at]])
+    /// Whether the polygon turns left here. With a NaN it does not.
+    fn is_convex(&self, at: usize) -> bool {
+        turn(self.points[self.previous[at]], self.points[at], self.points[self.next[at]]) > 0.0
     }
 
     fn is_ear(&self, at: usize) -> bool {
-        // Not `<=`: a NaN is no ear.
-        if !(self.turn_at(at) > 0.0) {
+        if !self.is_convex(at) {
             return false;
         }
         let corners = [self.previous[at], at, self.next[at]].map(|c| self.points[c]);
@@ -112,7 +112,7 @@ fn clip_ears(points: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
         blockers: Vec::new(),
         gone: vec![false; n],
     };
-    ring.blockers = (0..n).filter(|&v| !(ring.turn_at(v) > 0.0)).collect();
+    ring.blockers = (0..n).filter(|&v| !ring.is_convex(v)).collect();
     let mut at = 1;
     let mut left = n;
     let mut tried = 0;
