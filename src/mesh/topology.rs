@@ -180,6 +180,8 @@ fn walk_boundary(boundary: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<
         ends.iter().enumerate().flat_map(|(edge, pair)| pair.map(|fan| (fan, edge))).collect();
     at_fan.sort_unstable();
     let mut seen = vec![false; boundary.len()];
+    // By the first place of a fan in the list: its edges are on the stack already.
+    let mut expanded = vec![false; at_fan.len()];
     let mut loops = Vec::new();
     for start in 0..boundary.len() {
         let mut vertices = Vec::new();
@@ -193,6 +195,9 @@ fn walk_boundary(boundary: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<
             let [tail, head] = ends[edge];
             for fan in if entry == tail { [tail, head] } else { [head, tail] } {
                 let first = at_fan.partition_point(|&(other, _)| other < fan);
+                if std::mem::replace(&mut expanded[first], true) {
+                    continue;
+                }
                 let here = at_fan[first..].iter().take_while(|&&(other, _)| other == fan);
                 stack.extend(here.filter(|&&(_, next)| !seen[next]).map(|&(_, next)| (next, fan)));
             }

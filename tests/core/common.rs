@@ -136,6 +136,26 @@ pub(crate) fn tetrahedron() -> TriMesh {
     TriMesh::new(positions, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 }
 
+/// A band of squares around a ring of `length`, joined with its beginning straight or twisted.
+pub(crate) fn band(length: u32, twisted: u32) -> TriMesh {
+    let at = |k: u32, side: u32| {
+        let angle = std::f64::consts::TAU * f64::from(k) / f64::from(length);
+        let tilt = angle / 2.0 * f64::from(twisted);
+        let out = DVec3::new(angle.cos(), angle.sin(), 0.0);
+        out * 3.0 + (out * tilt.cos() + DVec3::Z * tilt.sin()) * (f64::from(side) - 0.5)
+    };
+    let positions = (0..length).flat_map(|k| [at(k, 0), at(k, 1)]).collect();
+    let squares = (0..length).flat_map(|k| {
+        let [a, b] = [2 * k, 2 * k + 1];
+        let [mut c, mut d] = [2 * ((k + 1) % length), 2 * ((k + 1) % length) + 1];
+        if k + 1 == length && twisted == 1 {
+            std::mem::swap(&mut c, &mut d);
+        }
+        [[a, b, d], [a, d, c]]
+    });
+    TriMesh::new(positions, &squares.collect::<Vec<_>>())
+}
+
 /// Numbers that look random and are the same in every run (splitmix64).
 #[derive(Clone, Debug)]
 pub(crate) struct Random(pub(crate) u64);

@@ -97,6 +97,28 @@ fn the_corpus_comes_back_from_the_writer() {
 }
 
 #[test]
+fn a_published_map_goes_through_a_file_unchanged() {
+    for entry in manifest().iter().filter(|entry| entry.text("role").contains("+uv")) {
+        let name = entry.path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let map = entry.path.with_file_name(format!("constrained/{name}.publishedmap.txt"));
+        let texture: Vec<DVec2> = fs::read_to_string(map)
+            .expect("the map is there")
+            .lines()
+            .filter(|line| !line.starts_with('#'))
+            .map(|line| {
+                let numbers: Vec<f64> = line.split_whitespace().map(|word| word.parse().expect("a number")).collect();
+                DVec2::new(numbers[1], numbers[2])
+            })
+            .collect();
+        let mesh = entry.read();
+        let back = read_obj(written(&mesh, &texture).as_slice()).expect("it reads back");
+        let texture_mesh = back.texture_mesh().expect("it is complete");
+        assert_eq!(texture_mesh.embedding, texture, "{name}");
+        assert_eq!(texture_mesh.mesh, mesh.polygons.triangulate(), "{name}");
+    }
+}
+
+#[test]
 fn a_mesh_looks_as_any_program_expects() {
     let mut mesh = ObjMesh::from(&grid(1, 1));
     mesh.statements = vec![

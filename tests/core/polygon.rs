@@ -112,6 +112,13 @@ fn polygons_that_cannot_be_cut_well_are_cut_all_the_same() {
 }
 
 #[test]
+fn a_long_polygon_that_crosses_itself_is_cut_in_good_time() {
+    let mut random = Random(8);
+    let points: Vec<[f64; 3]> = (0..20_000).map(|_| [random.unit(), random.unit(), 0.0]).collect();
+    assert_eq!(polygon(&points).triangulate().face_count(), points.len() - 2);
+}
+
+#[test]
 fn a_polygon_with_many_corners_is_cut_in_good_time() {
     let corner_count = 20_000;
     let angle = |k| std::f64::consts::TAU * f64::from(k) / f64::from(corner_count);
