@@ -4,6 +4,7 @@ mod atomic;
 mod error;
 mod obj;
 mod obj_line;
+mod obj_parse;
 mod obj_read;
 mod obj_texture;
 mod obj_write;

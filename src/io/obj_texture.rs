@@ -27,6 +27,10 @@ impl ObjMesh {
     /// # Errors
     ///
     /// [`TextureError`] where there are no texture coordinates, or not at all corners.
+    ///
+    /// # Panics
+    ///
+    /// If an index of the mesh is out of range, which the reader never lets through.
     pub fn texture_mesh(&self) -> Result<TextureMesh, TextureError> {
         let texture = self.texture.as_ref().ok_or(TextureError::None)?;
         self.check_complete(texture)?;

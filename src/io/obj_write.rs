@@ -26,18 +26,25 @@ pub fn write_obj(out: &mut impl Write, mesh: &ObjMesh, texture: &[DVec2]) -> io:
     for coordinate in texture {
         write_numbers(out, b"vt", &coordinate.to_array())?;
     }
+    let mut line = Vec::new();
     let mut statements = mesh.statements.iter().peekable();
     for face in 0..polygons.face_count() {
         while let Some(statement) = statements.next_if(|statement| statement.before_face as usize <= face) {
             out.write_all(&statement.text)?;
             out.write_all(b"\n")?;
         }
-        out.write_all(b"f")?;
+        line.clear();
+        line.push(b'f');
         for vertex in polygons.face(face) {
-            let number = u64::from(vertex.number()) + 1;
-            if texture.is_empty() { write!(out, " {number}")? } else { write!(out, " {number}/{number}")? }
+            line.push(b' ');
+            push_index(&mut line, u64::from(vertex.number()) + 1);
+            if !texture.is_empty() {
+                line.push(b'/');
+                push_index(&mut line, u64::from(vertex.number()) + 1);
+            }
         }
-        out.write_all(b"\n")?;
+        line.push(b'\n');
+        out.write_all(&line)?;
     }
     for statement in statements {
         out.write_all(&statement.text)?;
@@ -52,4 +59,18 @@ fn write_numbers(out: &mut impl Write, keyword: &[u8], numbers: &[f64]) -> io::R
         write!(out, " {number:?}")?;
     }
     out.write_all(b"\n")
+}
+
+/// Appends decimal digits: several times faster than `write!`, and most of a file is indices.
+fn push_index(line: &mut Vec<u8>, index: u64) {
+    let begin = line.len();
+    let mut rest = index;
+    loop {
+        line.push(b'0' + u8::try_from(rest % 10).expect("a digit"));
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    line[begin..].reverse();
 }

@@ -8,7 +8,7 @@
 //! |(b − a) × (c − a)| ≤ 4 ε L M
 //! ```
 //!
-//! that is, where its height over `L` is at most 4 ε M. A coordinate as large as `M` is itself known to ε M / 2 only,
+//! (`M` at least the smallest normal number), that is, where its height over `L` is at most 4 ε M. A coordinate as large as `M` is itself known to ε M / 2 only,
 //! so the corners lie on one line up to the rounding of the coordinates. Coincident corners and exactly collinear ones
 //! always satisfy it. A thin triangle that merely *looks* flat does not: its height is many times larger.
 
@@ -23,9 +23,8 @@ const LARGE: f64 = 1e50;
 /// Whether three finite points lie on a line up to the rounding of their coordinates.
 pub(super) fn is_zero_area(corners: [DVec3; 3]) -> bool {
     let size = corners.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
-    if size == 0.0 {
-        return true;
-    }
+    // Coordinates below the smallest normal number are all rounded to the same step, ε times that number.
+    let size = size.max(f64::MIN_POSITIVE);
     if size > LARGE || size < LARGE.recip() {
         // Twice, because the reciprocal of a subnormal number is infinite. A power of two: nothing is rounded.
         let half = half_power(size);

@@ -37,7 +37,7 @@ pub struct Diagnosis {
     pub boundary_edge_count: usize,
     /// Closed chains of boundary edges.
     pub boundary_loop_count: usize,
-    /// Parts that hang together at vertices at least.
+    /// Parts of the surface that hang together across edges.
     pub component_count: usize,
     /// Referenced vertices − edges + triangles.
     pub euler: i64,
@@ -226,7 +226,10 @@ fn describe(diagnosis: &mut Diagnosis, mesh: &TriMesh, sound: &Sound, topology: 
         let sizes = components.iter().map(|component| component.faces).collect();
         diagnosis.add(Fault::SeveralComponents { first_faces: first_faces(&|_| true), sizes });
     }
-    diagnosis.add(Fault::Closed(first_faces(&|c| components[c].loops == 0)));
+    diagnosis.add(Fault::Closed {
+        first_faces: first_faces(&|c| components[c].loops == 0),
+        component_count: components.len(),
+    });
     let mut loops: Vec<Vec<VertexId>> = topology
         .loops
         .iter()

@@ -24,6 +24,10 @@ pub(super) fn side_ends(triangles: &[[VertexId; 3]], side: u32) -> (VertexId, Ve
 
 impl EdgeTable {
     /// Groups the sides of triangles over `vertex_count` vertices. Sides with equal ends form edges too.
+    ///
+    /// # Panics
+    ///
+    /// If a triangle names a vertex beyond the last.
     pub fn new(vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
         let side_count = u32::try_from(3 * triangles.len()).expect("a mesh has fewer than 2^32 sides");
         let low = |side: u32| {

@@ -49,7 +49,8 @@ pub enum Fault {
     DuplicateFaces(FaceList),
     /// No face uses these vertices.
     UnreferencedVertices(Vec<VertexId>),
-    /// Faces without area: see the module `area` for the criterion.
+    /// Faces without area: their corners lie on one line up to the rounding of their coordinates. With `M` the largest
+    /// coordinate by amount, the height over the longest edge is at most 4 ε M.
     ZeroArea(FaceList),
     /// Edges of three faces or more.
     NonManifoldEdges(Vec<[VertexId; 2]>),
@@ -64,15 +65,20 @@ pub enum Fault {
     },
     /// The surface has one side only, like a Möbius strip; these edges clash.
     NonOrientable(Vec<[VertexId; 2]>),
-    /// The faces do not hang together.
+    /// The faces do not hang together across edges.
     SeveralComponents {
         /// The first face of each component.
         first_faces: FaceList,
         /// How many triangles each has.
         sizes: Vec<usize>,
     },
-    /// Components without a boundary; the first face of each.
-    Closed(FaceList),
+    /// Components without a boundary.
+    Closed {
+        /// The first face of each of them.
+        first_faces: FaceList,
+        /// How many components there are in all.
+        component_count: usize,
+    },
     /// Components with more than one boundary loop; their loops, the longest first.
     SeveralBoundaryLoops(Vec<Vec<VertexId>>),
     /// Components with handles.
@@ -137,7 +143,7 @@ impl Fault {
             Self::MixedOrientation { .. } => "mixed-orientation",
             Self::NonOrientable(_) => "non-orientable",
             Self::SeveralComponents { .. } => "several-components",
-            Self::Closed(_) => "closed",
+            Self::Closed { .. } => "closed",
             Self::SeveralBoundaryLoops(_) => "several-boundary-loops",
             Self::Handles { .. } => "handles",
         }
@@ -153,7 +159,7 @@ impl Fault {
             | Self::RepeatedVertices(f)
             | Self::DuplicateFaces(f)
             | Self::ZeroArea(f)
-            | Self::Closed(f)
+            | Self::Closed { first_faces: f, .. }
             | Self::MixedOrientation { faces: f, .. }
             | Self::SeveralComponents { first_faces: f, .. }
             | Self::Handles { first_faces: f, .. } => Elements::Faces(f),
@@ -187,9 +193,10 @@ impl Fault {
                 listed(sizes),
                 listed(&first_faces.polygons)
             ),
-            Self::Closed(f) if f.triangles.len() == 1 => "the surface is closed: it has no boundary".to_owned(),
-            Self::Closed(f) => {
-                format!("{} components are closed: those of faces {}", f.triangles.len(), listed(&f.polygons))
+            Self::Closed { component_count: 1, .. } => "the surface is closed: it has no boundary".to_owned(),
+            Self::Closed { first_faces: f, component_count } => {
+                let count = f.triangles.len();
+                format!("{count} of {component_count} components closed: those of faces {}", listed(&f.polygons))
             }
             Self::SeveralBoundaryLoops(loops) => {
                 let sizes: Vec<usize> = loops.iter().map(Vec::len).collect();
@@ -224,7 +231,7 @@ impl Fault {
             Self::MixedOrientation { .. } => "turn these faces over",
             Self::NonOrientable(_) => "cut the surface along a chain of edges, so that it gets two sides",
             Self::SeveralComponents { .. } => "keep one component, or flatten each by itself",
-            Self::Closed(_) => "cut the surface open along a chain of edges, or delete a part that is not needed",
+            Self::Closed { .. } => "cut the surface open along a chain of edges, or delete a part that is not needed",
             Self::SeveralBoundaryLoops(_) => "fill the holes, or cut the surface from one loop to another",
             Self::Handles { .. } => "cut each handle open, and join the cuts to the boundary",
         }

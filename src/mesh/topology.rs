@@ -4,23 +4,21 @@
 //!
 //! A *fan* is a set of corners at one vertex that are joined across edges. Corners are numbered like the sides that
 //! leave them: `3 f + k`. A vertex of a manifold has one fan; a vertex with more could be split into one vertex per
-//! fan, and the genus is counted as if it were.
+//! fan. Components, loops and genus are counted as if it were: a *component* hangs together across edges.
 
 use super::edges::{EdgeTable, side_ends};
 use super::union::DisjointSets;
 use super::{FaceId, VertexId};
-
-/// No label.
-const NONE: u32 = u32::MAX;
 
 /// One boundary loop: its vertices in order, and the component it belongs to.
 #[derive(Debug)]
 pub(super) struct Loop {
     pub(super) vertices: Vec<VertexId>,
     pub(super) component: usize,
+    first_side: u32,
 }
 
-/// One component, counted as if vertices with several fans were split.
+/// One component and its counts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Component {
     pub(super) first_face: FaceId,
@@ -28,14 +26,12 @@ pub(super) struct Component {
     pub(super) loops: usize,
     edges: usize,
     fans: usize,
-    /// Pieces that are left when vertices with several fans are split.
-    parts: usize,
 }
 
 impl Component {
     /// Number of handles, provided that the component is an orientable 2-manifold once its vertices are split.
     pub(super) fn genus(&self) -> usize {
-        (2 * self.parts + self.edges).saturating_sub(self.loops + self.fans + self.faces) / 2
+        (2 + self.edges).saturating_sub(self.loops + self.fans + self.faces) / 2
     }
 }
 
@@ -98,59 +94,43 @@ impl Topology {
     }
 
     fn find_components(&mut self, triangles: &[[VertexId; 3]], fans: &mut Fans<'_>) {
-        let labels = label_vertices(fans.count.len(), triangles);
-        let component_count = labels.iter().filter(|&&label| label != NONE).max().map_or(0, |&top| top as usize + 1);
-        self.components = vec![Component::default(); component_count];
-        let label = |v: VertexId| labels[v.index()] as usize;
-        for (f, triangle) in triangles.iter().enumerate() {
-            let component = &mut self.components[label(triangle[0])];
-            if component.faces == 0 {
-                component.first_face = FaceId::from_index(f);
+        let labels = label_faces(&self.table, triangles.len());
+        let label = |side: u32| labels[side as usize / 3] as usize;
+        for (f, &label) in labels.iter().enumerate() {
+            if label as usize == self.components.len() {
+                self.components.push(Component { first_face: FaceId::from_index(f), ..Component::default() });
             }
-            component.faces += 1;
+            self.components[label as usize].faces += 1;
         }
         for sides in self.table.edges() {
-            self.components[label(side_ends(triangles, sides[0]).0)].edges += 1;
+            self.components[label(sides[0])].edges += 1;
         }
-        for (&count, &label) in fans.count.iter().zip(&labels) {
-            if label != NONE {
-                self.components[label as usize].fans += count as usize;
-            }
-        }
-        if self.split_vertices.is_empty() {
-            self.components.iter_mut().for_each(|component| component.parts = 1);
-        } else {
-            for corner in fans.parts() {
-                self.components[label(side_ends(triangles, corner).0)].parts += 1;
-            }
+        for corner in fans.sets.roots() {
+            self.components[label(corner)].fans += 1;
         }
         self.loops = walk_boundary(&self.boundary, triangles, fans);
         for boundary_loop in &mut self.loops {
-            boundary_loop.component = label(boundary_loop.vertices[0]);
+            boundary_loop.component = label(boundary_loop.first_side);
             self.components[boundary_loop.component].loops += 1;
         }
     }
 }
 
-/// Numbers the components by their first face; one label per vertex.
-fn label_vertices(vertex_count: usize, triangles: &[[VertexId; 3]]) -> Vec<u32> {
-    let mut sets = DisjointSets::new(vertex_count);
-    for &[a, b, c] in triangles {
-        sets.join(a.number(), b.number());
-        sets.join(b.number(), c.number());
+/// Numbers the components by their first face; one label per face.
+fn label_faces(table: &EdgeTable, face_count: usize) -> Vec<u32> {
+    let mut sets = DisjointSets::new(face_count);
+    for sides in table.edges() {
+        for pair in sides.windows(2) {
+            sets.join(pair[0] / 3, pair[1] / 3);
+        }
     }
-    let mut labels = vec![NONE; vertex_count];
+    let mut labels = Vec::with_capacity(face_count);
     let mut next = 0;
-    for corner in triangles.iter().flatten() {
-        if labels[corner.index()] != NONE {
-            continue;
-        }
-        let root = sets.find(corner.number()) as usize;
-        if labels[root] == NONE {
-            labels[root] = next;
-            next += 1;
-        }
-        labels[corner.index()] = labels[root];
+    for face in 0..u32::try_from(face_count).expect("faces fit") {
+        let root = sets.find(face);
+        // The root is the lowest face of its set, so it comes first.
+        labels.push(if root == face { next } else { labels[root as usize] });
+        next += u32::from(root == face);
     }
     labels
 }
@@ -181,17 +161,6 @@ impl<'a> Fans<'a> {
             }
         }
     }
-
-    /// One corner of each piece that is left when vertices with several fans are split.
-    fn parts(&self) -> Vec<u32> {
-        let mut sets = self.sets.clone();
-        let corner_count = u32::try_from(3 * self.triangles.len()).expect("sides fit");
-        for corner in (0..corner_count).step_by(3) {
-            sets.join(corner, corner + 1);
-            sets.join(corner, corner + 2);
-        }
-        (0..corner_count).filter(|&corner| sets.find(corner) == corner).collect()
-    }
 }
 
 /// The corner that a side runs to.
@@ -211,6 +180,8 @@ fn walk_boundary(boundary: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<
         ends.iter().enumerate().flat_map(|(edge, pair)| pair.map(|fan| (fan, edge))).collect();
     at_fan.sort_unstable();
     let mut seen = vec![false; boundary.len()];
+    // By the first place of a fan in the list: its edges are on the stack already.
+    let mut expanded = vec![false; at_fan.len()];
     let mut loops = Vec::new();
     for start in 0..boundary.len() {
         let mut vertices = Vec::new();
@@ -224,12 +195,15 @@ fn walk_boundary(boundary: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<
             let [tail, head] = ends[edge];
             for fan in if entry == tail { [tail, head] } else { [head, tail] } {
                 let first = at_fan.partition_point(|&(other, _)| other < fan);
+                if std::mem::replace(&mut expanded[first], true) {
+                    continue;
+                }
                 let here = at_fan[first..].iter().take_while(|&&(other, _)| other == fan);
                 stack.extend(here.filter(|&&(_, next)| !seen[next]).map(|&(_, next)| (next, fan)));
             }
         }
         if !vertices.is_empty() {
-            loops.push(Loop { vertices, component: 0 });
+            loops.push(Loop { vertices, component: 0, first_side: boundary[start] });
         }
     }
     loops

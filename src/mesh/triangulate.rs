@@ -4,7 +4,7 @@
 //! ear is a corner that turns left and whose triangle holds no other corner, not even on its rim; every simple polygon
 //! has one (Meisters 1975), and clipping it leaves a simple polygon. A quad takes the diagonal that leaves the better
 //! triangles, if both diagonals lie inside. Where no ear is left, because the polygon crosses itself or is seen edge-on,
-//! corners are clipped as they come: the result always has `n − 2` triangles over the same corners.
+//! the remaining corners are clipped as they come: the result always has `n − 2` triangles over the same corners.
 //!
 //! Time: linear for convex polygons, `n` times the reflex corners at worst.
 
@@ -78,13 +78,13 @@ struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    fn turn_at(&self, at: usize) -> f64 {
-        turn(self.points[self.previous[at]], self.points[at], self.points[self.next[at]])
+    /// Whether the polygon turns left here. With a NaN it does not.
+    fn is_convex(&self, at: usize) -> bool {
+        turn(self.points[self.previous[at]], self.points[at], self.points[self.next[at]]) > 0.0
     }
 
     fn is_ear(&self, at: usize) -> bool {
-        // Not `<=`: a NaN is no ear.
-        if !(self.turn_at(at) > 0.0) {
+        if !self.is_convex(at) {
             return false;
         }
         let corners = [self.previous[at], at, self.next[at]].map(|c| self.points[c]);
@@ -92,6 +92,13 @@ impl Ring<'_> {
         let holds = |p: DVec2| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
         // Corners at the same place as one of the ear's own (a bridge to a hole) do not block it.
         !self.blockers.iter().any(|&v| !self.gone[v] && !corners.contains(&self.points[v]) && holds(self.points[v]))
+    }
+
+    /// Forgets blockers that are gone or turn left by now.
+    fn drop_idle_blockers(&mut self) {
+        let mut blockers = std::mem::take(&mut self.blockers);
+        blockers.retain(|&v| !self.gone[v] && !self.is_convex(v));
+        self.blockers = blockers;
     }
 
     fn clip(&mut self, at: usize) -> [usize; 3] {
@@ -112,22 +119,28 @@ fn clip_ears(points: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
         blockers: Vec::new(),
         gone: vec![false; n],
     };
-    ring.blockers = (0..n).filter(|&v| !(ring.turn_at(v) > 0.0)).collect();
+    ring.blockers = (0..n).filter(|&v| !ring.is_convex(v)).collect();
     let mut at = 1;
     let mut left = n;
     let mut tried = 0;
+    let mut simple = true;
     while left > 3 {
-        if ring.is_ear(at) || tried == left {
-            let triangle = ring.clip(at);
-            emit(triangle);
-            left -= 1;
-            tried = 0;
-            // Goes past the new side, so that ears are taken all around rather than from one corner.
-            at = ring.next[triangle[2]];
-        } else {
+        // When all corners were tried in vain, the polygon is not simple, and looking for more ears is idle.
+        simple &= tried < left;
+        if simple && !ring.is_ear(at) {
             tried += 1;
             at = ring.next[at];
+            continue;
         }
+        let triangle = ring.clip(at);
+        emit(triangle);
+        left -= 1;
+        tried = 0;
+        if left.is_power_of_two() {
+            ring.drop_idle_blockers();
+        }
+        // Goes past the new side, so that ears are taken all around rather than from one corner.
+        at = ring.next[triangle[2]];
     }
     emit([ring.previous[at], at, ring.next[at]]);
 }

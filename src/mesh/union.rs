@@ -26,6 +26,11 @@ impl DisjointSets {
         }
     }
 
+    /// The members that stand for a set, one for each, ascending.
+    pub(super) fn roots(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..).zip(&self.parent).filter(|&(member, &up)| member == up).map(|(member, _)| member)
+    }
+
     /// Joins two sets; the lower root stands for both. Returns whether they were apart.
     pub(super) fn join(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.find(a), self.find(b));

@@ -135,3 +135,47 @@ pub(crate) fn tetrahedron() -> TriMesh {
     let positions = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]].map(DVec3::from).to_vec();
     TriMesh::new(positions, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 }
+
+/// A band of squares around a ring of `length`, joined with its beginning straight or twisted.
+pub(crate) fn band(length: u32, twisted: u32) -> TriMesh {
+    let at = |k: u32, side: u32| {
+        let angle = std::f64::consts::TAU * f64::from(k) / f64::from(length);
+        let tilt = angle / 2.0 * f64::from(twisted);
+        let out = DVec3::new(angle.cos(), angle.sin(), 0.0);
+        out * 3.0 + (out * tilt.cos() + DVec3::Z * tilt.sin()) * (f64::from(side) - 0.5)
+    };
+    let positions = (0..length).flat_map(|k| [at(k, 0), at(k, 1)]).collect();
+    let squares = (0..length).flat_map(|k| {
+        let [a, b] = [2 * k, 2 * k + 1];
+        let [mut c, mut d] = [2 * ((k + 1) % length), 2 * ((k + 1) % length) + 1];
+        if k + 1 == length && twisted == 1 {
+            std::mem::swap(&mut c, &mut d);
+        }
+        [[a, b, d], [a, d, c]]
+    });
+    TriMesh::new(positions, &squares.collect::<Vec<_>>())
+}
+
+/// Numbers that look random and are the same in every run (splitmix64).
+#[derive(Clone, Debug)]
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    /// 64 random bits.
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// A number from 0 to `limit`, without `limit`.
+    pub(crate) fn below(&mut self, limit: u32) -> u32 {
+        u32::try_from(self.bits() % u64::from(limit)).expect("smaller than a u32")
+    }
+
+    /// A number from 0 to 1.
+    pub(crate) fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
