@@ -37,6 +37,6 @@ pub mod mesh;
 pub mod render;
 pub mod session;
 pub mod solver;
-#[cfg(feature = "gui")]
+#[cfg(any())]
 pub mod ui;
 pub mod view;
