@@ -55,14 +55,20 @@ fn spacing(p: DVec3) -> f64 {
 /// The outermost point of the sculpture on the ray in a direction.
 fn surface(p: DVec2) -> DVec3 {
     let direction = unproject(p);
+    let at = |t: f64| distance(CENTRE + t * direction);
     let mut t = 1.35;
+    let mut d = at(t);
+    // The sculpture's distance may overshoot near thin parts; at the surface a ray that grazes it may go faster.
+    let mut pace = 0.8;
     for _ in 0..60 {
-        let d = distance(CENTRE + t * direction);
-        // The sculpture's distance may overshoot near thin parts.
-        t -= 0.8 * d;
         if d.abs() < 1e-7 {
             break;
         }
+        let next = t - pace * d;
+        let d_next = at(next);
+        let slope = (d - d_next) / (t - next);
+        pace = if d_next.abs() < 0.01 && slope > 0.0 { (1.0 / slope).clamp(0.8, 4.0) } else { 0.8 };
+        (t, d) = (next, d_next);
     }
     CENTRE + t * direction
 }

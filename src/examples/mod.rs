@@ -8,10 +8,16 @@ mod delaunay;
 mod face;
 mod fill;
 mod flat;
+mod landmarks;
+mod paint;
+mod portrait;
 mod random;
 mod sculpt;
 
 use crate::mesh::TriMesh;
+
+pub use landmarks::{Landmark, face_landmarks};
+pub use portrait::portrait;
 
 /// A built-in mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
