@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::caps::{project, rim, stretch, unproject};
 use super::fill::{Sheet, fill, walk_along};
@@ -89,8 +90,8 @@ const CELLS: usize = 110;
 /// Wanted edge lengths in cells of the chart: the sculpture is too slow to ask for every point tried.
 fn spacing_table() -> Vec<f64> {
     let centre = |i: usize| REACH * (2.0 * (i as f64 + 0.5) / CELLS as f64 - 1.0);
-    let cells = (0..CELLS).flat_map(|j| (0..CELLS).map(move |i| DVec2::new(centre(i), centre(j))));
-    cells.map(|p| spacing(surface(p))).collect()
+    let place = |k: usize| DVec2::new(centre(k % CELLS), centre(k / CELLS));
+    (0..CELLS * CELLS).into_par_iter().map(|k| spacing(surface(place(k)))).collect()
 }
 
 /// The mask, y up, looking to +z.

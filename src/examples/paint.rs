@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::portrait::Matter;
+use super::relief::Matter;
 use super::sculpt::{EYE, EYE_HALF_WIDTH, Lids, Lips, PUPIL_RISE, bump, lids, lips, ramp};
 
 /// A sample of the portrait.
