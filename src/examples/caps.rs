@@ -41,7 +41,7 @@ pub(super) fn rim(angle: impl Fn(f64) -> f64) -> Vec<DVec2> {
         .collect()
 }
 
-fn cap(rim: &[DVec2], spacing: f64, seed: u64, surface: &dyn Fn(DVec2) -> DVec3) -> TriMesh {
+fn cap(rim: &[DVec2], spacing: f64, seed: u64, surface: &(dyn Fn(DVec2) -> DVec3 + Sync)) -> TriMesh {
     let mut random = Random::new(seed);
     let in_chart = |p: DVec2| spacing / stretch(p);
     let outline = walk_along(rim, &in_chart, &mut random);

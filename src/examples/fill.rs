@@ -6,6 +6,7 @@
 //! area over spacing⁴, which is one round of Lloyd's method for a density that gives that spacing.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use robust::orient2d;
 
 use super::delaunay::{coord, triangulate};
@@ -29,7 +30,7 @@ pub(super) struct Plane {
 /// A surface over the plane, and how long its edges should be.
 pub(super) struct Sheet<'a> {
     /// From the plane into space.
-    pub(super) surface: &'a (dyn Fn(DVec2) -> DVec3 + 'a),
+    pub(super) surface: &'a (dyn Fn(DVec2) -> DVec3 + Sync + 'a),
     /// Back from space, also from places beside the surface.
     pub(super) chart: &'a (dyn Fn(DVec3) -> DVec2 + 'a),
     /// Wanted edge length at a point in space.
@@ -157,20 +158,18 @@ impl Grid {
 impl Plane {
     /// Makes the triangles good on a surface.
     pub(super) fn settle(&mut self, sheet: &Sheet, rounds: usize) {
-        let mut raised: Vec<DVec3> = self.points.iter().map(|&p| (sheet.surface)(p)).collect();
+        let mut raised: Vec<DVec3> = self.points.par_iter().map(|&p| (sheet.surface)(p)).collect();
         for _ in 0..rounds {
             self.flip(&raised);
             self.centre(sheet, &raised);
-            for (p, x) in self.points.iter().zip(&mut raised).skip(self.boundary) {
-                *x = (sheet.surface)(*p);
-            }
+            raised = self.points.par_iter().map(|&p| (sheet.surface)(p)).collect();
         }
         self.flip(&raised);
     }
 
     /// The mesh in space.
-    pub(super) fn raise(&self, surface: &dyn Fn(DVec2) -> DVec3) -> TriMesh {
-        TriMesh::new(self.points.iter().map(|&p| surface(p)).collect(), &self.triangles)
+    pub(super) fn raise(&self, surface: &(dyn Fn(DVec2) -> DVec3 + Sync)) -> TriMesh {
+        TriMesh::new(self.points.par_iter().map(|&p| surface(p)).collect(), &self.triangles)
     }
 
     fn ccw(&self, a: u32, b: u32, c: u32) -> bool {

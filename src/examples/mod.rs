@@ -2,16 +2,30 @@
 //!
 //! Every mesh is a disk of good triangles, counter-clockwise seen from outside, and the same at every call.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "counts and cell numbers come from small non-negative floats of our own making"
+)]
+#![allow(clippy::many_single_char_names, reason = "corners of a triangle are a, b, c and points p, q")]
+
 mod caps;
 mod cube;
 mod delaunay;
 mod face;
 mod fill;
 mod flat;
+mod landmarks;
+mod paint;
+mod portrait;
 mod random;
+mod relief;
 mod sculpt;
 
 use crate::mesh::TriMesh;
+
+pub use landmarks::{Landmark, face_landmarks};
+pub use portrait::portrait;
 
 /// A built-in mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,19 +1,19 @@
-//! Tests of the core: everything below the screen.
+//! Tests of the core: everything below the screen, in one crate so that it is linked once.
 
 mod bad_input;
 mod common;
-mod examples;
-mod linalg;
-mod distortion;
-mod mesh;
-mod verdict;
-mod verdict_cases;
-mod verdict_oracle;
-mod verdict_random;
 mod diagnosis;
 mod disk_oracle;
+mod distortion;
+mod examples;
+mod linalg;
 mod mesh;
 mod obj;
 mod obj_texture;
 mod obj_write;
 mod polygon;
+mod raster;
+mod verdict;
+mod verdict_cases;
+mod verdict_oracle;
+mod verdict_random;
