@@ -1,8 +1,98 @@
-//! The window.
-/// Opens the window.
+//! The window: eframe around the editor.
+
+use std::path::PathBuf;
+
+use eframe::egui;
+
+use crate::examples::Example;
+use crate::render;
+use crate::session::{Action, RecentFiles};
+use crate::ui::{Dialogs, Editor, theme, window_ui};
+
+/// Size of the window at the start, points.
+const WINDOW_SIZE: [f32; 2] = [1280.0, 800.0];
+
+/// Size below which the window does not shrink, points.
+const LEAST_SIZE: [f32; 2] = [640.0, 420.0];
+
+/// The editor in its window.
+#[derive(Debug)]
+pub struct App {
+    editor: Editor,
+}
+
+/// What to open at the start, and how.
+#[derive(Clone, Debug, Default)]
+pub struct Start {
+    /// A mesh; the built-in face without one.
+    pub file: Option<PathBuf>,
+    /// Where the list of recent files is kept; nowhere in tests.
+    pub recent_store: Option<PathBuf>,
+    /// Whether to leave the system's file dialogs alone.
+    pub dialogs_inside: bool,
+}
+
+impl App {
+    /// An editor that opens what `start` says.
+    pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> Self {
+        theme::install(&context.egui_ctx);
+        let recent = start.recent_store.map_or_else(RecentFiles::default, RecentFiles::load);
+        let mut editor = Editor::new(&context.egui_ctx, recent);
+        if let Some(state) = &context.wgpu_render_state {
+            render::install(state);
+            editor.has_gpu = true;
+        }
+        if start.dialogs_inside {
+            editor.dialogs = Dialogs::inside_the_window();
+        }
+        editor.session.handle(start.file.map_or(Action::OpenExample(Example::Face), Action::Open));
+        Self { editor }
+    }
+
+    /// The editor's state.
+    pub fn editor(&self) -> &Editor {
+        &self.editor
+    }
+
+    /// The editor's state, for tests that bring it somewhere first.
+    pub fn editor_mut(&mut self) -> &mut Editor {
+        &mut self.editor
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        window_ui(ui, &mut self.editor);
+    }
+}
+
+/// Opens the window and runs until it is closed.
 ///
 /// # Errors
-/// always
-pub fn run(_: Option<std::path::PathBuf>) -> Result<(), String> {
-    Err("no display".to_owned())
+///
+/// Where there is no display, or no driver to draw with: one line that says so.
+pub fn run(file: Option<PathBuf>) -> Result<(), String> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Freebound")
+            .with_app_id("freebound")
+            .with_inner_size(WINDOW_SIZE)
+            .with_min_inner_size(LEAST_SIZE)
+            .with_drag_and_drop(true),
+        renderer: eframe::Renderer::Wgpu,
+        ..eframe::NativeOptions::default()
+    };
+    let start = Start { file, recent_store: RecentFiles::default_store(), dialogs_inside: false };
+    eframe::run_native("freebound", options, Box::new(|context| Ok(Box::new(App::new(context, start)))))
+        .map_err(|error| reason(&error))
+}
+
+fn reason(error: &eframe::Error) -> String {
+    match error {
+        eframe::Error::WinitEventLoop(_) => "no display".to_owned(),
+        eframe::Error::Wgpu(_) => {
+            "a display, but no graphics driver (on Debian: apt install mesa-vulkan-drivers libvulkan1)".to_owned()
+        }
+        other => format!("the window cannot open: {other}"),
+    }
 }

@@ -37,6 +37,6 @@ pub mod mesh;
 pub mod render;
 pub mod session;
 pub mod solver;
-#[cfg(any())]
+#[cfg(feature = "gui")]
 pub mod ui;
 pub mod view;

@@ -47,6 +47,8 @@ pub enum Action {
     Cancel,
     /// Writes a file.
     Save(SaveRequest),
+    /// Says that a name does not tell what kind of file to write.
+    RefuseName(PathBuf),
     /// Takes a message off the screen.
     Dismiss(u64),
 }

@@ -186,6 +186,10 @@ impl Session {
             Action::Solve => self.solve(),
             Action::Cancel => self.cancel(),
             Action::Save(request) => self.save(request),
+            Action::RefuseName(path) => {
+                let text = format!("{} does not say what to write", path.display());
+                self.fail(Place::Embedding, text, Some("end the name in .svg, .png, .json or .obj"));
+            }
             Action::Dismiss(id) => self.messages.retain(|message| message.id != id),
         }
     }
@@ -349,9 +353,8 @@ impl Session {
 
     fn cancel(&mut self) {
         self.loading = None;
-        if let Some(solving) = &self.solving {
-            solving.job.cancel();
-        }
+        // Dropping the job raises its flag; whatever it still computes is not looked at.
+        self.solving = None;
         self.solve_again = false;
     }
 

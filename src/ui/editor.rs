@@ -1,0 +1,461 @@
+//! The editor's state: the session, and everything about the window that is not part of the document.
+
+use eframe::egui;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use glam::{DVec2, DVec3};
+
+use super::dialogs::{Choice, Dialogs, Purpose, kind_of};
+use super::pane::PinOwner;
+use super::scene::{Element, MeshScene, Paint, PlaneScene, vertices_of};
+use super::{Pane, Request, Shading, Tab, Tool};
+use crate::mesh::VertexId;
+use crate::session::{Action, Busy, Job, OutputFit, Poll, RecentFiles, SaveRequest, Session};
+use crate::view::{OrbitCamera, PlaneBox, PlaneCamera, Sphere, UpAxis};
+
+/// A solve shorter than this shows no progress: it would only flicker.
+const PATIENCE: Duration = Duration::from_millis(250);
+
+/// Half the width of what [`Request::GoTo`] shows, in lengths of the element's longest edge.
+const GO_TO_MARGIN: f64 = 4.0;
+
+/// Everything the window knows.
+pub struct Editor {
+    /// The document and the work on it.
+    pub session: Session,
+    /// The tool in hand.
+    pub tool: Tool,
+    /// How faces are coloured.
+    pub shading: Shading,
+    /// Whether the wireframe shows.
+    pub wireframe: bool,
+    /// The tab that is open.
+    pub tab: Tab,
+    /// Whether the panels at the right show.
+    pub panels_shown: bool,
+    /// The pane in full size, if one is.
+    pub full: Option<Pane>,
+    /// Share of the width that the mesh's pane has.
+    pub split: f32,
+    /// Selected vertices.
+    pub selection: BTreeSet<VertexId>,
+    /// The vertex under the pointer, in whichever pane.
+    pub hovered: Option<VertexId>,
+    /// The pane under the pointer.
+    pub pane_under_pointer: Option<Pane>,
+    /// The pointer in the plane of the embedding.
+    pub pointer_in_embedding: Option<DVec2>,
+    /// The pin being dragged.
+    pub dragged_pin: Option<VertexId>,
+    /// The box being drawn with Ctrl, from its first corner, in window points.
+    pub selection_box: Option<(Pane, egui::Pos2)>,
+    /// Camera of the mesh's pane.
+    pub orbit: Option<OrbitCamera>,
+    /// Camera of the embedding's pane.
+    pub plane_camera: Option<PlaneCamera>,
+    /// Size of the mesh's pane, points.
+    pub mesh_pane_size: DVec2,
+    /// Size of the embedding's pane, points.
+    pub plane_pane_size: DVec2,
+    /// The defect shown last, by place in [`Editor::defects`].
+    pub defect: Option<usize>,
+    /// Whether the list of keys shows.
+    pub keys_shown: bool,
+    /// What is typed into "go to", where it shows.
+    pub go_to: Option<String>,
+    /// Size of coordinates in files.
+    pub fit: OutputFit,
+    /// Whether there is a graphics card to draw with.
+    pub has_gpu: bool,
+    /// File dialogs.
+    pub dialogs: Dialogs,
+    /// Whether the person asked to quit.
+    pub quit: bool,
+    /// The theme to put on, where it was asked for in this frame.
+    pub theme_wanted: Option<egui::ThemePreference>,
+    context: egui::Context,
+    mesh_scene: Option<Arc<MeshScene>>,
+    mesh_scene_job: Option<Job<(), MeshScene>>,
+    plane_scene: Option<Arc<PlaneScene>>,
+    plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
+    paint: Option<Paint>,
+    busy_since: Option<Instant>,
+}
+
+impl std::fmt::Debug for Editor {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Editor").field("session", &self.session).field("tool", &self.tool).finish_non_exhaustive()
+    }
+}
+
+impl Editor {
+    /// An empty window. `context` is woken when the background has news.
+    pub fn new(context: &egui::Context, recent: RecentFiles) -> Self {
+        let waker = context.clone();
+        Self {
+            session: Session::new(Arc::new(move || waker.request_repaint()), recent),
+            tool: Tool::default(),
+            shading: Shading::default(),
+            wireframe: false,
+            tab: Tab::default(),
+            panels_shown: true,
+            full: None,
+            split: 0.5,
+            selection: BTreeSet::new(),
+            hovered: None,
+            pane_under_pointer: None,
+            pointer_in_embedding: None,
+            dragged_pin: None,
+            selection_box: None,
+            orbit: None,
+            plane_camera: None,
+            mesh_pane_size: DVec2::new(400.0, 400.0),
+            plane_pane_size: DVec2::new(400.0, 400.0),
+            defect: None,
+            keys_shown: false,
+            go_to: None,
+            fit: OutputFit::default(),
+            has_gpu: false,
+            dialogs: Dialogs::default(),
+            quit: false,
+            theme_wanted: None,
+            context: context.clone(),
+            mesh_scene: None,
+            mesh_scene_job: None,
+            plane_scene: None,
+            plane_scene_job: None,
+            paint: None,
+            busy_since: None,
+        }
+    }
+
+    /// The mesh as drawn.
+    pub fn mesh_scene(&self) -> Option<&Arc<MeshScene>> {
+        self.mesh_scene.as_ref()
+    }
+
+    /// The embedding as drawn.
+    pub fn plane_scene(&self) -> Option<&Arc<PlaneScene>> {
+        self.plane_scene.as_ref()
+    }
+
+    /// The faces' colours.
+    pub fn paint(&self) -> Option<&Paint> {
+        self.paint.as_ref()
+    }
+
+    /// What goes on in the background, once it has taken long enough to be worth a word.
+    pub fn busy_for_long(&self) -> Option<Busy> {
+        self.session.busy().filter(|_| self.busy_since.is_some_and(|since| since.elapsed() >= PATIENCE))
+    }
+
+    /// Everything that is wrong with the embedding on the screen: flipped faces, crossings, overwound vertices.
+    pub fn defects(&self) -> Vec<Defect> {
+        let Some(outcome) = self.session.outcome() else { return Vec::new() };
+        let verdict = &outcome.verdict;
+        let flipped = verdict.flipped_faces.iter().map(|&face| Defect::Flipped(face));
+        let crossings = verdict.boundary_crossings.iter().map(|&edges| Defect::Crossing(edges));
+        let overwound = verdict.overwound_vertices.iter().map(|&vertex| Defect::Overwound(vertex));
+        flipped.chain(crossings).chain(overwound).collect()
+    }
+
+    /// Takes in what the background has finished. Call at the start of each frame.
+    pub fn poll(&mut self) {
+        self.session.poll();
+        self.poll_mesh_scene();
+        self.poll_plane_scene();
+        self.refresh_paint();
+        match (self.session.busy(), self.busy_since) {
+            (Some(_), None) => self.busy_since = Some(Instant::now()),
+            (None, Some(_)) => self.busy_since = None,
+            _ => {}
+        }
+        let scenes_pending = self.mesh_scene_job.is_some() || self.plane_scene_job.is_some();
+        if self.session.busy().is_some() || scenes_pending || self.dialogs.is_open() {
+            self.context.request_repaint_after(Duration::from_millis(100));
+        }
+        if let Some(choice) = self.dialogs.poll() {
+            self.take_choice(choice);
+        }
+    }
+
+    fn poll_mesh_scene(&mut self) {
+        let revision = self.session.model_revision();
+        if let Some(job) = &self.mesh_scene_job {
+            match job.poll() {
+                Poll::Running => return,
+                Poll::Lost => self.mesh_scene_job = None,
+                Poll::Done(scene) => {
+                    self.mesh_scene_job = None;
+                    self.take_mesh_scene(scene);
+                }
+            }
+        }
+        let shown = self.mesh_scene.as_ref().map(|scene| scene.model_revision);
+        if let Some(model) = self.session.model().filter(|_| shown != Some(revision)) {
+            let (model, waker) = (Arc::clone(model), self.context.clone());
+            let work = move |_: &_| MeshScene::new(model, revision);
+            self.mesh_scene_job = Job::spawn("mesh scene", move || waker.request_repaint(), work).ok();
+        }
+    }
+
+    fn take_mesh_scene(&mut self, scene: MeshScene) {
+        self.orbit = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal()));
+        if let Some(orbit) = &mut self.orbit {
+            orbit.frame(scene.sphere, self.mesh_pane_size);
+        }
+        self.plane_camera = None;
+        self.plane_scene = None;
+        self.plane_scene_job = None;
+        self.paint = None;
+        self.selection.clear();
+        self.hovered = None;
+        self.defect = None;
+        self.dragged_pin = None;
+        self.mesh_scene = Some(Arc::new(scene));
+    }
+
+    fn poll_plane_scene(&mut self) {
+        if let Some((_, job)) = &self.plane_scene_job {
+            match job.poll() {
+                Poll::Running => return,
+                Poll::Lost => self.plane_scene_job = None,
+                Poll::Done(scene) => {
+                    self.plane_scene_job = None;
+                    if self.plane_camera.is_none() {
+                        self.plane_camera = Some(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
+                    }
+                    self.plane_scene = Some(Arc::new(scene));
+                }
+            }
+        }
+        let revision = self.session.outcome_revision();
+        let shown = self.plane_scene.as_ref().map(|scene| scene.outcome_revision);
+        let Some(mesh_scene) = &self.mesh_scene else { return };
+        if mesh_scene.model_revision != self.session.model_revision() || shown == Some(revision) {
+            return;
+        }
+        let Some(outcome) = self.session.outcome() else { return };
+        let (model, outcome, waker) = (Arc::clone(&mesh_scene.model), Arc::clone(outcome), self.context.clone());
+        let work = move |_: &_| PlaneScene::new(model.mesh(), outcome, revision);
+        let job = Job::spawn("plane scene", move || waker.request_repaint(), work);
+        self.plane_scene_job = job.ok().map(|job| (revision, job));
+    }
+
+    fn refresh_paint(&mut self) {
+        let Some(mesh_scene) = &self.mesh_scene else { return };
+        let plane_revision = self.plane_scene.as_ref().map_or(0, |scene| scene.outcome_revision);
+        let key = (mesh_scene.model_revision, plane_revision, self.shading);
+        if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
+            let outcome = self.plane_scene.as_ref().map(|scene| scene.outcome.as_ref());
+            self.paint = Some(Paint::new(key, mesh_scene.model.mesh().face_count(), outcome));
+        }
+    }
+
+    /// Carries out a request.
+    pub fn handle(&mut self, request: Request) {
+        match request {
+            Request::Do(action) => self.act(action),
+            Request::SetTool(tool) => self.tool = tool,
+            Request::SetShading(shading) => self.shading = shading,
+            Request::ToggleWireframe => self.wireframe = !self.wireframe,
+            Request::ShowTab(tab) => (self.tab, self.panels_shown) = (tab, true),
+            Request::TogglePanels => self.panels_shown = !self.panels_shown,
+            Request::Frame => self.frame(),
+            Request::GoTo(vertices) => self.go_to_vertices(vertices),
+            Request::GoToDefect(place) => self.go_to_defect(place),
+            Request::StepDefect(by) => self.step_defect(by),
+            Request::Select(vertices) => self.selection = vertices.into_iter().collect(),
+            Request::AddToSelection(vertices) => self.selection.extend(vertices),
+            Request::UnpinSelected => self.act(Action::Unpin(self.selection.iter().copied().collect())),
+            Request::Escape => self.escape(),
+            Request::ToggleFull(pane) => self.full = if self.full.is_some() { None } else { Some(pane) },
+            Request::TogglePane => {
+                let pane = self.pane_under_pointer.unwrap_or(Pane::Plane);
+                self.handle(Request::ToggleFull(pane));
+            }
+            Request::AskOpen => self.dialogs.ask(&self.context, Purpose::Open, self.suggested_name("obj")),
+            Request::AskSave => self.dialogs.ask(&self.context, Purpose::Save, self.suggested_name("obj")),
+            Request::AskExport => self.dialogs.ask(&self.context, Purpose::Export, self.suggested_name("svg")),
+            Request::AskGoTo => self.go_to = Some(String::new()),
+            Request::ToggleKeys => self.keys_shown = !self.keys_shown,
+            Request::SetTheme(theme) => self.theme_wanted = Some(theme),
+            Request::SetFit(fit) => self.fit = fit,
+            Request::Quit => self.quit = true,
+        }
+    }
+
+    /// Opens, saves or exports as a dialog was answered.
+    pub fn take_choice(&mut self, choice: Choice) {
+        if choice.purpose == Purpose::Open {
+            return self.act(Action::Open(choice.path));
+        }
+        match kind_of(&choice) {
+            Some(kind) => self.act(Action::Save(SaveRequest { path: choice.path, kind, fit: self.fit })),
+            None => self.act(Action::RefuseName(choice.path)),
+        }
+    }
+
+    /// The pins as drawn: the user's, then the gauge pins that the solver chose.
+    pub fn pins_shown(&self) -> impl Iterator<Item = (VertexId, DVec2, PinOwner)> {
+        let document = self.session.document();
+        let users = if document.settings.method.uses_pins() { document.pins.clone() } else { BTreeMap::new() };
+        let gauge = self.plane_scene.as_ref().filter(|scene| {
+            scene.outcome.solution.gauge_completed && scene.outcome.settings.method.uses_pins() && users.len() < 2
+        });
+        let gauge = gauge.map(|scene| scene.outcome.solution.pins.clone()).unwrap_or_default();
+        let own = users.clone();
+        let solver = gauge.into_iter().filter(move |(vertex, _)| !own.contains_key(vertex));
+        let users = users.into_iter().map(|(vertex, at)| (vertex, at, PinOwner::User));
+        users.chain(solver.map(|(vertex, at)| (vertex, at, PinOwner::Solver)))
+    }
+
+    /// Whether the mesh's pane does not show.
+    pub fn mesh_hidden(&self) -> bool {
+        self.full == Some(Pane::Plane)
+    }
+
+    /// How many selected vertices are pins of the user's.
+    pub fn selected_pins(&self) -> usize {
+        let pins = &self.session.document().pins;
+        self.selection.iter().filter(|vertex| pins.contains_key(vertex)).count()
+    }
+
+    /// How many defects are listed.
+    pub fn defect_count(&self) -> usize {
+        self.session.outcome().map_or(0, |outcome| {
+            let verdict = &outcome.verdict;
+            verdict.flipped_faces.len() + verdict.boundary_crossings.len() + verdict.overwound_vertices.len()
+        })
+    }
+
+    /// Whether there is a defect to go to.
+    pub fn has_defects(&self) -> bool {
+        self.defect_count() > 0
+    }
+
+    fn act(&mut self, action: Action) {
+        self.session.handle(action);
+    }
+
+    /// A name for a file made from the mesh on the screen.
+    fn suggested_name(&self, extension: &str) -> PathBuf {
+        let Some(model) = self.session.model() else { return PathBuf::from(format!("layout.{extension}")) };
+        let stem = std::path::Path::new(&model.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let folder = model.path.as_ref().and_then(|path| path.parent()).map(PathBuf::from).unwrap_or_default();
+        folder.join(format!("{stem}-flat.{extension}"))
+    }
+
+    fn frame(&mut self) {
+        let (Some(scene), Some(orbit)) = (&self.mesh_scene, &mut self.orbit) else { return };
+        let positions = &scene.model.mesh().positions;
+        let selected: Vec<VertexId> = self.selection.iter().copied().collect();
+        let ball = if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
+        orbit.frame(ball, self.mesh_pane_size);
+        let (Some(plane), Some(camera)) = (&self.plane_scene, &mut self.plane_camera) else { return };
+        let embedding = &plane.outcome.solution.embedding;
+        let bounds = plane.arrays.bounds();
+        let wanted = if selected.is_empty() { bounds } else { grown_box(embedding, &selected, bounds) };
+        camera.frame(wanted, self.plane_pane_size);
+    }
+
+    fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {
+        if !vertices.is_empty() {
+            self.selection = vertices.into_iter().collect();
+            self.frame();
+        }
+    }
+
+    fn step_defect(&mut self, by: isize) {
+        let defects = self.defects();
+        if defects.is_empty() {
+            return;
+        }
+        let count = defects.len().cast_signed();
+        let next = match self.defect {
+            Some(at) => (at.cast_signed() + by).rem_euclid(count),
+            None if by < 0 => count - 1,
+            None => 0,
+        };
+        self.defect = Some(next.cast_unsigned());
+        self.go_to_defect(next.cast_unsigned());
+    }
+
+    fn go_to_defect(&mut self, place: usize) {
+        self.defect = Some(place);
+        let (Some(scene), Some(defect)) = (self.mesh_scene.clone(), self.defects().get(place).copied()) else { return };
+        let vertices = defect.elements().into_iter().flatten().flat_map(|element| vertices_of(&scene.model, element));
+        self.go_to_vertices(vertices.collect());
+    }
+
+    fn escape(&mut self) {
+        if self.dialogs.close() {
+        } else if self.keys_shown {
+            self.keys_shown = false;
+        } else if self.go_to.is_some() {
+            self.go_to = None;
+        } else if self.dragged_pin.take().is_some() {
+            self.act(Action::EndGesture);
+            self.act(Action::Undo);
+        } else if self.selection_box.take().is_some() {
+        } else if self.tool != Tool::Select {
+            self.tool = Tool::Select;
+        } else {
+            self.selection.clear();
+        }
+    }
+}
+
+/// One thing wrong with an embedding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Defect {
+    /// A face that is turned over or has no area.
+    Flipped(crate::mesh::FaceId),
+    /// Two boundary edges that meet.
+    Crossing([crate::mesh::EdgeId; 2]),
+    /// An interior vertex that its faces wind around twice.
+    Overwound(VertexId),
+}
+
+impl Defect {
+    /// The elements at fault.
+    pub fn elements(self) -> [Option<Element>; 2] {
+        match self {
+            Self::Flipped(face) => [Some(Element::Face(face)), None],
+            Self::Crossing([a, b]) => [Some(Element::Edge(a)), Some(Element::Edge(b))],
+            Self::Overwound(vertex) => [Some(Element::Vertex(vertex)), None],
+        }
+    }
+
+    /// What it is, for lists.
+    pub fn words(self) -> String {
+        match self {
+            Self::Flipped(face) => format!("flipped face {face}"),
+            Self::Crossing([a, b]) => format!("crossing {a} × {b}"),
+            Self::Overwound(vertex) => format!("overwound vertex {vertex}"),
+        }
+    }
+}
+
+fn positions_of(positions: &[DVec3], vertices: &[VertexId]) -> Vec<DVec3> {
+    vertices.iter().filter_map(|v| positions.get(v.index()).copied()).collect()
+}
+
+/// A ball around a few points with some of the mesh around it.
+fn grown(points: &[DVec3], all: Sphere) -> Sphere {
+    let tight = Sphere::around(points);
+    let least = all.radius / 40.0;
+    Sphere { center: tight.center, radius: (tight.radius * GO_TO_MARGIN).max(least).min(all.radius) }
+}
+
+/// A box around a few points of the embedding with some of it around.
+fn grown_box(embedding: &[DVec2], vertices: &[VertexId], all: PlaneBox) -> PlaneBox {
+    let points: Vec<DVec2> = vertices.iter().filter_map(|v| embedding.get(v.index()).copied()).collect();
+    let tight = PlaneBox::around(&points);
+    let half = (tight.extent() * GO_TO_MARGIN / 2.0).max(all.extent() / 80.0).min(all.extent());
+    let center = tight.center();
+    PlaneBox { min: center - half, max: center + half }
+}

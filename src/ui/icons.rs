@@ -1,0 +1,24 @@
+//! Small drawings for the tools.
+
+use eframe::egui;
+use egui::{Color32, Pos2, Rect, Shape, Stroke};
+
+/// Points given on a grid of 24 × 24.
+fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {
+    let scale = rect.width() / 24.0;
+    points.iter().map(|&(x, y)| rect.min + egui::vec2(x, y) * scale).collect()
+}
+
+/// An arrow as the mouse has it.
+pub(super) fn pointer(painter: &egui::Painter, rect: Rect, colour: Color32) {
+    let outline = [(8.0, 5.0), (8.0, 17.5), (11.2, 14.6), (13.4, 19.4), (15.4, 18.5), (13.2, 13.8), (17.4, 13.4)];
+    painter.add(Shape::closed_line(on_grid(rect, &outline), Stroke::new(1.6, colour)));
+}
+
+/// A drawing pin.
+pub(super) fn pin(painter: &egui::Painter, rect: Rect, colour: Color32) {
+    let stroke = Stroke::new(1.6, colour);
+    let head = [(9.0, 5.0), (15.0, 5.0), (14.2, 11.0), (16.6, 13.6), (7.4, 13.6), (9.8, 11.0)];
+    painter.add(Shape::closed_line(on_grid(rect, &head), stroke));
+    painter.add(Shape::line(on_grid(rect, &[(12.0, 13.6), (12.0, 19.5)]), stroke));
+}

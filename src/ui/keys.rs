@@ -1,0 +1,105 @@
+//! Keyboard shortcuts: one table serves the keyboard, the tooltips and the list of keys.
+
+use eframe::egui;
+use eframe::egui::{Key, KeyboardShortcut, Modifiers};
+
+use super::{Request, Shading, Tool};
+use crate::session::Action;
+
+/// One shortcut.
+pub struct Binding {
+    /// The keys.
+    pub shortcut: KeyboardShortcut,
+    /// What it does, for people.
+    pub about: &'static str,
+    /// What it asks for.
+    pub request: fn() -> Request,
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers { alt: false, ctrl: false, shift: true, mac_cmd: false, command: true };
+
+const fn bind(modifiers: Modifiers, key: Key, about: &'static str, request: fn() -> Request) -> Binding {
+    Binding { shortcut: KeyboardShortcut::new(modifiers, key), about, request }
+}
+
+/// All shortcuts. Those with more modifiers come first, so that the plainer ones do not swallow them.
+pub const BINDINGS: &[Binding] = &[
+    bind(CTRL_SHIFT, Key::Z, "Redo", || Request::Do(Action::Redo)),
+    bind(CTRL, Key::Y, "Redo", || Request::Do(Action::Redo)),
+    bind(CTRL, Key::Z, "Undo", || Request::Do(Action::Undo)),
+    bind(CTRL, Key::O, "Open a mesh", || Request::AskOpen),
+    bind(CTRL, Key::S, "Save the mesh with texture coordinates", || Request::AskSave),
+    bind(CTRL, Key::E, "Export a drawing or a report", || Request::AskExport),
+    bind(CTRL, Key::Q, "Quit", || Request::Quit),
+    bind(CTRL, Key::Enter, "Solve again", || Request::Do(Action::Solve)),
+    bind(SHIFT, Key::D, "Previous defect", || Request::StepDefect(-1)),
+    bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),
+    bind(NONE, Key::V, "Select vertices", || Request::SetTool(Tool::Select)),
+    bind(NONE, Key::P, "Fix: pin a vertex where it lies", || Request::SetTool(Tool::Fix)),
+    bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
+    bind(NONE, Key::Backspace, "Free the selected pins", || Request::UnpinSelected),
+    bind(NONE, Key::F, "Frame the selection, or all", || Request::Frame),
+    bind(NONE, Key::G, "Go to a vertex, edge or face by number", || Request::AskGoTo),
+    bind(NONE, Key::Num1, "Plain shading", || Request::SetShading(Shading::Plain)),
+    bind(NONE, Key::Num2, "Checker", || Request::SetShading(Shading::Checker)),
+    bind(NONE, Key::Num4, "Angle distortion", || Request::SetShading(Shading::Angle)),
+    bind(NONE, Key::Num5, "Area distortion", || Request::SetShading(Shading::Area)),
+    bind(NONE, Key::Num6, "Stretch", || Request::SetShading(Shading::Stretch)),
+    bind(NONE, Key::W, "Wireframe", || Request::ToggleWireframe),
+    bind(NONE, Key::Tab, "The pane under the pointer in full size, and back", || Request::TogglePane),
+    bind(NONE, Key::Escape, "End the gesture, then the tool, then the selection", || Request::Escape),
+    bind(NONE, Key::F1, "This list", || Request::ToggleKeys),
+    bind(NONE, Key::Questionmark, "This list", || Request::ToggleKeys),
+];
+
+/// What the keys pressed in this frame ask for. While a text field has the keyboard, only Esc and combinations with
+/// Ctrl are the window's; Ctrl+Z stays the field's.
+pub fn requests(context: &egui::Context) -> Vec<Request> {
+    let typing = context.text_edit_focused();
+    let wanted = |binding: &&Binding| !typing || (binding.shortcut.modifiers.command && !is_edit(binding));
+    context.input_mut(|input| {
+        let pressed = |binding: &&Binding| input.consume_shortcut(&binding.shortcut);
+        BINDINGS.iter().filter(wanted).filter(pressed).map(|binding| (binding.request)()).collect()
+    })
+}
+
+fn is_edit(binding: &Binding) -> bool {
+    matches!(binding.shortcut.logical_key, Key::Z | Key::Y)
+}
+
+/// The keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty where it has none.
+pub fn keys_of(context: &egui::Context, request: &Request) -> String {
+    BINDINGS
+        .iter()
+        .find(|binding| (binding.request)() == *request)
+        .map(|binding| context.format_shortcut(&binding.shortcut))
+        .unwrap_or_default()
+}
+
+/// The mouse, for the list of keys.
+pub const MOUSE: &[(&str, &str)] = &[
+    ("Left drag on the mesh", "Orbit"),
+    ("Left drag on the embedding", "Pan; on a pin: move it"),
+    ("Ctrl + left drag", "Select the vertices in a box"),
+    ("Middle, right or Shift + left drag", "Pan"),
+    ("Wheel or pinch", "Zoom to the pointer"),
+    ("Double click on the mesh", "Set the point to orbit about"),
+    ("Click, Shift + click", "The tool's work; add to the selection"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_is_bound_twice() {
+        for (i, a) in BINDINGS.iter().enumerate() {
+            for b in &BINDINGS[i + 1..] {
+                assert_ne!(a.shortcut, b.shortcut, "{} and {}", a.about, b.about);
+            }
+        }
+    }
+}

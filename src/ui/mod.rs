@@ -1,0 +1,35 @@
+//! The window's panels and panes: they show the editor's state and collect requests.
+
+mod boxes;
+mod defect_marks;
+mod defects_panel;
+mod dialogs;
+mod editor;
+mod floating;
+mod icons;
+mod keys;
+mod menu;
+mod mesh_pane;
+mod method_panel;
+mod pane;
+mod pins_panel;
+mod plane_pane;
+mod request;
+mod scene;
+mod side_panel;
+mod status;
+pub mod theme;
+mod tools;
+mod vertex_panel;
+mod window;
+
+pub use dialogs::{Choice, Dialogs, Purpose};
+pub use editor::{Defect, Editor};
+pub use keys::{BINDINGS, Binding, keys_of};
+pub use pane::PinOwner;
+pub use request::{Pane, Request, Shading, Tab, Tool};
+pub use scene::{Element, MeshScene, Paint, PlaneScene};
+pub use window::window_ui;
+
+/// Fields of the checker across the embedding.
+pub const CHECKER_FIELDS: f64 = 40.0;

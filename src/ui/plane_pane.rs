@@ -1,0 +1,189 @@
+//! The embedding: pan, zoom to the pointer; hover, pick and drag.
+
+use std::sync::Arc;
+
+use eframe::egui;
+use egui::{CursorIcon, Pos2, Rect, Response, Sense, Stroke, Vec2, WidgetInfo, Role};
+use glam::DVec2;
+
+use super::mesh_pane::{boundary_line, clicked, cursor, style};
+use super::pane::{self, PinOwner};
+use super::scene::{MeshScene, PlaneScene};
+use super::theme::{Theme, theme_of};
+use super::{Editor, Pane, Request};
+use crate::mesh::VertexId;
+use crate::render::{self, PaneId, PlaneFrame};
+use crate::session::{Action, Place, Surface};
+use crate::view::PlaneCamera;
+
+/// Side of the square around a pin that can be grabbed, points.
+const GRAB_SIZE: f32 = 18.0;
+
+/// Marks drawn at most for a large selection.
+const MARKS_SHOWN: usize = 2000;
+
+/// Shows the pane and takes its gestures.
+pub fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    pane::header(ui, editor, Pane::Plane, requests);
+    pane::message_bars(ui, editor, Place::Embedding, requests);
+    let (rect, response) = pane::surface(ui, "Embedding in the plane");
+    editor.plane_pane_size = pane::size_of(rect);
+    let theme = theme_of(ui);
+    ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
+    let scenes = (editor.mesh_scene().map(Arc::clone), editor.plane_scene().map(Arc::clone));
+    let (Some(mesh), Some(plane), Some(mut camera)) = (scenes.0, scenes.1, editor.plane_camera) else {
+        return pane::empty_state(ui, rect, &waiting_words(editor));
+    };
+    navigate(ui, rect, &response, &mut camera);
+    if editor.plane_camera != Some(camera) {
+        editor.plane_camera = Some(camera);
+        ui.ctx().request_repaint();
+    }
+    let size = pane::size_of(rect);
+    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at));
+    if response.hovered() || response.contains_pointer() {
+        editor.pane_under_pointer = Some(Pane::Plane);
+        let pointer = pointer.map(|at| pane::in_pane(rect, at));
+        editor.pointer_in_embedding = pointer.map(|at| camera.embedding_from_pane(at, size));
+        let pick = pointer.and_then(|at| plane.picker.nearest_vertex(&camera, size, at));
+        editor.hovered = pick.map(|pick| pick.vertex);
+    }
+    if editor.has_gpu {
+        let frame = frame(editor, &mesh, &plane, camera, theme);
+        ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
+    }
+    select(ui, &response, editor, &plane, requests);
+    marks(ui, rect, editor, &mesh, &plane, camera);
+    drag_pins(ui, rect, editor, camera, requests);
+    if editor.mesh_hidden()
+        && let Some(legend) = editor.paint().and_then(|paint| paint.legend.as_ref())
+    {
+        pane::legend(ui, rect, legend, editor.shading.title());
+    }
+}
+
+fn waiting_words(editor: &Editor) -> Vec<&'static str> {
+    match editor.session.model().map(|model| &model.surface) {
+        None => vec!["Its embedding will show here"],
+        Some(Surface::Faulty(..)) => {
+            vec!["This mesh cannot be flattened as it is", "The bars over the mesh say what is wrong and what to do"]
+        }
+        Some(Surface::Disk(_)) if editor.session.busy().is_some() => vec!["Solving…"],
+        Some(Surface::Disk(_)) => vec!["Not solved", "Press Solve in the Method panel"],
+    }
+}
+
+fn navigate(ui: &egui::Ui, rect: Rect, response: &Response, camera: &mut PlaneCamera) {
+    let drag = DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into());
+    let boxing = ui.input(|input| input.modifiers.command);
+    if response.dragged() && !(boxing && response.dragged_by(egui::PointerButton::Primary)) {
+        camera.pan(drag);
+    }
+    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|_| response.contains_pointer());
+    if let Some(pointer) = pointer {
+        let wheel = pane::wheel(ui);
+        if (wheel.zoom - 1.0).abs() > f64::EPSILON {
+            camera.zoom_at(pane::in_pane(rect, pointer), wheel.zoom, pane::size_of(rect));
+        }
+        camera.pan(wheel.pan);
+    }
+}
+
+fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &PlaneScene, requests: &mut Vec<Request>) {
+    let Some(camera) = editor.plane_camera else { return };
+    let rect = response.rect;
+    if let Some(chosen) = super::boxes::drag_box(ui, response, editor, Pane::Plane) {
+        let size = pane::size_of(rect);
+        let [a, b] = [chosen.left_bottom(), chosen.right_top()]
+            .map(|corner| camera.embedding_from_pane(pane::in_pane(rect, corner), size));
+        let embedding = plane.outcome.solution.embedding.iter().enumerate();
+        let inside = embedding.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
+        requests.push(Request::AddToSelection(inside.map(|(i, _)| VertexId::from_index(i)).collect()));
+    }
+    if response.clicked() {
+        requests.extend(clicked(ui, editor));
+    }
+    if response.hovered() {
+        ui.ctx().set_cursor_icon(cursor(editor));
+    }
+}
+
+fn frame(editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
+    PlaneFrame {
+        mesh: Arc::clone(&mesh.arrays),
+        plane: Some(Arc::clone(&plane.arrays)),
+        paint: editor.paint().map(|paint| Arc::clone(&paint.faces)),
+        lines: vec![boundary_line(mesh, theme)],
+        picture: None,
+        style: style(editor),
+        palette: theme.palette,
+        camera,
+    }
+}
+
+fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCamera) {
+    let theme = theme_of(ui);
+    let painter = ui.painter_at(rect);
+    let size = pane::size_of(rect);
+    let embedding = &plane.outcome.solution.embedding;
+    let place = |vertex: VertexId| -> Pos2 {
+        let z = embedding.get(vertex.index()).copied().unwrap_or(DVec2::NAN);
+        pane::on_screen(rect, camera.pane_from_embedding(z, size))
+    };
+    super::defect_marks::crossings(editor, mesh, |edge| {
+        let [a, b] = edge.map(place);
+        painter.line_segment([a, b], Stroke::new(4.0, theme.crossing));
+        painter.circle_stroke(a + (b - a) / 2.0, 9.0, Stroke::new(1.5, theme.crossing));
+    });
+    for vertex in super::defect_marks::overwound(editor) {
+        super::defect_marks::overwound_mark(&painter, place(vertex), theme);
+    }
+    for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
+        pane::halo(&painter, place(vertex), theme.selection, 6.0);
+    }
+    if let Some(vertex) = editor.hovered {
+        pane::halo(&painter, place(vertex), theme.selection, 5.0);
+    }
+}
+
+/// Pins are widgets of their own: they can be grabbed, and have names.
+fn drag_pins(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, camera: PlaneCamera, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    let size = pane::size_of(rect);
+    let pins: Vec<(VertexId, DVec2, PinOwner)> = editor.pins_shown().collect();
+    for (vertex, position, owner) in pins {
+        let at = pane::on_screen(rect, camera.pane_from_embedding(position, size));
+        if !rect.expand(GRAB_SIZE).contains(at) {
+            continue;
+        }
+        let grab = Rect::from_center_size(at, Vec2::splat(GRAB_SIZE)).intersect(rect);
+        let response = ui.interact(grab, ui.scope_id().with(("pin", vertex)), Sense::click_and_drag());
+        let name = match owner {
+            PinOwner::User => format!("Pin {vertex}"),
+            PinOwner::Solver => format!("Gauge pin {vertex}"),
+        };
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+        let strong = response.hovered() || editor.selection.contains(&vertex);
+        pane::pin_mark(&ui.painter_at(rect), at, theme, owner, strong);
+        if response.hovered() || response.dragged() {
+            ui.ctx().set_cursor_icon(if response.dragged() { CursorIcon::Grabbing } else { CursorIcon::Grab });
+            editor.hovered = Some(vertex);
+        }
+        if response.clicked() {
+            requests.push(Request::Select(vec![vertex]));
+        }
+        if response.drag_started() {
+            editor.dragged_pin = Some(vertex);
+            requests.push(Request::Select(vec![vertex]));
+        }
+        if response.dragged() && editor.dragged_pin == Some(vertex) && response.drag_delta() != Vec2::ZERO {
+            let pointer = response.interact_pointer_pos().unwrap_or(at);
+            let target = camera.embedding_from_pane(pane::in_pane(rect, pointer), size);
+            requests.push(Request::Do(Action::MovePin { vertex, target }));
+        }
+        if response.drag_stopped() {
+            editor.dragged_pin = None;
+            requests.push(Request::Do(Action::EndGesture));
+        }
+    }
+}

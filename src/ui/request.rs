@@ -1,0 +1,149 @@
+//! What a person can ask of the window. Panels collect requests; the editor carries them out after the frame.
+
+use eframe::egui;
+use crate::mesh::VertexId;
+use crate::session::{Action, OutputFit};
+
+/// What the left mouse button does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Selects vertices.
+    #[default]
+    Select,
+    /// Pins vertices where they lie.
+    Fix,
+}
+
+/// How faces are coloured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// Clay.
+    Plain,
+    /// A checker over the plane, carried to the mesh.
+    #[default]
+    Checker,
+    /// Angle distortion.
+    Angle,
+    /// Area distortion.
+    Area,
+    /// Stretch.
+    Stretch,
+}
+
+impl Shading {
+    /// All shadings, in the order of menus.
+    pub const ALL: [Self; 5] = [Self::Plain, Self::Checker, Self::Angle, Self::Area, Self::Stretch];
+
+    /// Its name in menus.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Plain => "Plain",
+            Self::Checker => "Checker",
+            Self::Angle => "Angle distortion",
+            Self::Area => "Area distortion",
+            Self::Stretch => "Stretch",
+        }
+    }
+
+    /// What it shows.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Plain => "no colours but those of defects",
+            Self::Checker => "squares of the plane, carried to the mesh: they show angles and sizes at a glance",
+            Self::Angle => "ratio of the singular values σ₁/σ₂ per face: 1 keeps angles",
+            Self::Area => "area in the plane over area on the mesh per face, at equal total areas: 1 keeps areas",
+            Self::Stretch => "root mean square stretch from the plane to the mesh per face (L²)",
+        }
+    }
+}
+
+/// One of the two panes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pane {
+    /// The mesh in space.
+    Mesh,
+    /// Its embedding.
+    Plane,
+}
+
+/// A panel at the right.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tab {
+    /// Method and weights.
+    #[default]
+    Method,
+    /// The pins.
+    Pins,
+    /// What is wrong with the embedding.
+    Defects,
+    /// The selected vertex.
+    Vertex,
+}
+
+impl Tab {
+    /// All tabs, from left to right.
+    pub const ALL: [Self; 4] = [Self::Method, Self::Pins, Self::Defects, Self::Vertex];
+
+    /// Its name.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Method => "Method",
+            Self::Pins => "Pins",
+            Self::Defects => "Defects",
+            Self::Vertex => "Vertex",
+        }
+    }
+}
+
+/// Something a person asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// An edit of the document, or work on it.
+    Do(Action),
+    /// Takes up a tool.
+    SetTool(Tool),
+    /// Colours faces.
+    SetShading(Shading),
+    /// Shows or hides the wireframe.
+    ToggleWireframe,
+    /// Opens a tab.
+    ShowTab(Tab),
+    /// Shows or hides the panels.
+    TogglePanels,
+    /// Frames the selection, or all where nothing is selected.
+    Frame,
+    /// Shows vertices in both panes and selects them.
+    GoTo(Vec<VertexId>),
+    /// Shows a defect in both panes, by its place in the list.
+    GoToDefect(usize),
+    /// Goes to another defect: 1 the next, −1 the one before.
+    StepDefect(isize),
+    /// Selects exactly these vertices.
+    Select(Vec<VertexId>),
+    /// Adds vertices to the selection.
+    AddToSelection(Vec<VertexId>),
+    /// Frees the selected pins.
+    UnpinSelected,
+    /// Gives up the gesture, then the tool, then the selection.
+    Escape,
+    /// Shows one pane in full size, or both again.
+    ToggleFull(Pane),
+    /// Shows the pane without the pointer in full size, or both again.
+    TogglePane,
+    /// Asks for a mesh to open.
+    AskOpen,
+    /// Asks where to save the mesh with its texture coordinates.
+    AskSave,
+    /// Asks where to export to.
+    AskExport,
+    /// Asks for an element to go to.
+    AskGoTo,
+    /// Shows or hides the list of keys.
+    ToggleKeys,
+    /// Follows the system's theme, or a fixed one.
+    SetTheme(egui::ThemePreference),
+    /// Chooses the size of coordinates in files.
+    SetFit(OutputFit),
+    /// Ends the program.
+    Quit,
+}

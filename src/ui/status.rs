@@ -1,0 +1,62 @@
+//! The bar at the bottom: what the tool does, and what is under the pointer.
+
+use eframe::egui;
+use egui::RichText;
+
+use super::theme::theme_of;
+use super::{Editor, Tool};
+
+/// Shows the bar.
+pub fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
+    let weak = theme_of(ui).weak_text;
+    ui.horizontal_centered(|ui| {
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(numbers(editor)).color(weak).monospace());
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.add(egui::Label::new(RichText::new(hint(editor)).color(weak)).truncate());
+            });
+        });
+    });
+}
+
+fn hint(editor: &Editor) -> &'static str {
+    if editor.dragged_pin.is_some() {
+        return "Move the pin; the embedding follows. Esc gives up.";
+    }
+    if editor.session.model().is_none() {
+        return "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.";
+    }
+    match editor.tool {
+        Tool::Select => "Click a vertex to select it, Shift adds, Ctrl and a drag draw a box. Drag a square to move a pin.",
+        Tool::Fix => "Click a vertex to fix it where it lies. Drag a square to move it. Esc ends.",
+    }
+}
+
+fn numbers(editor: &Editor) -> String {
+    let mut parts = Vec::new();
+    if let Some(at) = editor.pointer_in_embedding {
+        parts.push(format!("u {} v {}", short(at.x), short(at.y)));
+    }
+    if let (Some(vertex), Some(model)) = (editor.hovered, editor.session.model()) {
+        parts.push(vertex.to_string());
+        if let Some(x) = model.mesh().positions.get(vertex.index()) {
+            parts.push(format!("({}, {}, {})", short(x.x), short(x.y), short(x.z)));
+        }
+    }
+    if let Some(outcome) = editor.session.outcome() {
+        parts.push(format!("{:.0} ms", 1000.0 * (outcome.solution.seconds.total() + outcome.verify_seconds)));
+    }
+    parts.join("  ·  ")
+}
+
+/// A number with four digits that mean something.
+pub(super) fn short(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e5).contains(&size) {
+        format!("{value:.3e}")
+    } else if size >= 100.0 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.4}")
+    }
+}

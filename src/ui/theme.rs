@@ -1,0 +1,189 @@
+//! Colours and type sizes: every colour on the screen has its one place here.
+
+use eframe::egui;
+use eframe::egui::{Color32, CornerRadius, FontFamily, FontId, Stroke, TextStyle, Visuals};
+
+use crate::view::{Palette, Srgb};
+
+/// Height of the bar at the top, points.
+pub const TOP_HEIGHT: f32 = 30.0;
+/// Height of the bar at the bottom, points.
+pub const BOTTOM_HEIGHT: f32 = 24.0;
+/// Width of the tool bar, points.
+pub const TOOLS_WIDTH: f32 = 44.0;
+/// Width of the panels at the right, points.
+pub const PANEL_WIDTH: f32 = 280.0;
+
+/// Colours of one of the two themes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Theme {
+    /// A flipped face.
+    pub flipped: Color32,
+    /// A boundary crossing.
+    pub crossing: Color32,
+    /// An overwound vertex.
+    pub overwound: Color32,
+    /// A pin.
+    pub pin: Color32,
+    /// What is selected or under the pointer.
+    pub selection: Color32,
+    /// Planar and proved.
+    pub planar: Color32,
+    /// Something that is not up to date.
+    pub stale: Color32,
+    /// The one accent of controls.
+    pub accent: Color32,
+    /// Behind the meshes.
+    pub background: Color32,
+    /// Behind the panels.
+    pub panel: Color32,
+    /// Text.
+    pub text: Color32,
+    /// Text of lesser weight.
+    pub weak_text: Color32,
+    /// Thin lines between things.
+    pub separator: Color32,
+    /// The boundary's line.
+    pub boundary: Srgb,
+    /// What the graphics card draws with.
+    pub palette: Palette,
+}
+
+/// A colour of a scale.
+pub fn rgb([r, g, b]: [u8; 3]) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}
+
+const fn hex(rgb: u32) -> Color32 {
+    let [_, r, g, b] = rgb.to_be_bytes();
+    Color32::from_rgb(r, g, b)
+}
+
+/// The light theme.
+pub const LIGHT: Theme = Theme {
+    flipped: hex(0x00D9_2D3A),
+    crossing: hex(0x00E8_700A),
+    overwound: hex(0x00C0_26A8),
+    pin: hex(0x002F_5BD8),
+    selection: hex(0x00E0_A100),
+    planar: hex(0x001F_8A4C),
+    stale: hex(0x00B8_7A00),
+    accent: hex(0x002F_5BD8),
+    background: hex(0x00F4_F4F2),
+    panel: hex(0x00FB_FBFA),
+    text: hex(0x0022_2426),
+    weak_text: hex(0x006A_6D70),
+    separator: hex(0x00DD_DDD9),
+    boundary: Srgb::from_hex(0x003A_3A38),
+    palette: Palette {
+        background: Srgb::from_hex(0x00F4_F4F2),
+        grid: Srgb::from_hex(0x00C9_C9C4),
+        unit_square: Srgb::from_hex(0x0086_8A90),
+        clay: Srgb::from_hex(0x00D8_D4CC),
+        clay_back: Srgb::from_hex(0x00A9_A39A),
+        plane_face: Srgb::from_hex(0x00E3_DFD8),
+        overlap: Srgb::from_hex(0x0090_8C86),
+        checker: [Srgb::from_hex(0x00EC_E9E3), Srgb::from_hex(0x008F_A8C8)],
+        wire: Srgb::from_hex(0x0046_4542).with_alpha(150),
+        flipped: Srgb::from_hex(0x00D9_2D3A),
+        selection: Srgb::from_hex(0x00E0_A100),
+        hover: Srgb::from_hex(0x00E0_A100),
+    },
+};
+
+/// The dark theme.
+pub const DARK: Theme = Theme {
+    flipped: hex(0x00FF_5A64),
+    crossing: hex(0x00FF_9A3D),
+    overwound: hex(0x00F0_6BD8),
+    pin: hex(0x007B_9BFF),
+    selection: hex(0x00FF_D24A),
+    planar: hex(0x004A_CB80),
+    stale: hex(0x00F0_B43C),
+    accent: hex(0x007B_9BFF),
+    background: hex(0x001E_1F22),
+    panel: hex(0x0026_272B),
+    text: hex(0x00E4_E4E2),
+    weak_text: hex(0x009B_9EA3),
+    separator: hex(0x0038_3A3F),
+    boundary: Srgb::from_hex(0x00EC_ECE8),
+    palette: Palette {
+        background: Srgb::from_hex(0x001E_1F22),
+        grid: Srgb::from_hex(0x0044_464B),
+        unit_square: Srgb::from_hex(0x0078_7C84),
+        clay: Srgb::from_hex(0x00B9_B4AA),
+        clay_back: Srgb::from_hex(0x006F_6A63),
+        plane_face: Srgb::from_hex(0x005A_5954),
+        overlap: Srgb::from_hex(0x00A0_9C96),
+        checker: [Srgb::from_hex(0x00C9_C5BD), Srgb::from_hex(0x0058_6E8C)],
+        wire: Srgb::from_hex(0x0016_1617).with_alpha(170),
+        flipped: Srgb::from_hex(0x00FF_5A64),
+        selection: Srgb::from_hex(0x00FF_D24A),
+        hover: Srgb::from_hex(0x00FF_D24A),
+    },
+};
+
+/// The theme that is on.
+pub fn theme_of(ui: &egui::Ui) -> &'static Theme {
+    if ui.visuals().dark_mode { &DARK } else { &LIGHT }
+}
+
+/// Gives egui both themes, type sizes and spacing. Once, at the start.
+pub fn install(context: &egui::Context) {
+    context.set_visuals_of(egui::Theme::Light, visuals(&LIGHT, Visuals::light()));
+    context.set_visuals_of(egui::Theme::Dark, visuals(&DARK, Visuals::dark()));
+    context.all_styles_mut(|style| {
+        style.text_styles = [
+            (TextStyle::Small, FontId::new(11.0, FontFamily::Proportional)),
+            (TextStyle::Body, FontId::new(13.0, FontFamily::Proportional)),
+            (TextStyle::Button, FontId::new(13.0, FontFamily::Proportional)),
+            (TextStyle::Heading, FontId::new(13.0, FontFamily::Proportional)),
+            (TextStyle::Monospace, FontId::new(12.0, FontFamily::Monospace)),
+        ]
+        .into();
+        style.spacing.item_spacing = egui::vec2(8.0, 6.0);
+        style.spacing.button_padding = egui::vec2(8.0, 3.0);
+        style.spacing.interact_size = egui::vec2(32.0, 22.0);
+        style.spacing.slider_width = 120.0;
+        style.interaction.tooltip_delay = 0.4;
+    });
+}
+
+fn visuals(theme: &Theme, base: Visuals) -> Visuals {
+    let mut visuals = base;
+    visuals.panel_fill = theme.panel;
+    visuals.window_fill = theme.panel;
+    visuals.extreme_bg_color = theme.background;
+    visuals.override_text_color = Some(theme.text);
+    visuals.hyperlink_color = theme.accent;
+    visuals.selection.bg_fill = theme.accent.gamma_multiply(0.28);
+    visuals.selection.stroke = Stroke::new(1.0, theme.accent);
+    visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, theme.separator);
+    visuals.window_stroke = Stroke::new(1.0, theme.separator);
+    let radius = CornerRadius::same(4);
+    for widget in [
+        &mut visuals.widgets.noninteractive,
+        &mut visuals.widgets.inactive,
+        &mut visuals.widgets.hovered,
+        &mut visuals.widgets.active,
+        &mut visuals.widgets.open,
+    ] {
+        widget.corner_radius = radius;
+    }
+    visuals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_graphics_card_draws_in_the_theme_s_colours() {
+        for theme in [LIGHT, DARK] {
+            let bytes = |colour: Color32| colour.to_array();
+            assert_eq!(theme.palette.background.0, bytes(theme.background));
+            assert_eq!(theme.palette.flipped.0, bytes(theme.flipped));
+            assert_eq!(theme.palette.selection.0, bytes(theme.selection));
+        }
+    }
+}

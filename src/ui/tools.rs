@@ -1,0 +1,39 @@
+//! The tool bar at the left.
+
+use eframe::egui;
+use egui::{Sense, Vec2, WidgetInfo, Role};
+
+use super::theme::theme_of;
+use super::{Editor, Request, Tool, icons, keys_of};
+
+/// Side of a tool's button, points.
+const BUTTON: f32 = 32.0;
+
+/// Shows the tools.
+pub fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    ui.vertical_centered(|ui| {
+        for (tool, name) in [(Tool::Select, "Select vertices"), (Tool::Fix, "Fix: pin a vertex where it lies")] {
+            let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
+            let on = editor.tool == tool;
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
+            let theme = theme_of(ui);
+            if on || response.hovered() {
+                let share = if on { 0.22 } else { 0.10 };
+                ui.painter().rect_filled(rect, 5.0, theme.accent.gamma_multiply(share));
+            }
+            if response.has_focus() {
+                ui.painter().rect_stroke(rect, 5.0, egui::Stroke::new(1.0, theme.accent), egui::StrokeKind::Inside);
+            }
+            let colour = if on { theme.accent } else { theme.text };
+            match tool {
+                Tool::Select => icons::pointer(ui.painter(), rect, colour),
+                Tool::Fix => icons::pin(ui.painter(), rect, colour),
+            }
+            let request = Request::SetTool(tool);
+            let tip = format!("{name} ({})", keys_of(ui.ctx(), &request));
+            if response.on_hover_text(tip).clicked() {
+                requests.push(request);
+            }
+        }
+    });
+}

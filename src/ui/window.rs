@@ -1,0 +1,112 @@
+//! The window as a whole: bars, panels, panes, and the keyboard.
+
+use eframe::egui;
+use egui::{Frame, Margin, Panel, Rect, Sense, Vec2};
+
+use super::mesh_pane::mesh_pane_ui;
+use super::plane_pane::plane_pane_ui;
+use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
+use super::{Editor, Pane, Request, floating, keys, menu, side_panel, status, tools};
+use crate::session::Action;
+
+/// Width of the bar between the panes that can be grabbed, points.
+const SPLITTER: f32 = 6.0;
+
+/// Least share of the width that a pane has.
+const LEAST_SHARE: f32 = 0.15;
+
+/// Shows everything and carries out what was asked for.
+pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
+    editor.poll();
+    let mut requests = keys::requests(ui.ctx());
+    requests.extend(dropped_file(ui));
+    let fill = theme_of(ui).panel;
+    let bar = Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 0));
+    Panel::top("top").exact_size(TOP_HEIGHT).frame(bar).show(ui, |ui| menu::top_bar(ui, editor, &mut requests));
+    Panel::bottom("bottom").exact_size(BOTTOM_HEIGHT).frame(bar).show(ui, |ui| status::status_bar(ui, editor));
+    let tool_frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(6, 8));
+    Panel::left("tools")
+        .exact_size(TOOLS_WIDTH)
+        .resizable(false)
+        .frame(tool_frame)
+        .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
+    if editor.panels_shown {
+        let frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(12, 8));
+        Panel::right("panels")
+            .default_size(PANEL_WIDTH)
+            .size_range(220.0..=420.0)
+            .frame(frame)
+            .show(ui, |ui| side_panel::side_panel(ui, editor, &mut requests));
+    }
+    editor.pane_under_pointer = None;
+    editor.pointer_in_embedding = None;
+    if editor.dragged_pin.is_none() {
+        editor.hovered = None;
+    }
+    egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
+    floating::floating_windows(ui.ctx(), editor, &mut requests);
+    for request in requests {
+        editor.handle(request);
+    }
+    carry_out_for_window(ui.ctx(), editor);
+}
+
+/// The two panes with the splitter between them, or one of them alone.
+fn panes(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let all = ui.available_rect_before_wrap();
+    let part = |ui: &mut egui::Ui, rect: Rect, add: &mut dyn FnMut(&mut egui::Ui)| {
+        ui.scope_builder(egui::UiBuilder::new().max_rect(rect), |ui| {
+            ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+            ui.spacing_mut().item_spacing.y = 0.0;
+            add(ui);
+        });
+    };
+    match editor.full {
+        Some(Pane::Mesh) => part(ui, all, &mut |ui| mesh_pane_ui(ui, editor, requests)),
+        Some(Pane::Plane) => part(ui, all, &mut |ui| plane_pane_ui(ui, editor, requests)),
+        None => {
+            let middle = all.left() + all.width() * editor.split;
+            let left = Rect::from_min_max(all.min, egui::pos2(middle - SPLITTER / 2.0, all.bottom()));
+            let right = Rect::from_min_max(egui::pos2(middle + SPLITTER / 2.0, all.top()), all.max);
+            part(ui, left, &mut |ui| mesh_pane_ui(ui, editor, requests));
+            part(ui, right, &mut |ui| plane_pane_ui(ui, editor, requests));
+            splitter(ui, editor, all, middle);
+        }
+    }
+}
+
+fn splitter(ui: &egui::Ui, editor: &mut Editor, all: Rect, middle: f32) {
+    let bar = Rect::from_center_size(egui::pos2(middle, all.center().y), Vec2::new(SPLITTER, all.height()));
+    let response = ui.interact(bar, ui.scope_id().with("splitter"), Sense::click_and_drag());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, "Width of the panes"));
+    if response.dragged() {
+        let share = (middle + response.drag_delta().x - all.left()) / all.width().max(1.0);
+        editor.split = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+    }
+    if response.double_clicked() {
+        editor.split = 0.5;
+    }
+    let active = response.hovered() || response.dragged();
+    if active {
+        ui.ctx().set_cursor_icon(egui::CursorIcon::ResizeHorizontal);
+    }
+    let theme = theme_of(ui);
+    let colour = if active { theme.accent } else { theme.separator };
+    ui.painter().vline(middle, all.y_range(), egui::Stroke::new(1.0, colour));
+}
+
+/// A file dropped on the window is opened.
+fn dropped_file(ui: &egui::Ui) -> Option<Request> {
+    let path = ui.input(|input| input.raw.dropped_files.iter().find_map(|file| file.path().map(std::path::Path::to_owned)))?;
+    Some(Request::Do(Action::Open(path)))
+}
+
+/// What only the window itself can do.
+fn carry_out_for_window(context: &egui::Context, editor: &mut Editor) {
+    if let Some(theme) = editor.theme_wanted.take() {
+        context.set_theme(theme);
+    }
+    if editor.quit {
+        context.send_viewport_cmd(egui::ViewportCommand::Close);
+    }
+}
