@@ -21,8 +21,8 @@ const NEAR_SHARE: f64 = 1e-3;
 /// Yaw and pitch by which the first view turns away from a frontal one, radians, so that depth shows.
 const FIRST_TURN: DVec2 = DVec2::new(0.35, 0.2);
 
-/// Length of a surface's mean normal below which it faces no side: most of a head faces all of them.
-const LEAST_FACING: f64 = 0.2;
+/// Length of a surface's mean normal below which it faces no side. A head with an open neck has about 0.1.
+const LEAST_FACING: f64 = 0.05;
 /// Pitch of the first view at most, radians: a sheet that looks straight up is seen at a slant.
 const STEEPEST_FIRST_PITCH: f64 = 1.0;
 /// Nearest distance that [`OrbitCamera::frame_positions`] takes, as a share of the one that shows the whole ball.

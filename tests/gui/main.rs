@@ -1,6 +1,5 @@
 //! Tests of what needs the feature `gui`. Those that draw need a Vulkan driver and are ignored without being asked for.
 #![cfg(feature = "gui")]
 
-
 mod render;
 mod shaders;
