@@ -297,16 +297,16 @@ fn the_picture_lies_in_its_box_upper_row_up() {
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn a_detail_of_a_billionth_still_has_a_shape() {
-    // The lower right corner comes within 2e-9 of vertex 5 at (1, 0), then the camera goes there.
+    // The lower right corner comes within 2e-9 of vertex 5 at (1, 0), then the camera goes there. One f32 would draw
+    // both at the same place, and the boundary as the straight line y = x − 1.
     let near = 2e-9;
-    let mut frame = plane_frame(DVec2::new(1.0 - near, -near), &[]);
-    let corner = PlaneBox { min: DVec2::new(1.0 - 2.0 * near, -2.0 * near), max: DVec2::new(1.0, 0.0) };
+    let mut frame = plane_frame(DVec2::new(1.0, -near), &[]);
+    let corner = PlaneBox { min: DVec2::new(1.0 - near, -2.0 * near), max: DVec2::new(1.0 + near, 0.0) };
     frame.camera.frame(corner, PANE_SIZE);
     let picture = plane_picture(frame.clone());
-    // The boundary runs from (0, −1) to the corner and on to vertex 5: above it is face, below it is background.
-    let [r, g, _] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 1.0 * near, -0.5 * near));
-    assert!(r < 10 && g > 180, "inside: {r} {g}");
-    let [r, ..] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 0.5 * near, -1.5 * near));
+    let [r, g, _] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 0.25 * near, -0.75 * near));
+    assert!(r < 10 && g > 180, "below that line, above the true boundary: {r} {g}");
+    let [r, ..] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 0.25 * near, -1.5 * near));
     assert!(r > 240, "outside: {r}");
 }
 
