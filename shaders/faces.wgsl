@@ -25,6 +25,9 @@ fn checker(place: vec2<f32>, width: vec2<f32>) -> f32 {
 
 // Covering of this pixel by the wireframe: lines of the same width in pixels, whatever the face's size.
 fn wire_cover(weight: vec3<f32>) -> f32 {
+    if pane.wire.a <= 0.0 {
+        return 0.0;
+    }
     let per_pixel = max(fwidth(weight), vec3<f32>(1e-9));
     let distance = weight / per_pixel;
     let nearest = min(distance.x, min(distance.y, distance.z));
@@ -34,17 +37,21 @@ fn wire_cover(weight: vec3<f32>) -> f32 {
     return cover * mix(0.15, 1.0, smoothstep(2.0, 9.0, height));
 }
 
-// The surface's own colour by the chosen shading. `checks` and `picture_place` come with their widths per pixel.
-fn face_colour(plain: vec3<f32>, paint: vec3<f32>, checks: vec2<f32>, checks_width: vec2<f32>, picture: vec4<f32>) -> vec3<f32> {
+// The surface's own colour by the chosen shading. The branches are the same for all pixels, so derivatives are allowed
+// in them.
+fn face_colour(plain: vec3<f32>, paint: vec3<f32>, plane: vec2<f32>) -> vec3<f32> {
     switch pane.choice.x {
         case SHADING_CHECKER: {
-            let share = checker(checks, checks_width);
+            let checks = plane * pane.checker.x + pane.checker.yz;
+            let share = checker(checks, fwidth(checks));
             return mix(pane.checker_light.rgb, pane.checker_dark.rgb, share);
         }
         case SHADING_PAINT: {
             return linear_from_srgb(paint);
         }
         case SHADING_PICTURE: {
+            let place = plane * pane.picture.xy + pane.picture.zw;
+            let picture = textureSample(picture_texture, picture_sampler, place);
             return mix(plain, picture.rgb, picture.a);
         }
         default: {

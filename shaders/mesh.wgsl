@@ -36,7 +36,7 @@ fn lit(albedo: vec3<f32>, normal: vec3<f32>, to_eye: vec3<f32>, relief: f32) -> 
     let key_light = max(dot(normal, key), 0.0);
     let fill_light = max(dot(normal, fill), 0.0);
     let sky = 0.5 + 0.5 * dot(normal, pane.up.xyz);
-    let light = 0.12 + 0.16 * sky + 0.72 * key_light + 0.14 * fill_light;
+    let light = 0.10 + 0.20 * sky + 0.88 * key_light + 0.16 * fill_light;
     let facing = clamp(dot(normal, to_eye), 0.0, 1.0);
     let halfway = normalize(key + to_eye);
     let gloss = 0.055 * pow(max(dot(normal, halfway), 0.0), 28.0);
@@ -50,10 +50,9 @@ fn fs_shaded(in: Corner, @builtin(front_facing) front: bool) -> @location(0) vec
     // Derivatives come first: they need every pixel of a block of four.
     let across = dpdx(in.position);
     let down = dpdy(in.position);
-    let checks = in.plane * pane.checker.x + pane.checker.yz;
-    let checks_width = fwidth(checks);
-    let picture = textureSample(picture_texture, picture_sampler, in.plane * pane.picture.xy + pane.picture.zw);
     let wire = wire_cover(in.weight);
+    let plain = select(pane.clay_back.rgb, pane.clay.rgb, front);
+    var albedo = face_colour(plain, in.paint.rgb, in.plane);
 
     let to_eye = normalize(pane.eye.xyz - in.position);
     // Of a face seen from either side, the normal that looks at the eye.
@@ -66,8 +65,6 @@ fn fs_shaded(in: Corner, @builtin(front_facing) front: bool) -> @location(0) vec
     normal = select(to_eye, normal * inverseSqrt(length_squared), length_squared > 0.0);
 
     let flags = u32(round(in.paint.a * 255.0));
-    let plain = select(pane.clay_back.rgb, pane.clay.rgb, front);
-    var albedo = face_colour(plain, in.paint.rgb, checks, checks_width, picture);
     // The back is told from the front in every shading.
     albedo = select(albedo * 0.72, albedo, front || pane.choice.x == SHADING_PLAIN);
     albedo = marked(albedo, flags, in.face);

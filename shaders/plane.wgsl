@@ -46,14 +46,11 @@ fn hatch_cover(pixel: vec2<f32>) -> f32 {
 
 @fragment
 fn fs_flat(in: Corner) -> @location(0) vec4<f32> {
-    let checks = in.plane * pane.checker.x + pane.checker.yz;
-    let checks_width = fwidth(checks);
-    let picture = textureSample(picture_texture, picture_sampler, in.plane * pane.picture.xy + pane.picture.zw);
     let wire = wire_cover(in.weight);
+    var colour = face_colour(pane.plane_face.rgb, in.paint.rgb, in.plane);
 
     let flags = u32(round(in.paint.a * 255.0));
     let is_flipped = (flags & FLIPPED) != 0u;
-    var colour = face_colour(pane.plane_face.rgb, in.paint.rgb, checks, checks_width, picture);
     colour = marked(colour, flags, in.face);
     if is_flipped {
         colour = mix(colour, pane.background.rgb, 0.55 * hatch_cover(in.clip.xy));

@@ -10,6 +10,8 @@ use super::gpu::{Gpu, Io, Place, Stats};
 use super::uniforms::PaneSize;
 
 /// Compiles the pipelines and puts them where the panes find them. Once per window.
+///
+/// egui's own pass must be as it is by default: without multisampling and without a depth buffer.
 pub fn install(state: &RenderState) {
     let gpu = Gpu::new(&state.device, &state.queue, state.target_format);
     state.renderer.write().callback_resources.insert(gpu);

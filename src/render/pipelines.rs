@@ -3,6 +3,7 @@
 use eframe::wgpu;
 use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, CompareFunction};
 
+use super::plan::{MESH_LINE_STRIDE, PLANE_LINE_STRIDE};
 use super::target::{COLOUR, DEPTH, SAMPLES};
 use super::uniforms::{LineUniforms, PaneUniforms};
 
@@ -132,10 +133,10 @@ static PLANE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
 ];
 /// Two points in unit space.
 static MESH_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
-    [Some(buffer(24, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3]))];
+    [Some(buffer(MESH_LINE_STRIDE, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3]))];
 /// Two split points.
 static PLANE_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
-    [Some(buffer(32, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4]))];
+    [Some(buffer(PLANE_LINE_STRIDE, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4]))];
 
 /// What tells one pipeline from another.
 struct Recipe<'a> {

@@ -16,6 +16,11 @@ const LIFT: f32 = 0.0015;
 /// The most line layers of a pane, outlines of flipped faces included.
 pub(super) const LAYER_LIMIT: usize = 16;
 
+/// Bytes of a line on the mesh: two points.
+pub(super) const MESH_LINE_STRIDE: u64 = 24;
+/// Bytes of a line in the plane: two split points.
+pub(super) const PLANE_LINE_STRIDE: u64 = 32;
+
 /// What the draw calls of a pane draw with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -102,12 +107,12 @@ impl Planner<'_> {
         for layer in &frame.lines {
             let key = Key::MeshLines(mesh.revision(), layer.edges.revision());
             self.ensure_with(key, || segments(mesh.points(), vertex_pairs(&layer.edges)));
-            plan.push_line(line_draw(key, layer.edges.ends().len()), self.line(layer, LIFT));
+            plan.push_line(self.line_draw(key, MESH_LINE_STRIDE), self.line(layer, LIFT));
         }
         if let Some((paint, uniforms)) = self.outline(&frame.style, &frame.palette, frame.paint.as_ref(), LIFT) {
             let key = Key::MeshLines(mesh.revision(), paint.revision());
-            self.ensure_with(key, || segments(mesh.points(), flipped_sides(mesh, paint)));
-            plan.push_line(line_draw(key, 3 * paint.flipped().len()), uniforms);
+            self.ensure_with(key, || segments(mesh.points(), flipped_outline(mesh, paint)));
+            plan.push_line(self.line_draw(key, MESH_LINE_STRIDE), uniforms);
         }
         plan
     }
@@ -137,12 +142,12 @@ impl Planner<'_> {
         for layer in &frame.lines {
             let key = Key::PlaneLines(plane.revision(), layer.edges.revision());
             self.ensure_with(key, || segments(plane.points(), vertex_pairs(&layer.edges)));
-            plan.push_line(line_draw(key, layer.edges.ends().len()), self.line(layer, 0.0));
+            plan.push_line(self.line_draw(key, PLANE_LINE_STRIDE), self.line(layer, 0.0));
         }
         if let Some((paint, uniforms)) = self.outline(&frame.style, &frame.palette, frame.paint.as_ref(), 0.0) {
             let key = Key::PlaneLines(plane.revision(), paint.revision());
-            self.ensure_with(key, || segments(plane.points(), flipped_sides(mesh, paint)));
-            plan.push_line(line_draw(key, 3 * paint.flipped().len()), uniforms);
+            self.ensure_with(key, || segments(plane.points(), flipped_outline(mesh, paint)));
+            plan.push_line(self.line_draw(key, PLANE_LINE_STRIDE), uniforms);
         }
         plan
     }
@@ -182,6 +187,12 @@ impl Planner<'_> {
         Key::Zeros(size)
     }
 
+    /// One call for all the lines of a buffer.
+    fn line_draw(&self, key: Key, stride: u64) -> Draw {
+        let size = self.cache.get(key).map_or(0, wgpu::Buffer::size);
+        Draw { buffers: vec![key], count: u32::try_from(size / stride).unwrap_or(0) }
+    }
+
     fn line(&self, layer: &LineLayer, lift: f32) -> LineUniforms {
         LineUniforms::new(layer.colour, layer.width_in_points, self.size.pixels_per_point, lift)
     }
@@ -207,10 +218,6 @@ fn corner_count(mesh: &MeshArrays) -> u32 {
     u32::try_from(mesh.corner_positions().len()).unwrap_or(0)
 }
 
-fn line_draw(key: Key, count: usize) -> Draw {
-    Draw { buffers: vec![key], count: u32::try_from(count).unwrap_or(0) }
-}
-
 fn vertex_pairs(edges: &EdgeList) -> impl Iterator<Item = [usize; 2]> + '_ {
     edges.ends().iter().map(|ends| ends.map(VertexId::index))
 }
@@ -220,12 +227,18 @@ fn segments<P: Copy + Default + bytemuck::Pod>(points: &[P], ends: impl Iterator
     ends.flat_map(|ends| ends.map(|v| points.get(v).copied().unwrap_or_default())).collect()
 }
 
-/// Ends of the three sides of each flipped face.
-fn flipped_sides<'a>(mesh: &'a MeshArrays, paint: &'a FacePaint) -> impl Iterator<Item = [usize; 2]> + 'a {
-    paint.flipped().iter().flat_map(|face| {
-        let [a, b, c] = mesh.triangles().get(face.index()).map_or([usize::MAX; 3], |t| t.map(VertexId::index));
-        [[a, b], [b, c], [c, a]]
-    })
+/// Sides of flipped faces that no other flipped face shares: around each red region, not all over it.
+fn flipped_outline(mesh: &MeshArrays, paint: &FacePaint) -> impl Iterator<Item = [usize; 2]> {
+    let faces = paint.flipped().iter().filter_map(|face| mesh.triangles().get(face.index()));
+    let mut sides: Vec<[usize; 2]> = faces
+        .map(|triangle| triangle.map(VertexId::index))
+        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
+    sides.sort_unstable();
+    let outline: Vec<[usize; 2]> =
+        sides.chunk_by(|a, b| a == b).filter(|run| run.len() == 1).map(|run| run[0]).collect();
+    outline.into_iter()
 }
 
 /// The corners of the flipped faces only.

@@ -209,3 +209,30 @@ fn with(v: Vec3, fourth: f32) -> [f32; 4] {
 fn single(value: f64) -> f32 {
     DVec2::splat(value).as_vec2().x
 }
+
+#[cfg(test)]
+mod tests {
+    use eframe::wgpu::naga;
+
+    use super::*;
+    use crate::render::SHADERS;
+
+    /// Size of a structure in the shader that mentions it.
+    fn size_in_shader(name: &str) -> usize {
+        let sizes = SHADERS.iter().flat_map(|shader| {
+            let module = naga::front::wgsl::parse_str(shader.source).expect("valid, as another test shows");
+            let size = |ty: &naga::Type| match ty.inner {
+                naga::TypeInner::Struct { span, .. } if ty.name.as_deref() == Some(name) => Some(span as usize),
+                _ => None,
+            };
+            module.types.iter().filter_map(|(_, ty)| size(ty)).collect::<Vec<_>>()
+        });
+        sizes.max().expect("some shader has it")
+    }
+
+    #[test]
+    fn the_shaders_structures_are_as_large_as_ours() {
+        assert_eq!(size_of::<PaneUniforms>(), size_in_shader("Pane"));
+        assert_eq!(size_of::<LineUniforms>(), size_in_shader("Line"));
+    }
+}

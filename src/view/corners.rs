@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use crate::mesh::VertexId;
 
-/// Cosine of the angle between two faces above which the edge between them shows, here 50°.
-const CREASE_COSINE: f64 = 0.64;
+/// Cosine of the angle between two faces above which the edge between them shows, 70°: a cube has edges, and a
+/// coarse nose has none.
+const CREASE_COSINE: f64 = 0.34;
 
 /// One normal per corner, in the order of the triangles' corners.
 ///

@@ -52,10 +52,12 @@ impl MeshArrays {
             let [a, b, c] = t.map(|v| positions[v.index()]);
             (b - a).cross(c - a)
         };
+        let sum: DVec3 = triangles.iter().map(area_vector).sum();
+        let total_area: f64 = triangles.iter().map(|t| area_vector(t).length()).sum();
         Self {
             revision: Revision::fresh(),
             frame,
-            mean_normal: triangles.iter().map(area_vector).sum(),
+            mean_normal: if total_area > 0.0 { sum / total_area } else { DVec3::ZERO },
             points,
             corner_positions,
             corner_normals: normals.into_iter().map(packed_normal).collect(),
@@ -73,7 +75,8 @@ impl MeshArrays {
         self.frame
     }
 
-    /// The sum of the faces' area vectors: the side that the surface shows.
+    /// The mean of the faces' normals, weighted by area: the side that the surface shows. Its length is 1 for a plane
+    /// sheet and 0 for a closed surface.
     pub fn mean_normal(&self) -> DVec3 {
         self.mean_normal
     }

@@ -31,6 +31,7 @@ pub use orbit::{OrbitCamera, Ray, UpAxis};
 pub use palette::{Palette, Srgb};
 pub use pick::{PICK_RADIUS, PlanePicker, SurfaceHit, SurfacePicker, VertexPick, Visibility};
 pub use plane::{Grid, PlaneCamera};
+#[cfg(feature = "gui")]
 pub(crate) use space::split_point;
 pub use space::{PlaneBox, Sphere, UnitFrame, UnitPlane};
 pub use ticks::{Tick, nice_step_at_least, nice_step_at_most};

@@ -21,6 +21,13 @@ const NEAR_SHARE: f64 = 1e-3;
 /// Yaw and pitch by which the first view turns away from a frontal one, radians, so that depth shows.
 const FIRST_TURN: DVec2 = DVec2::new(0.35, 0.2);
 
+/// Length of a surface's mean normal below which it faces no side. A head with an open neck has about 0.1.
+const LEAST_FACING: f64 = 0.05;
+/// Pitch of the first view at most, radians: a sheet that looks straight up is seen at a slant.
+const STEEPEST_FIRST_PITCH: f64 = 1.0;
+/// Nearest distance that [`OrbitCamera::frame_positions`] takes, as a share of the one that shows the whole ball.
+const NEAREST_FRAME: f64 = 0.6;
+
 /// Which axis of the world points up on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UpAxis {
@@ -73,22 +80,38 @@ impl OrbitCamera {
         camera
     }
 
-    /// A camera that sees the ball from the side that the surface faces, turned a little.
+    /// A camera that sees the ball from the side that the surface faces, turned a little, never from below.
     ///
-    /// `mean_normal` is the sum of the faces' area vectors; where it vanishes the view is frontal.
+    /// `mean_normal` is that of `MeshArrays`. Where it is short the surface faces no side, and the view is frontal.
     pub fn facing(scene: Sphere, up_axis: UpAxis, mean_normal: DVec3) -> Self {
         let mut camera = Self::framing(scene, up_axis);
-        if let Some(normal) = mean_normal.try_normalize() {
-            let back = camera.turntable_from_world(normal);
-            let pitch = back.y.clamp(-1.0, 1.0).asin();
+        let back = camera.turntable_from_world(mean_normal);
+        if back.length() > LEAST_FACING {
+            let across = back.x.hypot(back.z);
             // Near the pole the direction around it says nothing.
-            if back.x.hypot(back.z) > 0.1 {
+            if across > 0.1 {
                 camera.yaw += back.x.atan2(back.z);
             }
-            // Away from the poles, so that a face that looks straight up is seen from above at a slant.
-            camera.pitch = (pitch + FIRST_TURN.y).clamp(-1.0, 1.0);
+            camera.pitch = (back.y.atan2(across) + FIRST_TURN.y).clamp(0.0, STEEPEST_FIRST_PITCH);
         }
         camera
+    }
+
+    /// Comes as near as it can with all positions in the pane, in the direction that it looks in.
+    pub fn frame_positions(&mut self, positions: &[DVec3], pane_size: DVec2) {
+        let ball = Sphere::around(positions);
+        self.frame(ball, pane_size);
+        let up_share = (FIELD_OF_VIEW / 2.0).tan();
+        let right_share = up_share * aspect_ratio(pane_size);
+        let [right, up, back] = self.axes();
+        let needed = |&p: &DVec3| {
+            let from_center = p - ball.center;
+            let across = (from_center.dot(right).abs() / right_share).max(from_center.dot(up).abs() / up_share);
+            from_center.dot(back) + across * FRAME_MARGIN * FRAME_MARGIN
+        };
+        let tight = positions.iter().filter(|p| p.is_finite()).map(needed).fold(0.0, f64::max);
+        // Never so near that a quarter turn would show a long mesh cut off by far.
+        self.distance = tight.clamp(self.distance * NEAREST_FRAME, self.distance);
     }
 
     /// Turns about the pivot by a drag in points.

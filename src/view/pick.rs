@@ -51,6 +51,8 @@ pub struct SurfaceHit {
 pub struct SurfacePicker {
     positions: Vec<DVec3>,
     triangles: Vec<[VertexId; 3]>,
+    /// For each vertex the first face around it, so that a search meets it once.
+    first_face: Vec<u32>,
     bvh: Bvh,
 }
 
@@ -62,7 +64,16 @@ impl SurfacePicker {
     /// If a corner names a vertex that is not there.
     pub fn new(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Self {
         let corners: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(|v| positions[v.index()])).collect();
-        Self { positions: positions.to_vec(), triangles: triangles.to_vec(), bvh: Bvh::new(&corners) }
+        let mut first_face = vec![u32::MAX; positions.len()];
+        for (face, triangle) in (0_u32..).zip(triangles) {
+            // Faces with a corner nowhere are not in the hierarchy.
+            let is_searched = corners[face as usize].iter().all(|p| p.is_finite());
+            for vertex in triangle.iter().filter(|_| is_searched) {
+                let first = &mut first_face[vertex.index()];
+                *first = face.min(*first);
+            }
+        }
+        Self { positions: positions.to_vec(), triangles: triangles.to_vec(), first_face, bvh: Bvh::new(&corners) }
     }
 
     /// The first point of the surface on a ray.
@@ -84,7 +95,6 @@ impl SurfacePicker {
         near.sort_unstable_by(|a, b| {
             a.distance_in_points.total_cmp(&b.distance_in_points).then(a.vertex.cmp(&b.vertex))
         });
-        near.dedup_by_key(|pick| pick.vertex);
         let eye = camera.eye();
         near.into_iter().find(|pick| visibility == Visibility::All || self.is_visible(pick.vertex, eye))
     }
@@ -104,13 +114,14 @@ impl SurfacePicker {
         self.triangles[number as usize].map(|v| self.positions[v.index()])
     }
 
-    /// Vertices within the pick radius, some of them more than once.
+    /// Vertices within the pick radius.
     fn vertices_near(&self, clip_from_world: &DMat4, pane_size: DVec2, pointer: DVec2) -> Vec<VertexPick> {
         let mut near = Vec::new();
         self.bvh.visit(
             |low, high| box_visit([low, high], clip_from_world, pane_size, pointer),
             |number| {
-                for vertex in self.triangles[number as usize] {
+                let corners = self.triangles[number as usize];
+                for vertex in corners.into_iter().filter(|v| self.first_face[v.index()] == number) {
                     let clip = *clip_from_world * self.positions[vertex.index()].extend(1.0);
                     // Nothing before the near plane is drawn.
                     let shown = pane_from_clip(clip, pane_size).filter(|_| clip.z >= 0.0);

@@ -17,3 +17,4 @@ mod verdict;
 mod verdict_cases;
 mod verdict_oracle;
 mod verdict_random;
+mod view;

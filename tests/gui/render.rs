@@ -139,9 +139,9 @@ fn plane_pixel(picture: &RgbaImage, frame: &PlaneFrame, point: DVec2) -> [u8; 3]
 /// The pixel at a place of the pane, points from its upper left corner.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a small picture")]
 fn pixel(picture: &RgbaImage, x: f64, y: f64) -> [u8; 3] {
-    let (x, y) = (x + f64::from(RECT.min.x), y + f64::from(RECT.min.y));
-    let [r, g, b, _] = picture.get_pixel(x as u32, y as u32).0;
-    [r, g, b]
+    let in_window = [x + f64::from(RECT.min.x), y + f64::from(RECT.min.y)].map(|place| place as u32);
+    let [rgb @ .., _] = picture.get_pixel(in_window[0], in_window[1]).0;
+    rgb
 }
 
 /// The mean colour of a square of seven pixels: hatching averages out.
@@ -297,16 +297,16 @@ fn the_picture_lies_in_its_box_upper_row_up() {
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn a_detail_of_a_billionth_still_has_a_shape() {
-    // The lower right corner comes within 2e-9 of vertex 5 at (1, 0), then the camera goes there.
+    // The lower right corner comes within 2e-9 of vertex 5 at (1, 0), then the camera goes there. One f32 would draw
+    // both at the same place, and the boundary as the straight line y = x − 1.
     let near = 2e-9;
-    let mut frame = plane_frame(DVec2::new(1.0 - near, -near), &[]);
-    let corner = PlaneBox { min: DVec2::new(1.0 - 2.0 * near, -2.0 * near), max: DVec2::new(1.0, 0.0) };
+    let mut frame = plane_frame(DVec2::new(1.0, -near), &[]);
+    let corner = PlaneBox { min: DVec2::new(1.0 - near, -2.0 * near), max: DVec2::new(1.0 + near, 0.0) };
     frame.camera.frame(corner, PANE_SIZE);
     let picture = plane_picture(frame.clone());
-    // The boundary runs from (0, −1) to the corner and on to vertex 5: above it is face, below it is background.
-    let [r, g, _] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 1.0 * near, -0.5 * near));
-    assert!(r < 10 && g > 180, "inside: {r} {g}");
-    let [r, ..] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 0.5 * near, -1.5 * near));
+    let [r, g, _] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 0.25 * near, -0.75 * near));
+    assert!(r < 10 && g > 180, "below that line, above the true boundary: {r} {g}");
+    let [r, ..] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 0.25 * near, -1.5 * near));
     assert!(r > 240, "outside: {r}");
 }
 
