@@ -7,7 +7,8 @@ use super::args::CheckArguments;
 use super::flatten::disk_of;
 use super::{Failure, Status};
 use crate::io::{
-    MeshReport, Report, Seconds, TextureError, TextureMesh, WriteError, peak_memory_bytes, verdict_as_in_file, write_atomically,
+    MeshReport, Report, Seconds, TextureError, TextureMesh, WriteError, peak_memory_bytes, verdict_as_in_file,
+    write_atomically,
 };
 use crate::mesh::DiskMesh;
 use crate::session::Model;

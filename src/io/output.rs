@@ -75,7 +75,8 @@ impl Output<'_> {
         let mesh = self.mesh.mesh();
         let eye = self.mesh.faces().map(|face| mesh.double_area_vector(face)).sum();
         let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
-        let extent = self.coordinates.iter().fold(0.0_f64, |m, z| m.max((*z - self.coordinates[0]).abs().max_element()));
+        let extent =
+            self.coordinates.iter().fold(0.0_f64, |m, z| m.max((*z - self.coordinates[0]).abs().max_element()));
         let checker = Paint::Checker { coordinates: self.coordinates, size: extent / CHECKER_FIELDS };
         let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
         let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, checker);

@@ -7,7 +7,8 @@ use glam::DVec2;
 
 use super::{Model, Outcome, OutputFit};
 use crate::io::{
-    MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, WriteError, peak_memory_bytes, verdict_as_in_file,
+    MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, WriteError, peak_memory_bytes,
+    verdict_as_in_file,
 };
 use crate::mesh::DiskMesh;
 use crate::solver::{Verdict, distortion, verdict};
@@ -61,13 +62,7 @@ impl<'a> Finished<'a> {
             verdict: verdict_as_in_file(&verdict, mesh.mesh()),
             distortion: summary,
             new_vertices: 0,
-            seconds: Seconds {
-                read: read_seconds,
-                solve,
-                verify,
-                write: 0.0,
-                total: read_seconds + solve + verify,
-            },
+            seconds: Seconds { read: read_seconds, solve, verify, write: 0.0, total: read_seconds + solve + verify },
             peak_memory_bytes: peak_memory_bytes(),
         };
         Self { model, mesh, coordinates, verdict, report }

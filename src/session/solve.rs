@@ -76,9 +76,8 @@ impl Outcome {
 
     /// Largest distance of a pinned vertex from its target.
     pub fn pin_error(&self) -> f64 {
-        let distance = |(v, target): (&crate::mesh::VertexId, &DVec2)| {
-            self.solution.embedding[v.index()].distance(*target)
-        };
+        let distance =
+            |(v, target): (&crate::mesh::VertexId, &DVec2)| self.solution.embedding[v.index()].distance(*target);
         self.pins.iter().map(distance).fold(0.0, f64::max)
     }
 }

@@ -56,10 +56,7 @@ pub const FAMILIES: &[CatalogueEntry] = &[
         source: "paper §3.1; Floater 2003",
     },
     CatalogueEntry {
-        name: "wachspress",
-        title: "Wachspress",
-        about: "d = 1/r",
-        source: "paper §3.1; Wachspress 1975",
+        name: "wachspress", title: "Wachspress", about: "d = 1/r", source: "paper §3.1; Wachspress 1975"
     },
     CatalogueEntry {
         name: "power:P",

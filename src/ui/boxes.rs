@@ -19,7 +19,8 @@ pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, 
         return Some(chosen);
     }
     let theme = theme_of(ui);
-    let painter = ui.ctx().layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("selection box")));
+    let painter =
+        ui.ctx().layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("selection box")));
     let painter = painter.with_clip_rect(response.rect);
     painter.rect_filled(chosen, 0.0, theme.selection.gamma_multiply(0.12));
     painter.rect_stroke(chosen, 0.0, Stroke::new(1.0, theme.selection), egui::StrokeKind::Inside);

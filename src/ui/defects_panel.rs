@@ -11,7 +11,7 @@ use crate::session::Surface;
 const ROW: f32 = 22.0;
 
 /// Shows the panel.
-pub fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+pub(super) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     if let Some(Surface::Faulty(_, diagnosis)) = editor.session.model().map(|model| &model.surface) {
         ui.label("The mesh cannot be flattened as it is:");
@@ -27,7 +27,9 @@ pub fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<
     let verdict = &outcome.verdict;
     if verdict.planar {
         ui.colored_label(theme.planar, "✔ Planar: proved one-to-one");
-        ui.label("Every face lies the right way up and the boundary does not meet itself, decided in exact arithmetic.");
+        ui.label(
+            "Every face lies the right way up and the boundary does not meet itself, decided in exact arithmetic.",
+        );
         return;
     }
     let rows = [

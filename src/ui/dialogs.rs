@@ -273,11 +273,14 @@ impl Browser {
         });
         ui.separator();
         let list_height = (ui.available_height() - 72.0).max(120.0);
-        egui::ScrollArea::vertical().max_height(list_height).min_scrolled_height(120.0).auto_shrink(false).show(ui, |ui| {
-            if let Some(chosen) = self.entries_ui(ui) {
-                answer = chosen;
-            }
-        });
+        egui::ScrollArea::vertical().max_height(list_height).min_scrolled_height(120.0).auto_shrink(false).show(
+            ui,
+            |ui| {
+                if let Some(chosen) = self.entries_ui(ui) {
+                    answer = chosen;
+                }
+            },
+        );
         if let Some(problem) = &self.problem {
             ui.colored_label(super::theme::theme_of(ui).flipped, problem);
         }
@@ -350,7 +353,7 @@ impl Browser {
 }
 
 /// The kind of file that a chosen name asks for.
-pub fn kind_of(choice: &Choice) -> Option<OutputKind> {
+pub(super) fn kind_of(choice: &Choice) -> Option<OutputKind> {
     match choice.purpose {
         Purpose::Open => None,
         Purpose::Save => Some(OutputKind::Obj),

@@ -353,7 +353,8 @@ impl Editor {
         let (Some(scene), Some(orbit)) = (&self.mesh_scene, &mut self.orbit) else { return };
         let positions = &scene.model.mesh().positions;
         let selected: Vec<VertexId> = self.selection.iter().copied().collect();
-        let ball = if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
+        let ball =
+            if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
         orbit.frame(ball, self.mesh_pane_size);
         let (Some(plane), Some(camera)) = (&self.plane_scene, &mut self.plane_camera) else { return };
         let embedding = &plane.outcome.solution.embedding;

@@ -8,7 +8,7 @@ use super::scene::vertices_of;
 use super::{Editor, Element, Request};
 
 /// Shows whatever is open.
-pub fn floating_windows(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
+pub(super) fn floating_windows(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     if editor.keys_shown {
         keys_window(context, editor);
     }

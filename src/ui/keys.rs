@@ -57,7 +57,7 @@ pub const BINDINGS: &[Binding] = &[
 
 /// What the keys pressed in this frame ask for. While a text field has the keyboard, only Esc and combinations with
 /// Ctrl are the window's; Ctrl+Z stays the field's.
-pub fn requests(context: &egui::Context) -> Vec<Request> {
+pub(super) fn requests(context: &egui::Context) -> Vec<Request> {
     let typing = context.text_edit_focused();
     let wanted = |binding: &&Binding| !typing || (binding.shortcut.modifiers.command && !is_edit(binding));
     context.input_mut(|input| {
@@ -80,7 +80,7 @@ pub fn keys_of(context: &egui::Context, request: &Request) -> String {
 }
 
 /// The mouse, for the list of keys.
-pub const MOUSE: &[(&str, &str)] = &[
+pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Left drag on the mesh", "Orbit"),
     ("Left drag on the embedding", "Pan; on a pin: move it"),
     ("Ctrl + left drag", "Select the vertices in a box"),

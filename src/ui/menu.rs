@@ -1,7 +1,7 @@
 //! The bar at the top: menus, what is open, and the verdict.
 
 use eframe::egui;
-use egui::{Button, RichText, WidgetInfo, Role};
+use egui::{Button, RichText, Role, WidgetInfo};
 
 use super::theme::theme_of;
 use super::{Editor, Request, Shading, Tab, Tool, keys_of};
@@ -9,7 +9,7 @@ use crate::examples::Example;
 use crate::session::{Action, Busy, OutputFit, Surface};
 
 /// Shows the bar.
-pub fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+pub(super) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.horizontal_centered(|ui| {
         egui::MenuBar::new().ui(ui, |ui| {
             ui.menu_button("File", |ui| file_menu(ui, editor, requests));
@@ -20,9 +20,12 @@ pub fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) 
         });
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             verdict_pill(ui, editor, requests);
-            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center).with_main_align(egui::Align::Center), |ui| {
-                ui.add(egui::Label::new(RichText::new(title(editor)).color(theme_of(ui).weak_text)).truncate());
-            });
+            ui.with_layout(
+                egui::Layout::left_to_right(egui::Align::Center).with_main_align(egui::Align::Center),
+                |ui| {
+                    ui.add(egui::Label::new(RichText::new(title(editor)).color(theme_of(ui).weak_text)).truncate());
+                },
+            );
         });
     });
 }
@@ -74,7 +77,8 @@ fn file_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     item(ui, solved, "Save with texture coordinates…", Request::AskSave, requests);
     item(ui, solved, "Export drawing or report…", Request::AskExport, requests);
     ui.menu_button("Size in files", |ui| {
-        let fits = [(OutputFit::Unit, "Fit into the unit square"), (OutputFit::True, "True scale: the mesh's own area")];
+        let fits =
+            [(OutputFit::Unit, "Fit into the unit square"), (OutputFit::True, "True scale: the mesh's own area")];
         for (fit, words) in fits {
             choice(ui, editor.fit == fit, words, Request::SetFit(fit), requests);
         }
@@ -188,11 +192,18 @@ fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>)
                 (theme.flipped, format!("✖ {}", outcome.verdict.summary()), keys)
             }
         }
-        (Some(_), Some(_)) if session.busy().is_some() => (theme.stale, "◌ following…".to_owned(), "The solve is on its way"),
-        (Some(_), _) if session.busy().is_some() => (theme.weak_text, "◌ solving…".to_owned(), "The solve is on its way"),
-        (Some(_), _) => (theme.stale, "⚠ not solved".to_owned(), "The embedding does not belong to these settings and pins"),
+        (Some(_), Some(_)) if session.busy().is_some() => {
+            (theme.stale, "◌ following…".to_owned(), "The solve is on its way")
+        }
+        (Some(_), _) if session.busy().is_some() => {
+            (theme.weak_text, "◌ solving…".to_owned(), "The solve is on its way")
+        }
+        (Some(_), _) => {
+            (theme.stale, "⚠ not solved".to_owned(), "The embedding does not belong to these settings and pins")
+        }
     };
-    let button = Button::new(RichText::new(&words).color(colour).strong()).fill(colour.gamma_multiply(0.12)).corner_radius(10);
+    let button =
+        Button::new(RichText::new(&words).color(colour).strong()).fill(colour.gamma_multiply(0.12)).corner_radius(10);
     let response = ui.add(button).on_hover_text(tip);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Verdict: {words}")));
     if response.clicked() {

@@ -19,7 +19,7 @@ use crate::view::{OrbitCamera, Visibility};
 const MARKS_SHOWN: usize = 2000;
 
 /// Shows the pane and takes its gestures.
-pub fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+pub(super) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Mesh, requests);
     pane::message_bars(ui, editor, Place::Mesh, requests);
     let (rect, response) = pane::surface(ui, "3D view of the mesh");
@@ -82,13 +82,7 @@ fn navigate(ui: &egui::Ui, rect: Rect, response: &Response, scene: &MeshScene, c
 }
 
 /// Clicks and boxes.
-fn select(
-    ui: &egui::Ui,
-    response: &Response,
-    editor: &mut Editor,
-    scene: &MeshScene,
-    requests: &mut Vec<Request>,
-) {
+fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, scene: &MeshScene, requests: &mut Vec<Request>) {
     let Some(camera) = editor.orbit else { return };
     let rect = response.rect;
     if let Some(chosen) = super::boxes::drag_box(ui, response, editor, Pane::Mesh) {

@@ -1,7 +1,7 @@
 //! Method and weights, and the numbers of the last solve.
 
 use eframe::egui;
-use egui::{RichText, WidgetInfo, Role};
+use egui::{RichText, Role, WidgetInfo};
 
 use super::theme::theme_of;
 use super::{Editor, Request};
@@ -12,7 +12,7 @@ use crate::solver::{BoundaryShape, FAMILIES, Family, METHODS, Method, Settings};
 const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
 
 /// Shows the panel.
-pub fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+pub(super) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let settings = editor.session.document().settings;
     let mut chosen = settings;
     egui::Grid::new("method").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
@@ -83,7 +83,8 @@ fn method_menu(ui: &mut egui::Ui, settings: &mut Settings) {
                 _ => Method::Natural,
             };
             let on = settings.method.name() == entry.name;
-            let label = ui.selectable_label(on, entry.title).on_hover_text(format!("{} ({})", entry.about, entry.source));
+            let label =
+                ui.selectable_label(on, entry.title).on_hover_text(format!("{} ({})", entry.about, entry.source));
             if label.clicked() && !on {
                 settings.method = method;
                 // Uniform and shape-preserving weights need a convex boundary.
@@ -108,7 +109,8 @@ fn family_menu(ui: &mut egui::Ui, settings: &mut Settings) {
                 continue;
             }
             let on = stem(entry.name) == stem(&name);
-            let label = ui.selectable_label(on, entry.title).on_hover_text(format!("{} ({})", entry.about, entry.source));
+            let label =
+                ui.selectable_label(on, entry.title).on_hover_text(format!("{} ({})", entry.about, entry.source));
             if label.clicked() && !on {
                 settings.family = family;
             }

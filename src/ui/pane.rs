@@ -1,7 +1,7 @@
 //! What both panes share: header, message bars, marks and legend.
 
 use eframe::egui;
-use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, Vec2, WidgetInfo, Role};
+use egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, Vec2, WidgetInfo};
 use glam::DVec2;
 
 use super::scene::Legend;
@@ -93,7 +93,10 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
         Severity::Note => (theme.planar, "✔"),
         Severity::Error => (theme.flipped, "✖"),
     };
-    let frame = egui::Frame::new().fill(colour.gamma_multiply(0.14)).inner_margin(8).outer_margin(egui::Margin::symmetric(4, 2));
+    let frame = egui::Frame::new()
+        .fill(colour.gamma_multiply(0.14))
+        .inner_margin(8)
+        .outer_margin(egui::Margin::symmetric(4, 2));
     frame.show(ui, |ui| {
         ui.horizontal_top(|ui| {
             ui.colored_label(colour, sign);
@@ -104,7 +107,9 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
                 if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
                     ui.ctx().copy_text(message.text.clone());
                 }
-                if !message.vertices.is_empty() && ui.small_button("Go to").on_hover_text("Show it in the mesh").clicked() {
+                if !message.vertices.is_empty()
+                    && ui.small_button("Go to").on_hover_text("Show it in the mesh").clicked()
+                {
                     requests.push(Request::GoTo(message.vertices.clone()));
                 }
                 ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
@@ -182,14 +187,21 @@ pub(super) fn legend(ui: &egui::Ui, rect: Rect, legend: &Legend, title: &str) {
         painter.rect_filled(cell, 0.0, super::theme::rgb([r, g, b]));
         #[expect(clippy::cast_possible_truncation, reason = "a height in points")]
         let height = (20.0 * f64::from(count) / f64::from(most)) as f32;
-        let column = Rect::from_min_max(Pos2::new(left, bar.top() - 1.0 - height), Pos2::new(left + width, bar.top() - 1.0));
+        let column =
+            Rect::from_min_max(Pos2::new(left, bar.top() - 1.0 - height), Pos2::new(left + width, bar.top() - 1.0));
         painter.rect_filled(column, 0.0, theme.weak_text.gamma_multiply(0.6));
     }
     for tick in legend.scale.ticks(legend.range) {
         #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
         let x = bar.left() + bar.width() * tick.at as f32;
         painter.vline(x, bar.bottom()..=bar.bottom() + 3.0, Stroke::new(1.0, theme.weak_text));
-        painter.text(Pos2::new(x, bar.bottom() + 4.0), Align2::CENTER_TOP, &tick.label, FontId::proportional(10.0), theme.weak_text);
+        painter.text(
+            Pos2::new(x, bar.bottom() + 4.0),
+            Align2::CENTER_TOP,
+            &tick.label,
+            FontId::proportional(10.0),
+            theme.weak_text,
+        );
     }
 }
 

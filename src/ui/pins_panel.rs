@@ -1,7 +1,7 @@
 //! The pins as a table: go to, move by typing, free.
 
 use eframe::egui;
-use egui::{DragValue, WidgetInfo, Role};
+use egui::{DragValue, Role, WidgetInfo};
 use glam::DVec2;
 
 use super::theme::theme_of;
@@ -10,10 +10,12 @@ use crate::mesh::VertexId;
 use crate::session::Action;
 
 /// Shows the panel.
-pub fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+pub(super) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
     if !document.settings.method.uses_pins() {
-        ui.label("A convex boundary needs no pins: every boundary vertex has its place. Pins come back with another method.");
+        ui.label(
+            "A convex boundary needs no pins: every boundary vertex has its place. Pins come back with another method.",
+        );
         return;
     }
     if document.pins.is_empty() {

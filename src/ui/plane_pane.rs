@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui;
-use egui::{CursorIcon, Pos2, Rect, Response, Sense, Stroke, Vec2, WidgetInfo, Role};
+use egui::{CursorIcon, Pos2, Rect, Response, Role, Sense, Stroke, Vec2, WidgetInfo};
 use glam::DVec2;
 
 use super::mesh_pane::{boundary_line, clicked, cursor, style};
@@ -23,7 +23,7 @@ const GRAB_SIZE: f32 = 18.0;
 const MARKS_SHOWN: usize = 2000;
 
 /// Shows the pane and takes its gestures.
-pub fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Plane, requests);
     pane::message_bars(ui, editor, Place::Embedding, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");

@@ -1,8 +1,8 @@
 //! What a person can ask of the window. Panels collect requests; the editor carries them out after the frame.
 
-use eframe::egui;
 use crate::mesh::VertexId;
 use crate::session::{Action, OutputFit};
+use eframe::egui;
 
 /// What the left mouse button does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -29,7 +29,8 @@ impl MeshScene {
     /// Makes the scene of a mesh.
     pub fn new(model: Arc<Model>, model_revision: u64) -> Self {
         let TriMesh { positions, triangles, .. } = model.mesh();
-        let boundary = model.disk().map_or_else(|| EdgeList::new(Vec::new()), |d| EdgeList::closed_loop(d.boundary_loop()));
+        let boundary =
+            model.disk().map_or_else(|| EdgeList::new(Vec::new()), |d| EdgeList::closed_loop(d.boundary_loop()));
         Self {
             model_revision,
             arrays: Arc::new(MeshArrays::new(positions, triangles)),
@@ -159,7 +160,7 @@ impl Element {
 }
 
 /// The vertices of an element; none where the mesh does not have it.
-pub fn vertices_of(model: &Model, element: Element) -> Vec<VertexId> {
+pub(super) fn vertices_of(model: &Model, element: Element) -> Vec<VertexId> {
     let mesh = model.mesh();
     match element {
         Element::Vertex(vertex) if vertex.index() < mesh.vertex_count() => vec![vertex],

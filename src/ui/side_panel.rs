@@ -5,7 +5,7 @@ use eframe::egui;
 use super::{Editor, Request, Tab, defects_panel, method_panel, pins_panel, vertex_panel};
 
 /// Shows the tabs and the open panel.
-pub fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         for tab in Tab::ALL {

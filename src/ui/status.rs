@@ -7,7 +7,7 @@ use super::theme::theme_of;
 use super::{Editor, Tool};
 
 /// Shows the bar.
-pub fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
+pub(super) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
     let weak = theme_of(ui).weak_text;
     ui.horizontal_centered(|ui| {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -27,7 +27,9 @@ fn hint(editor: &Editor) -> &'static str {
         return "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.";
     }
     match editor.tool {
-        Tool::Select => "Click a vertex to select it, Shift adds, Ctrl and a drag draw a box. Drag a square to move a pin.",
+        Tool::Select => {
+            "Click a vertex to select it, Shift adds, Ctrl and a drag draw a box. Drag a square to move a pin."
+        }
         Tool::Fix => "Click a vertex to fix it where it lies. Drag a square to move it. Esc ends.",
     }
 }

@@ -1,7 +1,7 @@
 //! The tool bar at the left.
 
 use eframe::egui;
-use egui::{Sense, Vec2, WidgetInfo, Role};
+use egui::{Role, Sense, Vec2, WidgetInfo};
 
 use super::theme::theme_of;
 use super::{Editor, Request, Tool, icons, keys_of};
@@ -10,7 +10,7 @@ use super::{Editor, Request, Tool, icons, keys_of};
 const BUTTON: f32 = 32.0;
 
 /// Shows the tools.
-pub fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.vertical_centered(|ui| {
         for (tool, name) in [(Tool::Select, "Select vertices"), (Tool::Fix, "Fix: pin a vertex where it lies")] {
             let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());

@@ -11,7 +11,7 @@ use crate::mesh::{DiskMesh, VertexId};
 use crate::session::Action;
 
 /// Shows the panel.
-pub fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(&vertex) = editor.selection.first() else {
         ui.label("Select a vertex: click one in either pane, or press G and type its number.");
         return;

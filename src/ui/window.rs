@@ -97,7 +97,7 @@ fn splitter(ui: &egui::Ui, editor: &mut Editor, all: Rect, middle: f32) {
 
 /// A file dropped on the window is opened.
 fn dropped_file(ui: &egui::Ui) -> Option<Request> {
-    let path = ui.input(|input| input.raw.dropped_files.iter().find_map(|file| file.path().map(std::path::Path::to_owned)))?;
+    let path = ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()))?;
     Some(Request::Do(Action::Open(path)))
 }
 
