@@ -61,7 +61,7 @@ pub const FAMILIES: &[CatalogueEntry] = &[
     CatalogueEntry {
         name: "power:P",
         title: "Power",
-        about: "d = rᴾ: Wachspress at −1, mean value at 0, conformal at 1",
+        about: "d = r^P: Wachspress at −1, mean value at 0, conformal at 1",
         source: "paper §3.1; Floater, Hormann and Kós 2006",
     },
     CatalogueEntry {

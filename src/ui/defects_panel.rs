@@ -26,7 +26,7 @@ pub(super) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     };
     let verdict = &outcome.verdict;
     if verdict.planar {
-        ui.colored_label(theme.planar, "✔ Planar: proved one-to-one");
+        ui.colored_label(theme.planar, "Planar: proved one-to-one");
         ui.label(
             "Every face lies the right way up and the boundary does not meet itself, decided in exact arithmetic.",
         );

@@ -22,3 +22,40 @@ pub(super) fn pin(painter: &egui::Painter, rect: Rect, colour: Color32) {
     painter.add(Shape::closed_line(on_grid(rect, &head), stroke));
     painter.add(Shape::line(on_grid(rect, &[(12.0, 13.6), (12.0, 19.5)]), stroke));
 }
+
+/// What a sign says at a glance. Each has a form of its own, so that colour is never the only difference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sign {
+    /// A check mark.
+    Good,
+    /// A cross.
+    Bad,
+    /// A triangle with a stroke.
+    Warning,
+    /// A ring of dots.
+    Working,
+}
+
+/// Draws a sign into a square.
+pub(super) fn sign(painter: &egui::Painter, rect: Rect, sign: Sign, colour: Color32) {
+    let stroke = Stroke::new(1.8, colour);
+    match sign {
+        Sign::Good => {
+            painter.add(Shape::line(on_grid(rect, &[(4.0, 13.0), (10.0, 19.0), (20.0, 5.0)]), stroke));
+        }
+        Sign::Bad => {
+            painter.add(Shape::line(on_grid(rect, &[(5.0, 5.0), (19.0, 19.0)]), stroke));
+            painter.add(Shape::line(on_grid(rect, &[(19.0, 5.0), (5.0, 19.0)]), stroke));
+        }
+        Sign::Warning => {
+            painter.add(Shape::closed_line(on_grid(rect, &[(12.0, 3.0), (22.0, 21.0), (2.0, 21.0)]), stroke));
+            painter.add(Shape::line(on_grid(rect, &[(12.0, 9.0), (12.0, 15.0)]), stroke));
+        }
+        Sign::Working => {
+            for i in 0..6_u8 {
+                let direction = egui::Vec2::angled(f32::from(i) * std::f32::consts::TAU / 6.0);
+                painter.circle_filled(rect.center() + direction * rect.width() * 0.36, 1.3, colour);
+            }
+        }
+    }
+}

@@ -3,31 +3,47 @@
 use eframe::egui;
 use egui::{Button, RichText, Role, WidgetInfo};
 
-use super::theme::theme_of;
+use super::icons::{self, Sign};
+use super::theme::{Theme, theme_of};
 use super::{Editor, Request, Shading, Tab, Tool, keys_of};
 use crate::examples::Example;
 use crate::session::{Action, Busy, OutputFit, Surface};
+use crate::solver::Verdict;
 
 /// Shows the bar.
 pub(super) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let bar = ui.max_rect();
     ui.horizontal_centered(|ui| {
-        egui::MenuBar::new().ui(ui, |ui| {
+        let menus = egui::MenuBar::new().ui(ui, |ui| {
             ui.menu_button("File", |ui| file_menu(ui, editor, requests));
             ui.menu_button("Edit", |ui| edit_menu(ui, editor, requests));
             ui.menu_button("View", |ui| view_menu(ui, editor, requests));
             ui.menu_button("Solve", |ui| solve_menu(ui, editor, requests));
             ui.menu_button("Help", |ui| item(ui, true, "All keys", Request::ToggleKeys, requests));
+            ui.min_rect().right()
         });
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let right = ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             verdict_pill(ui, editor, requests);
-            ui.with_layout(
-                egui::Layout::left_to_right(egui::Align::Center).with_main_align(egui::Align::Center),
-                |ui| {
-                    ui.add(egui::Label::new(RichText::new(title(editor)).color(theme_of(ui).weak_text)).truncate());
-                },
-            );
+            ui.min_rect().left()
         });
+        title_between(ui, bar, menus.inner..=right.inner, &title(editor));
     });
+}
+
+/// What is open, in the middle of the bar as far as menus and verdict leave room.
+fn title_between(ui: &egui::Ui, bar: egui::Rect, room: std::ops::RangeInclusive<f32>, words: &str) {
+    let text = egui::WidgetText::from(RichText::new(words).color(theme_of(ui).weak_text));
+    let width = room.end() - room.start() - 24.0;
+    if width < 40.0 {
+        return;
+    }
+    let galley = text.into_galley(ui, Some(egui::TextWrapMode::Truncate), width, egui::TextStyle::Body);
+    let half = galley.size() / 2.0;
+    let middle = bar
+        .center()
+        .x
+        .clamp(room.start() + 12.0 + half.x, (room.end() - 12.0 - half.x).max(room.start() + 12.0 + half.x));
+    ui.painter().galley(egui::pos2(middle - half.x, bar.center().y - half.y), galley, theme_of(ui).weak_text);
 }
 
 /// A menu entry with its shortcut.
@@ -147,24 +163,31 @@ fn title(editor: &Editor) -> String {
     format!("{} · {} v · {} f", model.name, grouped(mesh.vertex_count()), grouped(mesh.face_count()))
 }
 
-/// A count with its thousands set apart by thin spaces.
+/// A count with its thousands set apart by spaces.
 pub(super) fn grouped(count: usize) -> String {
     let digits = count.to_string();
     let mut words = String::new();
     for (i, digit) in digits.chars().enumerate() {
         if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            words.push('\u{2009}');
+            words.push(' ');
         }
         words.push(digit);
     }
     words
 }
 
+/// What the pill says.
+struct Pill {
+    sign: Sign,
+    colour: egui::Color32,
+    words: String,
+    tip: &'static str,
+}
+
 /// The truth at one glance: proved, wrong and how, being solved, or not up to date.
 fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let theme = theme_of(ui);
     if let Some(busy) = editor.busy_for_long() {
-        if ui.small_button("✖").on_hover_text("Stop").labelled("Stop the work in the background").clicked() {
+        if ui.small_button("Stop").on_hover_text("Stop the work in the background").clicked() {
             requests.push(Request::Do(Action::Cancel));
         }
         let words = match busy {
@@ -172,53 +195,77 @@ fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>)
             Busy::Solving(phase) => format!("solving… {}", phase.map_or("", crate::solver::Phase::words)),
             Busy::Saving => "saving…".to_owned(),
         };
-        ui.label(RichText::new(words).color(theme.weak_text));
+        ui.label(RichText::new(words).color(theme_of(ui).weak_text));
         ui.add(egui::Spinner::new().size(12.0));
         return;
     }
-    let session = &editor.session;
-    let (colour, words, tip) = match (session.model().map(|model| &model.surface), session.outcome()) {
-        (None, _) => return,
-        (Some(Surface::Faulty(_, diagnosis)), _) => {
-            let count = diagnosis.faults.len();
-            let words = if count == 1 { "✖ 1 fault".to_owned() } else { format!("✖ {count} faults") };
-            (theme.flipped, words, "The bars over the mesh say what is wrong and what to do")
-        }
-        (Some(_), Some(outcome)) if session.is_current() => {
-            if outcome.verdict.planar {
-                (theme.planar, "✔ Planar: proved".to_owned(), "Exact arithmetic shows that no two faces overlap")
-            } else {
-                let keys = "Click for the next defect (D)";
-                (theme.flipped, format!("✖ {}", outcome.verdict.summary()), keys)
-            }
-        }
-        (Some(_), Some(_)) if session.busy().is_some() => {
-            (theme.stale, "◌ following…".to_owned(), "The solve is on its way")
-        }
-        (Some(_), _) if session.busy().is_some() => {
-            (theme.weak_text, "◌ solving…".to_owned(), "The solve is on its way")
-        }
-        (Some(_), _) => {
-            (theme.stale, "⚠ not solved".to_owned(), "The embedding does not belong to these settings and pins")
-        }
-    };
-    let button =
-        Button::new(RichText::new(&words).color(colour).strong()).fill(colour.gamma_multiply(0.12)).corner_radius(10);
-    let response = ui.add(button).on_hover_text(tip);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Verdict: {words}")));
-    if response.clicked() {
+    let Some(pill) = pill(theme_of(ui), editor) else { return };
+    if show_pill(ui, &pill).clicked() {
         requests.push(if editor.has_defects() { Request::StepDefect(1) } else { Request::ShowTab(Tab::Defects) });
     }
 }
 
-/// Naming a control that shows only a sign.
-trait Labelled {
-    fn labelled(self, name: &str) -> Self;
+fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
+    let session = &editor.session;
+    let model = session.model()?;
+    if let Surface::Faulty(_, diagnosis) = &model.surface {
+        let count = diagnosis.faults.len();
+        let words = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
+        let tip = "The bars over the mesh say what is wrong and what to do";
+        return Some(Pill { sign: Sign::Bad, colour: theme.flipped, words, tip });
+    }
+    if session.busy().is_some() && !session.is_current() {
+        let words = if session.outcome().is_some() { "following…" } else { "solving…" };
+        let tip = "The solve is on its way";
+        return Some(Pill { sign: Sign::Working, colour: theme.weak_text, words: words.to_owned(), tip });
+    }
+    let Some(outcome) = session.outcome().filter(|_| session.is_current()) else {
+        let tip = "The embedding does not belong to these settings and pins: press Solve";
+        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words: "not solved".to_owned(), tip });
+    };
+    Some(if outcome.verdict.planar {
+        let tip = "Exact arithmetic shows that no two faces overlap";
+        Pill { sign: Sign::Good, colour: theme.planar, words: "Planar: proved".to_owned(), tip }
+    } else {
+        let tip = "Not planar. Click for the next defect (D)";
+        Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&outcome.verdict), tip }
+    })
 }
 
-impl Labelled for egui::Response {
-    fn labelled(self, name: &str) -> Self {
-        self.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
-        self
-    }
+/// The verdict in the fewest words.
+fn short_verdict(verdict: &Verdict) -> String {
+    let counts = [
+        (verdict.flipped_faces.len(), "flipped"),
+        (verdict.boundary_crossings.len() + verdict.unlisted_crossings, "crossing"),
+        (verdict.overwound_vertices.len(), "overwound"),
+    ];
+    let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, words)| {
+        let plural = if *words == "crossing" && *count > 1 { "s" } else { "" };
+        format!("{count} {words}{plural}")
+    });
+    words.collect::<Vec<_>>().join(" · ")
 }
+
+fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
+    let text = egui::WidgetText::from(RichText::new(&pill.words).color(pill.colour).strong());
+    let galley = text.into_galley(ui, None, f32::INFINITY, egui::TextStyle::Body);
+    let size = galley.size() + egui::vec2(20.0 + SIGN + 6.0, 6.0);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
+    let strength = if response.hovered() { 0.24 } else { 0.13 };
+    ui.painter().rect_filled(rect, rect.height() / 2.0, pill.colour.gamma_multiply(strength));
+    if response.has_focus() {
+        let stroke = egui::Stroke::new(1.0, pill.colour);
+        ui.painter().rect_stroke(rect, rect.height() / 2.0, stroke, egui::StrokeKind::Inside);
+    }
+    let square =
+        egui::Rect::from_center_size(rect.left_center() + egui::vec2(10.0 + SIGN / 2.0, 0.0), egui::Vec2::splat(SIGN));
+    icons::sign(ui.painter(), square, pill.sign, pill.colour);
+    let at = egui::pos2(square.right() + 6.0, rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(at, galley, pill.colour);
+    let name = format!("Verdict: {}", pill.words);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    response.on_hover_text(pill.tip)
+}
+
+/// Side of the sign in the pill, points.
+const SIGN: f32 = 11.0;

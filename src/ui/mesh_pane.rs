@@ -30,7 +30,7 @@ pub(super) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mu
         let lines: &[&str] = if editor.session.busy().is_some() {
             &["Opening…"]
         } else {
-            &["No mesh open", "Drop an OBJ file here, or use File ▸ Open or File ▸ Examples"]
+            &["No mesh open", "Drop an OBJ file here, or take one of the examples in the File menu"]
         };
         return pane::empty_state(ui, rect, lines);
     };

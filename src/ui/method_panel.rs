@@ -126,7 +126,7 @@ fn power_slider(ui: &mut egui::Ui, settings: Settings, power: f64, requests: &mu
         ui.spacing_mut().slider_width = (ui.available_width() - 62.0).max(60.0);
         let slider = egui::Slider::new(&mut wanted, POWERS).clamping(egui::SliderClamping::Never).fixed_decimals(2);
         let response = ui.add(slider).on_hover_text(
-            "Power p of the offset d = rᵖ: −1 Wachspress, 0 mean value, 1 conformal. Type any number; double-click resets.",
+            "Power p of the offset d = r^p: −1 Wachspress, 0 mean value, 1 conformal. Type any number; double-click resets.",
         );
         response.widget_info(|| WidgetInfo::slider(true, wanted, "Power of the weights"));
         if response.double_clicked() {
@@ -206,8 +206,8 @@ fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.monospace(value));
                 ui.end_row();
             };
-            row("Residual", "‖Ax − b‖ / ‖b‖ of the linear solve", format!("{:.1e}", solution.residual));
-            let tip = "‖A z‖ of all equations, pinned vertices included, relative to their terms";
+            row("Residual", "|Ax − b| / |b| of the linear solve", format!("{:.1e}", solution.residual));
+            let tip = "|A z| of all equations, pinned vertices included, relative to their terms";
             row("Equation residual", tip, format!("{:.1e}", solution.equation_residual));
             let seconds = &solution.seconds;
             let phases = [

@@ -4,6 +4,7 @@ use eframe::egui;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, Vec2, WidgetInfo};
 use glam::DVec2;
 
+use super::icons::{self, Sign};
 use super::scene::Legend;
 use super::theme::{Theme, theme_of};
 use super::{Editor, Pane, Request, Shading, keys_of};
@@ -90,8 +91,8 @@ pub(super) fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: Place, req
 fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let (colour, sign) = match message.severity {
-        Severity::Note => (theme.planar, "✔"),
-        Severity::Error => (theme.flipped, "✖"),
+        Severity::Note => (theme.planar, Sign::Good),
+        Severity::Error => (theme.flipped, Sign::Bad),
     };
     let frame = egui::Frame::new()
         .fill(colour.gamma_multiply(0.14))
@@ -99,7 +100,8 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
         .outer_margin(egui::Margin::symmetric(4, 2));
     frame.show(ui, |ui| {
         ui.horizontal_top(|ui| {
-            ui.colored_label(colour, sign);
+            let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
+            icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), sign, colour);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
                 if ui.small_button("Dismiss").clicked() {
                     requests.push(Request::Do(Action::Dismiss(message.id)));

@@ -75,7 +75,7 @@ fn pin_row(
     if ended {
         requests.push(Request::Do(Action::EndGesture));
     }
-    let free = ui.small_button("✖").on_hover_text("Free this pin");
+    let free = ui.small_button("Free").on_hover_text("Free this pin");
     free.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Free pin {vertex}")));
     if free.clicked() {
         requests.push(Request::Do(Action::Unpin(vec![vertex])));
