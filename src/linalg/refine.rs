@@ -9,6 +9,7 @@
 //! preconditioned with the same factors takes over.
 
 use nalgebra_sparse::CscMatrix;
+use rayon::prelude::*;
 
 use super::LinalgError;
 use super::gmres::gmres;
@@ -29,6 +30,9 @@ const WORTHWHILE: f64 = 0.5;
 
 /// Two steps are the rule; more help only where pivots were replaced.
 const MOST_STEPS: usize = 8;
+
+/// Right-hand sides refined together; each takes three vectors meanwhile.
+const GROUP: usize = 8;
 
 /// The answer to a linear system, and how good it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +55,7 @@ pub(super) struct System<'a, T> {
     /// Factors of the rows of op(A), if they are scaled.
     pub(super) row_scale: Option<&'a [f64]>,
     /// Solves in place, column by column.
-    pub(super) solve: &'a dyn Fn(&mut [T]),
+    pub(super) solve: &'a (dyn Fn(&mut [T]) + Sync),
 }
 
 impl<T: Scalar> System<'_, T> {
@@ -72,55 +76,109 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
     if rhs.is_empty() {
         return Ok(all);
     }
-    (system.solve)(&mut x);
     let n = system.matrix.nrows();
-    for (x, b) in x.chunks_exact_mut(n).zip(rhs.chunks_exact(n)) {
-        let mut steps = refine(system, x, b);
-        let mut r = vec![T::ZERO; n];
-        residual(system.matrix, system.operation, x, b, &mut r);
-        let (mut plain, mut scaled) = system.relative(&r, b);
-        // Written so that a NaN is not good.
-        let good = |limit: f64, plain: f64, scaled: f64| plain.min(scaled) <= limit && (plain + scaled).is_finite();
-        if !good(GOAL, plain, scaled) {
-            steps += gmres(system, x, b);
-            residual(system.matrix, system.operation, x, b, &mut r);
-            (plain, scaled) = system.relative(&r, b);
+    for (x, b) in x.chunks_mut(GROUP * n).zip(rhs.chunks(GROUP * n)) {
+        (system.solve)(x);
+        let columns = x.chunks_exact_mut(n).zip(b.chunks_exact(n));
+        let mut columns: Vec<Column<'_, T>> =
+            columns.map(|(x, b)| Column { x, b, backward_error: f64::INFINITY, steps: 0 }).collect();
+        refine(system, &mut columns);
+        for column in &mut columns {
+            let (plain, scaled) = accept(system, column)?;
+            all.residual = all.residual.max(plain);
+            all.scaled_residual = all.scaled_residual.max(scaled);
+            all.refinement_steps = all.refinement_steps.max(column.steps);
         }
-        if !good(LIMIT, plain, scaled) {
-            return Err(LinalgError::ResidualTooLarge { residual: plain, limit: LIMIT });
-        }
-        all.residual = all.residual.max(plain);
-        all.scaled_residual = all.scaled_residual.max(scaled);
-        all.refinement_steps = all.refinement_steps.max(steps);
     }
     all.x = x;
     Ok(all)
 }
 
-/// Refines one answer in place; returns the steps that were kept.
-fn refine<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> usize {
-    let mut r = vec![T::ZERO; b.len()];
-    let mut before = x.to_vec();
-    residual(system.matrix, system.operation, x, b, &mut r);
-    let mut error = backward_error(system.matrix, system.operation, x, b, &r);
-    for step in 0..MOST_STEPS {
-        if error <= GOOD_BACKWARD_ERROR || !error.is_finite() {
-            return step;
-        }
-        before.copy_from_slice(x);
-        (system.solve)(&mut r);
-        x.iter_mut().zip(&r).for_each(|(x, &correction)| *x += correction);
-        residual(system.matrix, system.operation, x, b, &mut r);
-        let now = backward_error(system.matrix, system.operation, x, b, &r);
-        // Written so that a NaN is no progress.
-        if !(now < error) {
-            x.copy_from_slice(&before);
-            return step;
-        }
-        if now > WORTHWHILE * error {
-            return step + 1;
-        }
-        error = now;
+/// Measures a refined answer, betters it by GMRES if need be, and returns its relative residuals if they are good.
+fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Result<(f64, f64), LinalgError> {
+    let measure = |x: &[T]| {
+        let mut r = vec![T::ZERO; x.len()];
+        residual(system.matrix, system.operation, x, column.b, &mut r);
+        system.relative(&r, column.b)
+    };
+    // A NaN is not good, and neither is an infinity on one side.
+    let good = |limit: f64, (plain, scaled): (f64, f64)| plain.min(scaled) <= limit && (plain + scaled).is_finite();
+    let mut relative = measure(column.x);
+    if !good(GOAL, relative) {
+        column.steps += gmres(system, column.x, column.b);
+        relative = measure(column.x);
     }
-    MOST_STEPS
+    if good(LIMIT, relative) {
+        Ok(relative)
+    } else {
+        Err(LinalgError::ResidualTooLarge { residual: relative.0, limit: LIMIT })
+    }
+}
+
+/// One right-hand side and its answer under way.
+struct Column<'a, T> {
+    x: &'a mut [T],
+    b: &'a [T],
+    backward_error: f64,
+    steps: usize,
+}
+
+/// What a step did for one right-hand side.
+#[derive(PartialEq)]
+enum Progress {
+    /// Another step may help.
+    GoOn,
+    /// As good as it gets.
+    Done,
+}
+
+/// Refines the answers in place, all that still gain by it together.
+fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) {
+    let n = system.matrix.nrows();
+    let mut active: Vec<&mut Column<'_, T>> = columns.iter_mut().collect();
+    let mut r = vec![T::ZERO; active.len() * n];
+    for step in 0..=MOST_STEPS {
+        let judged = active.into_par_iter().zip(r.par_chunks_exact_mut(n));
+        let judged: Vec<_> = judged.map(|(column, r)| (judge(system, column, r, step), column)).collect();
+        let mut still = Vec::with_capacity(judged.len());
+        for (place, (progress, column)) in judged.into_iter().enumerate() {
+            if progress == Progress::GoOn && step < MOST_STEPS {
+                r.copy_within(place * n..(place + 1) * n, still.len() * n);
+                still.push(column);
+            }
+        }
+        active = still;
+        r.truncate(active.len() * n);
+        if active.is_empty() {
+            return;
+        }
+        (system.solve)(&mut r);
+        active.par_iter_mut().zip(r.par_chunks_exact_mut(n)).for_each(|(column, r)| {
+            // The answer so far stays in `r`, in case the step makes it worse.
+            column.x.iter_mut().zip(r).for_each(|(x, r)| {
+                let before = *x;
+                *x += *r;
+                *r = before;
+            });
+        });
+    }
+}
+
+/// Takes the residual after `step` steps. `r` holds the answer before the last, which comes back if that was better.
+fn judge<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>, r: &mut [T], step: usize) -> Progress {
+    let Column { x, b, backward_error: before, steps } = column;
+    let previous = (step > 0).then(|| r.to_vec());
+    residual(system.matrix, system.operation, x, b, r);
+    let now = backward_error(system.matrix, system.operation, x, b, r);
+    let better = now < *before;
+    if !better {
+        if let Some(previous) = previous {
+            x.copy_from_slice(&previous);
+        }
+        return Progress::Done;
+    }
+    *steps = step;
+    let worthwhile = now <= WORTHWHILE * *before;
+    *before = now;
+    if worthwhile && now > GOOD_BACKWARD_ERROR { Progress::GoOn } else { Progress::Done }
 }

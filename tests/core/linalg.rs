@@ -109,7 +109,8 @@ fn agrees_with_dense<T: Draw>(seed: u64, n: usize, density: f64) {
     let pattern = random_pattern(n, density, &mut random);
     let matrix: CscMatrix<T> = dominant(&pattern, &mut random);
     let factor = factored(Kind::General, &matrix).expect("a dominant matrix is regular");
-    let rhs: Vec<T> = (0..3 * n).map(|_| T::draw(&mut random)).collect();
+    // More than a group of lanes and more than a group of refinement.
+    let rhs: Vec<T> = (0..11 * n).map(|_| T::draw(&mut random)).collect();
     let dense = dense(&matrix);
     let many = factor.solve_many(&matrix, &rhs).expect("regular");
     assert!(deviation(&dense, &many.x, &rhs) < TOLERANCE);
@@ -120,6 +121,8 @@ fn agrees_with_dense<T: Draw>(seed: u64, n: usize, density: f64) {
     assert!(deviation(&dense.transpose().to_owned(), &transposed.x, &rhs[..n]) < TOLERANCE);
     let adjoint = factor.solve_adjoint(&matrix, &rhs[..n]).expect("regular");
     assert!(deviation(&dense.adjoint().to_owned(), &adjoint.x, &rhs[..n]) < TOLERANCE);
+    let adjoints = factor.solve_adjoint_many(&matrix, &rhs[..3 * n]).expect("regular");
+    assert!(deviation(&dense.adjoint().to_owned(), &adjoints.x, &rhs[..3 * n]) < TOLERANCE);
 }
 
 /// A random Hermitian matrix whose diagonal outweighs its row, times `sign`.
@@ -331,6 +334,29 @@ fn a_right_hand_side_of_zeros_has_residual_zero() {
     let matrix = laplacian(&grid_pattern(4), 0.1, &mut Random(1));
     let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &[0.0; 16])).expect("regular");
     assert_eq!((solved.residual, solved.x), (0.0, vec![0.0; 16]));
+}
+
+#[test]
+fn a_path_and_a_star_are_factored() {
+    // The deepest and the widest elimination tree.
+    let n = 3000;
+    let path = |i: usize| vec![i.saturating_sub(1), i, (i + 1).min(n - 1)];
+    let star = |i: usize| if i == 0 { (0..n).collect() } else { vec![0, i] };
+    for neighbours in [&path as &dyn Fn(usize) -> Vec<usize>, &star] {
+        let (mut offsets, mut rows) = (vec![0], Vec::new());
+        for i in 0..n {
+            let mut column = neighbours(i);
+            column.dedup();
+            rows.extend(column);
+            offsets.push(rows.len());
+        }
+        let pattern = SparsityPattern::try_from_offsets_and_indices(n, n, offsets, rows).expect("sorted");
+        let matrix = laplacian(&pattern, 0.1, &mut Random(1));
+        let rhs = vec![1.0; n];
+        let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &rhs)).expect("regular");
+        // Every row sums to −0.1.
+        assert!(solved.x.iter().all(|x| (x + 10.0).abs() < 1e-9));
+    }
 }
 
 #[test]

@@ -1,3 +1,4 @@
 //! Everything that needs no screen.
 
 mod linalg;
+mod linalg_mean_value;

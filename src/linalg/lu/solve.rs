@@ -1,9 +1,17 @@
 //! Forward and backward substitution through the fronts.
+//!
+//! Several right-hand sides are taken [`LANES`] at a time, interleaved, so that each number of the factors is read once
+//! for all of them; groups of lanes run side by side.
+
+use rayon::prelude::*;
 
 use super::factor::Lu;
 use super::symbolic::{LuAnalysis, Shape};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::Operation;
+
+/// Right-hand sides solved together by one thread.
+const LANES: usize = 4;
 
 /// One supernode's part of the factors.
 struct Block<'a, T> {
@@ -22,25 +30,41 @@ impl<T: Scalar> Lu<T> {
         if n == 0 {
             return;
         }
-        let mut work = vec![T::ZERO; n];
-        for column in columns.chunks_exact_mut(n) {
-            let gathered = analysis.order.new_to_old.iter().map(|&old| old as usize);
-            match operation {
-                Operation::Plain => {
-                    let scaled = gathered.clone().map(|old| column[old].scaled(self.row_scale[old]));
-                    work.iter_mut().zip(scaled).for_each(|(x, b)| *x = b);
-                    self.blocks(analysis).for_each(|block| block.forward(&mut work));
-                    self.blocks(analysis).rev().for_each(|block| block.backward(&mut work));
-                    work.iter().zip(gathered).for_each(|(&x, old)| column[old] = x);
-                }
-                Operation::Transpose | Operation::Adjoint => {
-                    let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugated() } else { x };
-                    work.iter_mut().zip(gathered.clone()).for_each(|(x, old)| *x = conjugate(column[old]));
-                    self.blocks(analysis).for_each(|block| block.forward_transpose(&mut work));
-                    self.blocks(analysis).rev().for_each(|block| block.backward_transpose(&mut work));
-                    let scaled = work.iter().zip(gathered);
-                    scaled.for_each(|(&x, old)| column[old] = conjugate(x).scaled(self.row_scale[old]));
-                }
+        columns.par_chunks_mut(LANES * n).for_each(|columns| {
+            if columns.len() == n {
+                self.solve_lanes::<1>(analysis, operation, columns);
+            } else {
+                self.solve_lanes::<LANES>(analysis, operation, columns);
+            }
+        });
+    }
+
+    /// Solves for at most `W` columns.
+    fn solve_lanes<const W: usize>(&self, analysis: &LuAnalysis, operation: Operation, columns: &mut [T]) {
+        let n = self.row_scale.len();
+        let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugated() } else { x };
+        let (before, after) = match operation {
+            Operation::Plain => (Some(&self.row_scale), None),
+            Operation::Transpose | Operation::Adjoint => (None, Some(&self.row_scale)),
+        };
+        let factor = |scale: Option<&Vec<f64>>, row: usize| scale.map_or(1.0, |scale| scale[row]);
+        let mut work = vec![[T::ZERO; W]; n];
+        for (x, &old) in work.iter_mut().zip(&analysis.order.new_to_old) {
+            let row = old as usize;
+            let values = columns.chunks_exact(n).map(|column| conjugate(column[row]).scaled(factor(before, row)));
+            x.iter_mut().zip(values).for_each(|(x, value)| *x = value);
+        }
+        if operation == Operation::Plain {
+            self.blocks(analysis).for_each(|block| block.forward(&mut work));
+            self.blocks(analysis).rev().for_each(|block| block.backward(&mut work));
+        } else {
+            self.blocks(analysis).for_each(|block| block.forward_transpose(&mut work));
+            self.blocks(analysis).rev().for_each(|block| block.backward_transpose(&mut work));
+        }
+        for (lane, column) in columns.chunks_exact_mut(n).enumerate() {
+            for (x, &old) in work.iter().zip(&analysis.order.new_to_old) {
+                let row = old as usize;
+                column[row] = conjugate(x[lane]).scaled(factor(after, row));
             }
         }
     }
@@ -67,64 +91,79 @@ impl<T: Scalar> Lu<T> {
 
 impl<T: Scalar> Block<'_, T> {
     /// L y = P b.
-    fn forward(&self, x: &mut [T]) {
-        let (own, later) = x[self.begin..].split_at_mut(self.shape.columns);
+    fn forward<const W: usize>(&self, x: &mut [[T; W]]) {
+        let columns = self.shape.columns;
+        let (own, later) = x[self.begin..].split_at_mut(columns);
+        let offset = self.begin + columns;
         for (k, &row) in self.swaps.iter().enumerate() {
             own.swap(k, row as usize);
         }
-        let offset = self.begin + self.shape.columns;
         for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
             let value = own[k];
-            let (diagonal, below) = column.split_at(self.shape.columns);
-            own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| *x -= l * value);
-            self.rows.iter().zip(below).for_each(|(&row, &l)| later[row as usize - offset] -= l * value);
+            let (diagonal, below) = column.split_at(columns);
+            own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| subtract(x, l, &value));
+            for (&row, &l) in self.rows.iter().zip(below) {
+                subtract(&mut later[row as usize - offset], l, &value);
+            }
         }
     }
 
     /// U x = y.
-    fn backward(&self, x: &mut [T]) {
+    fn backward<const W: usize>(&self, x: &mut [[T; W]]) {
         let columns = self.shape.columns;
         let (own, later) = x[self.begin..].split_at_mut(columns);
         let offset = self.begin + columns;
         for (column, &row) in self.right.chunks_exact(columns).zip(self.rows) {
             let value = later[row as usize - offset];
-            own.iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
+            own.iter_mut().zip(column).for_each(|(x, &u)| subtract(x, u, &value));
         }
         for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
-            let value = own[k] / column[k];
+            let value = own[k].map(|x| x / column[k]);
             own[k] = value;
-            own[..k].iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
+            own[..k].iter_mut().zip(column).for_each(|(x, &u)| subtract(x, u, &value));
         }
     }
 
     /// Uᵀ y = b.
-    fn forward_transpose(&self, x: &mut [T]) {
+    fn forward_transpose<const W: usize>(&self, x: &mut [[T; W]]) {
         let columns = self.shape.columns;
         let (own, later) = x[self.begin..].split_at_mut(columns);
         let offset = self.begin + columns;
         for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
-            let sum = own[..k].iter().zip(column).fold(T::ZERO, |sum, (&x, &u)| sum + u * x);
-            own[k] = (own[k] - sum) / column[k];
+            let mut rest = own[k];
+            own[..k].iter().zip(column).for_each(|(x, &u)| subtract(&mut rest, u, x));
+            own[k] = rest.map(|x| x / column[k]);
         }
         for (column, &row) in self.right.chunks_exact(columns).zip(self.rows) {
-            let sum = own.iter().zip(column).fold(T::ZERO, |sum, (&x, &u)| sum + u * x);
-            later[row as usize - offset] -= sum;
+            let rest = &mut later[row as usize - offset];
+            own.iter().zip(column).for_each(|(x, &u)| subtract(rest, u, x));
         }
     }
 
     /// Lᵀ x = y, then the swaps undone.
-    fn backward_transpose(&self, x: &mut [T]) {
+    fn backward_transpose<const W: usize>(&self, x: &mut [[T; W]]) {
         let columns = self.shape.columns;
         let (own, later) = x[self.begin..].split_at_mut(columns);
         let offset = self.begin + columns;
         for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
             let (diagonal, below) = column.split_at(columns);
-            let inside = own[k + 1..].iter().zip(&diagonal[k + 1..]).fold(T::ZERO, |sum, (&x, &l)| sum + l * x);
-            let outside = self.rows.iter().zip(below);
-            own[k] -= outside.fold(inside, |sum, (&row, &l)| sum + l * later[row as usize - offset]);
+            let mut rest = own[k];
+            own[k + 1..].iter().zip(&diagonal[k + 1..]).for_each(|(x, &l)| subtract(&mut rest, l, x));
+            for (&row, &l) in self.rows.iter().zip(below) {
+                subtract(&mut rest, l, &later[row as usize - offset]);
+            }
+            own[k] = rest;
         }
         for (k, &row) in self.swaps.iter().enumerate().rev() {
             own.swap(k, row as usize);
         }
+    }
+}
+
+/// x ← x − factor·value, lane by lane.
+#[inline]
+fn subtract<T: Scalar, const W: usize>(x: &mut [T; W], factor: T, value: &[T; W]) {
+    for (x, &value) in x.iter_mut().zip(value) {
+        *x -= factor * value;
     }
 }
