@@ -115,13 +115,17 @@ fn measure(mesh: &Mesh, kind: Kind, family: &Family) -> (f64, usize) {
     let (seconds, factor) = time(|| analysis.factor(&matrix, &cancel).expect("regular"));
     fastest = fastest.min(seconds);
     let (solve_seconds, solved) = time(|| factor.solve(&matrix, &rhs).expect("good"));
+    let many: Vec<C> = rhs.iter().copied().cycle().take(8 * rhs.len()).collect();
+    let (many_seconds, adjoint) = time(|| factor.solve_adjoint_many(&matrix, &many).expect("good"));
     let inner = &mesh.points[1..mesh.points.len() - 1];
     let deviation = solved.x.iter().zip(inner).map(|(x, z)| (x - z).norm()).fold(0.0, f64::max);
     let stats = factor.stats();
     println!(
-        "{kind:?} n={} analysis {analysis_seconds:.3} s, factor {fastest:.3} s ({processor:.2} s of processor), solve {solve_seconds:.3} s, residual {:.1e}, \
+        "{kind:?} n={} analysis {analysis_seconds:.3} s, factor {fastest:.3} s ({processor:.2} s of processor), solve {solve_seconds:.3} s, eight adjoint {many_seconds:.3} s ({} steps, {:.1e}), residual {:.1e}, \
          {} steps, deviation {deviation:.1e}, replaced {}, factors {:.1} MB, peak {:.1} MB",
         matrix.nrows(),
+        adjoint.refinement_steps,
+        adjoint.residual,
         solved.residual,
         solved.refinement_steps,
         stats.replaced_pivots,

@@ -19,8 +19,12 @@ use super::sparse::{Operation, backward_error, norm, residual};
 /// Answers with a larger relative residual are errors.
 const LIMIT: f64 = 1e-10;
 
-/// Above this, GMRES is tried.
+/// Above this, GMRES is tried, but only where refinement stalled as well.
 const GOAL: f64 = 1e-12;
+
+/// A larger backward error means that the factors are those of another matrix. With a smaller one a large residual
+/// comes from a large ‖A‖‖x‖/‖b‖, which no method can better in working precision.
+const STALLED: f64 = 1e3 * f64::EPSILON;
 
 /// A componentwise backward error of so many units of rounding cannot be bettered in working precision.
 const GOOD_BACKWARD_ERROR: f64 = 2.0 * f64::EPSILON;
@@ -104,7 +108,9 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
     // A NaN is not good, and neither is an infinity on one side.
     let good = |limit: f64, (plain, scaled): (f64, f64)| plain.min(scaled) <= limit && (plain + scaled).is_finite();
     let mut relative = measure(column.x);
-    if !good(GOAL, relative) {
+    // Written so that a NaN counts as stalled.
+    let converged = column.backward_error <= STALLED;
+    if !good(GOAL, relative) && !converged {
         column.steps += gmres(system, column.x, column.b);
         relative = measure(column.x);
     }
