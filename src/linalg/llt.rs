@@ -16,10 +16,14 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 use nalgebra_sparse::CscMatrix;
+use rayon::prelude::*;
 
 use super::order::{Order, Pattern};
 use super::scalar::Scalar;
 use super::{FactorStats, LinalgError};
+
+/// Right-hand sides solved together by one thread.
+const TOGETHER: usize = 4;
 
 /// Symbolic Cholesky factorization in a given order.
 #[derive(Debug)]
@@ -92,13 +96,14 @@ impl LltAnalysis {
         if n == 0 {
             return;
         }
-        let count = columns.len() / n;
-        let par = Par::rayon(0);
-        let scratch = self.symbolic.solve_in_place_scratch::<T>(count, par);
-        let mut memory = MemBuffer::new(scratch);
-        let view = MatMut::from_column_major_slice_mut(columns, n, count);
         let llt = LltRef::new(&self.symbolic, &factor.values);
-        llt.solve_in_place_with_conj(conj, view, par, MemStack::new(&mut memory));
+        let scratch = self.symbolic.solve_in_place_scratch::<T>(TOGETHER, Par::Seq);
+        columns.par_chunks_mut(TOGETHER * n).for_each(|columns| {
+            let mut memory = MemBuffer::new(scratch);
+            let count = columns.len() / n;
+            let view = MatMut::from_column_major_slice_mut(columns, n, count);
+            llt.solve_in_place_with_conj(conj, view, Par::Seq, MemStack::new(&mut memory));
+        });
         if factor.sign < 0.0 {
             for x in columns {
                 *x = -*x;

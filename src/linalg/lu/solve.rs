@@ -1,17 +1,27 @@
 //! Forward and backward substitution through the fronts.
 //!
-//! Several right-hand sides are taken [`LANES`] at a time, interleaved, so that each number of the factors is read once
-//! for all of them; groups of lanes run side by side.
+//! Several right-hand sides are taken [`TOGETHER`] at a time, so that the numbers of the factors are read once for all of
+//! them; such groups run side by side. Large blocks go through faer's dense kernels, small ones through plain loops.
 
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
+    solve_upper_triangular_in_place,
+};
+use faer::{Accum, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
 use super::factor::Lu;
+use super::front::mat;
 use super::symbolic::{LuAnalysis, Shape};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::Operation;
 
 /// Right-hand sides solved together by one thread.
-const LANES: usize = 4;
+const TOGETHER: usize = 4;
+
+/// A panel with at least so many entries is worth the call of a dense kernel.
+const LARGE_PANEL: usize = 256;
 
 /// One supernode's part of the factors.
 struct Block<'a, T> {
@@ -30,17 +40,10 @@ impl<T: Scalar> Lu<T> {
         if n == 0 {
             return;
         }
-        columns.par_chunks_mut(LANES * n).for_each(|columns| {
-            if columns.len() == n {
-                self.solve_lanes::<1>(analysis, operation, columns);
-            } else {
-                self.solve_lanes::<LANES>(analysis, operation, columns);
-            }
-        });
+        columns.par_chunks_mut(TOGETHER * n).for_each(|columns| self.solve_group(analysis, operation, columns));
     }
 
-    /// Solves for at most `W` columns.
-    fn solve_lanes<const W: usize>(&self, analysis: &LuAnalysis, operation: Operation, columns: &mut [T]) {
+    fn solve_group(&self, analysis: &LuAnalysis, operation: Operation, columns: &mut [T]) {
         let n = self.row_scale.len();
         let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugated() } else { x };
         let (before, after) = match operation {
@@ -48,12 +51,15 @@ impl<T: Scalar> Lu<T> {
             Operation::Transpose | Operation::Adjoint => (None, Some(&self.row_scale)),
         };
         let factor = |scale: Option<&Vec<f64>>, row: usize| scale.map_or(1.0, |scale| scale[row]);
-        let mut work = vec![[T::ZERO; W]; n];
-        for (x, &old) in work.iter_mut().zip(&analysis.order.new_to_old) {
-            let row = old as usize;
-            let values = columns.chunks_exact(n).map(|column| conjugate(column[row]).scaled(factor(before, row)));
-            x.iter_mut().zip(values).for_each(|(x, value)| *x = value);
+        let order = &analysis.order.new_to_old;
+        let mut x = Vec::with_capacity(columns.len());
+        for column in columns.chunks_exact(n) {
+            x.extend(order.iter().map(|&old| {
+                let row = old as usize;
+                conjugate(column[row]).scaled(factor(before, row))
+            }));
         }
+        let mut work = Work { x, order: n, outer: Vec::new() };
         if operation == Operation::Plain {
             self.blocks(analysis).for_each(|block| block.forward(&mut work));
             self.blocks(analysis).rev().for_each(|block| block.backward(&mut work));
@@ -61,10 +67,10 @@ impl<T: Scalar> Lu<T> {
             self.blocks(analysis).for_each(|block| block.forward_transpose(&mut work));
             self.blocks(analysis).rev().for_each(|block| block.backward_transpose(&mut work));
         }
-        for (lane, column) in columns.chunks_exact_mut(n).enumerate() {
-            for (x, &old) in work.iter().zip(&analysis.order.new_to_old) {
+        for (x, column) in work.x.chunks_exact(n).zip(columns.chunks_exact_mut(n)) {
+            for (&x, &old) in x.iter().zip(order) {
                 let row = old as usize;
-                column[row] = conjugate(x[lane]).scaled(factor(after, row));
+                column[row] = conjugate(x).scaled(factor(after, row));
             }
         }
     }
@@ -89,81 +95,170 @@ impl<T: Scalar> Lu<T> {
     }
 }
 
-impl<T: Scalar> Block<'_, T> {
-    /// L y = P b.
-    fn forward<const W: usize>(&self, x: &mut [[T; W]]) {
-        let columns = self.shape.columns;
-        let (own, later) = x[self.begin..].split_at_mut(columns);
-        let offset = self.begin + columns;
-        for (k, &row) in self.swaps.iter().enumerate() {
-            own.swap(k, row as usize);
+/// Right-hand sides on their way to solutions, in the order of elimination.
+struct Work<T> {
+    /// Column-major.
+    x: Vec<T>,
+    /// Length of a column.
+    order: usize,
+    /// A block's rows below its own, gathered; column-major.
+    outer: Vec<T>,
+}
+
+impl<T: Scalar> Work<T> {
+    fn count(&self) -> usize {
+        self.x.len() / self.order
+    }
+
+    /// Copies the block's outer rows into `outer`.
+    fn gather(&mut self, rows: &[u32]) {
+        self.outer.clear();
+        for column in self.x.chunks_exact(self.order) {
+            self.outer.extend(rows.iter().map(|&row| column[row as usize]));
         }
-        for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
-            let value = own[k];
-            let (diagonal, below) = column.split_at(columns);
-            own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| subtract(x, l, &value));
-            for (&row, &l) in self.rows.iter().zip(below) {
-                subtract(&mut later[row as usize - offset], l, &value);
+    }
+
+    /// Subtracts `outer` from the block's outer rows.
+    fn scatter_subtract(&mut self, rows: &[u32]) {
+        if rows.is_empty() {
+            return;
+        }
+        for (column, outer) in self.x.chunks_exact_mut(self.order).zip(self.outer.chunks_exact(rows.len())) {
+            for (&row, &value) in rows.iter().zip(outer) {
+                column[row as usize] -= value;
+            }
+        }
+    }
+
+    /// The block's own rows and its outer ones.
+    fn views(&mut self, block: &Block<'_, T>) -> (MatMut<'_, T>, MatMut<'_, T>) {
+        let (count, Shape { columns, below }) = (self.count(), block.shape);
+        self.outer.resize(below * count, T::ZERO);
+        let own = MatMut::from_column_major_slice_mut(&mut self.x, self.order, count);
+        let outer = MatMut::from_column_major_slice_mut(&mut self.outer, below, count);
+        (own.subrows_mut(block.begin, columns), outer)
+    }
+
+    /// The block's own rows and all that follow, for each right-hand side.
+    fn split(&mut self, block: &Block<'_, T>) -> impl Iterator<Item = (&mut [T], &mut [T])> {
+        let (begin, columns) = (block.begin, block.shape.columns);
+        self.x.chunks_exact_mut(self.order).map(move |column| column[begin..].split_at_mut(columns))
+    }
+}
+
+impl<'a, T: Scalar> Block<'a, T> {
+    fn is_large(&self) -> bool {
+        self.left.len() >= LARGE_PANEL
+    }
+
+    /// L₁₁\U₁₁, L₂₁ and U₁₂.
+    fn parts(&self) -> (MatRef<'a, T>, MatRef<'a, T>, MatRef<'a, T>) {
+        let Shape { columns, below } = self.shape;
+        let (diagonal, lower) = mat(self.left, columns + below, columns).split_at_row(columns);
+        (diagonal, lower, mat(self.right, columns, below))
+    }
+
+    /// The place of an outer row among the rows that follow the block's own.
+    fn place(&self, row: u32) -> usize {
+        row as usize - self.begin - self.shape.columns
+    }
+
+    /// L y = P b.
+    fn forward(&self, work: &mut Work<T>) {
+        for (own, _) in work.split(self) {
+            for (k, &row) in self.swaps.iter().enumerate() {
+                own.swap(k, row as usize);
+            }
+        }
+        if self.is_large() {
+            let (diagonal, lower, _) = self.parts();
+            let (mut own, outer) = work.views(self);
+            solve_unit_lower_triangular_in_place(diagonal, own.as_mut(), Par::Seq);
+            matmul(outer, Accum::Replace, lower, own.as_ref(), T::ONE, Par::Seq);
+            work.scatter_subtract(self.rows);
+            return;
+        }
+        for (own, later) in work.split(self) {
+            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
+                let value = own[k];
+                let (diagonal, below) = column.split_at(self.shape.columns);
+                own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| *x -= l * value);
+                self.rows.iter().zip(below).for_each(|(&row, &l)| later[self.place(row)] -= l * value);
             }
         }
     }
 
     /// U x = y.
-    fn backward<const W: usize>(&self, x: &mut [[T; W]]) {
-        let columns = self.shape.columns;
-        let (own, later) = x[self.begin..].split_at_mut(columns);
-        let offset = self.begin + columns;
-        for (column, &row) in self.right.chunks_exact(columns).zip(self.rows) {
-            let value = later[row as usize - offset];
-            own.iter_mut().zip(column).for_each(|(x, &u)| subtract(x, u, &value));
+    fn backward(&self, work: &mut Work<T>) {
+        if self.is_large() {
+            let (diagonal, _, right) = self.parts();
+            work.gather(self.rows);
+            let (mut own, outer) = work.views(self);
+            matmul(own.as_mut(), Accum::Add, right, outer.as_ref(), -T::ONE, Par::Seq);
+            solve_upper_triangular_in_place(diagonal, own, Par::Seq);
+            return;
         }
-        for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
-            let value = own[k].map(|x| x / column[k]);
-            own[k] = value;
-            own[..k].iter_mut().zip(column).for_each(|(x, &u)| subtract(x, u, &value));
+        for (own, later) in work.split(self) {
+            for (column, &row) in self.right.chunks_exact(self.shape.columns).zip(self.rows) {
+                let value = later[self.place(row)];
+                own.iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
+            }
+            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
+                let value = own[k] / column[k];
+                own[k] = value;
+                own[..k].iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
+            }
         }
     }
 
     /// Uᵀ y = b.
-    fn forward_transpose<const W: usize>(&self, x: &mut [[T; W]]) {
-        let columns = self.shape.columns;
-        let (own, later) = x[self.begin..].split_at_mut(columns);
-        let offset = self.begin + columns;
-        for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
-            let mut rest = own[k];
-            own[..k].iter().zip(column).for_each(|(x, &u)| subtract(&mut rest, u, x));
-            own[k] = rest.map(|x| x / column[k]);
+    fn forward_transpose(&self, work: &mut Work<T>) {
+        if self.is_large() {
+            let (diagonal, _, right) = self.parts();
+            let (mut own, outer) = work.views(self);
+            solve_lower_triangular_in_place(diagonal.transpose(), own.as_mut(), Par::Seq);
+            matmul(outer, Accum::Replace, right.transpose(), own.as_ref(), T::ONE, Par::Seq);
+            work.scatter_subtract(self.rows);
+            return;
         }
-        for (column, &row) in self.right.chunks_exact(columns).zip(self.rows) {
-            let rest = &mut later[row as usize - offset];
-            own.iter().zip(column).for_each(|(x, &u)| subtract(rest, u, x));
+        for (own, later) in work.split(self) {
+            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
+                let sum = dot(&own[..k], column);
+                own[k] = (own[k] - sum) / column[k];
+            }
+            for (column, &row) in self.right.chunks_exact(self.shape.columns).zip(self.rows) {
+                later[self.place(row)] -= dot(own, column);
+            }
         }
     }
 
     /// Lᵀ x = y, then the swaps undone.
-    fn backward_transpose<const W: usize>(&self, x: &mut [[T; W]]) {
-        let columns = self.shape.columns;
-        let (own, later) = x[self.begin..].split_at_mut(columns);
-        let offset = self.begin + columns;
-        for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
-            let (diagonal, below) = column.split_at(columns);
-            let mut rest = own[k];
-            own[k + 1..].iter().zip(&diagonal[k + 1..]).for_each(|(x, &l)| subtract(&mut rest, l, x));
-            for (&row, &l) in self.rows.iter().zip(below) {
-                subtract(&mut rest, l, &later[row as usize - offset]);
+    fn backward_transpose(&self, work: &mut Work<T>) {
+        if self.is_large() {
+            let (diagonal, lower, _) = self.parts();
+            work.gather(self.rows);
+            let (mut own, outer) = work.views(self);
+            matmul(own.as_mut(), Accum::Add, lower.transpose(), outer.as_ref(), -T::ONE, Par::Seq);
+            solve_unit_upper_triangular_in_place(diagonal.transpose(), own, Par::Seq);
+        } else {
+            for (own, later) in work.split(self) {
+                for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
+                    let (diagonal, below) = column.split_at(self.shape.columns);
+                    let inside = dot(&own[k + 1..], &diagonal[k + 1..]);
+                    let outside = self.rows.iter().zip(below);
+                    own[k] -= outside.fold(inside, |sum, (&row, &l)| sum + l * later[self.place(row)]);
+                }
             }
-            own[k] = rest;
         }
-        for (k, &row) in self.swaps.iter().enumerate().rev() {
-            own.swap(k, row as usize);
+        for (own, _) in work.split(self) {
+            for (k, &row) in self.swaps.iter().enumerate().rev() {
+                own.swap(k, row as usize);
+            }
         }
     }
 }
 
-/// x ← x − factor·value, lane by lane.
-#[inline]
-fn subtract<T: Scalar, const W: usize>(x: &mut [T; W], factor: T, value: &[T; W]) {
-    for (x, &value) in x.iter_mut().zip(value) {
-        *x -= factor * value;
-    }
+/// Σ xᵢ yᵢ over the shorter of both, without conjugation.
+fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }
