@@ -48,8 +48,20 @@ pub struct Solved<T> {
     /// The same with every row divided by (a power of two near) its diagonal entry, as the LU sees the system. Where
     /// the rows differ by many decades, this is the one that every equation has a part in.
     pub scaled_residual: f64,
+    /// The componentwise backward error that refinement reached, of the worst right-hand side: a few units of rounding
+    /// where the answer is as good as the numbers allow.
+    pub backward_error: f64,
     /// Steps of refinement that were kept, and of GMRES; the most for any right-hand side.
     pub refinement_steps: usize,
+}
+
+/// How factors stand to the matrix they were made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Factors {
+    /// Equal up to rounding.
+    Faithful,
+    /// Pivots were replaced.
+    Disturbed,
 }
 
 /// A system, its scaling, and an approximate solver for it.
@@ -58,6 +70,8 @@ pub(super) struct System<'a, T> {
     pub(super) operation: Operation,
     /// Factors of the rows of op(A), if they are scaled.
     pub(super) row_scale: Option<&'a [f64]>,
+    /// How the factors stand to the matrix.
+    pub(super) factors: Factors,
     /// Solves in place, column by column.
     pub(super) solve: &'a (dyn Fn(&mut [T]) + Sync),
 }
@@ -76,7 +90,8 @@ impl<T: Scalar> System<'_, T> {
 /// Solves for every column of `rhs` and refines each.
 pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
     let mut x = rhs.to_vec();
-    let mut all = Solved { x: Vec::new(), residual: 0.0, scaled_residual: 0.0, refinement_steps: 0 };
+    let mut all =
+        Solved { x: Vec::new(), residual: 0.0, scaled_residual: 0.0, backward_error: 0.0, refinement_steps: 0 };
     if rhs.is_empty() {
         return Ok(all);
     }
@@ -91,6 +106,7 @@ pub(super) fn refined<T: Scalar>(system: &System<'_, T>, rhs: &[T]) -> Result<So
             let (plain, scaled) = accept(system, column)?;
             all.residual = all.residual.max(plain);
             all.scaled_residual = all.scaled_residual.max(scaled);
+            all.backward_error = all.backward_error.max(column.backward_error);
             all.refinement_steps = all.refinement_steps.max(column.steps);
         }
     }
@@ -110,15 +126,17 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
     let mut relative = measure(column.x);
     // Written so that a NaN counts as stalled.
     let converged = column.backward_error <= STALLED;
+    // The adjoint systems of this project have single rows on their right, and answers larger than those by up to the
+    // condition number. There ‖Aᴴ‖‖x‖ε alone can pass the limit, and the backward error decides.
+    let at_the_floor = converged && system.operation != Operation::Plain && system.factors == Factors::Faithful;
     if !good(GOAL, relative) && !converged {
         column.steps += gmres(system, column.x, column.b);
         relative = measure(column.x);
     }
-    if good(LIMIT, relative) {
-        Ok(relative)
-    } else {
-        Err(LinalgError::ResidualTooLarge { residual: relative.0, limit: LIMIT })
+    if good(LIMIT, relative) || at_the_floor {
+        return Ok(relative);
     }
+    Err(LinalgError::ResidualTooLarge { residual: relative.0, limit: LIMIT })
 }
 
 /// One right-hand side and its answer under way.

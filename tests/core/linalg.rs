@@ -140,6 +140,32 @@ fn a_reused_analysis_gives_the_bits_of_a_fresh_one_and_two_runs_agree() {
 }
 
 #[test]
+fn an_adjoint_answer_that_dwarfs_its_right_hand_side_is_judged_by_its_backward_error() {
+    // A with 1 on the diagonal, −1.7 and −0.3 below it: the answer to Aᴴ x = e grows by 1.86 a row, so that rounding
+    // alone leaves a residual.
+    let n = 60;
+    let pattern = pattern_where(n, |i, j| i.abs_diff(j) <= 2);
+    let value = |(column, row): (usize, usize)| match (row + 2).checked_sub(column) {
+        Some(2) => 1.0,
+        Some(3) => -1.7,
+        Some(4) => -0.3,
+        _ => 0.0,
+    };
+    let values = pattern.entries().map(value).collect();
+    let matrix = CscMatrix::try_from_pattern_and_values(pattern, values).expect("one value an entry");
+    let mut rhs = vec![0.0; n];
+    rhs[n - 1] = 1.0;
+    let solved = factored(Kind::General, &matrix).and_then(|f| f.solve_adjoint(&matrix, &rhs)).expect("regular");
+    assert!(solved.residual > 1e-10, "otherwise this tests nothing");
+    assert!(solved.backward_error < 1e-15, "{}", solved.backward_error);
+    let (mut before, mut exact) = (0.0, 1.0);
+    for x in solved.x.iter().rev() {
+        assert!((x / exact - 1.0).abs() < 1e-13, "{x} for {exact}");
+        (before, exact) = (exact, 1.7 * exact + 0.3 * before);
+    }
+}
+
+#[test]
 fn a_right_hand_side_of_zeros_has_residual_zero() {
     let matrix = laplacian(&grid_pattern(4), 0.1, &mut Random(1));
     let solved = factored(Kind::General, &matrix).and_then(|f| f.solve(&matrix, &[0.0; 16])).expect("regular");
