@@ -11,7 +11,7 @@ use super::LinalgError;
 use super::llt::{Llt, LltAnalysis};
 use super::lu::{Lu, LuAnalysis};
 use super::order::{Pattern, order};
-use super::refine::{Solved, System, refined};
+use super::refine::{Factors, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, check_finite};
 
@@ -123,7 +123,8 @@ impl<T: Scalar> Factor<T> {
         self.one(matrix, Operation::Plain, rhs)
     }
 
-    /// Solves Aᵀ x = b, otherwise as [`Factor::solve`].
+    /// Solves Aᵀ x = b, otherwise as [`Factor::solve`]. An answer with a backward error of a few units of
+    /// rounding is accepted whatever its residual.
     ///
     /// # Errors
     ///
@@ -132,7 +133,8 @@ impl<T: Scalar> Factor<T> {
         self.one(matrix, Operation::Transpose, rhs)
     }
 
-    /// Solves Aᴴ x = b, otherwise as [`Factor::solve`].
+    /// Solves Aᴴ x = b, otherwise as [`Factor::solve`]. An answer with a backward error of a few units of
+    /// rounding is accepted whatever its residual.
     ///
     /// # Errors
     ///
@@ -192,7 +194,8 @@ impl<T: Scalar> Factor<T> {
             (Numeric::Lu(lu), Operation::Plain) => Some(lu.row_scale()),
             _ => None,
         };
-        refined(&System { matrix, operation, row_scale, solve: &solve }, rhs)
+        let factors = if self.stats().replaced_pivots == 0 { Factors::Faithful } else { Factors::Disturbed };
+        refined(&System { matrix, operation, row_scale, factors, solve: &solve }, rhs)
     }
 
     fn solve_in_place(&self, operation: Operation, columns: &mut [T]) {

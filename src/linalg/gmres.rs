@@ -30,12 +30,12 @@ pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> 
     for _ in 0..MOST_RESTARTS {
         let mut r = scaled_residual(system, x, b);
         let size = norm(r.iter().copied());
-        // Written so that a NaN ends it.
-        if !(size < 0.5 * before) || size == 0.0 {
+        let worthwhile = size < 0.5 * before && size > 0.0;
+        if !worthwhile {
             return steps;
         }
         before = size;
-        r.iter_mut().for_each(|r| *r = r.scaled(size.recip()));
+        scale(&mut r, size.recip());
         let mut space =
             Krylov { basis: vec![r], triangle: Vec::new(), rotations: Vec::new(), rhs: vec![T::from_real(size)] };
         while space.triangle.len() < RESTART && space.extend(system) && space.remaining() > REDUCTION * size {}
@@ -48,6 +48,12 @@ pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> 
         x.iter_mut().zip(&correction).for_each(|(x, &correction)| *x += correction);
     }
     steps
+}
+
+fn scale<T: Scalar>(vector: &mut [T], factor: f64) {
+    for value in vector {
+        *value = value.scaled(factor);
+    }
 }
 
 /// R⁻¹ (b − op(A) x).
@@ -77,7 +83,7 @@ impl<T: Scalar> Krylov<T> {
         (system.solve)(&mut direction);
         let zero = vec![T::ZERO; direction.len()];
         let mut next = scaled_residual(system, &direction, &zero);
-        next.iter_mut().for_each(|value| *value = -*value);
+        scale(&mut next, -1.0);
         let before = norm(next.iter().copied());
         let mut column: Vec<T> = vec![T::ZERO; self.basis.len()];
         // Twice is enough (Kahan and Parlett) to stay orthogonal.
@@ -95,7 +101,7 @@ impl<T: Scalar> Krylov<T> {
         self.rotate(column, left);
         let grows = left > f64::EPSILON * before;
         if grows {
-            next.iter_mut().for_each(|value| *value = value.scaled(left.recip()));
+            scale(&mut next, left.recip());
             self.basis.push(next);
         }
         grows

@@ -1,4 +1,4 @@
-//! Cholesky factorization of a Hermitian definite matrix: faer's supernodal LLᴴ.
+//! Cholesky factorization of a Hermitian definite matrix: faer's supernodal `LLᴴ`.
 //!
 //! ```text
 //! P (σ A) Pᵀ = L Lᴴ,   σ = ±1 the sign of the diagonal
@@ -14,12 +14,16 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
+use faer::{Conj, MatMut, Par, Side, Spec};
 use nalgebra_sparse::CscMatrix;
+use rayon::prelude::*;
 
 use super::order::{Order, Pattern};
 use super::scalar::Scalar;
 use super::{FactorStats, LinalgError};
+
+/// Right-hand sides solved together by one thread.
+const TOGETHER: usize = 4;
 
 /// Symbolic Cholesky factorization in a given order.
 #[derive(Debug)]
@@ -63,7 +67,7 @@ impl LltAnalysis {
         let symbolic: SymbolicSparseColMatRef<'_, u32> = pattern.as_faer();
         let mut values = vec![T::ZERO; self.symbolic.len_val()];
         let par = Par::rayon(0);
-        let scratch = self.symbolic.factorize_numeric_llt_scratch::<T>(par, Default::default());
+        let scratch = self.symbolic.factorize_numeric_llt_scratch::<T>(par, Spec::default());
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| too_large())?;
         self.symbolic
             .factorize_numeric_llt(
@@ -73,7 +77,7 @@ impl LltAnalysis {
                 LltRegularization::default(),
                 par,
                 MemStack::new(&mut memory),
-                Default::default(),
+                Spec::default(),
             )
             .map_err(|error| self.named(error))?;
         let peak_bytes = size_of_val(values.as_slice()) + memory.len();
@@ -92,15 +96,18 @@ impl LltAnalysis {
         if n == 0 {
             return;
         }
-        let count = columns.len() / n;
-        let par = Par::rayon(0);
-        let scratch = self.symbolic.solve_in_place_scratch::<T>(count, par);
-        let mut memory = MemBuffer::new(scratch);
-        let view = MatMut::from_column_major_slice_mut(columns, n, count);
         let llt = LltRef::new(&self.symbolic, &factor.values);
-        llt.solve_in_place_with_conj(conj, view, par, MemStack::new(&mut memory));
+        let scratch = self.symbolic.solve_in_place_scratch::<T>(TOGETHER, Par::Seq);
+        columns.par_chunks_mut(TOGETHER * n).for_each(|columns| {
+            let mut memory = MemBuffer::new(scratch);
+            let count = columns.len() / n;
+            let view = MatMut::from_column_major_slice_mut(columns, n, count);
+            llt.solve_in_place_with_conj(conj, view, Par::Seq, MemStack::new(&mut memory));
+        });
         if factor.sign < 0.0 {
-            columns.iter_mut().for_each(|x| *x = -*x);
+            for x in columns {
+                *x = -*x;
+            }
         }
     }
 }

@@ -38,8 +38,10 @@ pub trait Scalar:
     /// The real part.
     fn real_part(self) -> f64;
     /// The complex conjugate.
+    #[must_use]
     fn conjugated(self) -> Self;
     /// Product with a real number.
+    #[must_use]
     fn scaled(self, factor: f64) -> Self;
     /// The larger of |re| and |im|: within √2 of the modulus, and it neither overflows nor underflows.
     fn size(self) -> f64;

@@ -10,7 +10,7 @@ use rayon::Scope;
 use super::front::{Front, scatter};
 use super::pivot::Pivots;
 use super::symbolic::LuAnalysis;
-use crate::linalg::order::{NONE, Pattern};
+use crate::linalg::order::{NONE, Pattern, narrow};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::power_of_two_near;
 use crate::linalg::{FactorStats, LinalgError};
@@ -131,12 +131,11 @@ impl<T: Scalar> Job<'_, T> {
                 return;
             }
             let children = self.analysis.children(supernode).iter().map(|&child| {
-                let update = match (child as usize).checked_sub(range.start) {
-                    Some(place) => waiting[place].take(),
-                    None => {
-                        let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
-                        place.ok().map(|place| std::mem::take(&mut arrived[place].1))
-                    }
+                let update = if (child as usize) < range.start {
+                    let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
+                    place.ok().map(|place| std::mem::take(&mut arrived[place].1))
+                } else {
+                    waiting[child as usize - range.start].take()
                 };
                 (child, update.expect("children come before their parent"))
             });
@@ -154,8 +153,7 @@ impl<T: Scalar> Job<'_, T> {
     /// Hands an update to another unit, and starts that unit if this was the last it waited for.
     fn send<'scope>(&'scope self, supernode: usize, parent: u32, update: Vec<T>, scope: &Scope<'scope>) {
         let unit = self.analysis.unit_of[parent as usize] as usize;
-        let child = crate::linalg::order::narrow(supernode);
-        self.inboxes[unit].lock().expect("no task panics while it holds this").push((child, update));
+        self.inboxes[unit].lock().expect("no task panics while it holds this").push((narrow(supernode), update));
         if self.awaited[unit].fetch_sub(1, Ordering::AcqRel) == 1 {
             scope.spawn(move |scope| self.run(unit, scope));
         }
@@ -193,7 +191,7 @@ impl<T: Scalar> Job<'_, T> {
         let mut pivots = Pivots { thresholds: &mut thresholds, swaps, replaced: Vec::new() };
         let par = if shape.work() < PARALLEL_WORK { Par::Seq } else { Par::rayon(0) };
         front.eliminate(&mut pivots, par);
-        factor.replaced.extend(pivots.replaced.iter().map(|&k| analysis.begin[supernode] + k as u32));
+        factor.replaced.extend(pivots.replaced.iter().map(|&k| analysis.begin[supernode] + narrow(k)));
         update
     }
 }
@@ -225,12 +223,12 @@ impl<T> Lu<T> {
 fn equilibrate<T: Scalar>(pattern: &Pattern, values: &[T]) -> Result<(Vec<f64>, Vec<f64>), LinalgError> {
     let n = pattern.order();
     let (mut largest, mut diagonal, mut column_largest) = (vec![0.0f64; n], vec![0.0; n], vec![0.0f64; n]);
-    for column in 0..n {
+    for (column, column_largest) in column_largest.iter_mut().enumerate() {
         let entries = pattern.offsets[column] as usize..pattern.offsets[column + 1] as usize;
         for (&row, &value) in pattern.rows[entries.clone()].iter().zip(&values[entries]) {
             let (row, size) = (row as usize, value.size());
             largest[row] = largest[row].max(size);
-            column_largest[column] = column_largest[column].max(size);
+            *column_largest = column_largest.max(size);
             if row == column {
                 diagonal[row] = size;
             }

@@ -74,11 +74,12 @@ fn swap_rows<T: Scalar>(
 fn replace_if_tiny<T: Scalar>(panel: &mut [T], height: usize, k: usize, pivots: &mut Pivots<'_>) {
     let pivot = &mut panel[k * height + k];
     let (size, threshold) = (pivot.size(), pivots.thresholds[k]);
-    // Written so that a NaN counts as tiny.
-    if !(size >= threshold) {
-        *pivot = if size > 0.0 { pivot.scaled(threshold / size) } else { T::from_real(threshold) };
-        pivots.replaced.push(k);
+    if size >= threshold {
+        return;
     }
+    // A NaN comes here too.
+    *pivot = if size > 0.0 { pivot.scaled(threshold / size) } else { T::from_real(threshold) };
+    pivots.replaced.push(k);
 }
 
 /// Divides column `k` by its pivot and updates the columns up to `last`, within the block's rows.
@@ -87,7 +88,9 @@ fn eliminate<T: Scalar>(panel: &mut [T], height: usize, k: usize, last: usize, c
     let column = &mut done[k * height..][k..columns];
     let inverse = T::ONE / column[0];
     let multipliers = &mut column[1..];
-    multipliers.iter_mut().for_each(|value| *value *= inverse);
+    for value in &mut *multipliers {
+        *value *= inverse;
+    }
     for target in rest.chunks_exact_mut(height).take(last - k - 1) {
         let factor = target[k];
         if factor != T::ZERO {

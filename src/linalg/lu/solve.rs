@@ -1,9 +1,27 @@
 //! Forward and backward substitution through the fronts.
+//!
+//! Several right-hand sides are taken [`TOGETHER`] at a time, so that the numbers of the factors are read once for all of
+//! them; such groups run side by side. Large blocks go through faer's dense kernels, small ones through plain loops.
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
+    solve_upper_triangular_in_place,
+};
+use faer::{Accum, MatMut, MatRef, Par};
+use rayon::prelude::*;
 
 use super::factor::Lu;
+use super::front::mat;
 use super::symbolic::{LuAnalysis, Shape};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::Operation;
+
+/// Right-hand sides solved together by one thread.
+const TOGETHER: usize = 4;
+
+/// A panel with at least so many entries is worth the call of a dense kernel.
+const LARGE_PANEL: usize = 256;
 
 /// One supernode's part of the factors.
 struct Block<'a, T> {
@@ -22,25 +40,37 @@ impl<T: Scalar> Lu<T> {
         if n == 0 {
             return;
         }
-        let mut work = vec![T::ZERO; n];
-        for column in columns.chunks_exact_mut(n) {
-            let gathered = analysis.order.new_to_old.iter().map(|&old| old as usize);
-            match operation {
-                Operation::Plain => {
-                    let scaled = gathered.clone().map(|old| column[old].scaled(self.row_scale[old]));
-                    work.iter_mut().zip(scaled).for_each(|(x, b)| *x = b);
-                    self.blocks(analysis).for_each(|block| block.forward(&mut work));
-                    self.blocks(analysis).rev().for_each(|block| block.backward(&mut work));
-                    work.iter().zip(gathered).for_each(|(&x, old)| column[old] = x);
-                }
-                Operation::Transpose | Operation::Adjoint => {
-                    let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugated() } else { x };
-                    work.iter_mut().zip(gathered.clone()).for_each(|(x, old)| *x = conjugate(column[old]));
-                    self.blocks(analysis).for_each(|block| block.forward_transpose(&mut work));
-                    self.blocks(analysis).rev().for_each(|block| block.backward_transpose(&mut work));
-                    let scaled = work.iter().zip(gathered);
-                    scaled.for_each(|(&x, old)| column[old] = conjugate(x).scaled(self.row_scale[old]));
-                }
+        columns.par_chunks_mut(TOGETHER * n).for_each(|columns| self.solve_group(analysis, operation, columns));
+    }
+
+    fn solve_group(&self, analysis: &LuAnalysis, operation: Operation, columns: &mut [T]) {
+        let n = self.row_scale.len();
+        let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugated() } else { x };
+        let (before, after) = match operation {
+            Operation::Plain => (Some(&self.row_scale), None),
+            Operation::Transpose | Operation::Adjoint => (None, Some(&self.row_scale)),
+        };
+        let factor = |scale: Option<&Vec<f64>>, row: usize| scale.map_or(1.0, |scale| scale[row]);
+        let order = &analysis.order.new_to_old;
+        let mut x = Vec::with_capacity(columns.len());
+        for column in columns.chunks_exact(n) {
+            x.extend(order.iter().map(|&old| {
+                let row = old as usize;
+                conjugate(column[row]).scaled(factor(before, row))
+            }));
+        }
+        let mut work = Work { x, order: n, outer: Vec::new() };
+        if operation == Operation::Plain {
+            self.blocks(analysis).for_each(|block| block.forward(&mut work));
+            self.blocks(analysis).rev().for_each(|block| block.backward(&mut work));
+        } else {
+            self.blocks(analysis).for_each(|block| block.forward_transpose(&mut work));
+            self.blocks(analysis).rev().for_each(|block| block.backward_transpose(&mut work));
+        }
+        for (x, column) in work.x.chunks_exact(n).zip(columns.chunks_exact_mut(n)) {
+            for (&x, &old) in x.iter().zip(order) {
+                let row = old as usize;
+                column[row] = conjugate(x).scaled(factor(after, row));
             }
         }
     }
@@ -65,66 +95,170 @@ impl<T: Scalar> Lu<T> {
     }
 }
 
-impl<T: Scalar> Block<'_, T> {
-    /// L y = P b.
-    fn forward(&self, x: &mut [T]) {
-        let (own, later) = x[self.begin..].split_at_mut(self.shape.columns);
-        for (k, &row) in self.swaps.iter().enumerate() {
-            own.swap(k, row as usize);
+/// Right-hand sides on their way to solutions, in the order of elimination.
+struct Work<T> {
+    /// Column-major.
+    x: Vec<T>,
+    /// Length of a column.
+    order: usize,
+    /// A block's rows below its own, gathered; column-major.
+    outer: Vec<T>,
+}
+
+impl<T: Scalar> Work<T> {
+    fn count(&self) -> usize {
+        self.x.len() / self.order
+    }
+
+    /// Copies the block's outer rows into `outer`.
+    fn gather(&mut self, rows: &[u32]) {
+        self.outer.clear();
+        for column in self.x.chunks_exact(self.order) {
+            self.outer.extend(rows.iter().map(|&row| column[row as usize]));
         }
-        let offset = self.begin + self.shape.columns;
-        for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
-            let value = own[k];
-            let (diagonal, below) = column.split_at(self.shape.columns);
-            own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| *x -= l * value);
-            self.rows.iter().zip(below).for_each(|(&row, &l)| later[row as usize - offset] -= l * value);
+    }
+
+    /// Subtracts `outer` from the block's outer rows.
+    fn scatter_subtract(&mut self, rows: &[u32]) {
+        if rows.is_empty() {
+            return;
+        }
+        for (column, outer) in self.x.chunks_exact_mut(self.order).zip(self.outer.chunks_exact(rows.len())) {
+            for (&row, &value) in rows.iter().zip(outer) {
+                column[row as usize] -= value;
+            }
+        }
+    }
+
+    /// The block's own rows and its outer ones.
+    fn views(&mut self, block: &Block<'_, T>) -> (MatMut<'_, T>, MatMut<'_, T>) {
+        let (count, Shape { columns, below }) = (self.count(), block.shape);
+        self.outer.resize(below * count, T::ZERO);
+        let own = MatMut::from_column_major_slice_mut(&mut self.x, self.order, count);
+        let outer = MatMut::from_column_major_slice_mut(&mut self.outer, below, count);
+        (own.subrows_mut(block.begin, columns), outer)
+    }
+
+    /// The block's own rows and all that follow, for each right-hand side.
+    fn split(&mut self, block: &Block<'_, T>) -> impl Iterator<Item = (&mut [T], &mut [T])> {
+        let (begin, columns) = (block.begin, block.shape.columns);
+        self.x.chunks_exact_mut(self.order).map(move |column| column[begin..].split_at_mut(columns))
+    }
+}
+
+impl<'a, T: Scalar> Block<'a, T> {
+    fn is_large(&self) -> bool {
+        self.left.len() >= LARGE_PANEL
+    }
+
+    /// L₁₁\U₁₁, L₂₁ and U₁₂.
+    fn parts(&self) -> (MatRef<'a, T>, MatRef<'a, T>, MatRef<'a, T>) {
+        let Shape { columns, below } = self.shape;
+        let (diagonal, lower) = mat(self.left, columns + below, columns).split_at_row(columns);
+        (diagonal, lower, mat(self.right, columns, below))
+    }
+
+    /// The place of an outer row among the rows that follow the block's own.
+    fn place(&self, row: u32) -> usize {
+        row as usize - self.begin - self.shape.columns
+    }
+
+    /// L y = P b.
+    fn forward(&self, work: &mut Work<T>) {
+        for (own, _) in work.split(self) {
+            for (k, &row) in self.swaps.iter().enumerate() {
+                own.swap(k, row as usize);
+            }
+        }
+        if self.is_large() {
+            let (diagonal, lower, _) = self.parts();
+            let (mut own, outer) = work.views(self);
+            solve_unit_lower_triangular_in_place(diagonal, own.as_mut(), Par::Seq);
+            matmul(outer, Accum::Replace, lower, own.as_ref(), T::ONE, Par::Seq);
+            work.scatter_subtract(self.rows);
+            return;
+        }
+        for (own, later) in work.split(self) {
+            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
+                let value = own[k];
+                let (diagonal, below) = column.split_at(self.shape.columns);
+                own[k + 1..].iter_mut().zip(&diagonal[k + 1..]).for_each(|(x, &l)| *x -= l * value);
+                self.rows.iter().zip(below).for_each(|(&row, &l)| later[self.place(row)] -= l * value);
+            }
         }
     }
 
     /// U x = y.
-    fn backward(&self, x: &mut [T]) {
-        let columns = self.shape.columns;
-        let (own, later) = x[self.begin..].split_at_mut(columns);
-        let offset = self.begin + columns;
-        for (column, &row) in self.right.chunks_exact(columns).zip(self.rows) {
-            let value = later[row as usize - offset];
-            own.iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
+    fn backward(&self, work: &mut Work<T>) {
+        if self.is_large() {
+            let (diagonal, _, right) = self.parts();
+            work.gather(self.rows);
+            let (mut own, outer) = work.views(self);
+            matmul(own.as_mut(), Accum::Add, right, outer.as_ref(), -T::ONE, Par::Seq);
+            solve_upper_triangular_in_place(diagonal, own, Par::Seq);
+            return;
         }
-        for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
-            let value = own[k] / column[k];
-            own[k] = value;
-            own[..k].iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
+        for (own, later) in work.split(self) {
+            for (column, &row) in self.right.chunks_exact(self.shape.columns).zip(self.rows) {
+                let value = later[self.place(row)];
+                own.iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
+            }
+            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
+                let value = own[k] / column[k];
+                own[k] = value;
+                own[..k].iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
+            }
         }
     }
 
     /// Uᵀ y = b.
-    fn forward_transpose(&self, x: &mut [T]) {
-        let columns = self.shape.columns;
-        let (own, later) = x[self.begin..].split_at_mut(columns);
-        let offset = self.begin + columns;
-        for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
-            let sum = own[..k].iter().zip(column).fold(T::ZERO, |sum, (&x, &u)| sum + u * x);
-            own[k] = (own[k] - sum) / column[k];
+    fn forward_transpose(&self, work: &mut Work<T>) {
+        if self.is_large() {
+            let (diagonal, _, right) = self.parts();
+            let (mut own, outer) = work.views(self);
+            solve_lower_triangular_in_place(diagonal.transpose(), own.as_mut(), Par::Seq);
+            matmul(outer, Accum::Replace, right.transpose(), own.as_ref(), T::ONE, Par::Seq);
+            work.scatter_subtract(self.rows);
+            return;
         }
-        for (column, &row) in self.right.chunks_exact(columns).zip(self.rows) {
-            let sum = own.iter().zip(column).fold(T::ZERO, |sum, (&x, &u)| sum + u * x);
-            later[row as usize - offset] -= sum;
+        for (own, later) in work.split(self) {
+            for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
+                let sum = dot(&own[..k], column);
+                own[k] = (own[k] - sum) / column[k];
+            }
+            for (column, &row) in self.right.chunks_exact(self.shape.columns).zip(self.rows) {
+                later[self.place(row)] -= dot(own, column);
+            }
         }
     }
 
     /// Lᵀ x = y, then the swaps undone.
-    fn backward_transpose(&self, x: &mut [T]) {
-        let columns = self.shape.columns;
-        let (own, later) = x[self.begin..].split_at_mut(columns);
-        let offset = self.begin + columns;
-        for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
-            let (diagonal, below) = column.split_at(columns);
-            let inside = own[k + 1..].iter().zip(&diagonal[k + 1..]).fold(T::ZERO, |sum, (&x, &l)| sum + l * x);
-            let outside = self.rows.iter().zip(below);
-            own[k] -= outside.fold(inside, |sum, (&row, &l)| sum + l * later[row as usize - offset]);
+    fn backward_transpose(&self, work: &mut Work<T>) {
+        if self.is_large() {
+            let (diagonal, lower, _) = self.parts();
+            work.gather(self.rows);
+            let (mut own, outer) = work.views(self);
+            matmul(own.as_mut(), Accum::Add, lower.transpose(), outer.as_ref(), -T::ONE, Par::Seq);
+            solve_unit_upper_triangular_in_place(diagonal.transpose(), own, Par::Seq);
+        } else {
+            for (own, later) in work.split(self) {
+                for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
+                    let (diagonal, below) = column.split_at(self.shape.columns);
+                    let inside = dot(&own[k + 1..], &diagonal[k + 1..]);
+                    let outside = self.rows.iter().zip(below);
+                    own[k] -= outside.fold(inside, |sum, (&row, &l)| sum + l * later[self.place(row)]);
+                }
+            }
         }
-        for (k, &row) in self.swaps.iter().enumerate().rev() {
-            own.swap(k, row as usize);
+        for (own, _) in work.split(self) {
+            for (k, &row) in self.swaps.iter().enumerate().rev() {
+                own.swap(k, row as usize);
+            }
         }
     }
+}
+
+/// Σ xᵢ yᵢ over the shorter of both, without conjugation.
+fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }
