@@ -12,12 +12,19 @@ use crate::mesh::VertexId;
 /// Crossings and overwound vertices marked at most; the list in the panel has them all.
 const MARKS_SHOWN: usize = 500;
 
-/// Calls `draw` with the ends of each boundary edge that crosses another.
-pub(super) fn crossings(editor: &Editor, scene: &MeshScene, mut draw: impl FnMut([VertexId; 2])) {
-    let (Some(plane), Some(disk)) = (editor.plane_scene(), scene.model.disk()) else { return };
-    for edge in plane.outcome.verdict.boundary_crossings.iter().take(MARKS_SHOWN).flatten() {
-        draw(disk.ends(*edge));
-    }
+/// Ends of the two boundary edges of each crossing that is marked.
+pub(super) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2]; 2]> {
+    let (Some(plane), Some(disk)) = (editor.plane_scene(), scene.model.disk()) else { return Vec::new() };
+    let pairs = plane.outcome.verdict.boundary_crossings.iter().take(MARKS_SHOWN);
+    pairs.map(|edges| edges.map(|edge| disk.ends(edge))).collect()
+}
+
+/// Where two segments of the screen cross; the middle of the first where they are parallel.
+pub(super) fn crossing_point([a, b]: [Pos2; 2], [c, d]: [Pos2; 2]) -> Pos2 {
+    let (along, across, between) = (b - a, d - c, c - a);
+    let cross = |u: egui::Vec2, w: egui::Vec2| u.x * w.y - u.y * w.x;
+    let share = cross(between, across) / cross(along, across);
+    a + along * if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 }
 }
 
 /// The overwound vertices that are marked.

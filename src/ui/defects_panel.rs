@@ -39,7 +39,8 @@ pub(super) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     ];
     for (colour, words, count) in rows {
         ui.horizontal(|ui| {
-            ui.colored_label(colour, "■");
+            let (square, _) = ui.allocate_exact_size(egui::Vec2::splat(10.0), egui::Sense::hover());
+            ui.painter().rect_filled(square, 1.0, colour);
             ui.label(format!("{count} {words}"));
         });
     }

@@ -20,7 +20,7 @@ use crate::view::{OrbitCamera, PlaneBox, PlaneCamera, Sphere, UpAxis};
 const PATIENCE: Duration = Duration::from_millis(250);
 
 /// Half the width of what [`Request::GoTo`] shows, in lengths of the element's longest edge.
-const GO_TO_MARGIN: f64 = 4.0;
+const GO_TO_MARGIN: f64 = 7.0;
 
 /// Everything the window knows.
 pub struct Editor {
@@ -34,8 +34,10 @@ pub struct Editor {
     pub wireframe: bool,
     /// The tab that is open.
     pub tab: Tab,
-    /// Whether the panels at the right show.
-    pub panels_shown: bool,
+    /// Whether the panels at the right show; where nobody said, a narrow window does without.
+    pub panels_wanted: Option<bool>,
+    /// Whether the window is wide enough for the panels.
+    pub window_is_wide: bool,
     /// The pane in full size, if one is.
     pub full: Option<Pane>,
     /// Share of the width that the mesh's pane has.
@@ -101,7 +103,8 @@ impl Editor {
             shading: Shading::default(),
             wireframe: false,
             tab: Tab::default(),
-            panels_shown: true,
+            panels_wanted: None,
+            window_is_wide: true,
             full: None,
             split: 0.5,
             selection: BTreeSet::new(),
@@ -262,8 +265,8 @@ impl Editor {
             Request::SetTool(tool) => self.tool = tool,
             Request::SetShading(shading) => self.shading = shading,
             Request::ToggleWireframe => self.wireframe = !self.wireframe,
-            Request::ShowTab(tab) => (self.tab, self.panels_shown) = (tab, true),
-            Request::TogglePanels => self.panels_shown = !self.panels_shown,
+            Request::ShowTab(tab) => (self.tab, self.panels_wanted) = (tab, Some(true)),
+            Request::TogglePanels => self.panels_wanted = Some(!self.panels_shown()),
             Request::Frame => self.frame(),
             Request::GoTo(vertices) => self.go_to_vertices(vertices),
             Request::GoToDefect(place) => self.go_to_defect(place),
@@ -311,6 +314,11 @@ impl Editor {
         let solver = gauge.into_iter().filter(move |(vertex, _)| !own.contains_key(vertex));
         let users = users.into_iter().map(|(vertex, at)| (vertex, at, PinOwner::User));
         users.chain(solver.map(|(vertex, at)| (vertex, at, PinOwner::Solver)))
+    }
+
+    /// Whether the panels at the right show.
+    pub fn panels_shown(&self) -> bool {
+        self.panels_wanted.unwrap_or(self.window_is_wide)
     }
 
     /// Whether the mesh's pane does not show.

@@ -3,7 +3,7 @@
 use eframe::egui;
 use egui::{Align2, Key};
 
-use super::keys::{BINDINGS, MOUSE};
+use super::keys::{BINDINGS, Binding, MOUSE};
 use super::scene::vertices_of;
 use super::{Editor, Element, Request};
 
@@ -21,15 +21,20 @@ pub(super) fn floating_windows(context: &egui::Context, editor: &mut Editor, req
 }
 
 fn keys_window(context: &egui::Context, editor: &mut Editor) {
+    // Plain keys first, then those with modifiers: the table itself has them the other way round.
+    let mut bindings: Vec<&Binding> = BINDINGS.iter().collect();
+    bindings.sort_by_key(|binding| (binding.shortcut.modifiers.any(), binding.about));
+    let height = (context.content_rect().height() - 120.0).max(160.0);
     egui::Window::new("Keys and mouse")
         .open(&mut editor.keys_shown)
         .collapsible(false)
-        .resizable(false)
-        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .default_size([520.0, height.min(620.0)])
+        .pivot(Align2::CENTER_CENTER)
+        .default_pos(context.content_rect().center())
         .show(context, |ui| {
-            egui::ScrollArea::vertical().max_height(context.content_rect().height() - 120.0).show(ui, |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).max_height(height).show(ui, |ui| {
                 egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-                    for binding in BINDINGS {
+                    for binding in bindings {
                         ui.monospace(context.format_shortcut(&binding.shortcut));
                         ui.label(binding.about);
                         ui.end_row();

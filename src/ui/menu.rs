@@ -19,10 +19,14 @@ pub(super) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Req
             ui.menu_button("Edit", |ui| edit_menu(ui, editor, requests));
             ui.menu_button("View", |ui| view_menu(ui, editor, requests));
             ui.menu_button("Solve", |ui| solve_menu(ui, editor, requests));
-            ui.menu_button("Help", |ui| item(ui, true, "All keys", Request::ToggleKeys, requests));
-            ui.min_rect().right()
+            let help = ui.menu_button("Help", |ui| item(ui, true, "All keys", Request::ToggleKeys, requests));
+            help.response.rect.right()
         });
         let right = ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let panels = ui.selectable_label(editor.panels_shown(), "Panels");
+            if panels.on_hover_text("Show or hide the panels at the right").clicked() {
+                requests.push(Request::TogglePanels);
+            }
             verdict_pill(ui, editor, requests);
             ui.min_rect().left()
         });
@@ -127,7 +131,7 @@ fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     }
     ui.separator();
     choice(ui, editor.wireframe, "Wireframe", Request::ToggleWireframe, requests);
-    choice(ui, editor.panels_shown, "Panels", Request::TogglePanels, requests);
+    choice(ui, editor.panels_shown(), "Panels", Request::TogglePanels, requests);
     ui.separator();
     item(ui, true, "Frame the selection, or all", Request::Frame, requests);
     item(ui, true, "Go to…", Request::AskGoTo, requests);

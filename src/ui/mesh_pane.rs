@@ -169,12 +169,13 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
         let at = camera.pane_from_world(*positions.get(vertex.index())?, size)?;
         Some((pane::on_screen(rect, at), scene.picker.is_visible(vertex, eye)))
     };
-    super::defect_marks::crossings(editor, scene, |edge| {
-        let (Some((a, a_seen)), Some((b, b_seen))) = (place(edge[0]), place(edge[1])) else { return };
-        if a_seen || b_seen {
+    for edge in super::defect_marks::crossings(editor, scene).into_iter().flatten() {
+        if let [Some((a, a_seen)), Some((b, b_seen))] = edge.map(place)
+            && (a_seen || b_seen)
+        {
             painter.line_segment([a, b], egui::Stroke::new(4.0, theme.crossing));
         }
-    });
+    }
     for vertex in super::defect_marks::overwound(editor) {
         if let Some((at, true)) = place(vertex) {
             super::defect_marks::overwound_mark(&painter, at, theme);

@@ -99,40 +99,50 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
         .inner_margin(8)
         .outer_margin(egui::Margin::symmetric(4, 2));
     frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
         ui.horizontal_top(|ui| {
             let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
             icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), sign, colour);
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
-                if ui.small_button("Dismiss").clicked() {
-                    requests.push(Request::Do(Action::Dismiss(message.id)));
+            ui.vertical(|ui| {
+                ui.add(egui::Label::new(&message.text).wrap());
+                if let Some(remedy) = &message.remedy {
+                    ui.add(egui::Label::new(egui::RichText::new(remedy).color(theme.weak_text)).wrap());
                 }
-                if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
-                    ui.ctx().copy_text(message.text.clone());
-                }
-                if !message.vertices.is_empty()
-                    && ui.small_button("Go to").on_hover_text("Show it in the mesh").clicked()
-                {
-                    requests.push(Request::GoTo(message.vertices.clone()));
-                }
-                ui.with_layout(egui::Layout::top_down(egui::Align::Min), |ui| {
-                    ui.add(egui::Label::new(&message.text).wrap());
-                    if let Some(remedy) = &message.remedy {
-                        ui.add(egui::Label::new(egui::RichText::new(remedy).color(theme.weak_text)).wrap());
-                    }
-                });
+                ui.horizontal_wrapped(|ui| message_buttons(ui, message, requests));
             });
         });
     });
 }
 
+fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
+    if !message.vertices.is_empty() && ui.small_button("Go to").on_hover_text("Show it in the mesh").clicked() {
+        requests.push(Request::GoTo(message.vertices.clone()));
+    }
+    if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
+        ui.ctx().copy_text(message.text.clone());
+    }
+    if ui.small_button("Dismiss").clicked() {
+        requests.push(Request::Do(Action::Dismiss(message.id)));
+    }
+}
+
 /// Words in the middle of a pane that has nothing to show.
 pub(super) fn empty_state(ui: &egui::Ui, rect: Rect, lines: &[&str]) {
     let theme = theme_of(ui);
-    let mut at = rect.center() - Vec2::new(0.0, 10.0 * lines.len() as f32);
+    let width = (rect.width() - 32.0).max(40.0);
+    let mut galleys = Vec::new();
     for (i, line) in lines.iter().enumerate() {
         let (size, colour) = if i == 0 { (15.0, theme.text) } else { (13.0, theme.weak_text) };
-        ui.painter_at(rect).text(at, Align2::CENTER_CENTER, line, FontId::proportional(size), colour);
-        at.y += 22.0;
+        let mut job = egui::text::LayoutJob::simple((*line).to_owned(), FontId::proportional(size), colour, width);
+        job.halign = egui::Align::Center;
+        galleys.push(ui.painter().layout_job(job));
+    }
+    let height: f32 = galleys.iter().map(|galley| galley.size().y + 6.0).sum();
+    let mut at = rect.center() - Vec2::new(0.0, height / 2.0);
+    for galley in galleys {
+        let step = galley.size().y + 6.0;
+        ui.painter_at(rect).galley(at, galley, theme.text);
+        at.y += step;
     }
 }
 

@@ -130,11 +130,14 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, mesh: &MeshScene, plane: &P
         let z = embedding.get(vertex.index()).copied().unwrap_or(DVec2::NAN);
         pane::on_screen(rect, camera.pane_from_embedding(z, size))
     };
-    super::defect_marks::crossings(editor, mesh, |edge| {
-        let [a, b] = edge.map(place);
-        painter.line_segment([a, b], Stroke::new(4.0, theme.crossing));
-        painter.circle_stroke(a + (b - a) / 2.0, 9.0, Stroke::new(1.5, theme.crossing));
-    });
+    for pair in super::defect_marks::crossings(editor, mesh) {
+        let [first, second] = pair.map(|edge| edge.map(place));
+        for edge in [first, second] {
+            painter.line_segment(edge, Stroke::new(3.0, theme.crossing));
+        }
+        let at = super::defect_marks::crossing_point(first, second);
+        painter.circle_stroke(at, 7.0, Stroke::new(1.5, theme.crossing));
+    }
     for vertex in super::defect_marks::overwound(editor) {
         super::defect_marks::overwound_mark(&painter, place(vertex), theme);
     }

@@ -12,6 +12,9 @@ use crate::session::Action;
 /// Width of the bar between the panes that can be grabbed, points.
 const SPLITTER: f32 = 6.0;
 
+/// A window narrower than this shows no panels until they are asked for, points.
+const PANELS_FROM: f32 = 820.0;
+
 /// Least share of the width that a pane has.
 const LEAST_SHARE: f32 = 0.15;
 
@@ -30,7 +33,8 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         .resizable(false)
         .frame(tool_frame)
         .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
-    if editor.panels_shown {
+    editor.window_is_wide = ui.available_width() >= PANELS_FROM;
+    if editor.panels_shown() {
         let frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(12, 8));
         Panel::right("panels")
             .default_size(PANEL_WIDTH)
