@@ -58,8 +58,8 @@ impl<'a> Finished<'a> {
                 max_error: outcome.pin_error(),
             }),
             steps: vec![StepReport::linear(settings, &outcome.solution, &outcome.verdict)],
-            verdict: verdict_as_in_file(&verdict, mesh.mesh()),
-            distortion: summary,
+            verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
+            distortion: Some(summary),
             new_vertices: 0,
             seconds: Seconds {
                 read: read_seconds,
