@@ -13,6 +13,7 @@ mod flatten_cli;
 mod layers;
 mod linalg;
 mod mesh;
+mod natural;
 mod obj;
 mod obj_texture;
 mod obj_write;
