@@ -54,5 +54,5 @@ pub(crate) fn ratio(value: f64) -> String {
 /// Whether a target is met, in words.
 pub(crate) fn target(value: f64, at_most: f64) -> String {
     let word = if value <= at_most { "met" } else { "MISSED" };
-    format!("≤ {at_most} {word}")
+    format!("≤ {at_most:?} {word}")
 }

@@ -18,10 +18,10 @@ type C = Complex<f64>;
 /// Runs of each job at the common size.
 const ROUNDS: usize = 9;
 
-/// The greatest part of a real Laplacian Cholesky's time that the whole solve may take.
+/// The greatest multiple of a real Laplacian Cholesky's time that the whole solve may take, assembly included.
 const LAPLACIAN_TARGET: f64 = 2.5;
 
-/// The greatest part of the real 2n×2n solve's time.
+/// The greatest part of the real 2n×2n solve's time, order, factor and solve on both sides.
 const REAL_TARGET: f64 = 0.7;
 
 static GO_ON: AtomicBool = AtomicBool::new(false);
@@ -127,14 +127,13 @@ pub(crate) fn against_laplacian() {
         ]);
     }
     table.print();
-    let mut targets = Table::new("targets, the whole solve with assembly", &["measured by", "quotient", "target"]);
-    for (name, base, at_most) in [
-        ("real Laplacian Cholesky", medians[0], LAPLACIAN_TARGET),
-        ("real 2n×2n, boundary coupled", medians[4], REAL_TARGET),
-        ("real 2n×2n, LSCM's pattern", medians[5], REAL_TARGET),
+    let mut targets = Table::new("the solve by what it is measured by", &["quotient", "value", "target"]);
+    for (name, value, at_most) in [
+        ("complex, with assembly and solve / real Laplacian", medians[3] / medians[0], LAPLACIAN_TARGET),
+        ("complex / real 2n×2n, boundary coupled", medians[2] / medians[4], REAL_TARGET),
+        ("complex / real 2n×2n, LSCM's pattern", medians[2] / medians[5], REAL_TARGET),
     ] {
-        let quotient = medians[3] / base;
-        targets.row([name.to_owned(), ratio(quotient), target(quotient, at_most)]);
+        targets.row([name.to_owned(), ratio(value), target(value, at_most)]);
     }
     targets.print();
 }
