@@ -98,7 +98,8 @@ pub fn distortion(mesh: &DiskMesh, embedding: &[DVec2]) -> Distortion {
     let (area_in_embedding, area) = (total(|map| map.double_area * map.determinant), total(|map| map.double_area));
     // Multiplies a squared length in the plane to make the total areas equal.
     let scale = area / area_in_embedding;
-    let faces: Vec<FaceDistortion> = maps.iter().map(|map| map.distortion(scale)).collect();
+    let faces: Vec<FaceDistortion> =
+        maps.par_iter().with_min_len(FACES_PER_TASK).map(|map| map.distortion(scale)).collect();
     let weights: Vec<f64> = maps.iter().map(|map| map.double_area).collect();
     let summary = summary(&faces, &weights);
     Distortion { faces, summary }
@@ -184,12 +185,15 @@ fn summary(faces: &[FaceDistortion], weights: &[f64]) -> DistortionSummary {
     let weighted = |of: fn(&FaceDistortion) -> f64| -> Vec<(f64, f64)> {
         faces.iter().zip(weights).filter(|&(_, &weight)| weight > 0.0).map(|(face, &w)| (of(face), w)).collect()
     };
-    DistortionSummary {
-        angle: Spread::new(weighted(|face| face.angle)),
-        area: Spread::new(weighted(|face| face.area.max(face.area.recip()))),
-        stretch_l2: mean(&weighted(|face| face.stretch_l2.powi(2))).sqrt(),
-        stretch_linf: weighted(|face| face.stretch_linf).into_iter().map(|(value, _)| value).fold(1.0, f64::max),
-    }
+    let (angle, (area, stretch_l2)) = rayon::join(
+        || Spread::new(weighted(|face| face.angle)),
+        || {
+            let area = Spread::new(weighted(|face| face.area.max(face.area.recip())));
+            (area, mean(&weighted(|face| face.stretch_l2.powi(2))).sqrt())
+        },
+    );
+    let stretch_linf = weighted(|face| face.stretch_linf).into_iter().map(|(value, _)| value).fold(1.0, f64::max);
+    DistortionSummary { angle, area, stretch_l2, stretch_linf }
 }
 
 /// The mean of values with positive weights; 1 where there are none.
@@ -203,15 +207,34 @@ impl Spread {
     fn new(mut weighted: Vec<(f64, f64)>) -> Self {
         /// The part of the surface that may exceed the percentile.
         const BEYOND: f64 = 0.01;
+        /// Of so many values one is looked at first: on faces of like size the percentile is among them.
+        const FIRST_LOOK: usize = 64;
+        if weighted.is_empty() {
+            return Self { mean: 1.0, p99: 1.0, max: 1.0 };
+        }
         let total: f64 = weighted.iter().map(|&(_, weight)| weight).sum();
         let mean = mean(&weighted);
-        weighted.sort_unstable_by(|first, second| second.0.total_cmp(&first.0));
-        let Some(&(max, _)) = weighted.first() else { return Self { mean: 1.0, p99: 1.0, max: 1.0 } };
-        let mut above = 0.0;
-        let p99 = weighted.iter().find(|&&(_, weight)| {
-            above += weight;
-            above > BEYOND * total
-        });
-        Self { mean, p99: p99.map_or(max, |&(value, _)| value), max }
+        // Equal values in the order of their weights, so that sums do not depend on how the greatest are found.
+        let descending =
+            |first: &(f64, f64), second: &(f64, f64)| second.0.total_cmp(&first.0).then(second.1.total_cmp(&first.1));
+        let mut count = weighted.len() / FIRST_LOOK;
+        loop {
+            if count < weighted.len() {
+                weighted.select_nth_unstable_by(count, descending);
+            }
+            let greatest = &mut weighted[..count];
+            greatest.sort_unstable_by(descending);
+            let mut above = 0.0;
+            let p99 = greatest.iter().find(|&&(_, weight)| {
+                above += weight;
+                above > BEYOND * total
+            });
+            let p99 = p99.map(|&(value, _)| value);
+            if p99.is_some() || count == weighted.len() {
+                let max = weighted[0].0;
+                return Self { mean, p99: p99.unwrap_or(max), max };
+            }
+            count = (4 * count).clamp(1, weighted.len());
+        }
     }
 }

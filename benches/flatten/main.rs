@@ -1,0 +1,53 @@
+//! From a mesh to a flattening: `cargo bench --bench flatten`, or `cargo bench --bench flatten -- solve phases`.
+//!
+//! | word | what is measured |
+//! |---|---|
+//! | `solve` | the conformal natural boundary against a real Laplacian Cholesky and the real 2n×2n system |
+//! | `phases` | every phase at growing sizes |
+//! | `again` | factoring and solving again with what is known already |
+//! | `proof` | verdict and distortion |
+//! | `reader` | reading and writing OBJ |
+//! | `end` | the program itself as a child process: time and peak memory |
+//!
+//! Without words all of them. Meshes are made by code (`common/sheet.rs`); files go into a temporary folder.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod end;
+mod phases;
+mod solve;
+
+use freebound::mesh::DiskMesh;
+
+use common::arguments;
+use common::machine::print_machine;
+use common::sheet::sheet_of_faces;
+
+/// The size that an editor must handle with ease.
+const COMMON_FACES: usize = 100_000;
+
+/// The size that a program must handle at all.
+const LARGE_FACES: usize = 1_000_000;
+
+fn main() {
+    type Section = (&'static str, fn());
+    let sections: [Section; 6] = [
+        ("solve", solve::against_laplacian),
+        ("phases", phases::growth),
+        ("again", solve::again),
+        ("proof", phases::proof),
+        ("reader", phases::reader),
+        ("end", end::end_to_end),
+    ];
+    let wanted = arguments();
+    print_machine();
+    for (word, run) in sections {
+        if wanted.is_empty() || wanted.iter().any(|argument| argument == word) {
+            run();
+        }
+    }
+}
+
+fn disk_of_faces(faces: usize) -> DiskMesh {
+    DiskMesh::try_from(sheet_of_faces(faces)).expect("a sheet is a disk")
+}

@@ -1,0 +1,182 @@
+//! Every phase at growing sizes; the proof; the reader.
+
+use std::path::Path;
+
+use freebound::io::{ObjMesh, read_mesh, write_atomically, write_obj};
+use freebound::mesh::{DiskMesh, TriMesh};
+use freebound::solver::{Control, PhaseSeconds, Pins, Prepared, Settings, distortion, verdict};
+use glam::DVec3;
+
+use crate::common::sheet::{sheet, sheet_of_faces};
+use crate::common::table::{Table, megabytes, seconds, target};
+use crate::common::{Times, time};
+use crate::{COMMON_FACES, LARGE_FACES, disk_of_faces};
+
+/// Sizes, in thousands of vertices.
+const THOUSANDS: [usize; 5] = [25, 50, 100, 250, 500];
+
+/// The longest that the verdict may take at the common size, seconds.
+const VERDICT_TARGET: f64 = 0.15;
+
+/// The slowest that OBJ may be read, millions of bytes per second.
+const READER_TARGET: f64 = 100.0;
+
+/// Rounds at a size: more where they are short.
+fn rounds(vertex_count: usize) -> usize {
+    if vertex_count < 200_000 { 5 } else { 3 }
+}
+
+/// Times of the phases of one flattening after another.
+#[derive(Default)]
+struct PhaseTimes {
+    read: Times,
+    diagnose: Times,
+    assemble: Times,
+    analyze: Times,
+    factor: Times,
+    solve: Times,
+    verify: Times,
+    write: Times,
+}
+
+impl PhaseTimes {
+    /// One flattening of the file at `source`, written to `result`; the bytes of the factors and the residual.
+    fn run(&mut self, source: &Path, result: &Path) -> (usize, f64) {
+        let file = self.read.run(|| read_mesh(source).expect("written by this benchmark"));
+        let mesh = self.diagnose.run(|| DiskMesh::try_from(file.polygons.triangulate()).expect("a sheet is a disk"));
+        let (settings, pins, control) = (Settings::default(), Pins::new(), Control::unattended());
+        let prepared = Prepared::new(&mesh, &settings, &pins, control).expect("a regular system");
+        let solution = prepared.solve(&mesh, &pins, control).expect("a good answer");
+        let PhaseSeconds { assemble, analyze, factor, solve } = solution.seconds;
+        self.assemble.add(assemble);
+        self.analyze.add(analyze);
+        self.factor.add(factor);
+        self.solve.add(solve);
+        self.verify.run(|| (verdict(&mesh, &solution.embedding), distortion(&mesh, &solution.embedding)));
+        self.write.run(|| write(result, &file, &solution.embedding));
+        (solution.factor_bytes, solution.residual)
+    }
+
+    fn in_order(&self) -> [&Times; 8] {
+        let Self { read, diagnose, assemble, analyze, factor, solve, verify, write } = self;
+        [read, diagnose, assemble, analyze, factor, solve, verify, write]
+    }
+}
+
+fn write(path: &Path, mesh: &ObjMesh, texture: &[glam::DVec2]) {
+    write_atomically(path, |out| write_obj(out, mesh, texture)).expect("the temporary folder has room");
+}
+
+/// Seconds of every phase by size.
+pub(crate) fn growth() {
+    let heads = [
+        "vertices",
+        "faces",
+        "read",
+        "diagnose",
+        "assemble",
+        "analyze",
+        "factor",
+        "solve",
+        "verify",
+        "write",
+        "sum",
+        "factors MB",
+        "residual",
+    ];
+    let mut table = Table::new("phases of conformal natural boundary, in one process (seconds)", &heads);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (source, result) = (folder.path().join("sheet.obj"), folder.path().join("flat.obj"));
+    for thousand in THOUSANDS {
+        let cells = (1000 * thousand).isqrt() - 1;
+        let mesh = sheet(u32::try_from(cells).expect("few cells"));
+        write(&source, &ObjMesh::from(&mesh), &[]);
+        let mut times = PhaseTimes::default();
+        let mut last = (0, 0.0);
+        for _ in 0..rounds(mesh.vertex_count()) {
+            last = times.run(&source, &result);
+        }
+        let medians = times.in_order().map(Times::median);
+        let [read, diagnose, assemble, analyze, factor, solve, verify, write] = medians.map(seconds);
+        table.row([
+            mesh.vertex_count().to_string(),
+            mesh.face_count().to_string(),
+            read,
+            diagnose,
+            assemble,
+            analyze,
+            factor,
+            solve,
+            verify,
+            write,
+            seconds(medians.iter().sum()),
+            megabytes(last.0),
+            format!("{:.1e}", last.1),
+        ]);
+    }
+    table.print();
+}
+
+/// Seconds of verdict and distortion.
+pub(crate) fn proof() {
+    let mut table = Table::new("proof (seconds)", &["faces", "verdict", "distortion", "planar", "verdict's target"]);
+    for faces in [COMMON_FACES, LARGE_FACES] {
+        let mesh = disk_of_faces(faces);
+        let (settings, pins, control) = (Settings::default(), Pins::new(), Control::unattended());
+        let prepared = Prepared::new(&mesh, &settings, &pins, control).expect("a regular system");
+        let embedding = prepared.solve(&mesh, &pins, control).expect("a good answer").embedding;
+        let [mut to_prove, mut to_measure] = <[Times; 2]>::default();
+        let mut planar = false;
+        for _ in 0..2 * rounds(mesh.vertex_count()) {
+            planar = to_prove.run(|| verdict(&mesh, &embedding)).planar;
+            to_measure.run(|| distortion(&mesh, &embedding));
+        }
+        table.row([
+            mesh.face_count().to_string(),
+            seconds(to_prove.median()),
+            seconds(to_measure.median()),
+            if planar { "yes" } else { "no" }.to_owned(),
+            if faces == COMMON_FACES { target(to_prove.median(), VERDICT_TARGET) } else { String::new() },
+        ]);
+    }
+    table.print();
+}
+
+/// Millions of bytes per second of the OBJ reader and writer.
+pub(crate) fn reader() {
+    let heads = ["numbers", "faces", "MB", "read s", "read MB/s", "write s", "write MB/s", "reader's target MB/s"];
+    let mut table = Table::new("OBJ, from and to the file system's cache", &heads);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("sheet.obj");
+    let exact = sheet_of_faces(LARGE_FACES);
+    let rounded = TriMesh { positions: exact.positions.iter().map(|&p| six_decimals(p)).collect(), ..exact.clone() };
+    for (words, mesh) in [("all digits", exact), ("6 decimals", rounded)] {
+        let mesh = ObjMesh::from(&mesh);
+        let [mut to_read, mut to_write] = <[Times; 2]>::default();
+        for _ in 0..5 {
+            to_write.run(|| write(&path, &mesh, &[]));
+            let (taken, read) = time(|| read_mesh(&path).expect("written by this benchmark"));
+            assert!(read.polygons == mesh.polygons, "what was written reads back");
+            to_read.add(taken);
+        }
+        let megabytes = std::fs::metadata(&path).expect("just written").len() as f64 / 1e6;
+        let speed = megabytes / to_read.median();
+        let word = if speed >= READER_TARGET { "met" } else { "MISSED" };
+        table.row([
+            words.to_owned(),
+            mesh.polygons.face_count().to_string(),
+            format!("{megabytes:.1}"),
+            seconds(to_read.median()),
+            format!("{speed:.0}"),
+            seconds(to_write.median()),
+            format!("{:.0}", megabytes / to_write.median()),
+            format!("≥ {READER_TARGET} {word}"),
+        ]);
+    }
+    table.print();
+}
+
+fn six_decimals(point: DVec3) -> DVec3 {
+    const STEPS: f64 = 1e6;
+    (point * STEPS).round() / STEPS
+}

@@ -1,0 +1,175 @@
+//! The linear solve against what it can be measured by.
+
+use std::sync::atomic::AtomicBool;
+
+use freebound::linalg::{Analysis, FactorStats, Kind};
+use freebound::mesh::{DiskMesh, VertexId};
+use freebound::solver::{Control, FreeSystem, Pins, Prepared, Settings, equations, gauge_pins};
+use glam::DVec2;
+use nalgebra_sparse::{CooMatrix, CscMatrix};
+use num_complex::Complex;
+
+use crate::common::Times;
+use crate::common::table::{Table, megabytes, ratio, seconds, target};
+use crate::{COMMON_FACES, LARGE_FACES, disk_of_faces};
+
+type C = Complex<f64>;
+
+/// Runs of each job at the common size.
+const ROUNDS: usize = 9;
+
+/// The greatest multiple of a real Laplacian Cholesky's time that the whole solve may take, assembly included.
+const LAPLACIAN_TARGET: f64 = 2.5;
+
+/// The greatest part of the real 2n×2n solve's time, order, factor and solve on both sides.
+const REAL_TARGET: f64 = 0.7;
+
+static GO_ON: AtomicBool = AtomicBool::new(false);
+
+/// The conformal natural boundary system of a mesh, and its real relatives.
+struct Systems {
+    laplacian: CscMatrix<f64>,
+    complex: CscMatrix<C>,
+    rhs: Vec<C>,
+    /// x and y as unknowns, with the entries that are not zero: only the boundary couples them.
+    real: CscMatrix<f64>,
+    /// The same with all entries that normal equations of triangles (LSCM) have, most of them cancelled to zero.
+    real_full: CscMatrix<f64>,
+    real_rhs: Vec<f64>,
+}
+
+impl Systems {
+    fn new(mesh: &DiskMesh) -> Self {
+        let pins = gauge_pins(mesh);
+        let system = FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v));
+        let weights = equations::barycentric(mesh, 1.0).expect("weights are finite");
+        let natural = equations::natural(mesh, 1.0).expect("weights are finite");
+        let targets = pins.iter().map(|(&v, t)| (v, C::new(t.x, t.y))).collect();
+        let rhs: Vec<C> = system.pinned_terms(mesh, &natural, &targets);
+        let complex = system.negated_matrix(mesh, &natural);
+        Self {
+            laplacian: system.negated_matrix(mesh, &weights),
+            real: realified(&complex, |value| value != 0.0),
+            real_full: realified(&complex, |_| true),
+            real_rhs: rhs.iter().flat_map(|z| [z.re, z.im]).collect(),
+            complex,
+            rhs,
+        }
+    }
+}
+
+/// The real matrix of twice the order that does the same: a + bi becomes (a −b; b a). Coupling entries ±b go in where
+/// `coupled` says so.
+fn realified(matrix: &CscMatrix<C>, coupled: impl Fn(f64) -> bool) -> CscMatrix<f64> {
+    let n = matrix.nrows();
+    let mut entries = CooMatrix::new(2 * n, 2 * n);
+    for (row, column, &value) in matrix.triplet_iter() {
+        for k in 0..2 {
+            entries.push(2 * row + k, 2 * column + k, value.re);
+        }
+        if coupled(value.im) {
+            entries.push(2 * row + 1, 2 * column, value.im);
+            entries.push(2 * row, 2 * column + 1, -value.im);
+        }
+    }
+    CscMatrix::from(&entries)
+}
+
+/// Orders, factors, and solves where there is a right-hand side.
+fn run<T: freebound::linalg::Scalar>(matrix: &CscMatrix<T>, rhs: Option<&[T]>) -> FactorStats {
+    let analysis = Analysis::new(Kind::Hermitian, matrix.pattern()).expect("a symmetric pattern");
+    let factor = analysis.factor(matrix, &GO_ON).expect("positive definite");
+    if let Some(rhs) = rhs {
+        std::hint::black_box(factor.solve(matrix, rhs).expect("a good answer"));
+    }
+    factor.stats()
+}
+
+/// The whole solve as the program does it. The numeric peak is not told.
+fn flatten(mesh: &DiskMesh) -> FactorStats {
+    let (settings, pins, control) = (Settings::default(), Pins::new(), Control::unattended());
+    let prepared = Prepared::new(mesh, &settings, &pins, control).expect("a regular system");
+    let solution = prepared.solve(mesh, &pins, control).expect("a good answer");
+    FactorStats { replaced_pivots: 0, factor_nonzeros: 0, factor_bytes: solution.factor_bytes, peak_bytes: 0 }
+}
+
+/// The time of the whole solve as parts of the times of real systems on the same mesh.
+pub(crate) fn against_laplacian() {
+    let mesh = disk_of_faces(COMMON_FACES);
+    let systems = Systems::new(&mesh);
+    let jobs: [(&str, &dyn Fn() -> FactorStats); 6] = [
+        ("real n×n Laplacian: order, factor", &|| run(&systems.laplacian, None)),
+        ("complex n×n: order, factor", &|| run(&systems.complex, None)),
+        ("complex n×n: order, factor, solve", &|| run(&systems.complex, Some(&systems.rhs))),
+        ("complex n×n: assemble, order, factor, solve", &|| flatten(&mesh)),
+        ("real 2n×2n, boundary coupled: order, factor, solve", &|| run(&systems.real, Some(&systems.real_rhs))),
+        ("real 2n×2n, LSCM's pattern: order, factor, solve", &|| run(&systems.real_full, Some(&systems.real_rhs))),
+    ];
+    let stats: Vec<FactorStats> = jobs.iter().map(|(_, job)| job()).collect();
+    let mut times: [Times; 6] = Default::default();
+    for _ in 0..ROUNDS {
+        for ((_, job), times) in jobs.iter().zip(&mut times) {
+            times.run(job);
+        }
+    }
+    let title = format!("conformal natural boundary, {} faces, n = {}", mesh.face_count(), systems.complex.nrows());
+    let heads = ["job", "seconds", "least", "of Laplacian", "factors MB", "numeric peak MB"];
+    let mut table = Table::new(title, &heads);
+    let medians = times.each_ref().map(Times::median);
+    for (((name, _), times), stats) in jobs.iter().zip(&times).zip(&stats) {
+        table.row([
+            (*name).to_owned(),
+            seconds(times.median()),
+            seconds(times.least()),
+            ratio(times.median() / medians[0]),
+            megabytes(stats.factor_bytes),
+            if stats.peak_bytes > 0 { megabytes(stats.peak_bytes) } else { "-".to_owned() },
+        ]);
+    }
+    table.print();
+    let mut targets = Table::new("the solve by what it is measured by", &["quotient", "value", "target"]);
+    for (name, value, at_most) in [
+        ("complex, with assembly and solve / real Laplacian", medians[3] / medians[0], LAPLACIAN_TARGET),
+        ("complex / real 2n×2n, boundary coupled", medians[2] / medians[4], REAL_TARGET),
+        ("complex / real 2n×2n, LSCM's pattern", medians[2] / medians[5], REAL_TARGET),
+    ] {
+        targets.row([name.to_owned(), ratio(value), target(value, at_most)]);
+    }
+    targets.print();
+}
+
+/// What is saved by knowing the symbolic analysis, and by knowing the factors.
+pub(crate) fn again() {
+    let heads = ["faces", "n", "analyze", "factor", "fresh", "again/fresh", "first solve", "drag"];
+    let mut table = Table::new("factoring again, and solving again for other targets (a drag)", &heads);
+    for (faces, rounds) in [(COMMON_FACES, ROUNDS), (LARGE_FACES, 3)] {
+        let mesh = disk_of_faces(faces);
+        let matrix = Systems::new(&mesh).complex;
+        let new_analysis = || Analysis::new(Kind::Hermitian, matrix.pattern()).expect("a symmetric pattern");
+        let [mut analyze, mut factor, mut fresh, mut first, mut drag] = <[Times; 5]>::default();
+        let control = Control::unattended();
+        let mut pins = gauge_pins(&mesh);
+        let settings = Settings::default();
+        let prepared = Prepared::new(&mesh, &settings, &pins, control).expect("a regular system");
+        for _ in 0..rounds {
+            let analysis = analyze.run(new_analysis);
+            drop(factor.run(|| analysis.factor(&matrix, &GO_ON).expect("positive definite")));
+            drop(fresh.run(|| new_analysis().factor(&matrix, &GO_ON).expect("positive definite")));
+            first.run(|| flatten(&mesh));
+            let moved = pins.values_mut().next_back().expect("there are two");
+            *moved += DVec2::new(0.01, 0.02);
+            drag.run(|| prepared.solve(&mesh, &pins, control).expect("a good answer"));
+        }
+        table.row([
+            mesh.face_count().to_string(),
+            matrix.nrows().to_string(),
+            seconds(analyze.median()),
+            seconds(factor.median()),
+            seconds(fresh.median()),
+            ratio(factor.median() / fresh.median()),
+            seconds(first.median()),
+            seconds(drag.median()),
+        ]);
+    }
+    table.print();
+}
