@@ -16,6 +16,7 @@ mod obj_texture;
 mod obj_write;
 mod polygon;
 mod raster;
+mod session;
 mod verdict;
 mod verdict_cases;
 mod verdict_oracle;
