@@ -48,8 +48,8 @@ impl Failure {
     /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 130 interrupted.
     pub fn code(&self) -> u8 {
         match self {
+            Self::Read(ReadError::Cancelled) | Self::Solve(SolveError::Cancelled) => 130,
             Self::Read(_) | Self::Texture(_) | Self::NotADisk { .. } | Self::Solve(SolveError::NotFinite { .. }) => 3,
-            Self::Solve(SolveError::Cancelled) => 130,
             Self::Solve(
                 SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
             )

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::args::{Fit, FlattenArguments};
-use super::progress::{Progress, interrupted};
+use super::progress::{Progress, interrupted, is_interrupted};
 use super::{Failure, Status};
 use crate::io::{OutputKind, Report};
 use crate::mesh::DiskMesh;
@@ -34,7 +34,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = Model::read(&arguments.mesh)?;
+        let model = Model::read_until(&arguments.mesh, &is_interrupted)?;
         job.run(&model, start, &progress)
     })
 }
@@ -60,24 +60,31 @@ impl HeadlessJob<'_> {
         progress.enter("writing");
         let before_writing = Instant::now();
         for (kind, path) in &self.outputs {
-            if interrupted().load(std::sync::atomic::Ordering::Relaxed) {
-                return Err(SolveError::Cancelled.into());
-            }
+            go_on()?;
             finished.write(*kind, path)?;
         }
         finished.report.seconds.write = before_writing.elapsed().as_secs_f64();
         finished.report.seconds.total = start.elapsed().as_secs_f64();
-        let to_stdout = self.report == Some(Path::new("-"));
-        if to_stdout {
-            println!("{}", serde_json::to_string_pretty(&finished.report).expect("a report is plain data"));
-        } else {
-            if let Some(path) = self.report {
-                finished.write(OutputKind::Json, path)?;
-            }
+        match self.report {
+            Some(path) if path == Path::new("-") => print_report(&finished.report),
+            Some(path) => finished.write(OutputKind::Json, path)?,
+            None => {}
+        }
+        if self.report != Some(Path::new("-")) {
             print_summary(&finished.report, finished.verdict().summary().as_str());
         }
         Ok(if finished.verdict().planar { Status::Fine } else { Status::NotPlanar })
     }
+}
+
+/// Writes a report to standard output, which must then hold nothing else.
+pub(super) fn print_report(report: &Report) {
+    println!("{}", serde_json::to_string_pretty(report).expect("a report is plain data"));
+}
+
+/// An error where the user asked to stop.
+pub(super) fn go_on() -> Result<(), SolveError> {
+    if is_interrupted() { Err(SolveError::Cancelled) } else { Ok(()) }
 }
 
 /// The disk, or everything that keeps the mesh from being one.
@@ -91,6 +98,11 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
 }
 
 fn pins(arguments: &FlattenArguments) -> Result<Pins, Failure> {
+    let method = arguments.settings().method;
+    if !arguments.pins.is_empty() && !method.uses_pins() {
+        let name = method.name();
+        return Err(Failure::Usage(format!("--method {name} takes no --pin: it places the whole boundary by itself")));
+    }
     let mut pins = Pins::new();
     for &(vertex, target) in &arguments.pins {
         if pins.insert(vertex, target).is_some() {
@@ -117,15 +129,16 @@ fn print_summary(report: &Report, verdict: &str) {
     let family = report.family.as_deref().map(|family| format!(", {family} weights")).unwrap_or_default();
     let residual = report.steps.last().map_or(0.0, |step| step.residual);
     println!("{}{family}: {verdict}; residual {residual:.1e}", report.method.unwrap_or("check"));
-    let distortion = &report.distortion;
-    println!(
-        "angle distortion {:.3} mean, {:.3} p99; area {:.3} mean; stretch L² {:.3}, L∞ {:.3}",
-        distortion.angle.mean,
-        distortion.angle.p99,
-        distortion.area.mean,
-        distortion.stretch_l2,
-        distortion.stretch_linf
-    );
+    if let Some(distortion) = &report.distortion {
+        println!(
+            "angle distortion {:.3} mean, {:.3} p99; area {:.3} mean; stretch L² {:.3}, L∞ {:.3}",
+            distortion.angle.mean,
+            distortion.angle.p99,
+            distortion.area.mean,
+            distortion.stretch_l2,
+            distortion.stretch_linf
+        );
+    }
     let seconds = &report.seconds;
     println!(
         "{:.3} s: read {:.3}, solve {:.3}, verify {:.3}, write {:.3}",

@@ -20,6 +20,11 @@ pub(super) fn interrupted() -> &'static AtomicBool {
     &INTERRUPTED
 }
 
+/// Whether the user asked to stop.
+pub(super) fn is_interrupted() -> bool {
+    INTERRUPTED.load(Ordering::Relaxed)
+}
+
 /// Makes Ctrl-C raise the flag; a second one ends the process at once. Files are written aside and renamed, so
 /// neither leaves one half-written.
 pub(super) fn stop_on_interrupt() {

@@ -23,10 +23,12 @@ pub struct Report {
     pub pins: Option<PinsReport>,
     /// Each step of each rung.
     pub steps: Vec<StepReport>,
-    /// The exact verdict on the coordinates as written.
-    pub verdict: Verdict,
+    /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
     /// Distortion summed up.
-    pub distortion: DistortionSummary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distortion: Option<DistortionSummary>,
     /// Vertices that the mesh did not have before.
     pub new_vertices: usize,
     /// Where the time went.

@@ -1,10 +1,11 @@
 //! Opening a mesh: reading, triangulating, diagnosing.
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{ObjMesh, ReadError, read_mesh};
+use crate::io::{ObjMesh, ReadError, read_mesh_with};
 use crate::mesh::{Diagnosis, DiskMesh, PolygonMesh, TriMesh};
 
 /// A mesh that was opened, whether or not it can be flattened.
@@ -36,7 +37,18 @@ impl Model {
     ///
     /// Where the file cannot be read as a mesh at all. A mesh with faults is no error here.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let source = read_mesh(path)?;
+        Self::read_until(path, &|| false)
+    }
+
+    /// As [`read`](Self::read), looking now and then whether to stop.
+    ///
+    /// # Errors
+    ///
+    /// As [`read`](Self::read), and [`ReadError::Cancelled`] where it was to stop.
+    pub fn read_until(path: &Path, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
+        let source = read_mesh_with(path, &mut |_| {
+            if is_enough() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         Ok(Self::new(name, Some(path.to_owned()), source))
     }

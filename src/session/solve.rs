@@ -68,7 +68,7 @@ impl Outcome {
     /// The coordinates that go into a file. The user's pins keep their places; without any, `fit` decides the size.
     pub fn output(&self, fit: OutputFit) -> Vec<DVec2> {
         let mut coordinates = self.solution.embedding.clone();
-        if fit == OutputFit::Unit && self.pins.is_empty() {
+        if fit == OutputFit::Unit && self.pins_in_use().next().is_none() {
             to_unit_square(&mut coordinates);
         }
         coordinates
@@ -78,6 +78,11 @@ impl Outcome {
     pub fn pin_error(&self) -> f64 {
         let distance =
             |(v, target): (&crate::mesh::VertexId, &DVec2)| self.solution.embedding[v.index()].distance(*target);
-        self.pins.iter().map(distance).fold(0.0, f64::max)
+        self.pins_in_use().map(distance).fold(0.0, f64::max)
+    }
+
+    /// The user's pins, where the method takes any.
+    fn pins_in_use(&self) -> impl Iterator<Item = (&crate::mesh::VertexId, &DVec2)> {
+        self.pins.iter().filter(|_| self.settings.method.uses_pins())
     }
 }

@@ -7,8 +7,8 @@ use glam::DVec2;
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::SolveError;
 use super::weights::{Corner, CornerWeights, three_point_weights};
+use super::{Family, SolveError};
 use crate::linalg::Scalar;
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 
@@ -55,11 +55,37 @@ impl Equations<Complex<f64>> {
 ///
 /// [`SolveError::NotFinite`] where a weight overflows.
 pub fn barycentric(mesh: &DiskMesh, power: f64) -> Result<Equations<f64>, SolveError> {
+    if power == Family::CONFORMAL_POWER {
+        return cotangents(mesh);
+    }
     let scale = length_scale(mesh);
     sum_corners(mesh, |corner| {
         let scaled = Corner::at(corner.map(|x| x * scale));
         three_point_weights(&scaled, power)
     })
+}
+
+/// The conformal weights, each cotangent computed once for both halfedges of the edge that it faces: the matrix is
+/// Hermitian to the last bit, and so what refinement measures is what Cholesky factored.
+fn cotangents(mesh: &DiskMesh) -> Result<Equations<f64>, SolveError> {
+    let scale = length_scale(mesh);
+    let of_corner = |side: usize| {
+        let x = mesh.mesh().corners(FaceId::from_index(side / 3)).map(|x| x * scale);
+        Corner::at([x[side % 3], x[(side + 1) % 3], x[(side + 2) % 3]]).cotangent()
+    };
+    let found: Vec<(f64, bool)> = (0..3 * mesh.face_count()).into_par_iter().map(of_corner).collect();
+    let mut coefficients = vec![0.0; mesh.halfedge_count()];
+    let mut bounded_corners = 0;
+    for (side, &(cotangent, bounded)) in found.iter().enumerate() {
+        if !cotangent.is_finite() {
+            return Err(SolveError::NotFinite { face: FaceId::from_index(side / 3) });
+        }
+        bounded_corners += usize::from(bounded);
+        let opposite = mesh.next(HalfedgeId::from_index(side));
+        coefficients[opposite.index()] += cotangent;
+        coefficients[mesh.twin(opposite).index()] += cotangent;
+    }
+    Ok(Equations { coefficients, bounded_corners })
 }
 
 /// The natural boundary equations for offset d = rᵖ: paper eq. (2) inside and eq. (3) on the boundary.

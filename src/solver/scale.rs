@@ -2,25 +2,38 @@
 
 use glam::DVec2;
 
+use super::equations::length_scale;
 use crate::mesh::DiskMesh;
 
 /// Scales an embedding about the origin so that its faces have the total area of the surface.
 ///
-/// An embedding without area, or with one that is not finite, is left as it is.
+/// Both areas are summed at a size near 1, so that no square of a length overflows or vanishes. An embedding without
+/// area, or with one that is not finite, is left as it is.
 pub fn to_true_area(mesh: &DiskMesh, embedding: &mut [DVec2]) {
-    let in_plane: f64 = mesh
-        .mesh()
-        .triangles
-        .iter()
-        .map(|t| {
-            let [a, b, c] = t.map(|v| embedding[v.index()]);
-            (b - a).perp_dot(c - a).abs() / 2.0
+    let (in_space, in_plane) = (length_scale(mesh), 1.0 / extent_of(embedding));
+    let surface: f64 = mesh
+        .faces()
+        .map(|face| {
+            let [a, b, c] = mesh.mesh().corners(face).map(|x| x * in_space);
+            (b - a).cross(c - a).length()
         })
         .sum();
-    let factor = (mesh.mesh().area() / in_plane).sqrt();
+    let flat: f64 = mesh
+        .faces()
+        .map(|face| {
+            let [a, b, c] = mesh.face(face).map(|v| embedding[v.index()] * in_plane);
+            (b - a).perp_dot(c - a).abs()
+        })
+        .sum();
+    let factor = (surface / flat).sqrt() * (in_plane / in_space);
     if factor.is_finite() && factor > 0.0 {
         embedding.iter_mut().for_each(|z| *z *= factor);
     }
+}
+
+/// Largest coordinate by amount.
+fn extent_of(embedding: &[DVec2]) -> f64 {
+    embedding.iter().fold(0.0, |m, z| m.max(z.abs().max_element()))
 }
 
 /// Moves and scales an embedding uniformly so that it fills the unit square's width or height from the origin on.

@@ -63,6 +63,18 @@ impl Corner {
         let product = self.radii[0] * self.radii[1];
         if self.dot > 0.0 { self.cross / (product + self.dot) } else { (product - self.dot) / self.cross }
     }
+
+    /// cot α, and whether a bound was hit.
+    pub fn cotangent(&self) -> (f64, bool) {
+        bounded(self.dot / self.cross)
+    }
+}
+
+/// A ratio within the bound, and whether the bound was hit.
+fn bounded(ratio: f64) -> (f64, bool) {
+    // `clamp` keeps a NaN, and 0/0 is as degenerate as infinity.
+    let kept = if ratio.is_nan() { BOUND } else { ratio.clamp(-BOUND, BOUND) };
+    (kept, kept.to_bits() != ratio.to_bits())
 }
 
 /// What a corner adds to the coefficients of its two edges, and whether a bound was hit on the way.
@@ -77,11 +89,10 @@ pub struct CornerWeights<T = f64> {
 /// The shares k₁, k₂ of a corner for the offset d = rᵖ.
 pub fn three_point_weights(corner: &Corner, power: f64) -> CornerWeights {
     let Corner { radii: [r1, r2], cross, far_dots, .. } = *corner;
-    let mut bounded = false;
-    // `clamp` keeps a NaN, and 0/0 is as degenerate as infinity.
+    let mut was_bounded = false;
     let mut bound = |ratio: f64| {
-        let kept = if ratio.is_nan() { BOUND } else { ratio.clamp(-BOUND, BOUND) };
-        bounded |= kept.to_bits() != ratio.to_bits();
+        let (kept, hit) = bounded(ratio);
+        was_bounded |= hit;
         kept
     };
     let shares = if power == Family::CONFORMAL_POWER {
@@ -96,5 +107,5 @@ pub fn three_point_weights(corner: &Corner, power: f64) -> CornerWeights {
         let slope = if power == 0.0 { 0.0 } else { (d1 - d2) * bound(r1 * r2 / cross) };
         [(d1 * tan_half - slope) / r1, (d2 * tan_half + slope) / r2]
     };
-    CornerWeights { shares, bounded }
+    CornerWeights { shares, bounded: was_bounded }
 }

@@ -16,7 +16,7 @@ pub(super) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     if let Some(Surface::Faulty(_, diagnosis)) = editor.session.model().map(|model| &model.surface) {
         ui.label("The mesh cannot be flattened as it is:");
         for fault in &diagnosis.faults {
-            ui.colored_label(theme.flipped, fault.message());
+            ui.colored_label(theme.flipped, super::method_panel::sentence(&fault.message()));
         }
         return;
     }

@@ -204,6 +204,8 @@ impl Browser {
     fn new(purpose: Purpose, suggestion: &Path) -> Self {
         let here = std::env::current_dir().unwrap_or_default();
         let folder = suggestion.parent().filter(|f| f.is_dir()).map_or(here, Path::to_owned);
+        // Without the dots of a relative path, so that going up always works.
+        let folder = folder.canonicalize().unwrap_or(folder);
         let name = match purpose {
             Purpose::Open => String::new(),
             _ => suggestion.file_name().unwrap_or_default().to_string_lossy().into_owned(),

@@ -5,6 +5,7 @@ use egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, Vec2, Widge
 use glam::DVec2;
 
 use super::icons::{self, Sign};
+use super::method_panel::sentence;
 use super::scene::Legend;
 use super::theme::{Theme, theme_of};
 use super::{Editor, Pane, Request, Shading, keys_of};
@@ -104,9 +105,9 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
             let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
             icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), sign, colour);
             ui.vertical(|ui| {
-                ui.add(egui::Label::new(&message.text).wrap());
+                ui.add(egui::Label::new(sentence(&message.text)).wrap());
                 if let Some(remedy) = &message.remedy {
-                    ui.add(egui::Label::new(egui::RichText::new(remedy).color(theme.weak_text)).wrap());
+                    ui.add(egui::Label::new(egui::RichText::new(sentence(remedy)).color(theme.weak_text)).wrap());
                 }
                 ui.horizontal_wrapped(|ui| message_buttons(ui, message, requests));
             });

@@ -1,0 +1,85 @@
+//! Frame times of the whole window, both panes, on whatever graphics driver is there.
+//!
+//! `cargo bench --bench frames [MESH.obj]` opens the mesh (the built-in face without one), then measures frames in
+//! which nothing changes, in which the mesh turns, and in which the shading changes. The picture is read back from the
+//! graphics card in every frame, which a real window does not do: the figures are upper bounds.
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+use egui::{Event, Modifiers, PointerButton, Pos2, Vec2};
+use egui_kittest::Harness;
+use freebound::app::{App, Start};
+use freebound::ui::{Request, Shading};
+
+/// Frames measured of each kind.
+const FRAMES: usize = 60;
+
+/// What the background is given to open and solve the mesh.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+fn main() {
+    let file = std::env::args().nth(1).filter(|argument| !argument.starts_with("--")).map(PathBuf::from);
+    let start = Start { file, dialogs_inside: true, ..Start::default() };
+    let mut window = Harness::builder()
+        .with_size(Vec2::new(1280.0, 800.0))
+        .wgpu()
+        .build_eframe(move |context| App::new(context, start));
+    let begin = Instant::now();
+    while window.state().editor().paint().is_none() || window.state().editor().plane_scene().is_none() {
+        assert!(begin.elapsed() < PATIENCE, "the mesh was not opened and solved in time");
+        window.step();
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let model = window.state().editor().session.model().expect("a mesh is open").clone();
+    println!(
+        "{}: {} faces; opened, solved and ready after {:.2} s",
+        model.name,
+        model.mesh().face_count(),
+        begin.elapsed().as_secs_f64()
+    );
+    println!("{:<26} {:>12} {:>12} {:>12}", "frame", "median ms", "worst ms", "window ms");
+    // The first pictures upload everything.
+    for _ in 0..3 {
+        picture(&mut window);
+    }
+    measure(&mut window, "nothing changes", |_, _| ());
+    let middle = Pos2::new(280.0, 400.0);
+    window.event(Event::PointerMoved(middle));
+    window.event(button(middle, true));
+    measure(&mut window, "the mesh turns", |window, frame| {
+        window.event(Event::PointerMoved(middle + Vec2::new((frame % 40) as f32 * 4.0, 10.0)));
+    });
+    window.event(button(middle, false));
+    measure(&mut window, "the shading changes", |window, frame| {
+        let shading = Shading::ALL[frame % Shading::ALL.len()];
+        window.state_mut().editor_mut().handle(Request::SetShading(shading));
+    });
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
+}
+
+/// One frame with its picture read back. Gives the milliseconds of the frame's own work, and of all of it.
+fn picture(window: &mut Harness<'_, App>) -> [f64; 2] {
+    let begin = Instant::now();
+    window.step();
+    let stepped = begin.elapsed();
+    window.render().expect("a driver that draws");
+    [stepped, begin.elapsed()].map(|time| 1000.0 * time.as_secs_f64())
+}
+
+fn measure(window: &mut Harness<'_, App>, name: &str, mut change: impl FnMut(&mut Harness<'_, App>, usize)) {
+    let mut times: Vec<[f64; 2]> = Vec::with_capacity(FRAMES);
+    for frame in 0..FRAMES {
+        change(window, frame);
+        times.push(picture(window));
+    }
+    let mut whole: Vec<f64> = times.iter().map(|[_, whole]| *whole).collect();
+    let mut steps: Vec<f64> = times.iter().map(|[step, _]| *step).collect();
+    whole.sort_by(f64::total_cmp);
+    steps.sort_by(f64::total_cmp);
+    println!("{name:<26} {:>12.2} {:>12.2} {:>12.2}", whole[FRAMES / 2], whole[FRAMES - 1], steps[FRAMES / 2]);
+}

@@ -1,0 +1,190 @@
+//! Convex boundaries: the boundary on its shape, the inside at weighted means, and proved where the theorem holds.
+
+use freebound::examples::Example;
+use freebound::mesh::{DiskMesh, TriMesh, VertexId};
+use freebound::solver::equations::{self, Equations};
+use freebound::solver::{BoundaryShape, Control, Family, Method, Pins, Settings, flatten, shape_preserving, verdict};
+use glam::{DVec2, DVec3};
+use proptest::prelude::*;
+
+use crate::common::corpus_disks;
+
+const FAMILIES: [Family; 5] =
+    [Family::Uniform, Family::MeanValue, Family::ShapePreserving, Family::Conformal, Family::Wachspress];
+
+/// Relative residual of a solve.
+const RESIDUAL: f64 = 1e-10;
+
+fn convex(shape: BoundaryShape, family: Family) -> Settings {
+    Settings { method: Method::Convex(shape), family }
+}
+
+fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Vec<DVec2> {
+    let solution = flatten(mesh, settings, &Pins::new(), Control::unattended())
+        .unwrap_or_else(|error| panic!("{name}, {settings:?}: {error}"));
+    assert!(solution.residual <= RESIDUAL, "{name}, {settings:?}: residual {:e}", solution.residual);
+    solution.embedding
+}
+
+fn examples() -> Vec<(String, DiskMesh)> {
+    Example::ALL.map(|e| (e.name().to_owned(), DiskMesh::try_from(e.mesh()).unwrap())).to_vec()
+}
+
+#[test]
+fn the_boundary_lies_on_a_circle_in_the_order_of_the_loop() {
+    for (name, mesh) in examples() {
+        let embedding = embed(&mesh, &convex(BoundaryShape::Circle, Family::Uniform), &name);
+        let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| embedding[v.index()]).collect();
+        let radius = boundary[0].length();
+        assert!(boundary.iter().all(|z| (z.length() / radius - 1.0).abs() < 1e-14), "{name}");
+        // Arcs are as long as edges, in proportion, and go around once.
+        let lengths: Vec<f64> = edge_lengths(&mesh);
+        let total: f64 = lengths.iter().sum();
+        for (k, length) in lengths.iter().enumerate() {
+            let arc = boundary[k].angle_to(boundary[(k + 1) % boundary.len()]);
+            assert!((arc - length / total * std::f64::consts::TAU).abs() < 1e-12, "{name}: arc {k}");
+        }
+    }
+}
+
+fn edge_lengths(mesh: &DiskMesh) -> Vec<f64> {
+    let boundary = mesh.boundary_loop();
+    let next = boundary.iter().cycle().skip(1);
+    boundary.iter().zip(next).map(|(&a, &b)| mesh.position(a).distance(mesh.position(b))).collect()
+}
+
+#[test]
+fn the_boundary_lies_on_a_square_in_the_order_of_the_loop() {
+    for (name, mesh) in examples() {
+        let embedding = embed(&mesh, &convex(BoundaryShape::Square, Family::Uniform), &name);
+        let side = mesh.boundary_loop().iter().map(|v| embedding[v.index()].max_element()).fold(0.0, f64::max);
+        let corners = [DVec2::ZERO, DVec2::new(side, 0.0), DVec2::splat(side), DVec2::new(0.0, side)];
+        let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| embedding[v.index()]).collect();
+        for corner in corners {
+            assert!(boundary.contains(&corner), "{name}: no vertex at {corner}");
+        }
+        // Place along the outline, from 0 to 4.
+        let along = |z: &DVec2| match *z / side {
+            z if z.y == 0.0 => z.x,
+            z if z.x == 1.0 => 1.0 + z.y,
+            z if z.y == 1.0 => 3.0 - z.x,
+            z if z.x == 0.0 => 4.0 - z.y,
+            z => panic!("{name}: {z} is not on the square"),
+        };
+        let places: Vec<f64> = boundary.iter().map(along).collect();
+        assert!(places.is_sorted_by(|a, b| a < b), "{name}: {places:?}");
+    }
+}
+
+/// The family's weights, as the solver's own tests of weights know them.
+fn weights(mesh: &DiskMesh, family: Family) -> Equations<f64> {
+    match family {
+        Family::Uniform => equations::uniform(mesh),
+        Family::ShapePreserving => shape_preserving(mesh),
+        three_point => equations::barycentric(mesh, three_point.power().unwrap()).unwrap(),
+    }
+}
+
+#[test]
+fn every_interior_vertex_lies_at_its_weighted_mean() {
+    for (name, mesh) in examples() {
+        for shape in [BoundaryShape::Circle, BoundaryShape::Square] {
+            for family in FAMILIES {
+                let embedding = embed(&mesh, &convex(shape, family), &name);
+                let weights = weights(&mesh, family).coefficients;
+                for v in mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()) {
+                    let arm = |h| embedding[mesh.head(h).index()] - embedding[v.index()];
+                    let sum: DVec2 = mesh.outgoing(v).map(|h| weights[h.index()] * arm(h)).sum();
+                    let size: f64 = mesh.outgoing(v).map(|h| weights[h.index()].abs()).sum();
+                    // Relative to the whole: a vertex may lie amid neighbours that are all very near.
+                    let whole = embedding.iter().map(|z| z.length()).fold(0.0, f64::max);
+                    assert!(sum.length() <= 1e-12 * size * whole, "{name}, {shape:?}, {family}: {v} is off by {sum}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn positive_weights_on_a_circle_are_proved_planar_without_dividing_edges() {
+    for entry in corpus_disks() {
+        let mesh = entry.disk();
+        if !mesh.dividing_edges().is_empty() {
+            continue;
+        }
+        for family in [Family::Uniform, Family::MeanValue, Family::ShapePreserving] {
+            let embedding = embed(&mesh, &convex(BoundaryShape::Circle, family), &entry.file);
+            let verdict = verdict(&mesh, &embedding);
+            assert!(verdict.planar, "{}, {family}: {}", entry.file, verdict.summary());
+        }
+    }
+}
+
+/// Neighbours of the origin, counter-clockwise, every gap under π.
+fn closed_ring() -> impl Strategy<Value = Vec<DVec2>> {
+    prop::collection::vec((1.0..3.0, 0.1..10.0), 5..12).prop_map(|spokes: Vec<(f64, f64)>| {
+        let total: f64 = spokes.iter().map(|(gap, _)| gap).sum();
+        let mut angle = 0.0;
+        spokes
+            .into_iter()
+            .map(|(gap, radius)| {
+                angle += gap / total * std::f64::consts::TAU;
+                radius * DVec2::from_angle(angle)
+            })
+            .collect()
+    })
+}
+
+/// A fan around vertex 0 with this ring, at `place` in space.
+fn fan_of(ring: &[DVec2], place: impl Fn(usize, DVec2) -> DVec3) -> DiskMesh {
+    let rim = ring.iter().enumerate().map(|(k, &p)| place(k, p));
+    let positions = std::iter::once(DVec3::ZERO).chain(rim).collect();
+    let count = u32::try_from(ring.len()).unwrap();
+    let triangles: Vec<[u32; 3]> = (0..count).map(|k| [0, 1 + k, 1 + (k + 1) % count]).collect();
+    DiskMesh::try_from(TriMesh::new(positions, &triangles)).unwrap()
+}
+
+/// The weight of each neighbour of vertex 0, by the ring's order.
+fn ring_weights(mesh: &DiskMesh) -> Vec<f64> {
+    let equations = shape_preserving(mesh);
+    assert_eq!(equations.bounded_corners, 0);
+    let mut weights = vec![0.0; mesh.vertex_count() - 1];
+    for h in mesh.outgoing(VertexId::new(0)) {
+        weights[mesh.head(h).index() - 1] = equations.coefficients[h.index()];
+    }
+    weights
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn shape_preserving_weights_are_positive_and_sum_to_one(
+        ring in closed_ring(), heights in prop::collection::vec(-3.0..3.0, 12),
+    ) {
+        let weights = ring_weights(&fan_of(&ring, |k, p| p.extend(heights[k])));
+        prop_assert!(weights.iter().all(|&w| w > 0.0), "{weights:?}");
+        prop_assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-14, "{weights:?}");
+    }
+
+    #[test]
+    fn shape_preserving_weights_reproduce_planar_rings(ring in closed_ring()) {
+        let tilted = |_: usize, p: DVec2| DVec3::new(2.0, -1.0, 2.0) * p.x + DVec3::new(2.0, 2.0, -1.0) * p.y;
+        let weights = ring_weights(&fan_of(&ring, tilted));
+        let centre: DVec2 = ring.iter().zip(&weights).map(|(p, w)| *p * *w).sum();
+        let size: f64 = ring.iter().zip(&weights).map(|(p, w)| p.length() * w).sum();
+        prop_assert!(centre.length() < 1e-13 * size, "{centre}");
+    }
+}
+
+#[test]
+fn shape_preserving_weights_of_a_regular_ring_are_equal() {
+    // Even counts put a neighbour exactly opposite to each: the borderline of which triangle holds the centre.
+    for sides in 3..12 {
+        let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(sides);
+        let ring: Vec<DVec2> = (0..sides).map(|k| DVec2::from_angle(angle(k))).collect();
+        for weight in ring_weights(&fan_of(&ring, |_, p| p.extend(0.0))) {
+            assert!((weight - 1.0 / f64::from(sides)).abs() < 1e-14, "{sides} sides: {weight}");
+        }
+    }
+}
