@@ -29,6 +29,8 @@ pub enum Action {
     },
     /// Ends a drag.
     EndGesture,
+    /// Gives a drag up: everything is as it was before it.
+    GiveUpGesture,
     /// Frees vertices.
     Unpin(Vec<VertexId>),
     /// Frees all vertices.

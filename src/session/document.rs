@@ -57,7 +57,21 @@ impl Command {
 pub struct History {
     undo: Vec<Command>,
     redo: Vec<Command>,
-    gesture_open: bool,
+    /// The gesture whose edits the last step collects.
+    gesture: Option<Gesture>,
+}
+
+/// What a gesture edits. Two gestures of different kinds never share a step, even where the end of the first was missed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Gesture {
+    Pins,
+    Settings,
+}
+
+impl Gesture {
+    fn of(command: &Command) -> Self {
+        if matches!(command, Command::SetSettings(_)) { Self::Settings } else { Self::Pins }
+    }
 }
 
 impl History {
@@ -70,21 +84,33 @@ impl History {
 
     /// Applies an edit that belongs to a gesture: until the gesture ends, edits share one step.
     pub fn apply_in_gesture(&mut self, command: Command, document: &mut Document) {
+        let gesture = Gesture::of(&command);
         let inverse = command.apply(document);
         match self.undo.last_mut() {
-            Some(step) if self.gesture_open => {
+            Some(step) if self.gesture == Some(gesture) => {
                 let earlier = std::mem::replace(step, Command::Together(Vec::new()));
                 *step = joined(inverse, earlier);
             }
             _ => self.undo.push(inverse),
         }
-        self.gesture_open = true;
+        self.gesture = Some(gesture);
         self.redo.clear();
     }
 
     /// Marks the end of a gesture: the next edit starts a new step.
     pub fn end_gesture(&mut self) {
-        self.gesture_open = false;
+        self.gesture = None;
+    }
+
+    /// Takes back the gesture that has not ended, for good. Returns whether there was one.
+    pub fn give_up_gesture(&mut self, document: &mut Document) -> bool {
+        if self.gesture.take().is_none() {
+            return false;
+        }
+        if let Some(command) = self.undo.pop() {
+            drop(command.apply(document));
+        }
+        true
     }
 
     /// Whether there is a step to take back.
@@ -166,6 +192,31 @@ mod tests {
         history.undo(&mut document);
         assert_eq!(document, Document::default());
         assert!(!history.can_undo());
+    }
+
+    #[test]
+    fn a_drag_that_is_given_up_leaves_no_trace() {
+        let (mut history, mut document) = (History::default(), Document::default());
+        history.apply(pin(3, 1.0), &mut document);
+        let before = document.clone();
+        for x in [0.0, 0.5] {
+            history.apply_in_gesture(pin(7, x), &mut document);
+        }
+        assert!(history.give_up_gesture(&mut document));
+        assert_eq!(document, before);
+        assert!(!history.can_redo());
+        assert!(!history.give_up_gesture(&mut document), "nothing is under way any more");
+        assert_eq!(document, before);
+    }
+
+    #[test]
+    fn a_slide_and_a_drag_are_two_undo_steps() {
+        let (mut history, mut document) = (History::default(), Document::default());
+        let chosen = Settings { method: Method::Levy, family: Family::MeanValue };
+        history.apply_in_gesture(Command::SetSettings(chosen), &mut document);
+        history.apply_in_gesture(pin(7, 0.5), &mut document);
+        history.undo(&mut document);
+        assert_eq!(document, Document { settings: chosen, ..Document::default() });
     }
 
     #[test]

@@ -56,8 +56,11 @@ pub struct Session {
     solving: Option<Solving>,
     /// Whether the document changed since the running solve began.
     solve_again: bool,
-    saving: Option<SaveJob>,
+    /// Files being written, in the order they were asked for.
+    saving: Vec<SaveJob>,
     messages: Vec<Message>,
+    /// The message of the last solve, where it failed: the next one that succeeds takes it away.
+    solve_message: Option<u64>,
     next_message: u64,
     recent: RecentFiles,
 }
@@ -84,8 +87,9 @@ impl Session {
             loading_path: None,
             solving: None,
             solve_again: false,
-            saving: None,
+            saving: Vec::new(),
             messages: Vec::new(),
+            solve_message: None,
             next_message: 0,
             recent,
         }
@@ -137,7 +141,7 @@ impl Session {
         if let Some(solving) = &self.solving {
             return Some(Busy::Solving(solving.phase));
         }
-        self.saving.as_ref().map(|_| Busy::Saving)
+        self.saving.first().map(|_| Busy::Saving)
     }
 
     /// What has been said and not dismissed.
@@ -159,6 +163,11 @@ impl Session {
             Action::Fix(vertices) => self.fix(&vertices),
             Action::MovePin { vertex, target } => self.move_pin(vertex, target),
             Action::EndGesture => self.history.end_gesture(),
+            Action::GiveUpGesture => {
+                if self.history.give_up_gesture(&mut self.document) {
+                    self.solve();
+                }
+            }
             Action::Unpin(vertices) => self.unpin(&vertices),
             Action::UnpinAll => self.unpin(&self.document.pins.keys().copied().collect::<Vec<_>>()),
             Action::SetSettings(settings) => {
@@ -335,20 +344,27 @@ impl Session {
         self.solving = None;
         match solved {
             Ok(outcome) => {
-                self.messages.retain(|message| message.place != Place::Embedding);
+                self.forget_solve_message();
                 self.prepared = Some(Arc::clone(&outcome.prepared));
                 self.outcome = Some(Arc::new(outcome));
                 self.outcome_revision += 1;
             }
             Err(SolveError::Cancelled) => {}
             Err(error) => {
-                self.messages.retain(|message| message.place != Place::Embedding);
+                self.forget_solve_message();
                 self.fail(Place::Embedding, error.to_string(), None);
+                self.solve_message = Some(self.next_message);
             }
         }
         if std::mem::take(&mut self.solve_again) {
             self.solve();
         }
+    }
+
+    /// Takes away what a solve before said, and that a file was written which no longer shows what is on the screen.
+    fn forget_solve_message(&mut self) {
+        let stale = self.solve_message.take();
+        self.messages.retain(|message| Some(message.id) != stale && message.severity != Severity::Note);
     }
 
     fn cancel(&mut self) {
@@ -369,22 +385,22 @@ impl Session {
             Ok((request.path, finished.verdict().clone()))
         };
         match Job::spawn("save", self.waker(), work) {
-            Ok(job) => self.saving = Some(job),
+            Ok(job) => self.saving.push(job),
             Err(error) => self.fail(Place::Embedding, format!("no thread to save with: {error}"), None),
         }
     }
 
     fn poll_saving(&mut self) {
-        let Some(job) = &self.saving else { return };
-        let saved = match job.poll() {
-            Poll::Running => return,
-            Poll::Done(saved) => saved,
-            Poll::Lost => {
-                self.saving = None;
-                return self.fail(Place::Embedding, lost("saving"), Some(REPORT_IT));
+        for job in std::mem::take(&mut self.saving) {
+            match job.poll() {
+                Poll::Running => self.saving.push(job),
+                Poll::Done(saved) => self.tell_saved(saved),
+                Poll::Lost => self.fail(Place::Embedding, lost("saving"), Some(REPORT_IT)),
             }
-        };
-        self.saving = None;
+        }
+    }
+
+    fn tell_saved(&mut self, saved: Result<(PathBuf, Verdict), WriteError>) {
         match saved {
             Ok((path, verdict)) => {
                 let id = self.next_id();

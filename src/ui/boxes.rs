@@ -9,7 +9,9 @@ use super::{Editor, Pane};
 /// Follows a box being drawn. Gives it, in window points, when the drag ends.
 pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, pane: Pane) -> Option<Rect> {
     if response.drag_started_by(egui::PointerButton::Primary) && ui.input(|input| input.modifiers.command) {
-        editor.selection_box = response.interact_pointer_pos().map(|at| (pane, at));
+        // From where the button went down, not from where egui was sure of a drag.
+        let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
+        editor.selection_box = origin.map(|at| (pane, at));
     }
     let (_, from) = editor.selection_box.filter(|(of, _)| *of == pane)?;
     let to = ui.input(|input| input.pointer.latest_pos())?;

@@ -52,6 +52,8 @@ pub struct Editor {
     pub pointer_in_embedding: Option<DVec2>,
     /// The pin being dragged.
     pub dragged_pin: Option<VertexId>,
+    /// From where the pointer grabbed it to its middle, points.
+    pub grab_offset: egui::Vec2,
     /// The box being drawn with Ctrl, from its first corner, in window points.
     pub selection_box: Option<(Pane, egui::Pos2)>,
     /// Camera of the mesh's pane.
@@ -112,6 +114,7 @@ impl Editor {
             pane_under_pointer: None,
             pointer_in_embedding: None,
             dragged_pin: None,
+            grab_offset: egui::Vec2::ZERO,
             selection_box: None,
             orbit: None,
             plane_camera: None,
@@ -407,8 +410,7 @@ impl Editor {
         } else if self.go_to.is_some() {
             self.go_to = None;
         } else if self.dragged_pin.take().is_some() {
-            self.act(Action::EndGesture);
-            self.act(Action::Undo);
+            self.act(Action::GiveUpGesture);
         } else if self.selection_box.take().is_some() {
         } else if self.tool != Tool::Select {
             self.tool = Tool::Select;

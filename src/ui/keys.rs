@@ -56,14 +56,26 @@ pub const BINDINGS: &[Binding] = &[
 ];
 
 /// What the keys pressed in this frame ask for. While a text field has the keyboard, only Esc and combinations with
-/// Ctrl are the window's; Ctrl+Z stays the field's.
+/// Ctrl are the window's; Ctrl+Z stays the field's. While a menu or a list is open, Esc is the menu's. Shift+Tab moves
+/// the keyboard's focus, as it does everywhere.
 pub(super) fn requests(context: &egui::Context) -> Vec<Request> {
     let typing = context.text_edit_focused();
-    let wanted = |binding: &&Binding| !typing || (binding.shortcut.modifiers.command && !is_edit(binding));
-    context.input_mut(|input| {
+    let menu_open = egui::Popup::is_any_open(context);
+    let shift = context.input(|input| input.modifiers.shift);
+    let wanted = |binding: &&Binding| {
+        let key = binding.shortcut.logical_key;
+        let left_to_egui = (key == Key::Escape && menu_open) || (key == Key::Tab && shift);
+        !left_to_egui && (!typing || (binding.shortcut.modifiers.command && !is_edit(binding)))
+    };
+    let requests: Vec<Request> = context.input_mut(|input| {
         let pressed = |binding: &&Binding| input.consume_shortcut(&binding.shortcut);
         BINDINGS.iter().filter(wanted).filter(pressed).map(|binding| (binding.request)()).collect()
-    })
+    });
+    if requests.contains(&Request::TogglePane) {
+        // Tab has its work here; egui would also hand the keyboard to the next control.
+        context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
+    }
+    requests
 }
 
 fn is_edit(binding: &Binding) -> bool {

@@ -65,7 +65,7 @@ fn pin_row(
     let mut moved = target;
     let mut ended = false;
     for (axis, name) in [(0, "u"), (1, "v")] {
-        let field = ui.add_sized([72.0, 20.0], DragValue::new(&mut moved[axis]).speed(speed).max_decimals(6));
+        let field = ui.add_sized([76.0, 20.0], coordinate(&mut moved[axis], speed));
         field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, format!("{name} of pin {vertex}")));
         ended |= field.drag_stopped() || field.lost_focus();
     }
@@ -80,4 +80,19 @@ fn pin_row(
     if free.clicked() {
         requests.push(Request::Do(Action::Unpin(vec![vertex])));
     }
+}
+
+/// A field for a coordinate. It shows a few digits; a value that is not typed over keeps all of its own.
+fn coordinate(value: &mut f64, speed: f64) -> DragValue<'_> {
+    let exact = *value;
+    let shown = digits(exact);
+    DragValue::new(value).speed(speed).custom_formatter(|value, _| digits(value)).custom_parser(move |text| {
+        let text = text.trim().replace('−', "-");
+        if text == shown { Some(exact) } else { text.parse().ok() }
+    })
+}
+
+/// Six digits behind the point, or as many that mean something.
+fn digits(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) { format!("{value:.6}") } else { format!("{value:.5e}") }
 }

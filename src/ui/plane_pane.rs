@@ -177,10 +177,13 @@ fn drag_pins(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, camera: PlaneCa
         }
         if response.drag_started() {
             editor.dragged_pin = Some(vertex);
+            let pressed = ui.input(|input| input.pointer.press_origin());
+            editor.grab_offset = pressed.map_or(Vec2::ZERO, |pressed| at - pressed);
+            requests.push(Request::Do(Action::EndGesture));
             requests.push(Request::Select(vec![vertex]));
         }
         if response.dragged() && editor.dragged_pin == Some(vertex) && response.drag_delta() != Vec2::ZERO {
-            let pointer = response.interact_pointer_pos().unwrap_or(at);
+            let pointer = response.interact_pointer_pos().map_or(at, |pointer| pointer + editor.grab_offset);
             let target = camera.embedding_from_pane(pane::in_pane(rect, pointer), size);
             requests.push(Request::Do(Action::MovePin { vertex, target }));
         }

@@ -22,9 +22,14 @@ pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut 
     });
     ui.separator();
     match editor.tab {
-        Tab::Method => method_panel::method_panel(ui, editor, requests),
+        Tab::Method => scrolled(ui, |ui| method_panel::method_panel(ui, editor, requests)),
         Tab::Pins => pins_panel::pins_panel(ui, editor, requests),
         Tab::Defects => defects_panel::defects_panel(ui, editor, requests),
-        Tab::Vertex => vertex_panel::vertex_panel(ui, editor, requests),
+        Tab::Vertex => scrolled(ui, |ui| vertex_panel::vertex_panel(ui, editor, requests)),
     }
+}
+
+/// A panel that may be higher than the window.
+fn scrolled(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, add);
 }

@@ -22,6 +22,10 @@ const LEAST_SHARE: f32 = 0.15;
 pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.poll();
     let mut requests = keys::requests(ui.ctx());
+    if let Some(place) = requests.iter().position(|request| *request == Request::Escape) {
+        // Before the panes are shown: egui ends a drag at the same key, and the pane would forget what was dragged.
+        editor.handle(requests.remove(place));
+    }
     requests.extend(dropped_file(ui));
     let fill = theme_of(ui).panel;
     let bar = Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 0));
@@ -44,10 +48,11 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     }
     editor.pane_under_pointer = None;
     editor.pointer_in_embedding = None;
-    if editor.dragged_pin.is_none() {
+    egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
+    if editor.pane_under_pointer.is_none() && editor.dragged_pin.is_none() {
+        // Not before: the pane drawn first shows what the pointer found in the other.
         editor.hovered = None;
     }
-    egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
     floating::floating_windows(ui.ctx(), editor, &mut requests);
     for request in requests {
         editor.handle(request);

@@ -25,6 +25,7 @@ mod polygon;
 mod program;
 mod raster;
 mod reproduction;
+mod session;
 mod verdict;
 mod verdict_cases;
 mod verdict_oracle;

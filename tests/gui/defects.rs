@@ -1,0 +1,136 @@
+//! The list of defects, and going to them and to other elements.
+
+use eframe::egui;
+use egui::{Key, Modifiers};
+use freebound::mesh::VertexId;
+use freebound::session::Action;
+use freebound::ui::Defect;
+
+use crate::harness::{Window, corpus, sheet};
+
+/// A window with an embedding that folds.
+fn folded() -> Window {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    fold(&mut window);
+    window
+}
+
+/// Exchanges two inner vertices of a sheet of 6 × 6 squares, its corners pinned.
+pub(crate) fn fold(window: &mut Window) {
+    let embedding = window.embedding();
+    let [a, b] = [VertexId::new(16), VertexId::new(32)];
+    let session = &mut window.editor_mut().session;
+    session.handle(Action::Fix([0, 6, 42, 48].map(VertexId::new).into_iter().chain([a, b]).collect()));
+    session.handle(Action::MovePin { vertex: a, target: embedding[b.index()] });
+    session.handle(Action::MovePin { vertex: b, target: embedding[a.index()] });
+    session.handle(Action::EndGesture);
+    window.settle();
+    assert!(!window.outcome().verdict.flipped_faces.is_empty(), "it folds");
+}
+
+#[test]
+fn the_list_of_defects_jumps_to_a_face_in_both_panes() {
+    let mut window = folded();
+    window.click(&format!("Defects {}", window.editor().defect_count()));
+    let Defect::Flipped(face) = window.editor().defects()[1] else { panic!("flipped faces come first") };
+    let before = (window.editor().orbit, window.editor().plane_camera);
+    window.click(&format!("flipped face {face}"));
+    let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
+    assert_eq!(window.editor().selection, corners.into_iter().collect());
+    assert_eq!(window.editor().defect, Some(1));
+    assert_ne!((window.editor().orbit, window.editor().plane_camera), before);
+    let embedding = window.embedding();
+    for corner in corners {
+        assert!(window.plane_view().contains(window.place_in_plane(embedding[corner.index()])));
+        assert!(window.mesh_view().contains(window.place_on_mesh(corner)));
+    }
+}
+
+#[test]
+fn defects_are_stepped_through_by_key_button_and_verdict() {
+    let mut window = folded();
+    let count = window.editor().defect_count();
+    window.key(Key::D);
+    assert_eq!(window.editor().defect, Some(0));
+    window.press(Modifiers::SHIFT, Key::D);
+    assert_eq!(window.editor().defect, Some(count - 1), "around the end");
+    window.key(Key::D);
+    window.key(Key::D);
+    assert_eq!(window.editor().defect, Some(1 % count));
+    let pill = format!("Verdict: {}", window.verdict());
+    window.click(&pill);
+    assert_eq!(window.editor().defect, Some(2 % count));
+    window.click(&format!("Defects {count}"));
+    window.click("Next");
+    window.click("Previous");
+    assert_eq!(window.editor().defect, Some(2 % count));
+}
+
+#[test]
+fn a_defect_that_is_gone_is_not_gone_to() {
+    let mut window = folded();
+    for _ in 0..3 {
+        window.key(Key::D);
+    }
+    window.menu(&["Edit", "Free all pins"]);
+    assert_eq!(window.verdict(), "Planar: proved");
+    window.key(Key::D);
+    window.click("Defects");
+    assert!(window.shows("Planar: proved one-to-one"));
+    assert!(!window.shows(" of 0"), "{:?}", window.words());
+}
+
+#[test]
+fn the_crossings_of_the_cow_are_listed_and_shown() {
+    let Some(corpus) = corpus() else { return };
+    let mut window = Window::with_file(&corpus.join("cow_seamster.obj"));
+    let outcome = window.outcome();
+    assert!(!outcome.verdict.planar && !outcome.verdict.boundary_crossings.is_empty());
+    assert!(window.verdict().contains("crossing"), "{}", window.verdict());
+    let [a, b] = outcome.verdict.boundary_crossings[0];
+    let flipped = outcome.verdict.flipped_faces.len();
+    window.click(&format!("Defects {}", window.editor().defect_count()));
+    for _ in 0..=flipped {
+        window.key(Key::D);
+    }
+    assert_eq!(window.editor().defects()[window.editor().defect.expect("one")], Defect::Crossing([a, b]));
+    let disk = window.editor().session.model().and_then(|model| model.disk()).cloned().expect("a disk");
+    let ends = [a, b].into_iter().flat_map(|edge| disk.ends(edge)).collect();
+    assert_eq!(window.editor().selection, ends);
+}
+
+#[test]
+fn go_to_finds_vertices_edges_and_faces_by_number() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let triangles = window.editor().session.model().expect("open").mesh().triangles.clone();
+    for (text, expected) in [("24", vec![24]), ("v7", vec![7]), ("f3", triangles[3].map(|v| v.number()).to_vec())] {
+        window.key(Key::G);
+        window.type_text(text);
+        window.key(Key::Enter);
+        let mut selected: Vec<u32> = window.editor().selection.iter().map(|v| v.number()).collect();
+        let mut expected = expected;
+        selected.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(selected, expected, "{text}");
+        assert!(window.editor().go_to.is_none(), "it closes");
+    }
+    window.menu(&["View", "Go to…"]);
+    window.type_text("e0");
+    window.click("Go");
+    assert_eq!(window.editor().selection.len(), 2);
+}
+
+#[test]
+fn go_to_says_so_where_there_is_no_such_element() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.key(Key::G);
+    assert!(!window.shows("no such element"), "not before anything is typed");
+    window.type_text("49");
+    assert!(window.shows("This mesh has no such element"));
+    assert!(!window.is_enabled("Go"));
+    window.key(Key::Enter);
+    assert!(window.editor().selection.is_empty());
+    assert!(window.editor().go_to.is_some(), "it stays for a better number");
+    window.key(Key::Escape);
+    assert!(window.editor().go_to.is_none());
+}

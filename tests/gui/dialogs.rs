@@ -1,0 +1,378 @@
+//! Files in and out through the window, what it says of bad ones, and work that takes long.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+use freebound::app::Start;
+use freebound::examples::Example;
+use freebound::io::read_mesh;
+use freebound::mesh::VertexId;
+use freebound::session::{Action, Severity, Surface};
+use freebound::solver::{Family, Method, Settings};
+
+use crate::harness::{SIZE, Window, corpus, sheet, write_obj};
+
+fn window() -> Window {
+    Window::with_mesh("sheet.obj", &sheet(6, 0.3))
+}
+
+fn name(window: &Window) -> String {
+    window.editor().session.model().map(|model| model.name.clone()).unwrap_or_default()
+}
+
+#[test]
+fn a_mesh_is_opened_through_the_dialog() {
+    let mut window = window();
+    write_obj(&window.path("second.obj"), &sheet(4, 0.0));
+    std::fs::write(window.path("notes.txt"), "no mesh").unwrap();
+    window.press(Modifiers::COMMAND, Key::O);
+    assert!(window.shows("Open a mesh"));
+    assert!(window.has_button("second.obj") && window.has_button("sheet.obj"));
+    assert!(!window.has_button("notes.txt"), "only meshes are listed");
+    window.click("second.obj");
+    window.click("Open");
+    assert_eq!(name(&window), "second.obj");
+    assert!(!window.editor().dialogs.is_open());
+}
+
+#[test]
+fn a_name_can_be_typed_into_the_dialog() {
+    let mut window = window();
+    write_obj(&window.path("second.obj"), &sheet(4, 0.0));
+    window.press(Modifiers::COMMAND, Key::O);
+    window.fill_in(Role::TextInput, "Name", "second.obj");
+    window.key(Key::Enter);
+    assert_eq!(name(&window), "second.obj");
+}
+
+#[test]
+fn the_dialog_walks_through_folders() {
+    let mut window = window();
+    std::fs::create_dir(window.path("deep")).unwrap();
+    write_obj(&window.path("deep/third.obj"), &sheet(4, 0.0));
+    window.press(Modifiers::COMMAND, Key::O);
+    window.click("deep/");
+    assert!(window.has_button("third.obj"));
+    window.click("Up");
+    assert!(window.has_button("sheet.obj"));
+    window.click("deep/");
+    window.click("third.obj");
+    window.click("Open");
+    assert_eq!(name(&window), "third.obj");
+}
+
+#[test]
+fn a_dialog_is_left_by_cancel_or_escape() {
+    let mut window = window();
+    window.press(Modifiers::COMMAND, Key::O);
+    window.click("Cancel");
+    assert!(!window.editor().dialogs.is_open());
+    window.press(Modifiers::COMMAND, Key::S);
+    window.key(Key::Escape);
+    assert!(!window.editor().dialogs.is_open());
+    window.press(Modifiers::COMMAND, Key::S);
+    window.harness.get_by_role_and_label(Role::TextInput, "Name").click();
+    window.step();
+    window.key(Key::Escape);
+    assert!(!window.editor().dialogs.is_open(), "from its text field too");
+    assert!(!window.path("sheet-flat.obj").exists());
+}
+
+#[test]
+fn the_mesh_is_saved_with_texture_coordinates() {
+    let mut window = window();
+    window.press(Modifiers::COMMAND, Key::S);
+    window.click("Save");
+    let path = window.path("sheet-flat.obj");
+    let saved = read_mesh(&path).expect("a mesh");
+    assert_eq!(saved.polygons.triangulate().triangles, window.editor().session.model().unwrap().mesh().triangles);
+    assert_eq!(std::fs::read_to_string(&path).unwrap().lines().filter(|line| line.starts_with("vt ")).count(), 49);
+    let message = &window.editor().session.messages()[0];
+    assert_eq!(message.severity, Severity::Note);
+    assert!(message.text.starts_with("wrote ") && window.shows("sheet-flat.obj"), "{}", message.text);
+}
+
+#[test]
+fn a_file_that_is_there_is_replaced_only_by_that_word() {
+    let mut window = window();
+    std::fs::write(window.path("sheet-flat.obj"), "precious").unwrap();
+    window.press(Modifiers::COMMAND, Key::S);
+    assert!(window.has_button("Replace") && !window.has_button("Save"));
+    window.harness.get_by_role_and_label(Role::TextInput, "Name").click();
+    window.step();
+    window.key(Key::Enter);
+    assert_eq!(std::fs::read_to_string(window.path("sheet-flat.obj")).unwrap(), "precious", "Enter is not enough");
+    window.click("Replace");
+    assert!(read_mesh(&window.path("sheet-flat.obj")).is_ok());
+}
+
+#[test]
+fn drawings_pictures_and_reports_are_exported() {
+    for (file, begin) in
+        [("a.svg", b"<svg".as_slice()), ("a.png", b"\x89PNG"), ("a.json", b"{"), ("sheet-flat.svg", b"<svg")]
+    {
+        let mut window = window();
+        window.menu(&["File", "Export drawing or report…"]);
+        if file.starts_with('a') {
+            window.fill_in(Role::TextInput, "Name", file);
+        }
+        window.click("Export");
+        let bytes = std::fs::read(window.path(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+        let found = bytes.windows(begin.len()).take(200).any(|part| part == begin);
+        assert!(found, "{file} begins as such files do");
+    }
+}
+
+#[test]
+fn a_name_of_another_kind_is_refused_with_a_remedy() {
+    let mut window = window();
+    window.press(Modifiers::COMMAND, Key::E);
+    window.fill_in(Role::TextInput, "Name", "drawing.pdf");
+    window.click("Export");
+    assert!(!window.path("drawing.pdf").exists());
+    let message = &window.editor().session.messages()[0];
+    assert_eq!(message.severity, Severity::Error);
+    assert!(message.remedy.as_ref().expect("a remedy").contains(".svg"));
+    assert!(window.shows("drawing.pdf") && window.shows(".svg"));
+}
+
+#[test]
+fn a_file_that_cannot_be_written_says_so() {
+    let mut window = window();
+    window.press(Modifiers::COMMAND, Key::S);
+    window.fill_in(Role::TextInput, "Name", "missing/deep.obj");
+    window.click("Save");
+    let message = &window.editor().session.messages()[0];
+    assert_eq!(message.severity, Severity::Error);
+    assert!(message.text.contains("deep.obj"), "{}", message.text);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_file_dropped_on_the_window_opens() {
+    let mut window = window();
+    write_obj(&window.path("dropped.obj"), &sheet(4, 0.0));
+    let file = Dropped(window.path("dropped.obj"));
+    window.harness.input_mut().dropped_files.push(Arc::new(file));
+    window.settle();
+    assert_eq!(name(&window), "dropped.obj");
+    assert_eq!(window.verdict(), "Planar: proved");
+}
+
+#[test]
+fn files_opened_last_are_kept_and_opened_again() {
+    let first = window();
+    let store = first.path("settings/recent.json");
+    let file = first.path("sheet.obj");
+    let start = || Start { file: Some(file.clone()), recent_store: Some(store.clone()), dialogs_inside: true };
+    drop(Window::start(SIZE, start()));
+    let mut again = Window::start(SIZE, Start { file: None, ..start() });
+    assert_eq!(name(&again), "Face");
+    again.menu(&["File", "Recent", &file.display().to_string()]);
+    assert_eq!(name(&again), "sheet.obj");
+    again.menu(&["File", "Recent", "Forget these"]);
+    assert!(again.editor().session.recent().paths().is_empty());
+    again.menu(&["File", "Recent"]);
+    assert!(again.shows("No files yet"));
+}
+
+#[test]
+fn a_recent_file_that_is_gone_says_so_and_changes_nothing() {
+    let mut window = window();
+    let gone = window.path("gone.obj");
+    write_obj(&gone, &sheet(4, 0.0));
+    window.open(&gone);
+    std::fs::remove_file(&gone).unwrap();
+    window.menu(&["File", "Examples", "Flat L"]);
+    window.menu(&["File", "Recent", &gone.display().to_string()]);
+    assert_eq!(name(&window), "Flat L");
+    assert!(window.shows("gone.obj"));
+    assert!(window.editor().session.messages()[0].remedy.is_some());
+}
+
+/// Files of `bad` that can be read as meshes and flattened.
+const USABLE: [&str; 1] = ["raw_polygonfaces.obj"];
+
+#[test]
+fn every_bad_file_of_the_corpus_says_what_is_wrong_and_what_to_do() {
+    let Some(corpus) = corpus() else { return };
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(corpus.join("bad")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    assert!(files.len() >= 14);
+    for file in files {
+        let file_name = file.file_name().unwrap().to_string_lossy().into_owned();
+        let mut window = window();
+        window.open(&file);
+        let messages = window.editor().session.messages().to_vec();
+        if USABLE.contains(&file_name.as_str()) {
+            assert!(messages.is_empty(), "{file_name}: {messages:?}");
+            continue;
+        }
+        assert!(!messages.is_empty(), "{file_name}");
+        for message in &messages {
+            assert!(message.remedy.as_ref().is_some_and(|remedy| !remedy.is_empty()), "{file_name}: {message:?}");
+        }
+        assert!(window.shows(&messages[0].text), "{file_name}: {:?}", window.words());
+        assert!(window.has_button("Dismiss") && window.has_button("Copy"), "{file_name}");
+        if read_mesh(&file).is_err() {
+            assert_eq!(name(&window), "sheet.obj", "what cannot be read replaces nothing");
+            assert_eq!(window.verdict(), "Planar: proved");
+        } else {
+            assert_eq!(name(&window), file_name);
+            assert!(
+                window.verdict().ends_with("fault") || window.verdict().ends_with("faults"),
+                "{}",
+                window.verdict()
+            );
+        }
+        try_everything(&mut window);
+    }
+}
+
+/// Does what a person may try, to see that nothing panics.
+fn try_everything(window: &mut Window) {
+    for key in [Key::F, Key::D, Key::W, Key::Num4, Key::Num2, Key::P, Key::Delete, Key::Escape] {
+        window.key(key);
+    }
+    for modifiers in [Modifiers::NONE, Modifiers::SHIFT] {
+        window.click_at(window.mesh_view().center(), modifiers);
+        window.click_at(window.plane_view().center(), modifiers);
+    }
+    for tab in ["Pins", "Vertex"] {
+        window.click(tab);
+    }
+    window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(0)]));
+    window.editor_mut().session.handle(Action::Solve);
+    window.press(Modifiers::COMMAND, Key::Z);
+    window.key(Key::G);
+    window.type_text("1");
+    window.key(Key::Enter);
+    window.key(Key::Escape);
+    window.press(Modifiers::COMMAND, Key::S);
+    window.key(Key::Escape);
+}
+
+#[test]
+fn a_message_is_copied_gone_to_and_dismissed() {
+    let mut window = window();
+    let mut bad = sheet(4, 0.3);
+    // A face without area, in the middle.
+    bad.positions[12] = bad.positions[13];
+    write_obj(&window.path("bad.obj"), &bad);
+    let file = window.path("bad.obj");
+    window.open(&file);
+    let message = window.editor().session.messages()[0].clone();
+    let Some(Surface::Faulty(..)) = window.editor().session.model().map(|model| &model.surface) else {
+        panic!("it has no area")
+    };
+    window.harness.get_by_label("Copy").click();
+    window.step();
+    let copied = window
+        .harness
+        .output()
+        .platform_output
+        .commands
+        .iter()
+        .any(|command| matches!(command, egui::OutputCommand::CopyText(text) if text.contains(&message.text)));
+    assert!(copied, "{:?}", window.harness.output().platform_output.commands);
+    window.click("Go to");
+    let selected: Vec<VertexId> = window.editor().selection.iter().copied().collect();
+    let mut expected = message.vertices.clone();
+    expected.sort_unstable();
+    assert_eq!(selected, expected);
+    let count = window.editor().session.messages().len();
+    window.click("Dismiss");
+    assert_eq!(window.editor().session.messages().len(), count - 1);
+    assert!(window.editor().session.messages().iter().all(|left| left.id != message.id));
+}
+
+#[test]
+fn a_good_mesh_after_a_bad_one_takes_its_messages_away() {
+    let mut window = window();
+    std::fs::write(window.path("broken.obj"), "v 0 0\nf 1 2 3\n").unwrap();
+    let file = window.path("broken.obj");
+    window.open(&file);
+    assert!(!window.editor().session.messages().is_empty());
+    window.menu(&["File", "Examples", "Flat L"]);
+    assert!(window.editor().session.messages().is_empty());
+    assert!(!window.has_button("Dismiss"));
+}
+
+/// A mesh whose solve takes a while, with the solve under way.
+fn at_work() -> Window {
+    let mut window = Window::with_mesh("large.obj", &sheet(120, 0.3));
+    window.editor_mut().session.handle(Action::SetSettings(slow(Family::MeanValue)));
+    window
+}
+
+fn slow(family: Family) -> Settings {
+    Settings { method: Method::Natural, family }
+}
+
+#[test]
+fn a_long_solve_is_cancelled_at_once() {
+    let mut window = at_work();
+    let before = window.outcome();
+    assert!(window.editor().session.busy().is_some());
+    let start = Instant::now();
+    window.editor_mut().session.handle(Action::Cancel);
+    window.step();
+    assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
+    assert!(window.editor().session.busy().is_none());
+    assert!(Arc::ptr_eq(&before, &window.outcome()), "what was there stays");
+    assert_eq!(window.verdict(), "not solved");
+    window.press(Modifiers::COMMAND, Key::Enter);
+    assert_eq!(window.outcome().settings, slow(Family::MeanValue), "and can be solved again");
+}
+
+#[test]
+fn a_newer_request_replaces_an_older_one() {
+    let mut window = at_work();
+    window.step();
+    window.editor_mut().session.handle(Action::SetSettings(slow(Family::Wachspress)));
+    window.editor_mut().session.handle(Action::SetSettings(slow(Family::Power(0.5))));
+    window.settle();
+    assert_eq!(window.outcome().settings, slow(Family::Power(0.5)));
+    assert!(window.editor().session.is_current());
+}
+
+#[test]
+fn the_newer_of_two_meshes_opens() {
+    let mut window = window();
+    let session = &mut window.editor_mut().session;
+    session.handle(Action::OpenExample(Example::BumpyCap));
+    session.handle(Action::OpenExample(Example::Ell));
+    window.settle();
+    assert_eq!(name(&window), Example::Ell.title());
+}
+
+#[test]
+fn the_window_answers_while_a_solve_runs() {
+    let mut window = at_work();
+    window.key_now(Key::W);
+    assert!(window.editor().wireframe && window.editor().session.busy().is_some(), "no waiting");
+    let slowest = (0..10).map(|_| {
+        let start = Instant::now();
+        window.step();
+        start.elapsed()
+    });
+    assert!(slowest.max().expect("ten frames") < Duration::from_millis(500));
+}

@@ -1,0 +1,403 @@
+//! The window as tests drive it: hosted without a screen or a graphics card, looked at through its accessibility tree.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+use egui::accesskit::{Action as Offer, Role};
+use egui::{Key, Modifiers, Pos2, Rect, Vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::{Harness, HarnessBuilder, Node};
+use freebound::app::{App, Start};
+use freebound::examples::Example;
+use freebound::mesh::{TriMesh, VertexId};
+use freebound::session::{Action, Outcome};
+use freebound::ui::Editor;
+use glam::{DVec2, DVec3};
+use tempfile::TempDir;
+
+/// What the background is given before a test fails; a test machine under load is slow.
+const PATIENCE: Duration = Duration::from_secs(90);
+
+/// Size of the window in most tests, points.
+pub(crate) const SIZE: Vec2 = Vec2::new(1280.0, 800.0);
+
+/// The name of the mesh's drawing surface.
+pub(crate) const MESH_VIEW: &str = "3D view of the mesh";
+
+/// The name of the embedding's drawing surface.
+pub(crate) const PLANE_VIEW: &str = "Embedding in the plane";
+
+/// The editor in a window of its own, with a folder for its files.
+pub(crate) struct Window {
+    pub(crate) harness: Harness<'static, App>,
+    folder: TempDir,
+}
+
+impl Window {
+    /// A window that opens what `start` says, settled.
+    pub(crate) fn start(size: Vec2, start: Start) -> Self {
+        Self::build(Harness::builder().with_size(size), start)
+    }
+
+    /// A window that a graphics card draws, in one of the two themes.
+    pub(crate) fn drawn(theme: egui::Theme, file: &Path) -> Self {
+        let builder = Harness::builder().with_size(SIZE).with_theme(theme).with_render_cursor(false).wgpu();
+        Self::build(builder, Start { file: Some(file.to_owned()), ..Start::default() })
+    }
+
+    fn build(builder: HarnessBuilder<App>, start: Start) -> Self {
+        let builder = builder.with_step_dt(1.0 / 60.0);
+        let harness = builder.build_eframe(move |context| App::new(context, start));
+        let mut window = Self { harness, folder: tempfile::tempdir().expect("a folder for files") };
+        window.settle();
+        window
+    }
+
+    /// A window with a mesh, written to a file of that name first.
+    pub(crate) fn with_mesh(name: &str, mesh: &TriMesh) -> Self {
+        let folder = tempfile::tempdir().expect("a folder for files");
+        let path = folder.path().join(name);
+        write_obj(&path, mesh);
+        Self { folder, ..Self::with_file(&path) }
+    }
+
+    /// A window with a built-in mesh, as a file of its name.
+    pub(crate) fn with_example(example: Example) -> Self {
+        Self::with_mesh(&format!("{}.obj", example.name()), &example.mesh())
+    }
+
+    /// A window with a file.
+    pub(crate) fn with_file(path: &Path) -> Self {
+        Self::start(SIZE, Start { file: Some(path.to_owned()), dialogs_inside: true, ..Start::default() })
+    }
+
+    /// A place in the window's own folder.
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub(crate) fn editor(&self) -> &Editor {
+        self.harness.state().editor()
+    }
+
+    pub(crate) fn editor_mut(&mut self) -> &mut Editor {
+        self.harness.state_mut().editor_mut()
+    }
+
+    pub(crate) fn outcome(&self) -> Arc<Outcome> {
+        Arc::clone(self.editor().session.outcome().expect("solved"))
+    }
+
+    pub(crate) fn embedding(&self) -> Vec<DVec2> {
+        self.outcome().solution.embedding.clone()
+    }
+
+    /// Opens a file as the session is asked to.
+    pub(crate) fn open(&mut self, path: &Path) {
+        self.editor_mut().session.handle(Action::Open(path.to_owned()));
+        self.settle();
+    }
+
+    pub(crate) fn step(&mut self) {
+        self.harness.step();
+    }
+
+    /// Steps until nothing goes on in the background and both panes show its results.
+    pub(crate) fn settle(&mut self) {
+        let start = Instant::now();
+        self.step();
+        while !self.is_settled() {
+            assert!(start.elapsed() < PATIENCE, "still not settled: {:?}", self.editor());
+            std::thread::sleep(Duration::from_millis(1));
+            self.step();
+        }
+        // A grid has its final size in its second frame.
+        self.harness.run_steps(2);
+        self.harness.check_accessibility();
+    }
+
+    fn is_settled(&self) -> bool {
+        let editor = self.editor();
+        let session = &editor.session;
+        let mesh_drawn = editor.mesh_scene().map(|scene| scene.model_revision);
+        let plane_drawn = editor.plane_scene().map(|scene| scene.outcome_revision);
+        let mesh_wanted = session.model().map(|_| session.model_revision());
+        let plane_wanted = session.outcome().map(|_| session.outcome_revision());
+        session.busy().is_none() && mesh_drawn == mesh_wanted && plane_drawn == plane_wanted
+    }
+
+    /// Presses keys together with modifiers.
+    pub(crate) fn press(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.settle();
+    }
+
+    /// Presses a key alone.
+    pub(crate) fn key(&mut self, key: Key) {
+        self.press(Modifiers::NONE, key);
+    }
+
+    /// Presses a key alone and does not wait for what it leads to.
+    pub(crate) fn key_now(&mut self, key: Key) {
+        self.harness.key_press(key);
+        self.step();
+    }
+
+    /// Types text as a keyboard does: each letter is a key and a text.
+    pub(crate) fn type_text(&mut self, text: &str) {
+        for letter in text.chars() {
+            if let Some(key) = Key::from_name(&letter.to_ascii_uppercase().to_string()) {
+                self.harness.key_down(key);
+                self.harness.event(egui::Event::Text(letter.to_string()));
+                self.harness.key_up(key);
+            } else {
+                self.harness.event(egui::Event::Text(letter.to_string()));
+            }
+        }
+        self.step();
+    }
+
+    /// The button, menu, entry or tab of that name. Entries of menus have their keys after their name.
+    fn button(&self, name: &str) -> Option<Node<'_>> {
+        let with_keys = format!("{name} ");
+        let named = |wanted: &dyn Fn(&str) -> bool| {
+            let mut buttons = self.harness.query_all_by_role(Role::Button);
+            buttons.find(|node| node.accesskit_node().label().is_some_and(|label| wanted(&label)))
+        };
+        named(&|label| label == name).or_else(|| named(&|label| label.starts_with(&with_keys)))
+    }
+
+    /// Clicks a button, menu, entry or tab.
+    pub(crate) fn click(&mut self, name: &str) {
+        let Some(button) = self.button(name) else { panic!("no button is called {name:?}: {:?}", self.words()) };
+        button.click();
+        self.settle();
+    }
+
+    /// Clicks the last of several buttons of one name.
+    pub(crate) fn click_last(&mut self, name: &str) {
+        self.harness.get_all_by_role_and_label(Role::Button, name).last().expect("a button").click();
+        self.settle();
+    }
+
+    /// Clicks through menus.
+    pub(crate) fn menu(&mut self, names: &[&str]) {
+        for name in names {
+            self.click(name);
+        }
+    }
+
+    /// Opens a drop-down list.
+    pub(crate) fn open_list(&mut self, list: &str) {
+        self.harness.get_by_role_and_label(Role::ComboBox, list).click();
+        self.settle();
+    }
+
+    /// Chooses from a drop-down list.
+    pub(crate) fn choose(&mut self, list: &str, entry: &str) {
+        self.open_list(list);
+        self.harness.get_all_by_role_and_label(Role::Button, entry).last().expect("an entry").click();
+        self.settle();
+    }
+
+    pub(crate) fn has_button(&self, name: &str) -> bool {
+        self.button(name).is_some()
+    }
+
+    pub(crate) fn is_enabled(&self, name: &str) -> bool {
+        !self.button(name).expect("a button of that name").accesskit_node().is_disabled()
+    }
+
+    /// Clicks a text field and replaces what is in it.
+    pub(crate) fn fill_in(&mut self, role: Role, name: &str, text: &str) {
+        self.harness.get_by_role_and_label(role, name).click();
+        self.step();
+        self.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        self.step();
+        self.type_text(text);
+    }
+
+    /// Where a control lies.
+    pub(crate) fn rect(&self, role: Role, name: &str) -> Rect {
+        self.harness.get_by_role_and_label(role, name).rect()
+    }
+
+    pub(crate) fn mesh_view(&self) -> Rect {
+        self.rect(Role::Image, MESH_VIEW)
+    }
+
+    pub(crate) fn plane_view(&self) -> Rect {
+        self.rect(Role::Image, PLANE_VIEW)
+    }
+
+    /// What the verdict's pill says.
+    pub(crate) fn verdict(&self) -> String {
+        let pill = self.harness.query_by(|node| node.label().is_some_and(|label| label.starts_with("Verdict: ")));
+        let label = pill.and_then(|pill| pill.accesskit_node().label()).expect("the verdict shows");
+        label.trim_start_matches("Verdict: ").to_owned()
+    }
+
+    /// All words painted in the last frame.
+    pub(crate) fn words(&self) -> Vec<String> {
+        let mut words = Vec::new();
+        for shape in &self.harness.output().shapes {
+            collect_words(&shape.shape, &mut words);
+        }
+        words
+    }
+
+    /// Whether some words painted in the last frame contain these.
+    pub(crate) fn shows(&self, words: &str) -> bool {
+        self.words().iter().any(|painted| painted.contains(words))
+    }
+
+    /// Whether a ring around a place was painted in the last frame.
+    pub(crate) fn has_ring_at(&self, place: Pos2) -> bool {
+        let is_ring = |shape: &egui::Shape| match shape {
+            egui::Shape::Circle(circle) => circle.center.distance(place) < 1.0 && circle.stroke.width > 0.0,
+            _ => false,
+        };
+        self.harness.output().shapes.iter().any(|shape| is_ring(&shape.shape))
+    }
+
+    /// Where a vertex shows on the mesh.
+    pub(crate) fn place_on_mesh(&self, vertex: VertexId) -> Pos2 {
+        let editor = self.editor();
+        let scene = editor.mesh_scene().expect("a mesh shows");
+        let position = scene.model.mesh().positions[vertex.index()];
+        let camera = editor.orbit.expect("a mesh shows");
+        on_screen(self.mesh_view(), camera.pane_from_world(position, editor.mesh_pane_size).expect("before the eye"))
+    }
+
+    /// Where a point of the embedding shows.
+    pub(crate) fn place_in_plane(&self, point: DVec2) -> Pos2 {
+        let camera = self.editor().plane_camera.expect("an embedding shows");
+        on_screen(self.plane_view(), camera.pane_from_embedding(point, self.editor().plane_pane_size))
+    }
+
+    /// A vertex near the middle of the mesh's pane that is well visible.
+    pub(crate) fn vertex_in_the_middle(&self) -> VertexId {
+        let editor = self.editor();
+        let scene = editor.mesh_scene().expect("a mesh shows");
+        let camera = editor.orbit.expect("a mesh shows");
+        let size = editor.mesh_pane_size;
+        let mut best = (f64::INFINITY, VertexId::new(0));
+        for (i, position) in scene.model.mesh().positions.iter().enumerate() {
+            let vertex = VertexId::from_index(i);
+            let Some(at) = camera.pane_from_world(*position, size) else { continue };
+            let distance = at.distance(size / 2.0);
+            if distance < best.0 && scene.picker.is_visible(vertex, camera.eye()) {
+                best = (distance, vertex);
+            }
+        }
+        best.1
+    }
+
+    /// Clicks a place of the window.
+    pub(crate) fn click_at(&mut self, at: Pos2, modifiers: Modifiers) {
+        self.harness.hover_at(at);
+        self.harness.event(egui::Event::ModifiersChanged(modifiers));
+        for pressed in [true, false] {
+            self.harness.event(left_button(at, pressed, modifiers));
+        }
+        self.harness.event(egui::Event::ModifiersChanged(Modifiers::NONE));
+        self.settle();
+    }
+
+    /// Presses at `from` and moves to `to` in steps, without letting go.
+    pub(crate) fn begin_drag(&mut self, from: Pos2, to: Pos2, modifiers: Modifiers) {
+        self.harness.hover_at(from);
+        self.harness.event(egui::Event::ModifiersChanged(modifiers));
+        self.harness.event(left_button(from, true, modifiers));
+        for i in 1..=8_u8 {
+            self.harness.hover_at(from + (to - from) * (f32::from(i) / 8.0));
+        }
+        self.step();
+    }
+
+    /// Lets go.
+    pub(crate) fn end_drag(&mut self, at: Pos2) {
+        self.harness.event(left_button(at, false, Modifiers::NONE));
+        self.harness.event(egui::Event::ModifiersChanged(Modifiers::NONE));
+        self.settle();
+    }
+
+    pub(crate) fn drag(&mut self, from: Pos2, to: Pos2, modifiers: Modifiers) {
+        self.begin_drag(from, to, modifiers);
+        self.end_drag(to);
+    }
+
+    /// Every visible node that can be acted on, with its role and name.
+    pub(crate) fn controls(&self) -> Vec<(Role, String, Rect)> {
+        let nodes = self.harness.root().children_recursive();
+        let acts = [Offer::Click, Offer::SetValue, Offer::Increment, Offer::Expand];
+        let controls = nodes.filter(|node| {
+            let node = node.accesskit_node();
+            acts.iter().any(|action| node.data().supports_action(*action)) && !node.is_hidden()
+        });
+        controls
+            .map(|node| {
+                let words = node.accesskit_node();
+                let name = words.label().or_else(|| words.value()).unwrap_or_default();
+                (words.role(), name, node.rect())
+            })
+            .collect()
+    }
+}
+
+fn left_button(pos: Pos2, pressed: bool, modifiers: Modifiers) -> egui::Event {
+    egui::Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, modifiers }
+}
+
+fn collect_words(shape: &egui::Shape, words: &mut Vec<String>) {
+    match shape {
+        egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect_words(shape, words)),
+        egui::Shape::Text(text) => words.push(text.galley.text().to_owned()),
+        _ => {}
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
+fn on_screen(rect: Rect, point: DVec2) -> Pos2 {
+    rect.min + Vec2::new(point.x as f32, point.y as f32)
+}
+
+/// Writes a mesh with all its digits.
+pub(crate) fn write_obj(path: &Path, mesh: &TriMesh) {
+    use std::fmt::Write as _;
+    let mut text = String::new();
+    for position in &mesh.positions {
+        writeln!(text, "v {} {} {}", position.x, position.y, position.z).expect("text grows");
+    }
+    for [a, b, c] in &mesh.triangles {
+        writeln!(text, "f {} {} {}", a.number() + 1, b.number() + 1, c.number() + 1).expect("text grows");
+    }
+    std::fs::write(path, text).expect("a folder for files");
+}
+
+/// A grid of `side` × `side` squares, bent up by `height` in its middle; flat for 0.
+pub(crate) fn sheet(side: u32, height: f64) -> TriMesh {
+    let n = side + 1;
+    let at = |i: u32| {
+        let [x, y] = [i % n, i / n].map(|k| f64::from(k) / f64::from(side));
+        DVec3::new(x, y, height * 16.0 * x * (1.0 - x) * y * (1.0 - y))
+    };
+    let positions = (0..n * n).map(at).collect();
+    let square = |i: u32| {
+        let v = i / side * n + i % side;
+        [[v, v + 1, v + n + 1], [v, v + n + 1, v + n]]
+    };
+    TriMesh::new(positions, &(0..side * side).flat_map(square).collect::<Vec<_>>())
+}
+
+/// The corpus of meshes, where there is one. Says so where there is none.
+pub(crate) fn corpus() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus");
+    if folder.join("manifest.csv").is_file() {
+        return Some(folder);
+    }
+    println!("nothing to do: there is no corpus at {}", folder.display());
+    None
+}

@@ -1,0 +1,280 @@
+//! The panels at the right: method and weights, pins, the selected vertex.
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable};
+use freebound::examples::Example;
+use freebound::mesh::VertexId;
+use freebound::session::Action;
+use freebound::solver::{BoundaryShape, Family, Method, Settings};
+use freebound::ui::Tab;
+use glam::DVec2;
+
+use crate::harness::{Window, sheet};
+
+fn settings(window: &Window) -> Settings {
+    window.editor().session.document().settings
+}
+
+/// The numbers of the distortion as the panel writes them.
+fn assert_numbers_show(window: &Window) {
+    let summary = window.outcome().distortion.summary;
+    for value in [summary.angle.mean, summary.area.max, summary.stretch_l2] {
+        let words = format!("{value:.3}");
+        assert!(window.shows(&words), "{words} in {:?}", window.words());
+    }
+}
+
+#[test]
+fn each_method_solves_when_it_is_chosen() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.5));
+    let mut seen = Vec::new();
+    for (title, method) in [
+        ("Convex boundary", Method::Convex(BoundaryShape::Circle)),
+        ("Lévy, summed", Method::Levy),
+        ("Natural boundary", Method::Natural),
+        ("Least-squares conformal", Method::Lscm),
+    ] {
+        window.choose("Method", title);
+        assert_eq!(settings(&window).method, method);
+        assert_eq!(window.outcome().settings.method, method, "solved");
+        assert_numbers_show(&window);
+        seen.push(window.embedding());
+    }
+    assert_ne!(seen[0], seen[1]);
+    assert_ne!(seen[1], seen[2]);
+}
+
+#[test]
+fn each_family_solves_when_it_is_chosen() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.5));
+    let mut before = window.embedding();
+    for (title, family) in
+        [("Mean value", Family::MeanValue), ("Wachspress", Family::Wachspress), ("Conformal", Family::Conformal)]
+    {
+        window.choose("Weights", title);
+        assert_eq!(window.outcome().settings.family, family);
+        assert_numbers_show(&window);
+        assert_ne!(window.embedding(), before);
+        before = window.embedding();
+    }
+}
+
+#[test]
+fn other_weights_change_the_verdict_s_words() {
+    let mut window = Window::with_example(Example::Dome);
+    assert_eq!(window.verdict(), "Planar: proved");
+    window.choose("Weights", "Wachspress");
+    let count = window.outcome().verdict.flipped_faces.len();
+    assert!(count > 0, "Wachspress weights fold a face of the dome");
+    assert!(window.verdict().starts_with(&format!("{count} flipped")), "{}", window.verdict());
+    assert!(window.has_button(&format!("Defects {}", window.editor().defect_count())));
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.verdict(), "Planar: proved");
+}
+
+#[test]
+fn uniform_and_shape_preserving_weights_are_offered_for_a_convex_boundary_only() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.open_list("Weights");
+    assert!(!window.has_button("Uniform") && !window.has_button("Shape-preserving"));
+    window.key(Key::Escape);
+    window.choose("Method", "Convex boundary");
+    window.choose("Weights", "Uniform");
+    assert_eq!(window.outcome().settings.family, Family::Uniform);
+    window.choose("Weights", "Shape-preserving");
+    assert_eq!(window.outcome().settings.family, Family::ShapePreserving);
+    assert_eq!(window.verdict(), "Planar: proved");
+    window.choose("Method", "Natural boundary");
+    assert_eq!(window.outcome().settings, Settings { method: Method::Natural, family: Family::Conformal });
+}
+
+#[test]
+fn the_convex_boundary_can_be_a_square() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.choose("Method", "Convex boundary");
+    let on_circle = window.embedding();
+    window.click("Square");
+    assert_eq!(settings(&window).method, Method::Convex(BoundaryShape::Square));
+    assert_ne!(window.embedding(), on_circle);
+    window.click("Circle");
+    assert_eq!(window.embedding(), on_circle);
+}
+
+#[test]
+fn the_power_slider_solves_and_is_one_undo_step() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let slider = window.rect(Role::Slider, "Power of the weights");
+    let at = |share: f32| slider.left_center() + egui::vec2(8.0 + share * (slider.width() - 70.0), 0.0);
+    window.drag(at(0.9), at(0.2), Modifiers::NONE);
+    let Family::Power(power) = settings(&window).family else { panic!("{:?}", settings(&window)) };
+    assert!((-1.0..0.0).contains(&power), "{power}");
+    assert_eq!(window.outcome().settings, settings(&window));
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(settings(&window), Settings::default());
+    assert!(!window.editor().session.history().can_undo());
+}
+
+#[test]
+fn a_power_can_be_typed_beyond_the_slider_s_ends() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.fill_in(Role::SpinButton, "Power of the weights", "1.5");
+    window.key(Key::Enter);
+    assert_eq!(window.outcome().settings.family, Family::Power(1.5));
+}
+
+#[test]
+fn named_powers_have_buttons() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    for (name, family) in
+        [("Wachspress", Family::Wachspress), ("Mean value", Family::MeanValue), ("Conformal", Family::Conformal)]
+    {
+        window.click(name);
+        assert_eq!(window.outcome().settings.family, family);
+    }
+}
+
+fn pin(window: &mut Window, vertices: &[u32]) {
+    window.editor_mut().session.handle(Action::Fix(vertices.iter().map(|&v| VertexId::new(v)).collect()));
+    window.settle();
+    window.click("Pins");
+}
+
+#[test]
+fn typed_coordinates_move_a_pin_and_only_it() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    pin(&mut window, &[0, 24, 48]);
+    let before = window.editor().session.document().clone();
+    window.fill_in(Role::SpinButton, "u of pin v24", "0.625");
+    window.key(Key::Enter);
+    let mut expected = before.pins.clone();
+    expected.get_mut(&VertexId::new(24)).expect("pinned").x = 0.625;
+    assert_eq!(window.editor().session.document().pins, expected);
+    assert_eq!(window.embedding()[24], expected[&VertexId::new(24)]);
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(*window.editor().session.document(), before, "one undo step");
+}
+
+#[test]
+fn looking_at_a_coordinate_changes_nothing() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    pin(&mut window, &[0, 24, 48]);
+    let before = window.editor().session.document().clone();
+    for field in ["u of pin v24", "v of pin v24"] {
+        window.harness.get_by_role_and_label(Role::SpinButton, field).click();
+        window.settle();
+        window.key(Key::Enter);
+    }
+    assert_eq!(*window.editor().session.document(), before);
+}
+
+#[test]
+fn a_coordinate_that_is_no_number_changes_nothing() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    pin(&mut window, &[0, 48]);
+    let before = window.editor().session.document().clone();
+    for text in ["", "abc", "nan", "inf"] {
+        window.fill_in(Role::SpinButton, "u of pin v48", text);
+        window.key(Key::Enter);
+        assert_eq!(*window.editor().session.document(), before, "{text:?}");
+    }
+}
+
+#[test]
+fn pins_are_freed_one_by_one_and_all_at_once() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    pin(&mut window, &[0, 24, 48]);
+    assert!(window.has_button("Pins 3"));
+    window.click("Free pin v24");
+    let pinned: Vec<u32> = window.editor().session.document().pins.keys().map(|v| v.number()).collect();
+    assert_eq!(pinned, [0, 48]);
+    window.click("Free all");
+    assert!(window.editor().session.document().pins.is_empty());
+    assert!(window.harness.query_by_role_and_label(Role::Button, "Pins").is_some(), "no count any more");
+    window.menu(&["Edit", "Undo"]);
+    assert_eq!(window.editor().session.document().pins.len(), 2);
+    window.menu(&["Edit", "Redo"]);
+    assert!(window.editor().session.document().pins.is_empty());
+}
+
+#[test]
+fn delete_frees_the_selected_pins() {
+    for key in [Key::Delete, Key::Backspace] {
+        let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+        pin(&mut window, &[0, 24, 48]);
+        window.click("v24");
+        assert!(window.editor().selection.contains(&VertexId::new(24)));
+        window.key(key);
+        assert_eq!(window.editor().session.document().pins.len(), 2, "{key:?}");
+    }
+}
+
+#[test]
+fn two_pins_on_one_place_are_refused_with_both_named() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    pin(&mut window, &[0, 48]);
+    let place = window.editor().session.document().pins[&VertexId::new(0)];
+    window.editor_mut().session.handle(Action::MovePin { vertex: VertexId::new(48), target: place });
+    window.editor_mut().session.handle(Action::EndGesture);
+    window.settle();
+    let message = &window.editor().session.messages()[0];
+    assert!(message.text.contains("v0") && message.text.contains("v48"), "{}", message.text);
+    assert!(window.shows(&message.text));
+    assert_eq!(window.verdict(), "not solved");
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert!(window.editor().session.messages().is_empty(), "mended");
+    assert_eq!(window.verdict(), "Planar: proved");
+}
+
+#[test]
+fn the_vertex_tab_tells_of_the_selected_vertex_and_fixes_it() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.click("Vertex");
+    assert!(window.shows("Select a vertex"));
+    window.editor_mut().selection.insert(VertexId::new(24));
+    window.settle();
+    assert!(window.shows("v24") && window.shows("inside"));
+    window.click("Fix");
+    assert!(window.editor().session.document().pins.contains_key(&VertexId::new(24)));
+    window.click("Free");
+    assert!(window.editor().session.document().pins.is_empty());
+}
+
+#[test]
+fn tabs_are_opened_and_panels_hidden() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    for tab in [Tab::Pins, Tab::Defects, Tab::Vertex, Tab::Method] {
+        window.click_last(tab.title());
+        assert_eq!(window.editor().tab, tab);
+    }
+    window.menu(&["View", "Panels"]);
+    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Method").is_none());
+    window.menu(&["Solve", "Method and weights"]);
+    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Method").is_some());
+}
+
+#[test]
+fn the_numbers_of_the_solve_unfold() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    assert!(!window.shows("Equation residual"));
+    window.harness.get_by_label("Numbers of the solve").click();
+    window.settle();
+    assert!(window.shows("Equation residual"));
+    let place = window.harness.get_by_label("Numbers of the solve");
+    assert!(!place.accesskit_node().is_hidden());
+}
+
+#[test]
+fn a_pinned_vertex_lies_on_its_pin_under_every_method() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    pin(&mut window, &[0, 48]);
+    let target = DVec2::new(-0.25, 0.125);
+    window.editor_mut().session.handle(Action::MovePin { vertex: VertexId::new(0), target });
+    window.settle();
+    window.click("Method");
+    for title in ["Lévy, summed", "Least-squares conformal", "Natural boundary"] {
+        window.choose("Method", title);
+        assert_eq!(window.embedding()[0], target, "{title}");
+    }
+}

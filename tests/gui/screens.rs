@@ -1,0 +1,144 @@
+//! A few pixels of the whole window, drawn by a software driver: what no accessibility tree tells.
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Color32, Pos2, Rect, Theme};
+use freebound::mesh::FaceId;
+use freebound::ui::{Shading, theme};
+use glam::DVec2;
+use image::RgbaImage;
+
+use crate::defects::fold;
+use crate::harness::{Window, sheet};
+
+/// Largest difference of a channel between a theme's colour and a pixel of it: edges are smoothed, lines are hatched.
+const NEAR: u8 = 24;
+
+const THEMES: [(Theme, &theme::Theme); 2] = [(Theme::Light, &theme::LIGHT), (Theme::Dark, &theme::DARK)];
+
+fn drawn(theme: Theme) -> Window {
+    let file = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    Window::drawn(theme, &file.path("sheet.obj"))
+}
+
+fn picture(window: &mut Window) -> RgbaImage {
+    window.harness.remove_cursor();
+    window.settle();
+    window.harness.render().expect("a driver")
+}
+
+/// The pixels of a part of the window.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "places in the picture")]
+fn pixels(picture: &RgbaImage, part: Rect) -> Vec<[u8; 3]> {
+    let [left, top, right, bottom] = [part.left(), part.top(), part.right(), part.bottom()].map(|x| x as u32);
+    let places = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y)));
+    places.map(|(x, y)| picture.get_pixel(x, y).0).map(|[r, g, b, _]| [r, g, b]).collect()
+}
+
+/// How many pixels of a part show a colour.
+fn count_of(picture: &RgbaImage, part: Rect, colour: Color32) -> usize {
+    let wanted = [colour.r(), colour.g(), colour.b()];
+    let near = |pixel: &[u8; 3]| pixel.iter().zip(wanted).all(|(&a, b)| a.abs_diff(b) <= NEAR);
+    pixels(picture, part).iter().filter(|pixel| near(pixel)).count()
+}
+
+/// The box around a face in the embedding's pane.
+fn box_of(window: &Window, face: FaceId) -> Rect {
+    let embedding = window.embedding();
+    let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
+    let places = corners.map(|corner| window.place_in_plane(embedding[corner.index()]));
+    Rect::from_points(&places)
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_flipped_face_is_red_in_the_embedding_and_the_verdict_too() {
+    for (name, theme) in THEMES {
+        let mut window = drawn(name);
+        let pill = |window: &Window| window.rect(Role::Button, &format!("Verdict: {}", window.verdict()));
+        let planar = picture(&mut window);
+        assert!(count_of(&planar, pill(&window), theme.planar) > 20, "{name:?}: green");
+        assert_eq!(count_of(&planar, window.plane_view(), theme.flipped), 0, "{name:?}: nothing is flipped yet");
+        fold(&mut window);
+        let folded = picture(&mut window);
+        assert!(count_of(&folded, pill(&window), theme.flipped) > 20, "{name:?}: red");
+        for &face in &window.outcome().verdict.flipped_faces {
+            let part = box_of(&window, face);
+            let least = (part.area() / 12.0).min(60.0);
+            let count = count_of(&folded, part, theme.flipped) as f32;
+            assert!(count >= least, "{name:?}: {count} red pixels in {part:?}");
+        }
+        assert!(count_of(&folded, window.mesh_view(), theme.flipped) > 20, "{name:?}: and on the mesh");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn both_panes_are_filled_and_their_corners_are_background() {
+    for (name, theme) in THEMES {
+        let mut window = drawn(name);
+        let picture = picture(&mut window);
+        for view in [window.mesh_view(), window.plane_view()] {
+            let all = pixels(&picture, view).len();
+            let empty = count_of(&picture, view, theme.background);
+            assert!(empty > all / 20 && empty < all * 9 / 10, "{name:?}: {empty} of {all} in {view:?}");
+            let corner = Rect::from_min_size(view.min + egui::Vec2::splat(4.0), egui::Vec2::splat(8.0));
+            assert_eq!(count_of(&picture, corner, theme.background), 64, "{name:?}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn the_checker_shows_both_its_colours_in_both_panes() {
+    for (name, theme) in THEMES {
+        let mut window = drawn(name);
+        let picture = picture(&mut window);
+        let [light, dark] = theme.palette.checker.map(|colour| {
+            let [r, g, b, _] = colour.0;
+            theme::rgb([r, g, b])
+        });
+        for colour in [light, dark] {
+            assert!(count_of(&picture, window.plane_view(), colour) > 2000, "{name:?}: {colour:?}");
+        }
+        let shades: std::collections::BTreeSet<_> = pixels(&picture, window.mesh_view()).into_iter().collect();
+        assert!(shades.len() > 50, "{name:?}: the mesh is lit");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn the_legend_shows_with_shadings_by_numbers_only() {
+    for (name, _) in THEMES {
+        let mut window = drawn(name);
+        let view = window.mesh_view();
+        let corner = Rect::from_min_max(
+            view.left_bottom() + egui::vec2(12.0, -90.0),
+            view.left_bottom() + egui::vec2(196.0, -12.0),
+        );
+        window.editor_mut().shading = Shading::Plain;
+        let plain = picture(&mut window);
+        window.editor_mut().shading = Shading::Angle;
+        let angle = picture(&mut window);
+        let changed = pixels(&plain, corner).iter().zip(pixels(&angle, corner)).filter(|(a, b)| *a != b).count();
+        assert!(changed > 5000, "{name:?}: {changed} pixels");
+        let (plain, angle) = (pixels(&plain, window.plane_view()), pixels(&angle, window.plane_view()));
+        assert_ne!(plain, angle, "{name:?}: the faces have other colours");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_pin_is_drawn_where_it_lies_in_both_panes() {
+    for (name, theme) in THEMES {
+        let mut window = drawn(name);
+        let vertex = freebound::mesh::VertexId::new(24);
+        window.editor_mut().session.handle(freebound::session::Action::Fix(vec![vertex]));
+        let picture = picture(&mut window);
+        let target: DVec2 = window.embedding()[24];
+        let around = |at: Pos2| Rect::from_center_size(at, egui::Vec2::splat(9.0));
+        for at in [window.place_in_plane(target), window.place_on_mesh(vertex)] {
+            assert!(count_of(&picture, around(at), theme.pin) > 40, "{name:?} at {at}");
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! The keyboard: shortcuts, Tab, Esc, and text fields that keep their letters.
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Vec2};
+use egui_kittest::kittest::Queryable;
+use freebound::mesh::VertexId;
+use freebound::session::{Action, Document};
+use freebound::ui::{BINDINGS, Pane, Request, Shading, Tool};
+
+use crate::harness::{Window, sheet};
+
+fn window() -> Window {
+    Window::with_mesh("sheet.obj", &sheet(8, 0.4))
+}
+
+fn document(window: &Window) -> Document {
+    window.editor().session.document().clone()
+}
+
+fn pin(window: &mut Window, vertices: &[u32]) {
+    window.editor_mut().session.handle(Action::Fix(vertices.iter().map(|&v| VertexId::new(v)).collect()));
+    window.settle();
+}
+
+#[test]
+fn shortcuts_do_what_the_table_says() {
+    for binding in BINDINGS {
+        let mut window = window();
+        pin(&mut window, &[0, 40, 80]);
+        window.editor_mut().session.handle(Action::UnpinAll);
+        window.settle();
+        window.editor_mut().session.handle(Action::Undo);
+        window.settle();
+        window.editor_mut().selection.insert(VertexId::new(40));
+        window.editor_mut().tool = Tool::Fix;
+        window.settle();
+        let (pins, orbit) = (document(&window).pins.len(), window.editor().orbit);
+        assert_eq!(pins, 3);
+        // Away from where framing leads, and Select in hand where that is asked for.
+        let request = (binding.request)();
+        if request == Request::SetTool(Tool::Fix) {
+            window.editor_mut().tool = Tool::Select;
+        }
+        window.press(binding.shortcut.modifiers, binding.shortcut.logical_key);
+        let editor = window.editor();
+        let done = match request {
+            Request::Do(Action::Undo | Action::Redo) => document(&window).pins.is_empty(),
+            Request::Do(Action::Solve) => editor.session.is_current(),
+            Request::AskOpen | Request::AskSave | Request::AskExport => editor.dialogs.is_open(),
+            Request::Quit => editor.quit,
+            // Nothing is wrong here to go to.
+            Request::StepDefect(_) => editor.defect.is_none(),
+            Request::SetTool(tool) => editor.tool == tool,
+            Request::UnpinSelected => document(&window).pins.len() == pins - 1,
+            Request::Frame => editor.orbit != orbit,
+            Request::AskGoTo => editor.go_to.is_some(),
+            Request::SetShading(shading) => editor.shading == shading,
+            Request::ToggleWireframe => editor.wireframe,
+            Request::TogglePane => editor.full == Some(Pane::Plane),
+            Request::Escape => editor.tool == Tool::Select,
+            Request::ToggleKeys => editor.keys_shown,
+            other => panic!("{other:?} has a key that no test knows"),
+        };
+        assert!(done, "{}: {:?}", binding.about, binding.shortcut);
+    }
+}
+
+#[test]
+fn tab_shows_the_pane_under_the_pointer_in_full_size_and_back() {
+    let mut window = window();
+    for (view, pane) in [(window.mesh_view(), Pane::Mesh), (window.plane_view(), Pane::Plane)] {
+        window.harness.hover_at(view.center());
+        window.settle();
+        window.key(Key::Tab);
+        assert_eq!(window.editor().full, Some(pane));
+        window.key(Key::Tab);
+        assert_eq!(window.editor().full, None);
+    }
+}
+
+#[test]
+fn tab_leaves_the_keyboard_with_the_window() {
+    let mut window = window();
+    for _ in 0..8 {
+        window.key(Key::Tab);
+    }
+    assert_eq!(window.harness.ctx.memory(egui::Memory::focused), None, "no control takes the keyboard");
+    window.key(Key::W);
+    assert!(window.editor().wireframe, "shortcuts still reach the window");
+}
+
+#[test]
+fn typing_into_a_field_triggers_no_shortcut() {
+    let mut window = window();
+    pin(&mut window, &[0, 40, 80]);
+    let before = document(&window);
+    window.editor_mut().selection.insert(VertexId::new(40));
+    window.key(Key::G);
+    window.type_text("vpdfw126");
+    window.key(Key::Backspace);
+    window.key(Key::Delete);
+    window.press(Modifiers::COMMAND, Key::Z);
+    let editor = window.editor();
+    assert_eq!(document(&window), before);
+    assert_eq!((editor.tool, editor.shading, editor.wireframe), (Tool::Select, Shading::Checker, false));
+    assert!(editor.go_to.is_some() && !editor.keys_shown && editor.defect.is_none());
+}
+
+#[test]
+fn escape_closes_what_has_the_keyboard() {
+    let mut window = window();
+    window.key(Key::P);
+    window.key(Key::G);
+    window.type_text("12");
+    window.key(Key::Escape);
+    assert!(window.editor().go_to.is_none());
+    assert_eq!(window.editor().tool, Tool::Fix, "and nothing else");
+}
+
+#[test]
+fn a_slide_of_weights_by_keys_and_a_drag_are_two_undo_steps() {
+    let mut window = window();
+    pin(&mut window, &[0, 40, 80]);
+    let before = document(&window);
+    window.harness.get_by_role_and_label(Role::Slider, "Power of the weights").focus();
+    window.step();
+    window.key(Key::ArrowLeft);
+    let slid = document(&window);
+    assert_ne!(slid, before);
+    let from = window.place_in_plane(window.embedding()[40]);
+    window.drag(from, from + Vec2::new(40.0, 30.0), Modifiers::NONE);
+    assert_ne!(document(&window), slid);
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(document(&window), slid);
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(document(&window), before);
+}
+
+#[test]
+fn escape_closes_an_open_menu_and_nothing_else() {
+    let mut window = window();
+    window.editor_mut().selection.insert(VertexId::new(3));
+    window.key(Key::P);
+    window.click("File");
+    assert!(window.has_button("Open…"));
+    window.key(Key::Escape);
+    assert!(!window.has_button("Open…"));
+    assert_eq!((window.editor().tool, window.editor().selection.len()), (Tool::Fix, 1));
+    window.open_list("Weights");
+    window.key(Key::Escape);
+    assert!(!window.has_button("Power"));
+    assert_eq!((window.editor().tool, window.editor().selection.len()), (Tool::Fix, 1));
+}
+
+#[test]
+fn shift_and_tab_walk_through_the_controls() {
+    let mut window = window();
+    window.press(Modifiers::SHIFT, Key::Tab);
+    assert_eq!(window.editor().full, None);
+    assert!(window.harness.ctx.memory(egui::Memory::focused).is_some());
+}

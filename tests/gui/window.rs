@@ -1,0 +1,296 @@
+//! The window as a whole: what opens, what it is called, and how it fits its size.
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Rect, Vec2};
+use egui_kittest::kittest::Queryable;
+use freebound::app::Start;
+use freebound::examples::Example;
+use freebound::ui::{BINDINGS, Shading, Tab};
+
+use crate::harness::{MESH_VIEW, PLANE_VIEW, SIZE, Window, sheet};
+
+#[test]
+fn the_built_in_face_opens_with_its_verdict_on_the_screen() {
+    let window = Window::start(SIZE, Start::default());
+    let model = window.editor().session.model().expect("something is open");
+    assert_eq!(model.name, Example::Face.title());
+    let words = window.verdict();
+    assert_eq!(words == "Planar: proved", window.outcome().verdict.planar);
+    assert!(window.shows(&words));
+}
+
+#[test]
+fn the_name_and_the_size_of_what_is_open_show() {
+    let window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    assert!(window.shows("sheet.obj"), "{:?}", window.words());
+    assert!(window.shows("49 v") && window.shows("72 f"), "{:?}", window.words());
+}
+
+/// Brings a window from its start into one of several states.
+type State = (&'static str, fn(&mut Window));
+
+/// What a person can bring the window to.
+const STATES: [State; 20] = [
+    ("at the start", |_| ()),
+    ("the File menu", |window| window.click("File")),
+    ("the list of recent files", |window| window.menu(&["File", "Recent"])),
+    ("the examples", |window| window.menu(&["File", "Examples"])),
+    ("the sizes in files", |window| window.menu(&["File", "Size in files"])),
+    ("the Edit menu", |window| window.click("Edit")),
+    ("the View menu", |window| window.click("View")),
+    ("the themes", |window| window.menu(&["View", "Theme"])),
+    ("the Solve menu", |window| window.click("Solve")),
+    ("the Help menu", |window| window.click("Help")),
+    ("the Pins tab", |window| window.click("Pins")),
+    ("the Pins tab with pins", |window| {
+        window.click("Pins");
+        fix(window, &[3, 9]);
+    }),
+    ("the Defects tab", |window| window.click("Defects")),
+    ("the Vertex tab", |window| {
+        window.click("Vertex");
+        window.editor_mut().selection.insert(freebound::mesh::VertexId::new(3));
+        window.settle();
+    }),
+    ("a list of methods", |window| window.open_list("Method")),
+    ("a list of weights", |window| window.open_list("Weights")),
+    ("a list of shadings", |window| window.open_list("Shading of both panes")),
+    ("the keys", |window| window.key(Key::F1)),
+    ("go to", |window| window.key(Key::G)),
+    ("a file dialog", |window| window.press(Modifiers::COMMAND, Key::E)),
+];
+
+fn fix(window: &mut Window, vertices: &[u32]) {
+    let vertices = vertices.iter().map(|&v| freebound::mesh::VertexId::new(v)).collect();
+    window.editor_mut().session.handle(freebound::session::Action::Fix(vertices));
+    window.settle();
+}
+
+#[test]
+fn every_control_has_a_name_in_every_state() {
+    for (state, bring) in STATES {
+        let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+        bring(&mut window);
+        assert_eq!(window.harness.unnamed_widgets(), Vec::<String>::new(), "{state}");
+        let controls = window.controls().into_iter();
+        // Labels are their own words; bars that scroll and bars with a title belong to what they are part of.
+        let controls = controls.filter(|(role, ..)| !matches!(role, Role::Label | Role::ScrollBar | Role::Unknown));
+        let nameless: Vec<_> = controls.filter(|(_, name, _)| name.trim().is_empty()).collect();
+        assert!(nameless.is_empty(), "{state}: {nameless:?}");
+    }
+}
+
+#[test]
+fn no_two_controls_of_a_state_have_the_same_role_and_name() {
+    for (state, bring) in STATES {
+        let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+        bring(&mut window);
+        let controls = window.controls();
+        for (i, (role, name, _)) in controls.iter().enumerate() {
+            let twice = controls[i + 1..].iter().any(|(other, same, _)| role == other && name == same);
+            // "Solve" is a menu and a button, "Conformal" an entry and a shortcut to it: both do what they say.
+            let allowed = ["Solve", "Panels", "Conformal", "Mean value", "Wachspress", ""].contains(&name.as_str());
+            let allowed = allowed || *role == Role::Label;
+            assert!(!twice || allowed, "{state}: {role:?} {name:?}");
+        }
+    }
+}
+
+#[test]
+fn each_menu_has_its_entries() {
+    let menus: [(&[&str], &[&str]); 8] = [
+        (&["File"], &["Open…", "Save with texture coordinates…", "Export drawing or report…", "Quit"]),
+        (&["File", "Examples"], &["Face", "Open cube", "Flat L", "Dome", "Bumpy cap", "Spiral strip"]),
+        (&["File", "Size in files"], &["Fit into the unit square", "True scale: the mesh's own area"]),
+        (
+            &["Edit"],
+            &["Undo", "Redo", "Select vertices", "Fix vertices", "Fix the selection", "Free the selected pins"],
+        ),
+        (
+            &["View"],
+            &["Wireframe", "Panels", "Frame the selection, or all", "Go to…", "Next defect", "Previous defect"],
+        ),
+        (&["View", "Theme"], &["As the system", "Light", "Dark"]),
+        (&["Solve"], &["Solve again", "Cancel", "Method and weights"]),
+        (&["Help"], &["All keys"]),
+    ];
+    for (path, entries) in menus {
+        let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+        window.menu(path);
+        for entry in entries {
+            assert!(window.has_button(entry), "{path:?} ▸ {entry}");
+        }
+    }
+}
+
+#[test]
+fn entries_that_can_do_nothing_are_grey() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    window.click("Edit");
+    for entry in ["Undo", "Redo", "Fix the selection", "Free the selected pins", "Free all pins"] {
+        assert!(!window.is_enabled(entry), "{entry}");
+    }
+    window.key(Key::Escape);
+    window.click("View");
+    assert!(!window.is_enabled("Next defect") && !window.is_enabled("Previous defect"));
+}
+
+#[test]
+fn each_example_opens_from_the_menu() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    for example in Example::ALL {
+        window.menu(&["File", "Examples", example.title()]);
+        assert_eq!(window.editor().session.model().expect("open").name, example.title());
+        assert!(window.editor().session.is_current(), "{}", example.title());
+    }
+}
+
+#[test]
+fn each_shading_of_the_view_menu_is_put_on() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    for shading in Shading::ALL {
+        window.menu(&["View", shading.title()]);
+        assert_eq!(window.editor().shading, shading);
+        let legend = window.editor().paint().expect("painted").legend.is_some();
+        assert_eq!(legend, !matches!(shading, Shading::Plain | Shading::Checker), "{shading:?}");
+    }
+    window.choose("Shading of both panes", "Stretch");
+    assert_eq!(window.editor().shading, Shading::Stretch);
+    window.click("Wire");
+    assert!(window.editor().wireframe);
+    window.menu(&["View", "Wireframe"]);
+    assert!(!window.editor().wireframe);
+}
+
+#[test]
+fn the_theme_of_the_menu_is_put_on() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    for (name, dark) in [("Light", false), ("Dark", true)] {
+        window.menu(&["View", "Theme", name]);
+        assert_eq!(window.harness.ctx.global_style().visuals.dark_mode, dark, "{name}");
+    }
+}
+
+#[test]
+fn the_list_of_keys_has_them_all() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    window.menu(&["Help", "All keys"]);
+    for binding in BINDINGS {
+        let keys = window.harness.ctx.format_shortcut(&binding.shortcut);
+        // What is scrolled out of sight is there all the same.
+        for words in [binding.about, &keys] {
+            assert!(window.harness.query_all_by_label(words).next().is_some(), "{words}");
+        }
+    }
+    window.key(Key::Escape);
+    assert!(!window.editor().keys_shown);
+}
+
+#[test]
+fn a_pane_in_full_size_has_the_window_to_itself() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    let half = window.mesh_view().width();
+    window.click("Show this pane alone: Mesh");
+    assert!(window.mesh_view().width() > 1.9 * half);
+    assert!(window.harness.query_by_role_and_label(Role::Image, PLANE_VIEW).is_none());
+    window.click("Show both panes: Mesh");
+    window.click("Show this pane alone: Embedding");
+    assert!(window.plane_view().width() > 1.9 * half);
+    assert!(window.harness.query_by_role_and_label(Role::Image, MESH_VIEW).is_none());
+    window.click("Show both panes: Embedding");
+    assert!((window.mesh_view().width() - half).abs() < 1.0);
+}
+
+#[test]
+fn the_splitter_moves_the_border_of_the_panes() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    let before = window.mesh_view().width();
+    let bar = window.rect(Role::Slider, "Width of the panes").center();
+    window.drag(bar, bar + Vec2::new(-100.0, 0.0), Modifiers::NONE);
+    assert!((window.mesh_view().width() - (before - 100.0)).abs() < 2.0);
+}
+
+#[test]
+fn both_panes_are_framed_when_a_mesh_opens() {
+    let window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let inside = |view: Rect, places: Vec<egui::Pos2>| {
+        let spread = places.iter().fold(Rect::NOTHING, |rect, &at| rect.union(Rect::from_min_max(at, at)));
+        assert!(view.contains_rect(spread), "{spread:?} in {view:?}");
+        assert!(spread.width() > 0.5 * view.width() || spread.height() > 0.5 * view.height(), "{spread:?} in {view:?}");
+    };
+    let vertices = (0..49).map(freebound::mesh::VertexId::new);
+    inside(window.mesh_view(), vertices.map(|vertex| window.place_on_mesh(vertex)).collect());
+    inside(window.plane_view(), window.embedding().into_iter().map(|z| window.place_in_plane(z)).collect());
+}
+
+/// Sizes from the least to one of a large screen.
+const SIZES: [Vec2; 3] = [Vec2::new(640.0, 420.0), SIZE, Vec2::new(2000.0, 1200.0)];
+
+#[test]
+fn the_window_fits_into_every_size() {
+    let mesh = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    for size in SIZES {
+        for (state, bring) in STATES {
+            let mut window = Window::start(
+                size,
+                Start { file: Some(mesh.path("sheet.obj")), dialogs_inside: true, ..Start::default() },
+            );
+            window.editor_mut().handle(freebound::ui::Request::ShowTab(Tab::Method));
+            window.settle();
+            bring(&mut window);
+            let all = Rect::from_min_size(egui::Pos2::ZERO, size).expand(0.5);
+            for (role, name, rect) in window.controls() {
+                let across = all.x_range().contains(rect.left()) && all.x_range().contains(rect.right());
+                let fits = all.contains_rect(rect) || (across && is_scrolled(role, &name));
+                assert!(fits, "{state} at {size}: {role:?} {name:?} lies at {rect:?}");
+            }
+        }
+    }
+}
+
+/// Whether a control is part of a list that scrolls.
+fn is_scrolled(role: Role, name: &str) -> bool {
+    let listed = name.ends_with('/') || name.contains(" pin v") || name.contains(" of pin ") || name.ends_with(".obj");
+    let in_panel = ["Numbers of the solve", "Solve", "Free", "Fix", "Free all", "Frame", "Copy"].contains(&name);
+    role == Role::Label || role == Role::ScrollBar || listed || in_panel
+}
+
+#[test]
+fn what_is_below_the_window_s_edge_can_be_scrolled_to() {
+    let mesh = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    let mut window = Window::start(SIZES[0], Start { file: Some(mesh.path("sheet.obj")), ..Start::default() });
+    window.editor_mut().handle(freebound::ui::Request::ShowTab(Tab::Method));
+    window.settle();
+    window.harness.get_by_label("Numbers of the solve").scroll_to_me();
+    window.settle();
+    let bar = window.harness.get_by_label("Numbers of the solve").rect();
+    assert!(bar.bottom() <= SIZES[0].y - 20.0, "{bar:?}");
+}
+
+#[test]
+fn the_bar_at_the_top_does_not_overlap_itself() {
+    for size in SIZES {
+        let mesh = Window::with_mesh(
+            "a mesh with a long name, longer than the bar at the top has room for.obj",
+            &sheet(4, 0.3),
+        );
+        let file = mesh.editor().session.model().and_then(|model| model.path.clone());
+        let window = Window::start(size, Start { file, ..Start::default() });
+        let bar: Vec<_> = window.controls().into_iter().filter(|(.., rect)| rect.bottom() < 30.0).collect();
+        assert!(bar.len() >= 6, "{bar:?}");
+        for (i, (_, name, rect)) in bar.iter().enumerate() {
+            for (_, other, place) in &bar[i + 1..] {
+                let common = rect.intersect(*place);
+                assert!(common.width() <= 0.5 || common.height() <= 0.5, "{name:?} over {other:?} at {size}");
+            }
+        }
+    }
+}
+
+#[test]
+fn quit_closes_the_window() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    window.press(Modifiers::COMMAND, Key::Q);
+    assert!(window.editor().quit);
+}
