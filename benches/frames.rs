@@ -17,7 +17,7 @@ use freebound::ui::{Request, Shading};
 const FRAMES: usize = 60;
 
 /// What the background is given to open and solve the mesh.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 fn main() {
     let file = std::env::args().nth(1).filter(|argument| !argument.starts_with("--")).map(PathBuf::from);

@@ -20,7 +20,7 @@ pub fn run(command: &Command) -> ExitCode {
     let outcome = match command {
         Command::Flatten(arguments) => flatten::run(arguments),
         Command::Check(arguments) => check::run(arguments),
-        Command::Methods => methods::run(),
+        Command::Methods => Ok(methods::run()),
     };
     exit::conclude(outcome)
 }

@@ -76,9 +76,7 @@ impl Example {
     pub const fn about(self) -> &'static str {
         match self {
             Self::Face => "A smooth mask of a face with a wavy boundary, to be fitted to the painted portrait.",
-            Self::Cube => {
-                "A cube without its bottom, after the paper's figure 3: sharp corners that fold mean-value embeddings."
-            }
+            Self::Cube => "A cube without its bottom, after the paper's figure 3: sharp corners, irregular triangles.",
             Self::Ell => "A flat L in an irregular triangulation, which every linear method must return unchanged.",
             Self::Dome => "A cap below its equator, the gentlest surface that cannot lie flat without distortion.",
             Self::BumpyCap => "A bumpy ball open at the bottom, far past its equator, which needs real flattening.",

@@ -272,6 +272,10 @@ impl Session {
 
     fn fix(&mut self, vertices: &[VertexId]) {
         let Some(outcome) = self.outcome.clone() else { return };
+        if !self.document.settings.method.uses_pins() {
+            let text = "a convex boundary takes no pins: every boundary vertex has its place".to_owned();
+            return self.fail(Place::Embedding, text, Some("choose another method to pin vertices"));
+        }
         let fresh = vertices.iter().filter(|v| !self.document.pins.contains_key(v));
         let pin = |&vertex: &VertexId| Command::SetPin {
             vertex,
@@ -378,6 +382,10 @@ impl Session {
         let (Some(model), Some(outcome)) = (self.model.clone(), self.outcome.clone()) else {
             return self.fail(Place::Embedding, "there is nothing to save yet: open a mesh first".to_owned(), None);
         };
+        if !self.is_current() {
+            let text = "the embedding on the screen does not belong to these settings and pins yet".to_owned();
+            return self.fail(Place::Embedding, text, Some("save again when it is solved"));
+        }
         let work = move |_: &super::JobContext<()>| {
             let disk = model.disk().expect("only a disk has an outcome");
             let finished = Finished::new(&model, disk, &outcome, request.fit, 0.0);

@@ -130,6 +130,7 @@ pub fn levy(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
 /// # Errors
 ///
 /// [`SolveError::NotFinite`] where a triangle has no area.
+#[expect(clippy::many_single_char_names, reason = "corners and edges as the equation names them")]
 pub fn lscm(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = length_scale(mesh);
     sum_corners(mesh, |corner| {

@@ -100,7 +100,7 @@ impl Prepared {
                 let equations = convex_equations(mesh, settings.family)?;
                 let symmetric = matches!(settings.family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
-                Values::Prescribed(factor(mesh, &system, equations, kind(symmetric), &mut seconds, control)?)
+                Values::Prescribed(factor((mesh, &system), equations, kind(symmetric), &mut seconds, control)?)
             }
             method => {
                 let equations = match method {
@@ -114,7 +114,7 @@ impl Prepared {
                     _ => settings.family.power() == Some(Family::CONFORMAL_POWER),
                 };
                 seconds.assemble = start.elapsed().as_secs_f64();
-                Values::Free(factor(mesh, &system, equations, kind(hermitian), &mut seconds, control)?)
+                Values::Free(factor((mesh, &system), equations, kind(hermitian), &mut seconds, control)?)
             }
         };
         let asked = pins.keys().copied().collect();
@@ -157,10 +157,14 @@ impl Prepared {
             to_true_area(mesh, &mut embedding);
             if let Some((vertex, target)) = pins.first_key_value() {
                 let shift = *target - embedding[vertex.index()];
-                embedding.iter_mut().for_each(|z| *z += shift);
+                for z in &mut embedding {
+                    *z += shift;
+                }
                 embedding[vertex.index()] = *target;
             }
-            pins_in_force.iter_mut().for_each(|(vertex, place)| *place = embedding[vertex.index()]);
+            for (vertex, place) in &mut pins_in_force {
+                *place = embedding[vertex.index()];
+            }
         }
         let on_convex = |v: VertexId| matches!(self.settings.method, Method::Convex(_)) && in_force.contains_key(&v);
         let (stats, bounded_corners, equation_residual) = match &self.values {
@@ -241,8 +245,7 @@ fn convex_equations(mesh: &DiskMesh, family: Family) -> Result<Equations<f64>, S
 }
 
 fn factor<T: Scalar>(
-    mesh: &DiskMesh,
-    system: &FreeSystem,
+    (mesh, system): (&DiskMesh, &FreeSystem),
     equations: Equations<T>,
     kind: Kind,
     seconds: &mut PhaseSeconds,

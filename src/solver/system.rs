@@ -32,6 +32,10 @@ pub struct FreeSystem {
 
 impl FreeSystem {
     /// Lays out the system of all vertices that are not pinned.
+    ///
+    /// # Panics
+    ///
+    /// If the system has 2³² entries or more.
     pub fn new(mesh: &DiskMesh, is_pinned: impl Fn(VertexId) -> bool) -> Self {
         let mut row_of_vertex = vec![NONE; mesh.vertex_count()];
         let free: Vec<VertexId> = mesh.vertices().filter(|&v| !is_pinned(v)).collect();
@@ -85,6 +89,10 @@ impl FreeSystem {
     }
 
     /// The matrix `−A_FF`; positive definite where the coefficients are conformal.
+    ///
+    /// # Panics
+    ///
+    /// If the equations are not those of this mesh.
     pub fn negated_matrix<T>(&self, mesh: &DiskMesh, equations: &Equations<T>) -> CscMatrix<T>
     where
         T: Scalar,

@@ -60,6 +60,12 @@ pub(super) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         }
     });
     ui.separator();
+    list(ui, editor, requests);
+}
+
+/// All defects, to jump from.
+fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
     let defects = editor.defects();
     egui::ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, defects.len(), |ui, range| {
         for place in range {

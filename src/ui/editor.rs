@@ -23,6 +23,7 @@ const PATIENCE: Duration = Duration::from_millis(250);
 const GO_TO_MARGIN: f64 = 7.0;
 
 /// Everything the window knows.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the window")]
 pub struct Editor {
     /// The document and the work on it.
     pub session: Session,

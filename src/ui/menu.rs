@@ -47,6 +47,9 @@ fn title_between(ui: &egui::Ui, bar: egui::Rect, room: std::ops::RangeInclusive<
         .center()
         .x
         .clamp(room.start() + 12.0 + half.x, (room.end() - 12.0 - half.x).max(room.start() + 12.0 + half.x));
+    let place = egui::Rect::from_center_size(egui::pos2(middle, bar.center().y), galley.size());
+    let response = ui.interact(place, ui.scope_id().with("title"), egui::Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
     ui.painter().galley(egui::pos2(middle - half.x, bar.center().y - half.y), galley, theme_of(ui).weak_text);
 }
 

@@ -53,7 +53,7 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
     select(ui, &response, editor, &plane, requests);
-    marks(ui, rect, editor, &mesh, &plane, camera);
+    marks(ui, rect, editor, (&mesh, &plane), camera);
     drag_pins(ui, rect, editor, camera, requests);
     if editor.mesh_hidden()
         && let Some(legend) = editor.paint().and_then(|paint| paint.legend.as_ref())
@@ -121,9 +121,9 @@ fn frame(editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCam
     }
 }
 
-fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCamera) {
+fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene), camera: PlaneCamera) {
     let theme = theme_of(ui);
-    let painter = ui.painter_at(rect);
+    let over = ui.painter_at(rect);
     let size = pane::size_of(rect);
     let embedding = &plane.outcome.solution.embedding;
     let place = |vertex: VertexId| -> Pos2 {
@@ -133,19 +133,19 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, mesh: &MeshScene, plane: &P
     for pair in super::defect_marks::crossings(editor, mesh) {
         let [first, second] = pair.map(|edge| edge.map(place));
         for edge in [first, second] {
-            painter.line_segment(edge, Stroke::new(3.0, theme.crossing));
+            over.line_segment(edge, Stroke::new(3.0, theme.crossing));
         }
         let at = super::defect_marks::crossing_point(first, second);
-        painter.circle_stroke(at, 7.0, Stroke::new(1.5, theme.crossing));
+        over.circle_stroke(at, 7.0, Stroke::new(1.5, theme.crossing));
     }
     for vertex in super::defect_marks::overwound(editor) {
-        super::defect_marks::overwound_mark(&painter, place(vertex), theme);
+        super::defect_marks::overwound_mark(&over, place(vertex), theme);
     }
     for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
-        pane::halo(&painter, place(vertex), theme.selection, 6.0);
+        pane::halo(&over, place(vertex), theme.selection, 6.0);
     }
     if let Some(vertex) = editor.hovered {
-        pane::halo(&painter, place(vertex), theme.selection, 5.0);
+        pane::halo(&over, place(vertex), theme.selection, 5.0);
     }
 }
 

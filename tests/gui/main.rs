@@ -1,5 +1,7 @@
 //! Tests of what needs the feature `gui`. Those that draw need a Vulkan driver and are ignored without being asked for.
 #![cfg(feature = "gui")]
+#![allow(clippy::unwrap_used, reason = "a helper that fails fails its test")]
+#![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod defects;
 mod dialogs;
