@@ -10,6 +10,7 @@ mod distortion;
 mod examples;
 mod flat;
 mod flatten_cli;
+mod flatten_files;
 mod layers;
 mod linalg;
 mod mesh;
