@@ -27,7 +27,9 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut [DVec2]) {
         .sum();
     let factor = (surface / flat).sqrt() * (in_plane / in_space);
     if factor.is_finite() && factor > 0.0 {
-        embedding.iter_mut().for_each(|z| *z *= factor);
+        for z in embedding {
+            *z *= factor;
+        }
     }
 }
 
@@ -44,6 +46,8 @@ pub fn to_unit_square(embedding: &mut [DVec2]) {
     let high = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let extent = (high - low).max_element();
     if extent.is_finite() && extent > 0.0 {
-        embedding.iter_mut().for_each(|z| *z = (*z - low) / extent);
+        for z in embedding {
+            *z = (*z - low) / extent;
+        }
     }
 }

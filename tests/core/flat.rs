@@ -58,7 +58,7 @@ fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random
                 *number[(y * (columns + 1) + x) as usize].get_or_insert_with(|| {
                     let jitter = DVec2::new(random.unit() - 0.5, random.unit() - 0.5) * 0.4;
                     plane.push(DVec2::new(f64::from(x), f64::from(y)) + jitter);
-                    u32::try_from(plane.len() - 1).unwrap()
+                    u32::try_from(plane.len() - 1).expect("well-formed by construction")
                 })
             };
             let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];

@@ -1,5 +1,7 @@
 //! What `freebound flatten` writes: the mesh, the drawing, the picture.
 
+#![allow(clippy::float_cmp, reason = "the unit square is filled bit for bit")]
+
 use std::collections::BTreeSet;
 use std::fs;
 

@@ -144,7 +144,7 @@ pub(crate) fn polygons_of(mesh: &DiskMesh) -> PolygonMesh {
 
 /// A built-in mesh as a file in the program's folder.
 pub(crate) fn example_file(program: &Program, example: Example) -> DiskMesh {
-    let mesh = DiskMesh::try_from(example.mesh()).unwrap();
+    let mesh = DiskMesh::try_from(example.mesh()).expect("well-formed by construction");
     program.write("in.obj", &obj_text(&PolygonMesh::from(mesh.mesh())));
     mesh
 }
