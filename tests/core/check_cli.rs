@@ -1,5 +1,7 @@
 //! `freebound check` on files that another program might have written, and Ctrl-C.
 
+#![allow(clippy::float_cmp, reason = "whole numbers are read without rounding")]
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

@@ -1,5 +1,7 @@
 //! Convex boundaries: the boundary on its shape, the inside at weighted means, and proved where the theorem holds.
 
+#![allow(clippy::float_cmp, reason = "places on the outline are meant bit for bit")]
+
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
@@ -27,7 +29,9 @@ fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Vec<DVec2> {
 }
 
 fn examples() -> Vec<(String, DiskMesh)> {
-    Example::ALL.map(|e| (e.name().to_owned(), DiskMesh::try_from(e.mesh()).unwrap())).to_vec()
+    Example::ALL
+        .map(|e| (e.name().to_owned(), DiskMesh::try_from(e.mesh()).expect("well-formed by construction")))
+        .to_vec()
 }
 
 #[test]
@@ -81,7 +85,8 @@ fn weights(mesh: &DiskMesh, family: Family) -> Equations<f64> {
     match family {
         Family::Uniform => equations::uniform(mesh),
         Family::ShapePreserving => shape_preserving(mesh),
-        three_point => equations::barycentric(mesh, three_point.power().unwrap()).unwrap(),
+        three_point => equations::barycentric(mesh, three_point.power().expect("well-formed by construction"))
+            .expect("well-formed by construction"),
     }
 }
 
@@ -139,9 +144,9 @@ fn closed_ring() -> impl Strategy<Value = Vec<DVec2>> {
 fn fan_of(ring: &[DVec2], place: impl Fn(usize, DVec2) -> DVec3) -> DiskMesh {
     let rim = ring.iter().enumerate().map(|(k, &p)| place(k, p));
     let positions = std::iter::once(DVec3::ZERO).chain(rim).collect();
-    let count = u32::try_from(ring.len()).unwrap();
+    let count = u32::try_from(ring.len()).expect("well-formed by construction");
     let triangles: Vec<[u32; 3]> = (0..count).map(|k| [0, 1 + k, 1 + (k + 1) % count]).collect();
-    DiskMesh::try_from(TriMesh::new(positions, &triangles)).unwrap()
+    DiskMesh::try_from(TriMesh::new(positions, &triangles)).expect("well-formed by construction")
 }
 
 /// The weight of each neighbour of vertex 0, by the ring's order.

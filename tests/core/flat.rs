@@ -30,7 +30,7 @@ impl Flat {
     /// One of each kind, different for every seed.
     pub(crate) fn of_seed(seed: u64) -> [Self; 3] {
         let mut random = Random(seed);
-        [notched_grid(&mut random), comb(&mut random, 4), blob(&mut random)]
+        [notched_grid(&mut random), comb(&mut random, 3), blob(&mut random)]
     }
 
     /// Long and thin: what a method does at one end hardly reaches the other.
@@ -58,7 +58,7 @@ fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random
                 *number[(y * (columns + 1) + x) as usize].get_or_insert_with(|| {
                     let jitter = DVec2::new(random.unit() - 0.5, random.unit() - 0.5) * 0.4;
                     plane.push(DVec2::new(f64::from(x), f64::from(y)) + jitter);
-                    u32::try_from(plane.len() - 1).unwrap()
+                    u32::try_from(plane.len() - 1).expect("well-formed by construction")
                 })
             };
             let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
@@ -71,7 +71,7 @@ fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random
 
 /// A grid with a rectangular bite out of its upper side.
 fn notched_grid(random: &mut Random) -> Flat {
-    let [columns, rows] = [8 + random.below(5), 6 + random.below(4)];
+    let [columns, rows] = [8 + random.below(4), 5 + random.below(3)];
     let (left, bottom) = (2 + random.below(2), 2 + random.below(2));
     let (plane, triangles) = jittered([columns, rows], |x, y| !(y >= bottom && (left..left + 3).contains(&x)), random);
     Flat::laid_out(format!("grid {columns}×{rows} with a notch"), plane, &triangles, random)

@@ -12,6 +12,7 @@ mod distortion;
 mod examples;
 mod flat;
 mod flatten_cli;
+mod flatten_files;
 mod layers;
 mod linalg;
 mod linalg_faults;

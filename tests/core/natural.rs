@@ -120,7 +120,7 @@ fn corner_terms(x: [DVec3; 3], settings: &Settings) -> [Complex<f64>; 3] {
         let (of1, of2) = (-Complex::from_polar(1.0, angle), Complex::from(r1 / r2));
         return [-of1 - of2, of1, of2];
     }
-    let power = settings.family.power().unwrap();
+    let power = settings.family.power().expect("well-formed by construction");
     let (d1, d2) = (r1.powf(power), r2.powf(power));
     let (sin, cot) = (angle.sin(), 1.0 / angle.tan());
     let of1 = Complex::new((d2 / sin - d1 * cot) / r1, -d1 / r1);
@@ -177,9 +177,9 @@ fn a_dense_solve_written_corner_by_corner_agrees() {
 /// The unsymmetric systems with a free boundary.
 fn unsymmetric(mesh: &DiskMesh) -> [(&'static str, Equations<Complex<f64>>); 3] {
     [
-        ("mean value", equations::natural(mesh, 0.0).unwrap()),
-        ("Wachspress", equations::natural(mesh, -1.0).unwrap()),
-        ("Lévy", equations::levy(mesh).unwrap()),
+        ("mean value", equations::natural(mesh, 0.0).expect("well-formed by construction")),
+        ("Wachspress", equations::natural(mesh, -1.0).expect("well-formed by construction")),
+        ("Lévy", equations::levy(mesh).expect("well-formed by construction")),
     ]
 }
 
@@ -237,7 +237,7 @@ fn the_free_unsymmetric_methods_solve_the_disks_of_the_corpus() {
 }
 
 fn face() -> DiskMesh {
-    DiskMesh::try_from(Example::Face.mesh()).unwrap()
+    DiskMesh::try_from(Example::Face.mesh()).expect("well-formed by construction")
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Pins: met exactly, completed where there are too few, refused where they cannot be.
 
+#![allow(clippy::float_cmp, reason = "the unit square is filled bit for bit")]
+
 use std::f64::consts::TAU;
 
 use freebound::examples::Example;

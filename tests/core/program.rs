@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use freebound::examples::Example;
+use freebound::io::ObjMesh;
 use freebound::mesh::{DiskMesh, PolygonMesh};
 use glam::DVec2;
 use serde_json::Value;
@@ -138,4 +140,21 @@ fn positions_text(polygons: &PolygonMesh) -> String {
 /// The faces of a disk as polygons.
 pub(crate) fn polygons_of(mesh: &DiskMesh) -> PolygonMesh {
     PolygonMesh::from(mesh.mesh())
+}
+
+/// A built-in mesh as a file in the program's folder.
+pub(crate) fn example_file(program: &Program, example: Example) -> DiskMesh {
+    let mesh = DiskMesh::try_from(example.mesh()).expect("well-formed by construction");
+    program.write("in.obj", &obj_text(&PolygonMesh::from(mesh.mesh())));
+    mesh
+}
+
+/// Texture coordinates by vertex of a file that gives every vertex one.
+pub(crate) fn coordinates_by_vertex(file: &ObjMesh) -> Vec<DVec2> {
+    let texture = file.texture.as_ref().expect("the file has texture coordinates");
+    let mut found = vec![DVec2::NAN; file.polygons.positions.len()];
+    for (vertex, &place) in file.polygons.corners.iter().zip(&texture.corners) {
+        found[vertex.index()] = texture.coordinates[place as usize];
+    }
+    found
 }
