@@ -48,6 +48,7 @@ impl Noise {
         let cell = point.floor();
         let t = point - cell;
         let t = t * t * (DVec2::splat(3.0) - 2.0 * t);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a remainder lies in the lattice")]
         let wrapped = |x: f64, step: usize| (x.rem_euclid(LATTICE as f64) as usize + step) % LATTICE;
         let value = |i: usize, j: usize| self.0[wrapped(cell.y, j) * LATTICE + wrapped(cell.x, i)];
         let row = |j: usize| value(0, j) * (1.0 - t.x) + value(1, j) * t.x;

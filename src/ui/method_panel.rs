@@ -68,7 +68,7 @@ pub(super) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
 }
 
 /// The words with a capital at the beginning.
-pub(super) fn sentence(words: &str) -> String {
+pub fn sentence(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -26,6 +26,7 @@ mod window;
 pub use dialogs::{Choice, Dialogs, Purpose};
 pub use editor::{Defect, Editor};
 pub use keys::{BINDINGS, Binding, keys_of};
+pub use method_panel::sentence;
 pub use pane::PinOwner;
 pub use request::{Pane, Request, Shading, Tab, Tool};
 pub use scene::{Element, MeshScene, Paint, PlaneScene};

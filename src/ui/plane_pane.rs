@@ -126,12 +126,12 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
     let over = ui.painter_at(rect);
     let size = pane::size_of(rect);
     let embedding = &plane.outcome.solution.embedding;
-    let place = |vertex: VertexId| -> Pos2 {
+    let spot = |vertex: VertexId| -> Pos2 {
         let z = embedding.get(vertex.index()).copied().unwrap_or(DVec2::NAN);
         pane::on_screen(rect, camera.pane_from_embedding(z, size))
     };
     for pair in super::defect_marks::crossings(editor, mesh) {
-        let [first, second] = pair.map(|edge| edge.map(place));
+        let [first, second] = pair.map(|edge| edge.map(spot));
         for edge in [first, second] {
             over.line_segment(edge, Stroke::new(3.0, theme.crossing));
         }
@@ -139,13 +139,13 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
         over.circle_stroke(at, 7.0, Stroke::new(1.5, theme.crossing));
     }
     for vertex in super::defect_marks::overwound(editor) {
-        super::defect_marks::overwound_mark(&over, place(vertex), theme);
+        super::defect_marks::overwound_mark(&over, spot(vertex), theme);
     }
     for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
-        pane::halo(&over, place(vertex), theme.selection, 6.0);
+        pane::halo(&over, spot(vertex), theme.selection, 6.0);
     }
     if let Some(vertex) = editor.hovered {
-        pane::halo(&over, place(vertex), theme.selection, 5.0);
+        pane::halo(&over, spot(vertex), theme.selection, 5.0);
     }
 }
 

@@ -127,7 +127,6 @@ fn assert_keys(value: &Value, expected: &[&str]) {
 }
 
 #[test]
-#[expect(clippy::too_many_lines, reason = "one list of all fields")]
 fn the_report_is_one_json_object_with_the_fields_of_the_design() {
     let program = Program::new();
     example_file(&program, Example::Dome);

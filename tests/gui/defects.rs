@@ -103,7 +103,7 @@ fn the_crossings_of_the_cow_are_listed_and_shown() {
 fn go_to_finds_vertices_edges_and_faces_by_number() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     let triangles = window.editor().session.model().expect("open").mesh().triangles.clone();
-    for (text, expected) in [("24", vec![24]), ("v7", vec![7]), ("f3", triangles[3].map(|v| v.number()).to_vec())] {
+    for (text, expected) in [("24", vec![24]), ("v7", vec![7]), ("f3", triangles[3].map(VertexId::number).to_vec())] {
         window.key(Key::G);
         window.type_text(text);
         window.key(Key::Enter);

@@ -14,6 +14,7 @@ use freebound::io::read_mesh;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Severity, Surface};
 use freebound::solver::{Family, Method, Settings};
+use freebound::ui::sentence;
 
 use crate::harness::{SIZE, Window, corpus, sheet, write_obj};
 
@@ -230,7 +231,7 @@ fn every_bad_file_of_the_corpus_says_what_is_wrong_and_what_to_do() {
         for message in &messages {
             assert!(message.remedy.as_ref().is_some_and(|remedy| !remedy.is_empty()), "{file_name}: {message:?}");
         }
-        assert!(window.shows(&messages[0].text), "{file_name}: {:?}", window.words());
+        assert!(window.shows(&sentence(&messages[0].text)), "{file_name}: {:?}", window.words());
         assert!(window.has_button("Dismiss") && window.has_button("Copy"), "{file_name}");
         if read_mesh(&file).is_err() {
             assert_eq!(name(&window), "sheet.obj", "what cannot be read replaces nothing");

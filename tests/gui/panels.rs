@@ -8,7 +8,7 @@ use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::solver::{BoundaryShape, Family, Method, Settings};
-use freebound::ui::Tab;
+use freebound::ui::{Tab, sentence};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -220,7 +220,7 @@ fn two_pins_on_one_place_are_refused_with_both_named() {
     window.settle();
     let message = &window.editor().session.messages()[0];
     assert!(message.text.contains("v0") && message.text.contains("v48"), "{}", message.text);
-    assert!(window.shows(&message.text));
+    assert!(window.shows(&sentence(&message.text)));
     assert_eq!(window.verdict(), "not solved");
     window.press(Modifiers::COMMAND, Key::Z);
     assert!(window.editor().session.messages().is_empty(), "mended");

@@ -251,7 +251,10 @@ fn the_window_fits_into_every_size() {
 
 /// Whether a control is part of a list that scrolls.
 fn is_scrolled(role: Role, name: &str) -> bool {
-    let listed = name.ends_with('/') || name.contains(" pin v") || name.contains(" of pin ") || name.ends_with(".obj");
+    let listed = name.ends_with('/')
+        || name.contains(" pin v")
+        || name.contains(" of pin ")
+        || std::path::Path::new(&name).extension().is_some_and(|e| e == "obj");
     let in_panel = ["Numbers of the solve", "Solve", "Free", "Fix", "Free all", "Frame", "Copy"].contains(&name);
     role == Role::Label || role == Role::ScrollBar || listed || in_panel
 }
