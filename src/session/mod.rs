@@ -2,6 +2,7 @@
 
 mod action;
 mod document;
+mod files;
 mod job;
 mod load;
 mod message;

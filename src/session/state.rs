@@ -3,20 +3,17 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{
-    Action, Command, Document, Finished, History, Job, Message, Model, Outcome, Place, Poll, RecentFiles, SaveRequest,
-    Severity, Surface,
-};
+use super::{Action, Command, Document, History, Job, Message, Model, Outcome, Place, Poll, RecentFiles, Severity};
 use crate::io::{ReadError, WriteError};
-use crate::mesh::{Elements, Fault, TriMesh, VertexId};
-use crate::solver::{Control, Phase, Pins, Prepared, Settings, SolveError, Verdict};
+use crate::mesh::VertexId;
+use crate::solver::{Control, Phase, Prepared, Settings, SolveError, Verdict};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-type LoadJob = Job<(), Result<Model, ReadError>>;
+pub(super) type LoadJob = Job<(), Result<Model, ReadError>>;
 type SolveJob = Job<Phase, Result<Outcome, SolveError>>;
-type SaveJob = Job<(), Result<(PathBuf, Verdict), WriteError>>;
+pub(super) type SaveJob = Job<(), Result<(PathBuf, Verdict), WriteError>>;
 
 /// What goes on in the background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +27,7 @@ pub enum Busy {
 }
 
 /// A solve that runs, and what it was asked for.
-struct Solving {
+pub(super) struct Solving {
     job: SolveJob,
     settings: Settings,
     pinned: Vec<VertexId>,
@@ -39,30 +36,30 @@ struct Solving {
 
 /// One open document and the work on it.
 pub struct Session {
-    wake: Wake,
-    model: Option<Arc<Model>>,
+    pub(super) wake: Wake,
+    pub(super) model: Option<Arc<Model>>,
     /// Counts the meshes opened, so that a screen can tell when to draw anew.
-    model_revision: u64,
-    document: Document,
-    history: History,
-    outcome: Option<Arc<Outcome>>,
+    pub(super) model_revision: u64,
+    pub(super) document: Document,
+    pub(super) history: History,
+    pub(super) outcome: Option<Arc<Outcome>>,
     /// Counts the outcomes, for the same reason.
-    outcome_revision: u64,
+    pub(super) outcome_revision: u64,
     /// Kept from solves that succeeded, to be used again while a pin is dragged.
-    prepared: Option<Arc<Prepared>>,
-    loading: Option<LoadJob>,
+    pub(super) prepared: Option<Arc<Prepared>>,
+    pub(super) loading: Option<LoadJob>,
     /// The file that is being loaded, to be remembered once it is open.
-    loading_path: Option<PathBuf>,
-    solving: Option<Solving>,
+    pub(super) loading_path: Option<PathBuf>,
+    pub(super) solving: Option<Solving>,
     /// Whether the document changed since the running solve began.
-    solve_again: bool,
+    pub(super) solve_again: bool,
     /// Files being written, in the order they were asked for.
-    saving: Vec<SaveJob>,
-    messages: Vec<Message>,
+    pub(super) saving: Vec<SaveJob>,
+    pub(super) messages: Vec<Message>,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
-    solve_message: Option<u64>,
-    next_message: u64,
-    recent: RecentFiles,
+    pub(super) solve_message: Option<u64>,
+    pub(super) next_message: u64,
+    pub(super) recent: RecentFiles,
 }
 
 impl std::fmt::Debug for Session {
@@ -210,66 +207,6 @@ impl Session {
         self.poll_saving();
     }
 
-    fn open(&mut self, path: Option<PathBuf>, read: impl FnOnce() -> Result<Model, ReadError> + Send + 'static) {
-        match Job::spawn("load", self.waker(), move |_| read()) {
-            Ok(job) => {
-                self.loading = Some(job);
-                self.loading_path = path;
-            }
-            Err(error) => self.fail(Place::Mesh, format!("no thread to load with: {error}"), None),
-        }
-    }
-
-    fn poll_loading(&mut self) {
-        let Some(job) = &self.loading else { return };
-        let loaded = match job.poll() {
-            Poll::Running => return,
-            Poll::Done(loaded) => loaded,
-            Poll::Lost => {
-                self.loading = None;
-                return self.fail(Place::Mesh, lost("loading"), Some(REPORT_IT));
-            }
-        };
-        self.loading = None;
-        let path = self.loading_path.take();
-        match loaded {
-            Ok(model) => {
-                if let Some(path) = path {
-                    self.recent.remember(&path);
-                }
-                self.take_model(model);
-            }
-            Err(error) => self.fail(Place::Mesh, error.to_string(), Some(error.remedy())),
-        }
-    }
-
-    /// Puts a mesh on the table. The document before it is gone, its history with it.
-    fn take_model(&mut self, model: Model) {
-        self.messages.clear();
-        if let Surface::Faulty(_, diagnosis) = &model.surface {
-            for fault in &diagnosis.faults {
-                let id = self.next_id();
-                self.messages.push(Message {
-                    id,
-                    severity: Severity::Error,
-                    place: Place::Mesh,
-                    text: fault.message(),
-                    remedy: Some(fault.remedy().to_owned()),
-                    vertices: first_vertices(fault, model.mesh()),
-                });
-            }
-        }
-        self.model = Some(Arc::new(model));
-        self.model_revision += 1;
-        self.document = Document { pins: Pins::new(), settings: self.document.settings };
-        self.history = History::default();
-        self.outcome = None;
-        self.outcome_revision += 1;
-        self.prepared = None;
-        self.solving = None;
-        self.solve();
-    }
-
     fn fix(&mut self, vertices: &[VertexId]) {
         let Some(outcome) = self.outcome.clone() else { return };
         if !self.document.settings.method.uses_pins() {
@@ -311,7 +248,7 @@ impl Session {
 
     /// Starts a solve, or lets the running one finish first where it only has other targets: then a pin that is
     /// dragged is followed at the pace of the solver. Any other running solve is replaced.
-    fn solve(&mut self) {
+    pub(super) fn solve(&mut self) {
         let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
         let pinned: Vec<VertexId> = self.document.pins.keys().copied().collect();
         if let Some(running) = &self.solving
@@ -378,85 +315,26 @@ impl Session {
         self.solve_again = false;
     }
 
-    fn save(&mut self, request: SaveRequest) {
-        let (Some(model), Some(outcome)) = (self.model.clone(), self.outcome.clone()) else {
-            return self.fail(Place::Embedding, "there is nothing to save yet: open a mesh first".to_owned(), None);
-        };
-        if !self.is_current() {
-            let text = "the embedding on the screen does not belong to these settings and pins yet".to_owned();
-            return self.fail(Place::Embedding, text, Some("save again when it is solved"));
-        }
-        let work = move |_: &super::JobContext<()>| {
-            let disk = model.disk().expect("only a disk has an outcome");
-            let finished = Finished::new(&model, disk, &outcome, request.fit, 0.0);
-            finished.write(request.kind, &request.path)?;
-            Ok((request.path, finished.verdict().clone()))
-        };
-        match Job::spawn("save", self.waker(), work) {
-            Ok(job) => self.saving.push(job),
-            Err(error) => self.fail(Place::Embedding, format!("no thread to save with: {error}"), None),
-        }
-    }
-
-    fn poll_saving(&mut self) {
-        for job in std::mem::take(&mut self.saving) {
-            match job.poll() {
-                Poll::Running => self.saving.push(job),
-                Poll::Done(saved) => self.tell_saved(saved),
-                Poll::Lost => self.fail(Place::Embedding, lost("saving"), Some(REPORT_IT)),
-            }
-        }
-    }
-
-    fn tell_saved(&mut self, saved: Result<(PathBuf, Verdict), WriteError>) {
-        match saved {
-            Ok((path, verdict)) => {
-                let id = self.next_id();
-                let text = format!("wrote {} ({})", path.display(), verdict.summary());
-                self.messages.push(Message {
-                    id,
-                    severity: Severity::Note,
-                    place: Place::Embedding,
-                    text,
-                    remedy: None,
-                    vertices: Vec::new(),
-                });
-            }
-            Err(error) => self.fail(Place::Embedding, error.to_string(), None),
-        }
-    }
-
-    fn fail(&mut self, place: Place, text: String, remedy: Option<&str>) {
+    pub(super) fn fail(&mut self, place: Place, text: String, remedy: Option<&str>) {
         let id = self.next_id();
         let remedy = remedy.map(str::to_owned);
         self.messages.push(Message { id, severity: Severity::Error, place, text, remedy, vertices: Vec::new() });
     }
 
-    fn next_id(&mut self) -> u64 {
+    pub(super) fn next_id(&mut self) -> u64 {
         self.next_message += 1;
         self.next_message
     }
 
-    fn waker(&self) -> impl FnOnce() + Send + 'static {
+    pub(super) fn waker(&self) -> impl FnOnce() + Send + 'static {
         let wake = Arc::clone(&self.wake);
         move || wake()
     }
 }
 
-/// Vertices of the first element of a fault.
-fn first_vertices(fault: &Fault, mesh: &TriMesh) -> Vec<VertexId> {
-    match fault.elements() {
-        Elements::Nothing => Vec::new(),
-        Elements::Vertices(vertices) => vertices[..1].to_vec(),
-        Elements::Edges(edges) => edges[0].to_vec(),
-        Elements::Faces(faces) => mesh.triangles[faces.triangles[0].index()].to_vec(),
-        Elements::Loops(loops) => loops[0].clone(),
-    }
-}
-
 /// What to do about a panic.
-const REPORT_IT: &str = "this is a bug in Freebound: please report it with the mesh";
+pub(super) const REPORT_IT: &str = "this is a bug in Freebound: please report it with the mesh";
 
-fn lost(what: &str) -> String {
+pub(super) fn lost(what: &str) -> String {
     format!("{what} stopped unexpectedly")
 }

@@ -6,21 +6,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::dialogs::{Choice, Dialogs, Purpose, kind_of};
+use super::framing::{grown, grown_box, positions_of};
 use super::pane::PinOwner;
-use super::scene::{Element, MeshScene, Paint, PlaneScene, vertices_of};
-use super::{Pane, Request, Shading, Tab, Tool};
+use super::scene::{MeshScene, Paint, PlaneScene, vertices_of};
+use super::{Defect, Pane, Request, Shading, Tab, Tool};
 use crate::mesh::VertexId;
-use crate::session::{Action, Busy, Job, OutputFit, Poll, RecentFiles, SaveRequest, Session};
-use crate::view::{OrbitCamera, PlaneBox, PlaneCamera, Sphere, UpAxis};
+use crate::session::{Action, Busy, Job, OutputFit, RecentFiles, SaveRequest, Session};
+use crate::view::{OrbitCamera, PlaneCamera};
 
 /// A solve shorter than this shows no progress: it would only flicker.
 const PATIENCE: Duration = Duration::from_millis(250);
-
-/// Half the width of what [`Request::GoTo`] shows, in lengths of the element's longest edge.
-const GO_TO_MARGIN: f64 = 7.0;
 
 /// Everything the window knows.
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the window")]
@@ -81,13 +79,13 @@ pub struct Editor {
     pub quit: bool,
     /// The theme to put on, where it was asked for in this frame.
     pub theme_wanted: Option<egui::ThemePreference>,
-    context: egui::Context,
-    mesh_scene: Option<Arc<MeshScene>>,
-    mesh_scene_job: Option<Job<(), MeshScene>>,
-    plane_scene: Option<Arc<PlaneScene>>,
-    plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
-    paint: Option<Paint>,
-    busy_since: Option<Instant>,
+    pub(super) context: egui::Context,
+    pub(super) mesh_scene: Option<Arc<MeshScene>>,
+    pub(super) mesh_scene_job: Option<Job<(), MeshScene>>,
+    pub(super) plane_scene: Option<Arc<PlaneScene>>,
+    pub(super) plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
+    pub(super) paint: Option<Paint>,
+    pub(super) busy_since: Option<Instant>,
 }
 
 impl std::fmt::Debug for Editor {
@@ -186,79 +184,6 @@ impl Editor {
         }
         if let Some(choice) = self.dialogs.poll() {
             self.take_choice(choice);
-        }
-    }
-
-    fn poll_mesh_scene(&mut self) {
-        let revision = self.session.model_revision();
-        if let Some(job) = &self.mesh_scene_job {
-            match job.poll() {
-                Poll::Running => return,
-                Poll::Lost => self.mesh_scene_job = None,
-                Poll::Done(scene) => {
-                    self.mesh_scene_job = None;
-                    self.take_mesh_scene(scene);
-                }
-            }
-        }
-        let shown = self.mesh_scene.as_ref().map(|scene| scene.model_revision);
-        if let Some(model) = self.session.model().filter(|_| shown != Some(revision)) {
-            let (model, waker) = (Arc::clone(model), self.context.clone());
-            let work = move |_: &_| MeshScene::new(model, revision);
-            self.mesh_scene_job = Job::spawn("mesh scene", move || waker.request_repaint(), work).ok();
-        }
-    }
-
-    fn take_mesh_scene(&mut self, scene: MeshScene) {
-        self.orbit = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal()));
-        if let Some(orbit) = &mut self.orbit {
-            orbit.frame(scene.sphere, self.mesh_pane_size);
-        }
-        self.plane_camera = None;
-        self.plane_scene = None;
-        self.plane_scene_job = None;
-        self.paint = None;
-        self.selection.clear();
-        self.hovered = None;
-        self.defect = None;
-        self.dragged_pin = None;
-        self.mesh_scene = Some(Arc::new(scene));
-    }
-
-    fn poll_plane_scene(&mut self) {
-        if let Some((_, job)) = &self.plane_scene_job {
-            match job.poll() {
-                Poll::Running => return,
-                Poll::Lost => self.plane_scene_job = None,
-                Poll::Done(scene) => {
-                    self.plane_scene_job = None;
-                    if self.plane_camera.is_none() {
-                        self.plane_camera = Some(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
-                    }
-                    self.plane_scene = Some(Arc::new(scene));
-                }
-            }
-        }
-        let revision = self.session.outcome_revision();
-        let shown = self.plane_scene.as_ref().map(|scene| scene.outcome_revision);
-        let Some(mesh_scene) = &self.mesh_scene else { return };
-        if mesh_scene.model_revision != self.session.model_revision() || shown == Some(revision) {
-            return;
-        }
-        let Some(outcome) = self.session.outcome() else { return };
-        let (model, outcome, waker) = (Arc::clone(&mesh_scene.model), Arc::clone(outcome), self.context.clone());
-        let work = move |_: &_| PlaneScene::new(model.mesh(), outcome, revision);
-        let job = Job::spawn("plane scene", move || waker.request_repaint(), work);
-        self.plane_scene_job = job.ok().map(|job| (revision, job));
-    }
-
-    fn refresh_paint(&mut self) {
-        let Some(mesh_scene) = &self.mesh_scene else { return };
-        let plane_revision = self.plane_scene.as_ref().map_or(0, |scene| scene.outcome_revision);
-        let key = (mesh_scene.model_revision, plane_revision, self.shading);
-        if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
-            let outcome = self.plane_scene.as_ref().map(|scene| scene.outcome.as_ref());
-            self.paint = Some(Paint::new(key, mesh_scene.model.mesh().face_count(), outcome));
         }
     }
 
@@ -419,55 +344,4 @@ impl Editor {
             self.selection.clear();
         }
     }
-}
-
-/// One thing wrong with an embedding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Defect {
-    /// A face that is turned over or has no area.
-    Flipped(crate::mesh::FaceId),
-    /// Two boundary edges that meet.
-    Crossing([crate::mesh::EdgeId; 2]),
-    /// An interior vertex that its faces wind around twice.
-    Overwound(VertexId),
-}
-
-impl Defect {
-    /// The elements at fault.
-    pub fn elements(self) -> [Option<Element>; 2] {
-        match self {
-            Self::Flipped(face) => [Some(Element::Face(face)), None],
-            Self::Crossing([a, b]) => [Some(Element::Edge(a)), Some(Element::Edge(b))],
-            Self::Overwound(vertex) => [Some(Element::Vertex(vertex)), None],
-        }
-    }
-
-    /// What it is, for lists.
-    pub fn words(self) -> String {
-        match self {
-            Self::Flipped(face) => format!("flipped face {face}"),
-            Self::Crossing([a, b]) => format!("crossing {a} × {b}"),
-            Self::Overwound(vertex) => format!("overwound vertex {vertex}"),
-        }
-    }
-}
-
-fn positions_of(positions: &[DVec3], vertices: &[VertexId]) -> Vec<DVec3> {
-    vertices.iter().filter_map(|v| positions.get(v.index()).copied()).collect()
-}
-
-/// A ball around a few points with some of the mesh around it.
-fn grown(points: &[DVec3], all: Sphere) -> Sphere {
-    let tight = Sphere::around(points);
-    let least = all.radius / 40.0;
-    Sphere { center: tight.center, radius: (tight.radius * GO_TO_MARGIN).max(least).min(all.radius) }
-}
-
-/// A box around a few points of the embedding with some of it around.
-fn grown_box(embedding: &[DVec2], vertices: &[VertexId], all: PlaneBox) -> PlaneBox {
-    let points: Vec<DVec2> = vertices.iter().filter_map(|v| embedding.get(v.index()).copied()).collect();
-    let tight = PlaneBox::around(&points);
-    let half = (tight.extent() * GO_TO_MARGIN / 2.0).max(all.extent() / 80.0).min(all.extent());
-    let center = tight.center();
-    PlaneBox { min: center - half, max: center + half }
 }

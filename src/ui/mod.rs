@@ -1,11 +1,14 @@
 //! The window's panels and panes: they show the editor's state and collect requests.
 
 mod boxes;
+mod defect;
 mod defect_marks;
 mod defects_panel;
 mod dialogs;
 mod editor;
+mod editor_scenes;
 mod floating;
+mod framing;
 mod icons;
 mod keys;
 mod menu;
@@ -23,8 +26,9 @@ mod tools;
 mod vertex_panel;
 mod window;
 
+pub use defect::Defect;
 pub use dialogs::{Choice, Dialogs, Purpose};
-pub use editor::{Defect, Editor};
+pub use editor::Editor;
 pub use keys::{BINDINGS, Binding, keys_of};
 pub use method_panel::sentence;
 pub use pane::PinOwner;

@@ -23,8 +23,12 @@ const FIRST_TURN: DVec2 = DVec2::new(0.35, 0.2);
 
 /// Length of a surface's mean normal below which it faces no side. A head with an open neck has about 0.1.
 const LEAST_FACING: f64 = 0.05;
-/// Pitch of the first view at most, radians: a sheet that looks straight up is seen at a slant.
+/// Length of a surface's mean normal above which it is a sheet rather than a body: a hemisphere has 0.5.
+const NEARLY_FLAT: f64 = 0.6;
+/// Pitch of the first view of a sheet at most, radians: one that looks straight up is seen at a slant.
 const STEEPEST_FIRST_PITCH: f64 = 1.0;
+/// Pitch of the first view of a body at most, radians: a bust that is open below is not seen from above.
+const ROUND_FIRST_PITCH: f64 = 0.4;
 /// Nearest distance that [`OrbitCamera::frame_positions`] takes, as a share of the one that shows the whole ball.
 const NEAREST_FRAME: f64 = 0.6;
 
@@ -92,7 +96,8 @@ impl OrbitCamera {
             if across > 0.1 {
                 camera.yaw += back.x.atan2(back.z);
             }
-            camera.pitch = (back.y.atan2(across) + FIRST_TURN.y).clamp(0.0, STEEPEST_FIRST_PITCH);
+            let steepest = if back.length() > NEARLY_FLAT { STEEPEST_FIRST_PITCH } else { ROUND_FIRST_PITCH };
+            camera.pitch = (back.y.atan2(across) + FIRST_TURN.y).clamp(0.0, steepest);
         }
         camera
     }

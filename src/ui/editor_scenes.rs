@@ -1,0 +1,83 @@
+//! The editor's scenes: made in the background whenever mesh or embedding change.
+
+use std::sync::Arc;
+
+use super::Editor;
+use super::scene::{MeshScene, Paint, PlaneScene};
+use crate::session::{Job, Poll};
+use crate::view::{OrbitCamera, PlaneCamera, UpAxis};
+
+impl Editor {
+    pub(super) fn poll_mesh_scene(&mut self) {
+        let revision = self.session.model_revision();
+        if let Some(job) = &self.mesh_scene_job {
+            match job.poll() {
+                Poll::Running => return,
+                Poll::Lost => self.mesh_scene_job = None,
+                Poll::Done(scene) => {
+                    self.mesh_scene_job = None;
+                    self.take_mesh_scene(scene);
+                }
+            }
+        }
+        let shown = self.mesh_scene.as_ref().map(|scene| scene.model_revision);
+        if let Some(model) = self.session.model().filter(|_| shown != Some(revision)) {
+            let (model, waker) = (Arc::clone(model), self.context.clone());
+            let work = move |_: &_| MeshScene::new(model, revision);
+            self.mesh_scene_job = Job::spawn("mesh scene", move || waker.request_repaint(), work).ok();
+        }
+    }
+
+    fn take_mesh_scene(&mut self, scene: MeshScene) {
+        self.orbit = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal()));
+        if let Some(orbit) = &mut self.orbit {
+            orbit.frame(scene.sphere, self.mesh_pane_size);
+        }
+        self.plane_camera = None;
+        self.plane_scene = None;
+        self.plane_scene_job = None;
+        self.paint = None;
+        self.selection.clear();
+        self.hovered = None;
+        self.defect = None;
+        self.dragged_pin = None;
+        self.mesh_scene = Some(Arc::new(scene));
+    }
+
+    pub(super) fn poll_plane_scene(&mut self) {
+        if let Some((_, job)) = &self.plane_scene_job {
+            match job.poll() {
+                Poll::Running => return,
+                Poll::Lost => self.plane_scene_job = None,
+                Poll::Done(scene) => {
+                    self.plane_scene_job = None;
+                    if self.plane_camera.is_none() {
+                        self.plane_camera = Some(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
+                    }
+                    self.plane_scene = Some(Arc::new(scene));
+                }
+            }
+        }
+        let revision = self.session.outcome_revision();
+        let shown = self.plane_scene.as_ref().map(|scene| scene.outcome_revision);
+        let Some(mesh_scene) = &self.mesh_scene else { return };
+        if mesh_scene.model_revision != self.session.model_revision() || shown == Some(revision) {
+            return;
+        }
+        let Some(outcome) = self.session.outcome() else { return };
+        let (model, outcome, waker) = (Arc::clone(&mesh_scene.model), Arc::clone(outcome), self.context.clone());
+        let work = move |_: &_| PlaneScene::new(model.mesh(), outcome, revision);
+        let job = Job::spawn("plane scene", move || waker.request_repaint(), work);
+        self.plane_scene_job = job.ok().map(|job| (revision, job));
+    }
+
+    pub(super) fn refresh_paint(&mut self) {
+        let Some(mesh_scene) = &self.mesh_scene else { return };
+        let plane_revision = self.plane_scene.as_ref().map_or(0, |scene| scene.outcome_revision);
+        let key = (mesh_scene.model_revision, plane_revision, self.shading);
+        if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
+            let outcome = self.plane_scene.as_ref().map(|scene| scene.outcome.as_ref());
+            self.paint = Some(Paint::new(key, mesh_scene.model.mesh().face_count(), outcome));
+        }
+    }
+}
