@@ -186,6 +186,8 @@ struct Browser {
     name: String,
     entries: Vec<Entry>,
     problem: Option<String>,
+    /// Whether it has not been shown yet: the name then takes the keyboard.
+    is_fresh: bool,
 }
 
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -210,7 +212,7 @@ impl Browser {
             Purpose::Open => String::new(),
             _ => suggestion.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         };
-        let mut browser = Self { purpose, folder, name, entries: Vec::new(), problem: None };
+        let mut browser = Self { purpose, folder, name, entries: Vec::new(), problem: None, is_fresh: true };
         browser.list();
         browser
     }
@@ -292,6 +294,9 @@ impl Browser {
             let label = ui.label("Name");
             let field = egui::TextEdit::singleline(&mut self.name).desired_width(f32::INFINITY);
             let field = ui.add(field).labelled_by(label.id);
+            if std::mem::take(&mut self.is_fresh) {
+                field.request_focus();
+            }
             entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         });
         ui.horizontal(|ui| {
