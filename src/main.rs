@@ -1,5 +1,6 @@
 //! Chooses between the editor and the command line.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser as _;
@@ -9,14 +10,14 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match arguments.command {
         Some(command) => run(&command),
-        None => open(arguments.file),
+        None => open(arguments.file.as_deref()),
     }
 }
 
 #[cfg(feature = "gui")]
-fn open(file: Option<std::path::PathBuf>) -> ExitCode {
+fn open(file: Option<&Path>) -> ExitCode {
     let has_file = file.is_some();
-    match freebound::app::run(file) {
+    match freebound::app::run(file.map(Path::to_owned)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(reason) if has_file => {
             eprintln!("freebound: {reason}. Without a screen use: freebound flatten MESH -o OUT.obj");
@@ -30,7 +31,7 @@ fn open(file: Option<std::path::PathBuf>) -> ExitCode {
 }
 
 #[cfg(not(feature = "gui"))]
-fn open(file: Option<std::path::PathBuf>) -> ExitCode {
+fn open(file: Option<&Path>) -> ExitCode {
     if file.is_some() {
         eprintln!("freebound: this build has no editor. Use: freebound flatten MESH -o OUT.obj");
         return ExitCode::from(2);
