@@ -104,7 +104,7 @@ fn main() {
     let title = format!("rough terrain, natural boundary, {} faces", mesh.face_count());
     let mut table = Table::new(title, &heads);
     for family in [Family::Conformal, Family::MeanValue] {
-        let settings = Settings { method: Method::Natural, family };
+        let settings = Settings::new(Method::Natural, family);
         let (solve, solution) = time(|| flatten(&mesh, &settings, &Pins::new(), Control::unattended()));
         let solution = solution.expect("a good answer");
         let (prove, found) = time(|| verdict(&mesh, &solution.embedding));

@@ -45,7 +45,7 @@ pub struct FlattenArguments {
     #[arg(short, long, value_name = "OBJ")]
     pub output: Option<PathBuf>,
     /// How to flatten.
-    #[arg(long, value_enum, default_value_t = MethodName::Natural)]
+    #[arg(long, value_enum, default_value_t = MethodName::Auto)]
     pub method: MethodName,
     /// The shape of the boundary, for `--method convex`.
     #[arg(long, value_enum, default_value_t = BoundaryName::Circle)]
@@ -77,7 +77,10 @@ impl FlattenArguments {
     /// The solver's settings.
     pub fn settings(&self) -> Settings {
         let method = match self.method {
+            MethodName::Auto => Method::Auto,
             MethodName::Natural => Method::Natural,
+            MethodName::Iterate => Method::Iterate,
+            MethodName::VirtualBoundary => Method::VirtualBoundary,
             MethodName::Convex => Method::Convex(match self.boundary {
                 BoundaryName::Circle => BoundaryShape::Circle,
                 BoundaryName::Square => BoundaryShape::Square,
@@ -85,7 +88,7 @@ impl FlattenArguments {
             MethodName::Lscm => Method::Lscm,
             MethodName::Levy => Method::Levy,
         };
-        Settings { method, family: self.family }
+        Settings::new(method, self.family)
     }
 }
 
@@ -102,8 +105,14 @@ pub struct CheckArguments {
 /// Names of the methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MethodName {
+    /// The ladder: natural, iterate, virtual-boundary, until planar
+    Auto,
     /// Natural boundary (paper §3.3)
     Natural,
+    /// Natural boundary, then mean-value iteration (paper §4)
+    Iterate,
+    /// Natural boundary, then a virtual boundary (paper §5)
+    VirtualBoundary,
     /// Boundary on a convex shape (Tutte, Floater)
     Convex,
     /// Least-squares conformal map

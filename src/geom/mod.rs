@@ -2,10 +2,12 @@
 
 mod crossings;
 mod orient;
+mod outside;
 mod picture;
 mod polygon;
 
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, segments_meet};
 pub use orient::{Orientation, orientation};
+pub use outside::outside_triangles;
 pub use picture::Picture;
 pub use polygon::{turning_number, winding_number};

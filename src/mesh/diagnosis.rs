@@ -98,6 +98,23 @@ impl TryFrom<TriMesh> for DiskMesh {
     }
 }
 
+impl DiskMesh {
+    /// Takes a mesh that is a disk as far as its faces fit together, whatever their areas.
+    ///
+    /// # Errors
+    ///
+    /// The diagnosis, if there are other faults than faces without area.
+    pub fn of_topology(mesh: TriMesh) -> Result<Self, Box<Diagnosis>> {
+        let is_harmless = |fault: &Fault| matches!(fault, Fault::ZeroArea(_));
+        match examine(&mesh) {
+            (diagnosis, Some(table)) if diagnosis.faults.iter().all(is_harmless) => {
+                Ok(Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears))
+            }
+            (diagnosis, _) => Err(Box::new(diagnosis)),
+        }
+    }
+}
+
 /// The diagnosis, and the edge table of the whole mesh where no face had to be set aside.
 fn examine(mesh: &TriMesh) -> (Diagnosis, Option<EdgeTable>) {
     let mut diagnosis =

@@ -212,7 +212,7 @@ mod tests {
     #[test]
     fn a_slide_and_a_drag_are_two_undo_steps() {
         let (mut history, mut document) = (History::default(), Document::default());
-        let chosen = Settings { method: Method::Levy, family: Family::MeanValue };
+        let chosen = Settings::new(Method::Levy, Family::MeanValue);
         history.apply_in_gesture(Command::SetSettings(chosen), &mut document);
         history.apply_in_gesture(pin(7, 0.5), &mut document);
         history.undo(&mut document);
@@ -241,7 +241,7 @@ mod tests {
     #[test]
     fn settings_come_back_too() {
         let (mut history, mut document) = (History::default(), Document::default());
-        let chosen = Settings { method: Method::Levy, family: Family::MeanValue };
+        let chosen = Settings::new(Method::Levy, Family::MeanValue);
         history.apply(Command::SetSettings(chosen), &mut document);
         assert_eq!(document.settings, chosen);
         history.undo(&mut document);

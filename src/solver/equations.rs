@@ -30,6 +30,15 @@ impl Equations<f64> {
 }
 
 impl Equations<Complex<f64>> {
+    /// What a vertex's equation leaves: `Σ a_h (z_head(h) − z_v)`.
+    pub fn discrepancy(&self, mesh: &DiskMesh, embedding: &[DVec2], vertex: VertexId) -> Complex<f64> {
+        let term = |h: HalfedgeId| {
+            let along = embedding[mesh.head(h).index()] - embedding[vertex.index()];
+            self.coefficients[h.index()] * Complex::new(along.x, along.y)
+        };
+        mesh.outgoing(vertex).map(term).sum()
+    }
+
     /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
     pub fn residual(&self, mesh: &DiskMesh, embedding: &[DVec2], has_equation: impl Fn(VertexId) -> bool) -> f64 {
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];

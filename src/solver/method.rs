@@ -6,9 +6,15 @@ use std::str::FromStr;
 /// A way to an embedding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Method {
-    /// Natural boundary (paper §3.3): two pins or the user's, one solve.
+    /// The ladder: natural boundary, mean-value iteration, virtual boundary, until the embedding is proved planar.
     #[default]
+    Auto,
+    /// Natural boundary (paper §3.3): two pins or the user's, one solve.
     Natural,
+    /// Natural boundary, then mean-value iteration (paper §4).
+    Iterate,
+    /// Natural boundary, then a virtual boundary (paper §5).
+    VirtualBoundary,
     /// The boundary on a convex shape, the inside at barycentres (Tutte 1963, Floater 1997).
     Convex(BoundaryShape),
     /// Least-squares conformal map (Lévy et al. 2002); the same as natural with conformal weights.
@@ -21,7 +27,10 @@ impl Method {
     /// The name on the command line and in reports.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Auto => "auto",
             Self::Natural => "natural",
+            Self::Iterate => "iterate",
+            Self::VirtualBoundary => "virtual-boundary",
             Self::Convex(_) => "convex",
             Self::Lscm => "lscm",
             Self::Levy => "levy",
@@ -30,7 +39,7 @@ impl Method {
 
     /// Whether the choice of family matters.
     pub const fn uses_family(self) -> bool {
-        matches!(self, Self::Natural | Self::Convex(_))
+        !matches!(self, Self::Lscm | Self::Levy)
     }
 
     /// Whether pins matter.
@@ -121,11 +130,75 @@ impl FromStr for Family {
     }
 }
 
+/// How the equations of pinned vertices are treated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Treatment {
+    /// They are dropped (paper §3.3).
+    Eliminate,
+    /// All equations are kept and met as well as can be, the pins exactly (paper §6).
+    LeastSquares,
+}
+
+impl Treatment {
+    /// The name on the command line and in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Eliminate => "eliminate",
+            Self::LeastSquares => "least-squares",
+        }
+    }
+}
+
+/// How many boundary vertices the virtual boundary pins next where the boundary is not simple.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Growth {
+    /// Twice as many.
+    #[default]
+    Double,
+    /// One more, as the paper's §5 has it.
+    One,
+}
+
 /// Everything about a solve but the mesh and the pins.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// The way to the embedding.
     pub method: Method,
     /// The weights, where the method has a choice.
     pub family: Family,
+    /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_of`] says.
+    pub treatment: Option<Treatment>,
+    /// The most mean-value iterations of a run.
+    pub max_steps: usize,
+    /// How the virtual boundary goes on.
+    pub growth: Growth,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            family: Family::default(),
+            treatment: None,
+            max_steps: Self::MAX_STEPS,
+            growth: Growth::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The most mean-value iterations of a run, where nobody says.
+    pub const MAX_STEPS: usize = 60;
+
+    /// A method and a family, everything else as it is by default.
+    pub fn new(method: Method, family: Family) -> Self {
+        Self { method, family, ..Self::default() }
+    }
+
+    /// How the linear solve treats the equations of so many pins of the user's. Two only fix the similarity and are
+    /// eliminated, so that conformal weights give the least-squares conformal map; more are constraints.
+    pub fn treatment_of(&self, pin_count: usize) -> Treatment {
+        let by_count = if pin_count > 2 { Treatment::LeastSquares } else { Treatment::Eliminate };
+        self.treatment.unwrap_or(by_count)
+    }
 }

@@ -11,12 +11,15 @@ use num_complex::Complex;
 
 use super::convex::convex_boundary;
 use super::equations::{self, Equations};
+use super::free_solve::{FreeSolve, Site, in_vertices};
 use super::pins::{Pins, check_pins, gauge_pins};
-use super::scale::to_true_area;
+use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
-use super::{BoundaryShape, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
-use crate::linalg::{Analysis, Factor, FactorStats, Kind, LinalgError, Scalar};
+use super::{
+    BoundaryShape, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError, Treatment,
+};
+use crate::linalg::{Analysis, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Fewest pins that fix the similarity of a free boundary.
@@ -29,6 +32,8 @@ pub struct Prepared {
     asked: Vec<VertexId>,
     /// Gauge pins or the convex boundary, where the solver places vertices by itself.
     own_pins: Option<Pins>,
+    /// The vertices that have no unknown.
+    pinned: Vec<VertexId>,
     system: FreeSystem,
     values: Values,
     seconds: PhaseSeconds,
@@ -40,25 +45,18 @@ impl std::fmt::Debug for Prepared {
     }
 }
 
-/// Equations, matrix and factors over one of the two scalars.
-struct Factored<T: Scalar> {
-    equations: Equations<T>,
-    matrix: CscMatrix<T>,
-    factor: Factor<T>,
-}
-
-impl<T: Scalar> Factored<T> {
-    /// The numbers of the matrix, and the equations' residual as `residual` measures it.
-    fn told(&self, residual: impl Fn(&Equations<T>) -> f64) -> (FactorStats, usize, f64) {
-        (self.factor.stats(), self.equations.bounded_corners, residual(&self.equations))
-    }
+/// Equations, matrix and factors of a prescribed boundary.
+struct Prescribed {
+    equations: Equations<f64>,
+    matrix: CscMatrix<f64>,
+    factor: Factor<f64>,
 }
 
 enum Values {
     /// A free boundary couples x and y: one complex unknown per vertex.
-    Free(Factored<Complex<f64>>),
+    Free(FreeSolve),
     /// A prescribed boundary does not: one real matrix, two right-hand sides.
-    Prescribed(Factored<f64>),
+    Prescribed(Prescribed),
 }
 
 /// Solves for an embedding.
@@ -93,32 +91,27 @@ impl Prepared {
             _ if pins.len() < PINS_NEEDED => Some(gauge_pins(mesh)),
             _ => None,
         };
-        let system = FreeSystem::new(mesh, |v| own_pins.as_ref().unwrap_or(pins).contains_key(&v));
+        let pinned: Vec<VertexId> = own_pins.as_ref().unwrap_or(pins).keys().copied().collect();
+        let system = FreeSystem::new(mesh, |v| pinned.binary_search(&v).is_ok());
+        let site = Site { mesh, system: &system, pinned: &pinned };
+        let treatment = if own_pins.is_some() { Treatment::Eliminate } else { settings.treatment_of(pins.len()) };
         let mut seconds = PhaseSeconds::default();
         let values = match settings.method {
             Method::Convex(_) => {
                 let equations = convex_equations(mesh, settings.family)?;
                 let symmetric = matches!(settings.family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
-                Values::Prescribed(factor((mesh, &system), equations, kind(symmetric), &mut seconds, control)?)
+                Values::Prescribed(Prescribed::new(site, equations, symmetric, &mut seconds, control)?)
             }
             method => {
-                let equations = match method {
-                    Method::Levy => equations::levy(mesh)?,
-                    Method::Lscm => equations::lscm(mesh)?,
-                    _ => equations::natural(mesh, settings.family.power().unwrap_or(Family::CONFORMAL_POWER))?,
-                };
-                let hermitian = match method {
-                    Method::Lscm => true,
-                    Method::Levy => false,
-                    _ => settings.family.power() == Some(Family::CONFORMAL_POWER),
-                };
+                let (equations, hermitian) = free_equations(mesh, method, settings.family)?;
                 seconds.assemble = start.elapsed().as_secs_f64();
-                Values::Free(factor((mesh, &system), equations, kind(hermitian), &mut seconds, control)?)
+                let analysis = analyze(&system, hermitian, &mut seconds, control)?;
+                Values::Free(FreeSolve::new(site, equations, (&analysis, treatment), &mut seconds, control)?)
             }
         };
         let asked = pins.keys().copied().collect();
-        Ok(Self { settings: *settings, asked, own_pins, system, values, seconds })
+        Ok(Self { settings: *settings, asked, pinned, own_pins, system, values, seconds })
     }
 
     /// Whether this preparation serves these settings and pinned vertices.
@@ -141,36 +134,23 @@ impl Prepared {
         control.enter(Phase::Solve)?;
         let start = Instant::now();
         let in_force = self.own_pins.as_ref().unwrap_or(pins);
-        let (unknowns, residual) = match &self.values {
-            Values::Free(factored) => self.solve_free(mesh, factored, in_force)?,
-            Values::Prescribed(factored) => self.solve_prescribed(mesh, factored, in_force)?,
+        let site = Site { mesh, system: &self.system, pinned: &self.pinned };
+        let (mut embedding, residual) = match &self.values {
+            Values::Free(free) => free.solve(site, in_force)?,
+            Values::Prescribed(prescribed) => prescribed.solve(site, in_force)?,
         };
-        let mut embedding = vec![DVec2::ZERO; mesh.vertex_count()];
-        for (vertex, position) in self.system.free().iter().zip(unknowns) {
-            embedding[vertex.index()] = position;
-        }
-        for (vertex, target) in in_force {
-            embedding[vertex.index()] = *target;
-        }
         let mut pins_in_force = in_force.clone();
         if self.own_pins.is_some() {
-            to_true_area(mesh, &mut embedding);
-            if let Some((vertex, target)) = pins.first_key_value() {
-                let shift = *target - embedding[vertex.index()];
-                for z in &mut embedding {
-                    *z += shift;
-                }
-                embedding[vertex.index()] = *target;
-            }
+            complete_gauge(mesh, &mut embedding, pins);
             for (vertex, place) in &mut pins_in_force {
                 *place = embedding[vertex.index()];
             }
         }
-        let on_convex = |v: VertexId| matches!(self.settings.method, Method::Convex(_)) && in_force.contains_key(&v);
         let (stats, bounded_corners, equation_residual) = match &self.values {
-            Values::Free(factored) => factored.told(|equations| equations.residual(mesh, &embedding, |_| true)),
-            Values::Prescribed(factored) => {
-                factored.told(|equations| equations.to_complex().residual(mesh, &embedding, |v| !on_convex(v)))
+            Values::Free(free) => (free.stats(), free.bounded_corners(), free.equation_residual(mesh, &embedding)),
+            Values::Prescribed(Prescribed { equations, factor, .. }) => {
+                let left = equations.to_complex().residual(mesh, &embedding, |v| !in_force.contains_key(&v));
+                (factor.stats(), equations.bounded_corners, left)
             }
         };
         Ok(Solution {
@@ -185,43 +165,45 @@ impl Prepared {
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..self.seconds },
         })
     }
-
-    fn solve_free(
-        &self,
-        mesh: &DiskMesh,
-        factored: &Factored<Complex<f64>>,
-        pins: &Pins,
-    ) -> Result<(Vec<DVec2>, f64), SolveError> {
-        let targets: BTreeMap<VertexId, Complex<f64>> =
-            pins.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
-        let terms = self.system.pinned_terms(mesh, &factored.equations, &targets);
-        let solved = factored.factor.solve(&factored.matrix, &terms).map_err(|error| self.named(error))?;
-        Ok((solved.x.iter().map(|z| DVec2::new(z.re, z.im)).collect(), solved.residual))
-    }
-
-    fn solve_prescribed(
-        &self,
-        mesh: &DiskMesh,
-        factored: &Factored<f64>,
-        pins: &Pins,
-    ) -> Result<(Vec<DVec2>, f64), SolveError> {
-        let solve_axis = |axis: usize| {
-            let targets: BTreeMap<VertexId, f64> = pins.iter().map(|(&v, t)| (v, t[axis])).collect();
-            let terms = self.system.pinned_terms(mesh, &factored.equations, &targets);
-            factored.factor.solve(&factored.matrix, &terms).map_err(|error| self.named(error))
-        };
-        let (x, y) = (solve_axis(0)?, solve_axis(1)?);
-        let positions = x.x.iter().zip(&y.x).map(|(&x, &y)| DVec2::new(x, y)).collect();
-        Ok((positions, x.residual.max(y.residual)))
-    }
-
-    fn named(&self, error: LinalgError) -> SolveError {
-        in_vertices(error, self.system.free())
-    }
 }
 
-fn kind(symmetric: bool) -> Kind {
-    if symmetric { Kind::Hermitian } else { Kind::General }
+impl Prescribed {
+    fn new(
+        site: Site<'_>,
+        equations: Equations<f64>,
+        symmetric: bool,
+        seconds: &mut PhaseSeconds,
+        control: Control<'_>,
+    ) -> Result<Self, SolveError> {
+        let analysis = analyze(site.system, symmetric, seconds, control)?;
+        control.enter(Phase::Factor)?;
+        let start = Instant::now();
+        let matrix = site.system.negated_matrix(site.mesh, &equations);
+        let named = |error| in_vertices(error, site.system.free());
+        let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
+        seconds.factor = start.elapsed().as_secs_f64();
+        Ok(Self { equations, matrix, factor })
+    }
+
+    /// Solves for x and y, which share the matrix.
+    fn solve(&self, site: Site<'_>, pins: &Pins) -> Result<(Vec<DVec2>, f64), SolveError> {
+        let terms = |axis: usize| {
+            let targets: BTreeMap<VertexId, f64> = pins.iter().map(|(&v, t)| (v, t[axis])).collect();
+            site.system.pinned_terms(site.mesh, &self.equations, &targets)
+        };
+        let both: Vec<f64> = terms(0).into_iter().chain(terms(1)).collect();
+        let named = |error| in_vertices(error, site.system.free());
+        let solved = self.factor.solve_many(&self.matrix, &both).map_err(named)?;
+        let (x, y) = solved.x.split_at(site.system.free().len());
+        let mut embedding = vec![DVec2::ZERO; site.mesh.vertex_count()];
+        for (vertex, (&x, &y)) in site.system.free().iter().zip(x.iter().zip(y)) {
+            embedding[vertex.index()] = DVec2::new(x, y);
+        }
+        for (vertex, target) in pins {
+            embedding[vertex.index()] = *target;
+        }
+        Ok((embedding, solved.residual))
+    }
 }
 
 fn check_family(settings: &Settings) -> Result<(), SolveError> {
@@ -244,36 +226,30 @@ fn convex_equations(mesh: &DiskMesh, family: Family) -> Result<Equations<f64>, S
     }
 }
 
-fn factor<T: Scalar>(
-    (mesh, system): (&DiskMesh, &FreeSystem),
-    equations: Equations<T>,
-    kind: Kind,
-    seconds: &mut PhaseSeconds,
-    control: Control<'_>,
-) -> Result<Factored<T>, SolveError> {
-    let named = |error| in_vertices(error, system.free());
-    let start = Instant::now();
-    let matrix = system.negated_matrix(mesh, &equations);
-    seconds.assemble += start.elapsed().as_secs_f64();
-    control.enter(Phase::Analyze)?;
-    let start = Instant::now();
-    let analysis = Analysis::new(kind, system.pattern()).map_err(named)?;
-    seconds.analyze = start.elapsed().as_secs_f64();
-    control.enter(Phase::Factor)?;
-    let start = Instant::now();
-    let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
-    seconds.factor = start.elapsed().as_secs_f64();
-    Ok(Factored { equations, matrix, factor })
+/// The equations of a free boundary, and whether their matrix is Hermitian.
+fn free_equations(
+    mesh: &DiskMesh,
+    method: Method,
+    family: Family,
+) -> Result<(Equations<Complex<f64>>, bool), SolveError> {
+    let power = family.power().unwrap_or(Family::CONFORMAL_POWER);
+    Ok(match method {
+        Method::Levy => (equations::levy(mesh)?, false),
+        Method::Lscm => (equations::lscm(mesh)?, true),
+        _ => (equations::natural(mesh, power)?, power == Family::CONFORMAL_POWER),
+    })
 }
 
-/// Says a linear solver's error in terms of the mesh: its rows are the free vertices.
-fn in_vertices(error: LinalgError, free: &[VertexId]) -> SolveError {
-    match error {
-        LinalgError::Cancelled => SolveError::Cancelled,
-        LinalgError::ResidualTooLarge { residual, limit } => SolveError::ResidualTooLarge { residual, limit },
-        LinalgError::Singular { row } | LinalgError::NotPositiveDefinite { row } | LinalgError::NotFinite { row } => {
-            SolveError::Singular { vertex: free[row] }
-        }
-        other => SolveError::Linear { reason: other.to_string() },
-    }
+fn analyze(
+    system: &FreeSystem,
+    hermitian: bool,
+    seconds: &mut PhaseSeconds,
+    control: Control<'_>,
+) -> Result<Analysis, SolveError> {
+    control.enter(Phase::Analyze)?;
+    let start = Instant::now();
+    let kind = if hermitian { Kind::Hermitian } else { Kind::General };
+    let analysis = Analysis::new(kind, system.pattern()).map_err(|error| in_vertices(error, system.free()))?;
+    seconds.analyze = start.elapsed().as_secs_f64();
+    Ok(analysis)
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::Pins;
 use super::equations::length_scale;
 use crate::mesh::DiskMesh;
 
@@ -31,6 +32,40 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut [DVec2]) {
             *z *= factor;
         }
     }
+}
+
+/// Brings an embedding to its place where fewer than two pins fix it: at true area; with its first pin, if there is
+/// one, on its target to the last bit.
+pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pins) {
+    to_true_area(mesh, embedding);
+    if let Some((vertex, target)) = pins.first_key_value() {
+        let shift = *target - embedding[vertex.index()];
+        for z in &mut *embedding {
+            *z += shift;
+        }
+        embedding[vertex.index()] = *target;
+    }
+}
+
+/// Moves an embedding by the similarity that takes up to two pins to their targets; without any, to true area. The
+/// pins then lie on their targets to the last bit.
+pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pins) {
+    let mut iter = pins.iter();
+    let (Some((first, a)), Some((second, b))) = (iter.next(), iter.next()) else {
+        return complete_gauge(mesh, embedding, pins);
+    };
+    let origin = embedding[first.index()];
+    let (is, wanted) = (embedding[second.index()] - origin, *b - *a);
+    // The quotient wanted / is of complex numbers.
+    let turn = DVec2::new(is.dot(wanted), is.perp_dot(wanted)) / is.length_squared();
+    if !turn.is_finite() || turn == DVec2::ZERO {
+        return;
+    }
+    for z in &mut *embedding {
+        *z = *a + turn.rotate(*z - origin);
+    }
+    embedding[first.index()] = *a;
+    embedding[second.index()] = *b;
 }
 
 /// Largest coordinate by amount.

@@ -83,6 +83,12 @@ impl FreeSystem {
         &self.free
     }
 
+    /// The row of a vertex, `None` where it is pinned.
+    pub fn row(&self, vertex: VertexId) -> Option<usize> {
+        let row = self.row_of_vertex[vertex.index()];
+        (row != NONE).then_some(row as usize)
+    }
+
     /// Where the matrix has entries. Symmetric, with a full diagonal.
     pub fn pattern(&self) -> &SparsityPattern {
         &self.pattern

@@ -71,7 +71,7 @@ impl Corner {
 }
 
 /// A ratio within the bound, and whether the bound was hit.
-fn bounded(ratio: f64) -> (f64, bool) {
+pub(super) fn bounded(ratio: f64) -> (f64, bool) {
     // `clamp` keeps a NaN, and 0/0 is as degenerate as infinity.
     let kept = if ratio.is_nan() { BOUND } else { ratio.clamp(-BOUND, BOUND) };
     (kept, kept.to_bits() != ratio.to_bits())

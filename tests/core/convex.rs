@@ -18,7 +18,7 @@ const FAMILIES: [Family; 5] =
 const RESIDUAL: f64 = 1e-10;
 
 fn convex(shape: BoundaryShape, family: Family) -> Settings {
-    Settings { method: Method::Convex(shape), family }
+    Settings::new(Method::Convex(shape), family)
 }
 
 fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Vec<DVec2> {

@@ -41,7 +41,7 @@ const CORRIDORS: &str = "maze.obj";
 const DENSE_LIMIT: usize = 1000;
 
 fn natural(family: Family) -> Settings {
-    Settings { method: Method::Natural, family }
+    Settings::new(Method::Natural, family)
 }
 
 fn extent(points: &[DVec2]) -> f64 {
@@ -83,7 +83,7 @@ fn lscm_is_the_conformal_natural_boundary() {
     for entry in corpus_disks() {
         let mesh = entry.disk();
         let [lscm, natural] = [Method::Lscm, Method::Natural].map(|method| {
-            let settings = Settings { method, family: Family::Conformal };
+            let settings = Settings::new(method, Family::Conformal);
             flatten(&mesh, &settings, &Pins::new(), Control::unattended()).unwrap().embedding
         });
         let error = distance(&lscm, &natural);

@@ -116,7 +116,7 @@ fn interior_pins_hold_a_planar_mesh_in_place() {
 /// of pins elsewhere leaves a system that is singular in 64 bits, although all equations together determine the plane
 /// well (third singular value 5e-4 on the spiral, smallest one without the pins' equations below 1e-16).
 fn hermitian_methods() -> Vec<Settings> {
-    [Method::Natural, Method::Lscm].map(|method| Settings { method, family: Family::Conformal }).to_vec()
+    [Method::Natural, Method::Lscm].map(|method| Settings::new(method, Family::Conformal)).to_vec()
 }
 
 #[test]
@@ -232,7 +232,7 @@ fn the_family_power_zero_is_mean_value_and_minus_one_is_wachspress() {
     let mesh = shaped(5, 4, |x, y| DVec3::new(x, y, 0.2 * x * y));
     for (power, family) in [(1.0, Family::Conformal), (0.0, Family::MeanValue), (-1.0, Family::Wachspress)] {
         let [a, b] = [Family::Power(power), family]
-            .map(|family| solve(&mesh, &Settings { method: Method::Natural, family }, &Pins::new(), "saddle"));
+            .map(|family| solve(&mesh, &Settings::new(Method::Natural, family), &Pins::new(), "saddle"));
         assert_eq!(a, b);
     }
 }

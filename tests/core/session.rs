@@ -98,7 +98,7 @@ fn one_fixed_vertex_leaves_the_embedding_where_it_is() {
 #[test]
 fn settings_stay_when_another_mesh_opens_and_pins_go() {
     let mut session = opened(Example::Dome);
-    let settings = Settings { method: Method::Natural, family: Family::MeanValue };
+    let settings = Settings::new(Method::Natural, Family::MeanValue);
     settled(&mut session, Action::SetSettings(settings));
     settled(&mut session, Action::Fix(vec![id(1), id(2)]));
     settled(&mut session, Action::OpenExample(Example::Ell));
@@ -128,7 +128,7 @@ fn a_drag_ends_where_a_fresh_solve_would() {
 #[test]
 fn a_cancelled_solve_can_be_asked_for_again() {
     let mut session = opened(Example::Dome);
-    session.handle(Action::SetSettings(Settings { method: Method::Levy, family: Family::Conformal }));
+    session.handle(Action::SetSettings(Settings::new(Method::Levy, Family::Conformal)));
     session.handle(Action::Cancel);
     assert!(session.busy().is_none() && !session.is_current());
     settled(&mut session, Action::Solve);
@@ -176,7 +176,7 @@ fn a_failed_save_stays_on_the_screen_when_a_solve_ends_well() {
 #[test]
 fn a_solve_s_error_goes_when_a_solve_ends_well() {
     let mut session = opened(Example::Dome);
-    settled(&mut session, Action::SetSettings(Settings { method: Method::Natural, family: Family::Uniform }));
+    settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::Uniform)));
     assert_eq!(session.messages().len(), 1);
     assert!(!session.is_current());
     settled(&mut session, Action::Undo);
@@ -238,7 +238,7 @@ impl Walk {
             Method::Convex(BoundaryShape::Square),
         ];
         let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5), Family::Uniform];
-        Settings { method: methods[self.random.below(6) as usize], family: families[self.random.below(5) as usize] }
+        Settings::new(methods[self.random.below(6) as usize], families[self.random.below(5) as usize])
     }
 
     fn action(&mut self) -> Action {

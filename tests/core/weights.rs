@@ -160,7 +160,7 @@ fn bumpy(scale: f64) -> DiskMesh {
 /// Every method, all powers among them.
 pub(crate) fn free_methods() -> Vec<Settings> {
     let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5), Family::Power(-0.5)];
-    let natural = families.map(|family| Settings { method: Method::Natural, family });
+    let natural = families.map(|family| Settings::new(Method::Natural, family));
     let others = [Method::Levy, Method::Lscm].map(|method| Settings { method, ..Settings::default() });
     [natural.as_slice(), &others].concat()
 }

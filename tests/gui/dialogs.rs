@@ -325,7 +325,7 @@ fn at_work() -> Window {
 }
 
 fn slow(family: Family) -> Settings {
-    Settings { method: Method::Natural, family }
+    Settings::new(Method::Natural, family)
 }
 
 #[test]

@@ -87,7 +87,7 @@ fn uniform_and_shape_preserving_weights_are_offered_for_a_convex_boundary_only()
     assert_eq!(window.outcome().settings.family, Family::ShapePreserving);
     assert_eq!(window.verdict(), "Planar: proved");
     window.choose("Method", "Natural boundary");
-    assert_eq!(window.outcome().settings, Settings { method: Method::Natural, family: Family::Conformal });
+    assert_eq!(window.outcome().settings, Settings::new(Method::Natural, Family::Conformal));
 }
 
 #[test]

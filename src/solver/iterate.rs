@@ -1,0 +1,97 @@
+//! The mean-value iteration: solve again with weights from the embedding at hand (paper §4).
+//!
+//! `x_{k+1} = A(x_k)⁻¹ b`, where A(x) holds the mean-value equations of the planar geometry x, angles unsigned. The
+//! pins stay what they are. A planar embedding is a fixed point; a fixed point with turning number 1 that meets *all*
+//! equations is planar (Theorem 2). The pattern never changes, so it is ordered and analysed once a run.
+
+use std::time::Instant;
+
+use glam::DVec2;
+
+use super::free_solve::{FreeSolve, Site};
+use super::plane_weights::natural_in_plane;
+use super::system::FreeSystem;
+use super::{Control, Phase, PhaseSeconds, Pins, Solution, SolveError, Treatment, check_pins};
+use crate::linalg::{Analysis, Kind};
+use crate::mesh::{DiskMesh, VertexId};
+
+/// An iteration made ready: the layout of the system and its analysis, for a mesh and its pinned vertices.
+#[derive(Debug)]
+pub struct Iteration {
+    system: FreeSystem,
+    analysis: Analysis,
+    pinned: Vec<VertexId>,
+    treatment: Treatment,
+    analyze_seconds: f64,
+}
+
+impl Iteration {
+    /// Lays out and analyses the system of the vertices that `pins` leaves free.
+    ///
+    /// # Errors
+    ///
+    /// Pins that cannot be, or the caller's wish to stop.
+    pub fn new(
+        mesh: &DiskMesh,
+        pins: &Pins,
+        treatment: Treatment,
+        control: Control<'_>,
+    ) -> Result<Self, SolveError> {
+        check_pins(mesh, pins)?;
+        control.enter(Phase::Analyze)?;
+        let start = Instant::now();
+        let system = FreeSystem::new(mesh, |v| pins.contains_key(&v));
+        let analysis = Analysis::new(Kind::General, system.pattern())
+            .map_err(|error| SolveError::Linear { reason: error.to_string() })?;
+        let pinned = pins.keys().copied().collect();
+        Ok(Self { system, analysis, pinned, treatment, analyze_seconds: start.elapsed().as_secs_f64() })
+    }
+
+    /// One step: the embedding that solves the mean-value equations of `embedding` with the pins at `pins`, which must
+    /// be those of the same vertices as before.
+    ///
+    /// # Errors
+    ///
+    /// A singular matrix, a residual that refinement cannot bring down, or the caller's wish to stop.
+    pub fn step(
+        &self,
+        mesh: &DiskMesh,
+        embedding: &[DVec2],
+        pins: &Pins,
+        control: Control<'_>,
+    ) -> Result<Solution, SolveError> {
+        control.enter(Phase::Assemble)?;
+        let start = Instant::now();
+        let site = Site { mesh, system: &self.system, pinned: &self.pinned };
+        let equations = natural_in_plane(mesh, embedding);
+        let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
+        let solve = FreeSolve::new(site, equations, (&self.analysis, self.treatment), &mut seconds, control)?;
+        control.enter(Phase::Solve)?;
+        let start = Instant::now();
+        let (embedding, residual) = solve.solve(site, pins)?;
+        let stats = solve.stats();
+        let equation_residual = solve.equation_residual(mesh, &embedding);
+        seconds.solve = start.elapsed().as_secs_f64();
+        Ok(Solution {
+            embedding,
+            pins: pins.clone(),
+            gauge_completed: false,
+            residual,
+            equation_residual,
+            replaced_pivots: stats.replaced_pivots,
+            bounded_corners: solve.bounded_corners(),
+            factor_bytes: stats.factor_bytes,
+            seconds,
+        })
+    }
+
+    /// Whether this iteration serves pins on these vertices.
+    pub fn serves(&self, pins: &Pins) -> bool {
+        self.pinned.iter().eq(pins.keys())
+    }
+
+    /// Seconds that the analysis took, once for all steps.
+    pub fn analyze_seconds(&self) -> f64 {
+        self.analyze_seconds
+    }
+}

@@ -1,0 +1,117 @@
+//! Mean-value weights of a planar embedding: the matrix A(x) of the iteration (paper §4) and of the virtual boundary
+//! (§5).
+//!
+//! # Equation
+//!
+//! Every corner with the angle α between edges of the lengths r₁, r₂ gives `tan(α/2)/r` to both. Angles are unsigned, as
+//! the paper asks: a flipped face counts like its mirror image, and so all weights are positive. A planar embedding
+//! satisfies the equations that it gives (2D reproduction), and only planar ones do (Theorem 1).
+//!
+//! # Degenerate faces
+//!
+//! A face without area has a corner of 0 or π, or an edge of length 0, whose weight would be infinite and would hold
+//! the face as it is. It counts as a thin face instead: see [`THIN`]. How many corners that concerned is told.
+//!
+//! # Symbols
+//!
+//! | paper  | code             | meaning                           | unit         |
+//! |--------|------------------|-----------------------------------|--------------|
+//! | r₁, r₂ | `radii`          | lengths of the corner's two edges | length       |
+//! | α      | `cross`, `dot`   | angle at the corner, in [0, π]    | length²      |
+
+use glam::DVec2;
+use num_complex::Complex;
+use rayon::prelude::*;
+
+use super::equations::Equations;
+use super::weights::bounded;
+use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
+
+/// Height of a degenerate face, and least length of its edges, relative to its longest edge. Thin enough to leave its
+/// surroundings alone, thick enough that the next solve can open it.
+const THIN: f64 = 1e-3;
+
+/// Shares of a face's three edges at both of their ends: `at_corner[k]` are those of the edges from corner k to the
+/// next corner and to the previous one.
+struct FaceWeights {
+    at_corner: [[f64; 2]; 3],
+    degenerate: bool,
+}
+
+/// The lengths of a face's edges, `radii[k]` from corner k to the next, made positive.
+fn radii_of(edges: [DVec2; 3], mean_length: f64) -> ([f64; 3], bool) {
+    let lengths = edges.map(DVec2::length);
+    let longest = lengths[0].max(lengths[1]).max(lengths[2]);
+    if longest == 0.0 {
+        return ([mean_length; 3], true);
+    }
+    let shortest = lengths[0].min(lengths[1]).min(lengths[2]);
+    (lengths.map(|r| if r > 0.0 { r } else { THIN * longest }), shortest == 0.0)
+}
+
+fn face_weights([a, b, c]: [DVec2; 3], mean_length: f64) -> FaceWeights {
+    let edges = [b - a, c - b, a - c];
+    let (radii, has_short_edge) = radii_of(edges, mean_length);
+    let longest = radii[0].max(radii[1]).max(radii[2]);
+    let exact = edges[0].perp_dot(-edges[2]).abs();
+    let degenerate = has_short_edge || exact == 0.0;
+    let cross = if degenerate { exact.max(THIN * longest * longest) } else { exact };
+    let at_corner = [0, 1, 2].map(|k| {
+        let (to_next, to_previous) = (radii[k], radii[(k + 2) % 3]);
+        let product = to_next * to_previous;
+        let dot = -edges[k].dot(edges[(k + 2) % 3]);
+        // The form that does not cancel.
+        let tan_half = if dot > 0.0 { cross / (product + dot) } else { (product - dot) / cross };
+        let (tan_half, _) = bounded(tan_half);
+        [tan_half / to_next, tan_half / to_previous]
+    });
+    FaceWeights { at_corner, degenerate }
+}
+
+/// A power of two that brings an embedding to edges of a length near 1, and that length. Multiplying by it rounds
+/// nothing.
+fn scale_of(embedding: &[DVec2], face_count: usize) -> f64 {
+    let first = embedding.first().copied().unwrap_or_default();
+    let extent = embedding.iter().fold(0.0_f64, |m, z| m.max((*z - first).abs().max_element()));
+    let mean_length = extent / (face_count.max(1) as f64).sqrt();
+    if mean_length.is_normal() { mean_length.log2().round().exp2().recip() } else { 1.0 }
+}
+
+/// The mean-value equations of an embedding without the boundary's i-terms: paper eq. (2) with d = 1.
+pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Equations<f64> {
+    let scale = scale_of(embedding, mesh.face_count());
+    let of_face = |face: usize| {
+        let corners = mesh.face(FaceId::from_index(face)).map(|v: VertexId| embedding[v.index()] * scale);
+        face_weights(corners, 1.0)
+    };
+    let found: Vec<FaceWeights> = (0..mesh.face_count()).into_par_iter().map(of_face).collect();
+    let mut coefficients = vec![0.0; mesh.halfedge_count()];
+    let mut bounded_corners = 0;
+    for (face, weights) in found.iter().enumerate() {
+        bounded_corners += 3 * usize::from(weights.degenerate);
+        for (k, &[to_next, to_previous]) in weights.at_corner.iter().enumerate() {
+            let side = HalfedgeId::from_index(3 * face + k);
+            coefficients[side.index()] += to_next;
+            coefficients[mesh.twin(mesh.previous(side)).index()] += to_previous;
+        }
+    }
+    Equations { coefficients, bounded_corners }
+}
+
+/// The mean-value equations of an embedding with its natural boundary: paper eq. (2) and (3) with d = 1.
+pub fn natural_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Equations<Complex<f64>> {
+    let scale = scale_of(embedding, mesh.face_count());
+    let mut equations = mean_value_in_plane(mesh, embedding).to_complex();
+    let outer_sides = 3 * mesh.face_count()..mesh.halfedge_count();
+    for outer in outer_sides.map(HalfedgeId::from_index) {
+        let inner = mesh.twin(outer);
+        let face = mesh.face_of(inner).expect("a boundary edge has a face inside");
+        let corners = mesh.face(face).map(|v| embedding[v.index()] * scale);
+        let (radii, _) = radii_of([corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]], 1.0);
+        let offset_share = 1.0 / radii[inner.index() % 3];
+        // A fan begins with the inner side of one boundary edge and ends with the outer side of another.
+        equations.coefficients[inner.index()].im -= offset_share;
+        equations.coefficients[outer.index()].im += offset_share;
+    }
+    equations
+}

@@ -1,0 +1,298 @@
+//! A run: the steps of a method, one after another; for `auto` the rungs of the ladder.
+//!
+//! ```text
+//! auto              natural → iterate → virtual boundary      until planar
+//! iterate           natural → iterate                         until planar, stalled or at the limit
+//! virtual-boundary  natural → virtual boundary                until planar
+//! others            one linear solve
+//! ```
+//!
+//! A run is asked for one step at a time, so that it can be watched, paused and taken on by hand. A step that is
+//! cancelled leaves the run as it was.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use glam::DVec2;
+
+use super::iterate::Iteration;
+use super::scale::{complete_gauge, fit_gauge};
+use super::stall::Stall;
+use super::step::{Step, largest_move};
+use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
+use super::{
+    Control, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, Treatment, gauge_pins, verdict,
+};
+use crate::mesh::DiskMesh;
+
+/// Why a run has come to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The embedding is proved planar.
+    Planar,
+    /// The method has no further step.
+    Done,
+    /// The iteration gets no better and hardly moves.
+    Stalled,
+    /// The iteration has taken as many steps as it may.
+    Limit,
+}
+
+/// A method under way on one mesh with one set of pins.
+#[derive(Debug)]
+pub struct Run {
+    settings: Settings,
+    pins: Pins,
+    prepared: Option<Arc<Prepared>>,
+    iteration: Option<Iteration>,
+    virtual_boundary: Option<VirtualBoundaryRun>,
+    stall: Stall,
+    iterations: usize,
+    step_count: usize,
+    latest: Option<Latest>,
+    ending: Option<Ending>,
+}
+
+/// What the next step goes on from.
+#[derive(Clone, Debug)]
+struct Latest {
+    embedding: Vec<DVec2>,
+    /// The pins in force.
+    pins: Pins,
+    has_simple_boundary: bool,
+}
+
+/// What a rung gave, before it is proved.
+struct Raw {
+    rung: Method,
+    solution: Solution,
+    bent_vertices: usize,
+    virtual_boundary: Option<Arc<super::VirtualBoundary>>,
+    note: Option<String>,
+    prepared: Option<Arc<Prepared>>,
+}
+
+impl Run {
+    /// A run that has not begun. `pins` are the user's.
+    pub fn new(settings: Settings, pins: Pins) -> Self {
+        Self {
+            settings,
+            pins,
+            prepared: None,
+            iteration: None,
+            virtual_boundary: None,
+            stall: Stall::default(),
+            iterations: 0,
+            step_count: 0,
+            latest: None,
+            ending: None,
+        }
+    }
+
+    /// The same with equations and factors that are at hand, used where they serve.
+    #[must_use]
+    pub fn with_prepared(self, prepared: Option<Arc<Prepared>>) -> Self {
+        Self { prepared, ..self }
+    }
+
+    /// What was asked for.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The user's pins.
+    pub fn pins(&self) -> &Pins {
+        &self.pins
+    }
+
+    /// Why the method has come to its end, if it has. [`Run::step`] goes on all the same.
+    pub fn ending(&self) -> Option<Ending> {
+        self.ending
+    }
+
+    /// Takes all steps of the method, and hands each over as it is there.
+    ///
+    /// # Errors
+    ///
+    /// As [`Run::step`]; steps handed over before are good.
+    pub fn finish(
+        &mut self,
+        mesh: &DiskMesh,
+        control: Control<'_>,
+        mut take: impl FnMut(Step),
+    ) -> Result<Ending, SolveError> {
+        loop {
+            if let Some(ending) = self.ending {
+                return Ok(ending);
+            }
+            take(self.step(mesh, control)?);
+        }
+    }
+
+    /// Takes the method's next step; where the method has ended, one more mean-value iteration.
+    ///
+    /// # Errors
+    ///
+    /// Pins that cannot be, a family that does not go with the method, a system that cannot be solved, or the caller's
+    /// wish to stop. In a ladder only the last rung's errors are errors.
+    pub fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
+        let raw = self.next_raw(mesh, control)?;
+        control.enter(Phase::Verify)?;
+        let start = Instant::now();
+        let verdict = verdict(mesh, &raw.solution.embedding);
+        let verify_seconds = start.elapsed().as_secs_f64();
+        let max_move = self.latest.as_ref().map(|latest| largest_move(&latest.embedding, &raw.solution.embedding));
+        let step = Step {
+            rung: raw.rung,
+            index: self.step_count,
+            solution: raw.solution,
+            verdict,
+            max_move,
+            verify_seconds,
+            bent_vertices: raw.bent_vertices,
+            virtual_boundary: raw.virtual_boundary,
+            note: raw.note,
+            prepared: raw.prepared,
+        };
+        self.take_in(&step);
+        Ok(step)
+    }
+
+    /// Remembers a step and decides whether the method has ended.
+    fn take_in(&mut self, step: &Step) {
+        self.step_count += 1;
+        self.latest = Some(Latest {
+            embedding: step.solution.embedding.clone(),
+            pins: step.solution.pins.clone(),
+            has_simple_boundary: step.has_simple_boundary(),
+        });
+        if step.rung == Method::Iterate {
+            self.iterations += 1;
+        }
+        self.stall.look_at(step);
+        self.ending = if step.verdict.planar { Some(Ending::Planar) } else { self.ending_of_method() };
+    }
+
+    fn ending_of_method(&self) -> Option<Ending> {
+        match self.settings.method {
+            Method::Auto if self.may_bend_boundary() => None,
+            Method::VirtualBoundary => None,
+            Method::Auto | Method::Iterate => self.ending_of_iteration(),
+            _ => Some(Ending::Done),
+        }
+        .or_else(|| self.virtual_boundary.as_ref().filter(|run| run.is_exhausted()).map(|_| Ending::Done))
+    }
+
+    fn ending_of_iteration(&self) -> Option<Ending> {
+        if self.stall.is_reached() {
+            Some(Ending::Stalled)
+        } else {
+            (self.iterations >= self.settings.max_steps).then_some(Ending::Limit)
+        }
+    }
+
+    /// Whether the virtual boundary applies: up to two pins only fix the similarity, more are constraints.
+    fn may_bend_boundary(&self) -> bool {
+        self.pins.len() <= 2
+    }
+
+    fn next_raw(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        if self.latest.is_none() && self.virtual_boundary.is_none() {
+            match self.linear(mesh, control) {
+                Err(error) if self.has_rung_left_after(&error) => {
+                    let note = format!("the natural boundary gave nothing: {error}");
+                    return self.virtual_step(mesh, Some(note), control);
+                }
+                other => return other,
+            }
+        }
+        let bends = matches!(self.settings.method, Method::Auto | Method::VirtualBoundary);
+        let wants_bend = bends && self.may_bend_boundary() && self.ending.is_none();
+        let iterated_out = self.settings.method == Method::VirtualBoundary || self.ending_of_iteration().is_some();
+        if wants_bend && (iterated_out || self.virtual_boundary.is_some()) {
+            return self.virtual_step(mesh, None, control);
+        }
+        match self.iterate(mesh, control) {
+            Err(error) if wants_bend && error != SolveError::Cancelled => {
+                let note = format!("the iteration gave nothing: {error}");
+                self.virtual_step(mesh, Some(note), control)
+            }
+            other => other,
+        }
+    }
+
+    /// Whether a failed linear solve leaves another rung: the system may be at fault, but not what the user asked for.
+    fn has_rung_left_after(&self, error: &SolveError) -> bool {
+        let of_the_system = matches!(
+            error,
+            SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. }
+        );
+        let bends = matches!(self.settings.method, Method::Auto | Method::VirtualBoundary);
+        of_the_system && bends && self.may_bend_boundary()
+    }
+
+    fn linear(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        let at_hand = self.prepared.take().filter(|prepared| prepared.serves(&self.settings, &self.pins));
+        let prepared = match at_hand {
+            Some(prepared) => prepared,
+            None => Arc::new(Prepared::new(mesh, &self.settings, &self.pins, control)?),
+        };
+        self.prepared = Some(Arc::clone(&prepared));
+        let solution = prepared.solve(mesh, &self.pins, control)?;
+        let rung = match self.settings.method {
+            Method::Auto | Method::Iterate | Method::VirtualBoundary => Method::Natural,
+            other => other,
+        };
+        Ok(Raw { rung, solution, bent_vertices: 0, virtual_boundary: None, note: None, prepared: Some(prepared) })
+    }
+
+    fn iterate(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        let Some(latest) = &self.latest else { return Err(SolveError::Cancelled) };
+        let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
+        if self.iteration.as_ref().is_none_or(|iteration| !iteration.serves(&pins)) {
+            let treatment = self.settings.treatment.unwrap_or(Treatment::LeastSquares);
+            self.iteration = Some(Iteration::new(mesh, &pins, treatment, control)?);
+        }
+        let iteration = self.iteration.as_ref().expect("made above");
+        let mut solution = iteration.step(mesh, &latest.embedding, &pins, control)?;
+        if self.iterations == 0 {
+            solution.seconds.analyze = iteration.analyze_seconds();
+        }
+        if self.pins.len() < 2 {
+            complete_gauge(mesh, &mut solution.embedding, &self.pins);
+            solution.gauge_completed = true;
+            for (vertex, place) in &mut solution.pins {
+                *place = solution.embedding[vertex.index()];
+            }
+        }
+        Ok(Raw { rung: Method::Iterate, solution, bent_vertices: 0, virtual_boundary: None, note: None, prepared: None })
+    }
+
+    fn virtual_step(
+        &mut self,
+        mesh: &DiskMesh,
+        note: Option<String>,
+        control: Control<'_>,
+    ) -> Result<Raw, SolveError> {
+        let run = self.virtual_boundary.get_or_insert_with(|| VirtualBoundaryRun::new(mesh, &self.settings));
+        let simple = self.latest.as_ref().filter(|latest| latest.has_simple_boundary);
+        let Bent { mut solution, pinned, stages, note: own_note } =
+            run.step(mesh, simple.map(|latest| latest.embedding.as_slice()), control)?;
+        fit_gauge(mesh, &mut solution.embedding, &self.pins);
+        solution.pins = if self.pins.len() == 2 { self.pins.clone() } else { gauge_in(mesh, &solution.embedding) };
+        solution.gauge_completed = self.pins.len() < 2;
+        Ok(Raw {
+            rung: Method::VirtualBoundary,
+            solution,
+            bent_vertices: if pinned > 2 { pinned } else { 0 },
+            virtual_boundary: stages,
+            note: note.or(own_note),
+            prepared: None,
+        })
+    }
+}
+
+/// The default gauge pins where they lie in an embedding.
+fn gauge_in(mesh: &DiskMesh, embedding: &[DVec2]) -> Pins {
+    gauge_pins(mesh).into_keys().map(|v| (v, embedding[v.index()])).collect()
+}

@@ -1,0 +1,69 @@
+//! One step of a run: an embedding with its verdict and its numbers.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::{Method, Prepared, Solution, Verdict, VirtualBoundary};
+
+/// An embedding, what made it, and how good it is.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// The rung of the ladder, as the method that it is by itself: natural, iterate, virtual boundary, or the linear
+    /// method that was asked for.
+    pub rung: Method,
+    /// Place in the run, from 0.
+    pub index: usize,
+    /// The embedding and the numbers of its solve.
+    pub solution: Solution,
+    /// The exact verdict on it.
+    pub verdict: Verdict,
+    /// Largest move of a vertex since the step before, in the plane; none for the first.
+    pub max_move: Option<f64>,
+    /// Seconds that the verdict took.
+    pub verify_seconds: f64,
+    /// Boundary vertices that were bent to a convex polygon to make the boundary simple (paper §5, k); none where it is
+    /// free, or was convex by the method.
+    pub bent_vertices: usize,
+    /// The stages of §5, where the step has any.
+    pub virtual_boundary: Option<Arc<VirtualBoundary>>,
+    /// What else there is to say: why the rung before gave nothing, or what had to be repaired.
+    pub note: Option<String>,
+    /// Equations and factors of a linear solve, for other targets of the same pins.
+    pub prepared: Option<Arc<Prepared>>,
+}
+
+impl Step {
+    /// Flipped faces, boundary crossings and overwound vertices together.
+    pub fn defect_count(&self) -> usize {
+        let Verdict { flipped_faces, boundary_crossings, unlisted_crossings, overwound_vertices, .. } = &self.verdict;
+        flipped_faces.len() + boundary_crossings.len() + unlisted_crossings + overwound_vertices.len()
+    }
+
+    /// Whether the boundary is simple and runs counter-clockwise.
+    pub fn has_simple_boundary(&self) -> bool {
+        self.verdict.boundary_crossings.is_empty() && self.verdict.turning_number == Some(1)
+    }
+
+    /// Whether the boundary was bent to a convex polygon: it is no longer free.
+    pub fn has_convex_boundary(&self) -> bool {
+        matches!(self.rung, Method::Convex(_)) || self.bent_vertices > 0
+    }
+
+    /// Seconds of the solve and the verdict.
+    pub fn seconds(&self) -> f64 {
+        self.solution.seconds.total() + self.verify_seconds
+    }
+}
+
+/// The largest distance between the same vertices of two embeddings.
+pub fn largest_move(before: &[DVec2], after: &[DVec2]) -> f64 {
+    before.iter().zip(after).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+/// The diagonal of the box around an embedding.
+pub fn diameter(embedding: &[DVec2]) -> f64 {
+    let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let high = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    low.distance(high)
+}

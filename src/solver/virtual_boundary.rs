@@ -1,0 +1,191 @@
+//! The virtual boundary: the embedding's outside is triangulated up to a convex polygon, and mesh and outside are
+//! embedded together (paper §5).
+//!
+//! # Theorem
+//!
+//! The extended mesh is a triangulated disk. With its boundary on a convex polygon and positive weights every face of
+//! it is positive (Tutte 1963, Floater 2003), provided that it is simplicial and that no interior edge joins two
+//! vertices of one side of the polygon. Mean-value weights are positive, and reproduce a planar embedding.
+//!
+//! # Where the hull is not enough
+//!
+//! A pocket's edge may join two vertices that the mesh itself joins: a dividing edge, or the base of a flap that is
+//! folded inward. The double edge would collapse the faces beside it. A dividing edge may also lie on a side of the
+//! hull. Then the outside is triangulated up to a strictly convex frame around the hull, and every doubled edge is
+//! split by a virtual vertex. The frame's vertices and these are peeled off afterwards, as the faces are.
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use super::equations::Equations;
+use super::free_solve::in_vertices;
+use super::system::FreeSystem;
+use super::{Control, Phase, SolveError};
+use crate::geom::{Orientation, orientation, outside_triangles};
+use crate::linalg::{Analysis, FactorStats, Kind};
+use crate::mesh::{DiskMesh, TriMesh, VertexId};
+
+/// The frame's corners, relative to half the extent of the boundary: an octagon whose sides are far from straight.
+const FRAME: [DVec2; 8] = [
+    DVec2::new(3.0, -1.5),
+    DVec2::new(3.0, 1.5),
+    DVec2::new(1.5, 3.0),
+    DVec2::new(-1.5, 3.0),
+    DVec2::new(-3.0, 1.5),
+    DVec2::new(-3.0, -1.5),
+    DVec2::new(-1.5, -3.0),
+    DVec2::new(1.5, -3.0),
+];
+
+/// What the outside of an embedding is triangulated up to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outline {
+    /// The convex hull of the boundary (paper §5).
+    Hull,
+    /// A frame around the hull.
+    Frame,
+}
+
+/// Each stage of §5, kept to be looked at. Vertices beyond the mesh's are virtual.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VirtualBoundary {
+    /// Boundary vertices that the embedding before was pinned by.
+    pub pinned: usize,
+    /// What the outside was triangulated up to.
+    pub outline: Outline,
+    /// The embedding before, with the virtual vertices at its end.
+    pub before: Vec<DVec2>,
+    /// Vertices of the convex outline B′, counter-clockwise.
+    pub hull: Vec<VertexId>,
+    /// The faces between the boundary and the outline.
+    pub pockets: Vec<[VertexId; 3]>,
+    /// Mesh and outside as solved together.
+    pub solved: Vec<DVec2>,
+}
+
+/// An embedding with its outside.
+#[derive(Debug)]
+pub(super) struct Extended {
+    /// Mesh and outside as one disk. Its positions mean nothing.
+    pub(super) disk: DiskMesh,
+    pub(super) outline: Outline,
+    /// Where all vertices lie, the virtual ones last.
+    pub(super) positions: Vec<DVec2>,
+    pub(super) pockets: Vec<[VertexId; 3]>,
+}
+
+impl Extended {
+    /// Extends an embedding whose boundary is simple and runs counter-clockwise: up to the hull, or up to a frame where
+    /// the hull would not do. `None` where neither is possible.
+    pub(super) fn new(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
+        Self::up_to_hull(mesh, embedding).or_else(|| Self::up_to_frame(mesh, embedding))
+    }
+
+    fn up_to_hull(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
+        let triangles = outside_triangles(&boundary_of(mesh, embedding), &[])?;
+        let boundary = mesh.boundary_loop();
+        let pockets = triangles.into_iter().map(|t| t.map(|corner| boundary[corner as usize])).collect();
+        let extended = Self::join(mesh, Outline::Hull, embedding.to_vec(), pockets)?;
+        (!extended.has_edge_along_outline()).then_some(extended)
+    }
+
+    pub(super) fn up_to_frame(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
+        let boundary = boundary_of(mesh, embedding);
+        let low = boundary.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+        let high = boundary.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let (centre, half) = ((low + high) / 2.0, (high - low).max_element() / 2.0);
+        let frame = FRAME.map(|corner| centre + half * corner);
+        let triangles = outside_triangles(&boundary, &frame)?;
+        let mut positions = embedding.to_vec();
+        positions.extend(frame);
+        let vertex = |corner: u32| {
+            let corner = corner as usize;
+            let beyond = || VertexId::from_index(embedding.len() + corner - boundary.len());
+            mesh.boundary_loop().get(corner).copied().unwrap_or_else(beyond)
+        };
+        let mut pockets: Vec<[VertexId; 3]> = triangles.into_iter().map(|t| t.map(vertex)).collect();
+        split_doubled_edges(mesh, &mut positions, &mut pockets);
+        Self::join(mesh, Outline::Frame, positions, pockets)
+    }
+
+    fn join(
+        mesh: &DiskMesh,
+        outline: Outline,
+        positions: Vec<DVec2>,
+        pockets: Vec<[VertexId; 3]>,
+    ) -> Option<Self> {
+        let triangles = mesh.mesh().triangles.iter().chain(&pockets).copied().collect();
+        let places = positions.iter().map(|z| z.extend(0.0)).collect();
+        let joined = TriMesh { positions: places, triangles, polygon_of: None };
+        let disk = DiskMesh::of_topology(joined).ok()?;
+        Some(Self { disk, outline, positions, pockets })
+    }
+
+    /// Whether an interior edge lies on a side of the outline: Tutte's theorem does not allow that.
+    fn has_edge_along_outline(&self) -> bool {
+        let outline = self.disk.boundary_loop();
+        let at = |v: VertexId| self.positions[v.index()];
+        self.disk.dividing_edges().iter().any(|&[u, v]| {
+            let Some(place) = self.disk.boundary_place(u) else { return false };
+            let beside = [place + 1, place + outline.len() - 1].map(|p| outline[p % outline.len()]);
+            beside.iter().any(|&w| orientation(at(u), at(w), at(v)) == Some(Orientation::Collinear))
+        })
+    }
+
+    /// Solves equations of mesh and outside with the outline where it is. Returns all positions, the residual and what
+    /// the factors cost.
+    pub(super) fn solve(
+        &self,
+        equations: &Equations<f64>,
+        control: Control<'_>,
+    ) -> Result<(Vec<DVec2>, f64, FactorStats), SolveError> {
+        let system = FreeSystem::new(&self.disk, |v| self.disk.boundary_place(v).is_some());
+        let matrix = system.negated_matrix(&self.disk, equations);
+        let named = |error| in_vertices(error, system.free());
+        control.enter(Phase::Analyze)?;
+        let analysis = Analysis::new(Kind::General, system.pattern()).map_err(named)?;
+        control.enter(Phase::Factor)?;
+        let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
+        control.enter(Phase::Solve)?;
+        let terms = |axis: usize| {
+            let fixed = self.disk.boundary_loop().iter().map(|&v| (v, self.positions[v.index()][axis]));
+            system.pinned_terms(&self.disk, equations, &fixed.collect::<BTreeMap<VertexId, f64>>())
+        };
+        let both: Vec<f64> = terms(0).into_iter().chain(terms(1)).collect();
+        let solved = factor.solve_many(&matrix, &both).map_err(named)?;
+        let (x, y) = solved.x.split_at(system.free().len());
+        let mut positions = self.positions.clone();
+        for (vertex, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
+            positions[vertex.index()] = DVec2::new(x, y);
+        }
+        Ok((positions, solved.residual, factor.stats()))
+    }
+}
+
+fn boundary_of(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<DVec2> {
+    mesh.boundary_loop().iter().map(|v| embedding[v.index()]).collect()
+}
+
+/// Splits every edge of the pockets that the mesh has as well, other than the boundary's own, by a vertex at its
+/// middle.
+fn split_doubled_edges(mesh: &DiskMesh, positions: &mut Vec<DVec2>, pockets: &mut Vec<[VertexId; 3]>) {
+    let key = |a: VertexId, b: VertexId| [a.min(b), a.max(b)];
+    let sides = |t: [VertexId; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
+    let doubled: Vec<[VertexId; 2]> = mesh.dividing_edges().iter().map(|&[a, b]| key(a, b)).collect();
+    for [a, b] in doubled {
+        let has_edge = |t: &[VertexId; 3]| sides(*t).iter().any(|&(u, v)| key(u, v) == [a, b]);
+        let (split, mut kept): (Vec<_>, Vec<_>) = pockets.iter().copied().partition(has_edge);
+        if split.is_empty() {
+            continue;
+        }
+        let middle = VertexId::from_index(positions.len());
+        positions.push(positions[a.index()].midpoint(positions[b.index()]));
+        for triangle in split {
+            for end in [a, b] {
+                kept.push(triangle.map(|v| if v == end { middle } else { v }));
+            }
+        }
+        *pockets = kept;
+    }
+}
