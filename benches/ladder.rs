@@ -52,9 +52,21 @@ fn main() {
     meshes.retain(|path| path.extension().is_some_and(|e| e == "obj"));
     meshes.retain(|path| path.to_string_lossy().contains(&wanted));
     meshes.sort_by_key(|path| fs::metadata(path).map_or(0, |data| data.len()));
-    let mut table = Table::new("auto: runs by the rung they ended planar on", &[
-        "mesh", "runs", "natural", "iterate", "virtual boundary, free", "convex", "not planar", "steps", "most", "s a run",
-    ]);
+    let mut table = Table::new(
+        "auto: runs by the rung they ended planar on",
+        &[
+            "mesh",
+            "runs",
+            "natural",
+            "iterate",
+            "virtual boundary, free",
+            "convex",
+            "not planar",
+            "steps",
+            "most",
+            "s a run",
+        ],
+    );
     for path in meshes {
         let polygons = read_mesh(&path).expect("a readable mesh").polygons;
         let mesh = DiskMesh::try_from(polygons.triangulate()).expect("a disk");
@@ -73,7 +85,14 @@ fn main() {
         }
         let runs = pairs * FAMILIES.len();
         let cells = [
-            runs, count.natural, count.iterate, count.virtual_free, count.virtual_bent, count.not_planar, count.steps, count.most_steps,
+            runs,
+            count.natural,
+            count.iterate,
+            count.virtual_free,
+            count.virtual_bent,
+            count.not_planar,
+            count.steps,
+            count.most_steps,
         ];
         let [a, b, c, d, e, f, g, h] = cells.map(|cell| cell.to_string());
         let row = [name, a, b, c, d, e, f, g, h, format!("{:.2}", start.elapsed().as_secs_f64() / runs as f64)];

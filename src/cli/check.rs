@@ -59,6 +59,7 @@ fn report(mesh: MeshReport, start: Instant, read: f64) -> Report {
         freebound: env!("CARGO_PKG_VERSION"),
         mesh,
         method: None,
+        boundary: None,
         family: None,
         pins: None,
         steps: Vec::new(),

@@ -6,10 +6,10 @@ use std::time::Instant;
 use super::args::{Fit, FlattenArguments};
 use super::progress::{Progress, interrupted, is_interrupted};
 use super::{Failure, Status};
-use crate::io::{OutputKind, Report};
+use crate::io::{OutputKind, Report, StepReport};
 use crate::mesh::DiskMesh;
 use crate::session::{Finished, Model, Outcome, OutputFit, Surface};
-use crate::solver::{Control, Phase, Pins, Settings, SolveError};
+use crate::solver::{Control, Phase, Pins, Run, Settings, SolveError};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     set_threads(arguments.threads)?;
@@ -55,8 +55,14 @@ impl HeadlessJob<'_> {
         let read_seconds = start.elapsed().as_secs_f64();
         let report_phase = |phase: Phase| progress.enter(phase.words());
         let control = Control::new(interrupted(), &report_phase);
-        let outcome = Outcome::compute(mesh, &self.settings, &self.pins, None, control)?;
-        let mut finished = Finished::new(model, mesh, &outcome, self.fit, read_seconds);
+        let mut run = Run::new(self.settings, self.pins.clone());
+        let (mut last, mut records) = (None, Vec::new());
+        run.finish(mesh, control, |step| {
+            records.push(StepReport::of(&step));
+            last = Some(step);
+        })?;
+        let outcome = Outcome::new(mesh, &run, last.expect("a run has a first step"));
+        let mut finished = Finished::new((model, mesh), &outcome, records, self.fit, read_seconds);
         progress.enter("writing");
         let before_writing = Instant::now();
         for (kind, path) in &self.outputs {

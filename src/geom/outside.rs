@@ -87,8 +87,24 @@ mod tests {
 
     #[test]
     fn a_pocket_within_a_spiral_is_found() {
-        let spiral =
-            points(&[[0, 0], [9, 0], [9, 9], [1, 9], [1, 3], [6, 3], [6, 6], [4, 6], [4, 5], [5, 5], [5, 4], [2, 4], [2, 8], [8, 8], [8, 1], [0, 1]]);
+        let spiral = points(&[
+            [0, 0],
+            [9, 0],
+            [9, 9],
+            [1, 9],
+            [1, 3],
+            [6, 3],
+            [6, 6],
+            [4, 6],
+            [4, 5],
+            [5, 5],
+            [5, 4],
+            [2, 4],
+            [2, 8],
+            [8, 8],
+            [8, 1],
+            [0, 1],
+        ]);
         let triangles = outside_triangles(&spiral, &[]).unwrap();
         let hull = points(&[[0, 0], [9, 0], [9, 9], [1, 9], [0, 1]]);
         assert_eq!(double_area(&spiral) + covered(&spiral, &triangles), double_area(&hull));

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::mesh::{DiskMesh, FaceId, TriMesh};
-use crate::solver::{DistortionSummary, Settings, Solution, Verdict};
+use crate::solver::{DistortionSummary, Step, Verdict};
 
 /// Everything that a run has to say. Field names are part of the interface.
 #[derive(Debug, Serialize)]
@@ -21,6 +21,9 @@ pub struct Report {
     /// Pinned vertices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pins: Option<PinsReport>,
+    /// Whether the boundary is free, or convex: laid on a convex shape, or bent to one to make it simple.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub boundary: Option<&'static str>,
     /// Each step of each rung.
     pub steps: Vec<StepReport>,
     /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.
@@ -80,7 +83,7 @@ pub struct PinsReport {
 }
 
 /// One step of one rung.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StepReport {
     /// The rung's method.
     pub rung: &'static str,
@@ -104,29 +107,40 @@ pub struct StepReport {
     pub replaced_pivots: usize,
     /// Degenerate corners whose weight was bounded.
     pub bounded_corners: usize,
+    /// Boundary vertices that were bent to a convex polygon to make the boundary simple.
+    pub bent_vertices: usize,
     /// Bytes of the matrix's factors.
     pub factor_bytes: usize,
     /// Seconds of the step.
     pub seconds: f64,
+    /// Proved one-to-one.
+    pub planar: bool,
+    /// What else there is to say about the step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
 }
 
 impl StepReport {
-    /// The single step of a linear method.
-    pub fn linear(settings: &Settings, solution: &Solution, verdict: &Verdict) -> Self {
+    /// The numbers of a step.
+    pub fn of(step: &Step) -> Self {
+        let Step { solution, verdict, .. } = step;
         Self {
-            rung: settings.method.name(),
-            index: 0,
+            rung: step.rung.name(),
+            index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
-            boundary_crossings: verdict.boundary_crossings.len(),
+            boundary_crossings: verdict.boundary_crossings.len() + verdict.unlisted_crossings,
             overwound_vertices: verdict.overwound_vertices.len(),
             turning_number: verdict.turning_number,
-            max_move: None,
+            max_move: step.max_move,
             residual: solution.residual,
             equation_residual: solution.equation_residual,
             replaced_pivots: solution.replaced_pivots,
             bounded_corners: solution.bounded_corners,
+            bent_vertices: step.bent_vertices,
             factor_bytes: solution.factor_bytes,
-            seconds: solution.seconds.total(),
+            seconds: step.seconds(),
+            planar: verdict.planar,
+            note: step.note.clone(),
         }
     }
 }

@@ -82,9 +82,10 @@ impl Session {
             let text = "the embedding on the screen does not belong to these settings and pins yet".to_owned();
             return self.fail(Place::Embedding, text, Some("save again when it is solved"));
         }
+        let records = self.records.clone();
         let work = move |_: &super::JobContext<()>| {
             let disk = model.disk().expect("only a disk has an outcome");
-            let finished = Finished::new(&model, disk, &outcome, request.fit, 0.0);
+            let finished = Finished::new((&model, disk), &outcome, records, request.fit, 0.0);
             finished.write(request.kind, &request.path)?;
             Ok((request.path, finished.verdict().clone()))
         };

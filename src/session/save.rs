@@ -39,14 +39,20 @@ impl<'a> Finished<'a> {
     /// Takes the embedding to its final size, and proves and measures it there.
     ///
     /// `read_seconds` is what opening the mesh took, for the report.
-    pub fn new(model: &'a Model, mesh: &'a DiskMesh, outcome: &Outcome, fit: OutputFit, read_seconds: f64) -> Self {
+    pub fn new(
+        (model, mesh): (&'a Model, &'a DiskMesh),
+        outcome: &Outcome,
+        steps: Vec<StepReport>,
+        fit: OutputFit,
+        read_seconds: f64,
+    ) -> Self {
         let start = Instant::now();
         let coordinates = outcome.output(fit);
-        let unchanged = coordinates == outcome.solution.embedding;
-        let verdict = if unchanged { outcome.verdict.clone() } else { verdict(mesh, &coordinates) };
+        let unchanged = coordinates == outcome.step.solution.embedding;
+        let verdict = if unchanged { outcome.step.verdict.clone() } else { verdict(mesh, &coordinates) };
         let summary = if unchanged { outcome.distortion.summary } else { distortion(mesh, &coordinates).summary };
-        let solve = outcome.solution.seconds.total();
-        let verify = outcome.verify_seconds + start.elapsed().as_secs_f64();
+        let solve = steps.iter().map(|step| step.seconds).sum();
+        let verify = outcome.step.verify_seconds + start.elapsed().as_secs_f64();
         let settings = &outcome.settings;
         let report = Report {
             freebound: env!("CARGO_PKG_VERSION"),
@@ -54,11 +60,12 @@ impl<'a> Finished<'a> {
             method: Some(settings.method.name()),
             family: settings.method.uses_family().then(|| settings.family.to_string()),
             pins: Some(PinsReport {
-                treatment: "eliminate",
+                treatment: settings.treatment_of(outcome.pins.len()).name(),
                 count: outcome.pins.len(),
                 max_error: outcome.pin_error(),
             }),
-            steps: vec![StepReport::linear(settings, &outcome.solution, &outcome.verdict)],
+            boundary: Some(if outcome.step.has_convex_boundary() { "convex" } else { "free" }),
+            steps,
             verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
             distortion: Some(summary),
             new_vertices: 0,

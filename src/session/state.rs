@@ -4,15 +4,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::{Action, Command, Document, History, Job, Message, Model, Outcome, Place, Poll, RecentFiles, Severity};
-use crate::io::{ReadError, WriteError};
+use crate::io::{ReadError, StepReport, WriteError};
 use crate::mesh::VertexId;
-use crate::solver::{Control, Phase, Prepared, Settings, SolveError, Verdict};
+use crate::solver::{Control, Phase, Prepared, Run, Settings, SolveError, Verdict};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 pub(super) type LoadJob = Job<(), Result<Model, ReadError>>;
-type SolveJob = Job<Phase, Result<Outcome, SolveError>>;
+type SolveJob = Job<Phase, Result<Solved, SolveError>>;
 pub(super) type SaveJob = Job<(), Result<(PathBuf, Verdict), WriteError>>;
 
 /// What goes on in the background.
@@ -24,6 +24,13 @@ pub enum Busy {
     Solving(Option<Phase>),
     /// Writing a file.
     Saving,
+}
+
+/// What a finished run leaves.
+struct Solved {
+    outcome: Outcome,
+    records: Vec<StepReport>,
+    prepared: Option<Arc<Prepared>>,
 }
 
 /// A solve that runs, and what it was asked for.
@@ -43,6 +50,7 @@ pub struct Session {
     pub(super) document: Document,
     pub(super) history: History,
     pub(super) outcome: Option<Arc<Outcome>>,
+    pub(super) records: Vec<StepReport>,
     /// Counts the outcomes, for the same reason.
     pub(super) outcome_revision: u64,
     /// Kept from solves that succeeded, to be used again while a pin is dragged.
@@ -78,6 +86,7 @@ impl Session {
             document: Document::default(),
             history: History::default(),
             outcome: None,
+            records: Vec::new(),
             outcome_revision: 0,
             prepared: None,
             loading: None,
@@ -216,7 +225,7 @@ impl Session {
         let fresh = vertices.iter().filter(|v| !self.document.pins.contains_key(v));
         let pin = |&vertex: &VertexId| Command::SetPin {
             vertex,
-            target: outcome.solution.embedding.get(vertex.index()).copied(),
+            target: outcome.step.solution.embedding.get(vertex.index()).copied(),
         };
         let commands: Vec<Command> = fresh.map(pin).collect();
         if !commands.is_empty() {
@@ -230,7 +239,7 @@ impl Session {
             // A gauge pin: from here on all of them are the user's, each where it lies.
             let Some(outcome) = &self.outcome else { return };
             let adopt = |(&vertex, &target)| Command::SetPin { vertex, target: Some(target) };
-            let adopted: Vec<Command> = outcome.solution.pins.iter().map(adopt).collect();
+            let adopted: Vec<Command> = outcome.step.solution.pins.iter().map(adopt).collect();
             self.history.apply_in_gesture(Command::Together(adopted), &mut self.document);
         }
         self.history.apply_in_gesture(Command::SetPin { vertex, target: Some(target) }, &mut self.document);
@@ -263,7 +272,16 @@ impl Session {
         let prepared = self.prepared.clone();
         let work = move |context: &super::JobContext<Phase>| {
             let report = |phase| context.report(phase);
-            Outcome::compute(&disk, &settings, &pins, prepared, Control::new(context.cancel_flag(), &report))
+            let control = Control::new(context.cancel_flag(), &report);
+            let mut run = Run::new(settings, pins).with_prepared(prepared);
+            let (mut steps, mut records, mut prepared) = (None, Vec::new(), None);
+            run.finish(&disk, control, |step| {
+                records.push(StepReport::of(&step));
+                prepared = prepared.take().or(step.prepared.clone());
+                steps = Some(step);
+            })?;
+            let outcome = Outcome::new(&disk, &run, steps.expect("a run has a first step"));
+            Ok(Solved { outcome, records, prepared })
         };
         match Job::spawn("solve", self.waker(), work) {
             Ok(job) => self.solving = Some(Solving { job, settings, pinned, phase: None }),
@@ -284,9 +302,10 @@ impl Session {
         };
         self.solving = None;
         match solved {
-            Ok(outcome) => {
+            Ok(Solved { outcome, records, prepared }) => {
                 self.forget_solve_message();
-                self.prepared = Some(Arc::clone(&outcome.prepared));
+                self.prepared = prepared;
+                self.records = records;
                 self.outcome = Some(Arc::new(outcome));
                 self.outcome_revision += 1;
             }

@@ -16,10 +16,28 @@ pub struct CatalogueEntry {
 /// All methods, in the order of menus.
 pub const METHODS: &[CatalogueEntry] = &[
     CatalogueEntry {
+        name: "auto",
+        title: "Auto (ladder)",
+        about: "natural boundary, iteration, virtual boundary: one after another until the map is proved one-to-one",
+        source: "paper §3.3, §4, §5",
+    },
+    CatalogueEntry {
         name: "natural",
         title: "Natural boundary",
         about: "free boundary from two pins or yours, one linear solve",
         source: "paper §3.3, eq. 2 and 3",
+    },
+    CatalogueEntry {
+        name: "iterate",
+        title: "Mean-value iteration",
+        about: "natural boundary, then solved again and again with mean-value weights of its own embedding",
+        source: "paper §4",
+    },
+    CatalogueEntry {
+        name: "virtual-boundary",
+        title: "Virtual boundary",
+        about: "natural boundary, then mesh and outside embedded together within a convex outline",
+        source: "paper §5",
     },
     CatalogueEntry {
         name: "convex",

@@ -31,12 +31,7 @@ impl Iteration {
     /// # Errors
     ///
     /// Pins that cannot be, or the caller's wish to stop.
-    pub fn new(
-        mesh: &DiskMesh,
-        pins: &Pins,
-        treatment: Treatment,
-        control: Control<'_>,
-    ) -> Result<Self, SolveError> {
+    pub fn new(mesh: &DiskMesh, pins: &Pins, treatment: Treatment, control: Control<'_>) -> Result<Self, SolveError> {
         check_pins(mesh, pins)?;
         control.enter(Phase::Analyze)?;
         let start = Instant::now();

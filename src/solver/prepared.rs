@@ -16,9 +16,7 @@ use super::pins::{Pins, check_pins, gauge_pins};
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
-use super::{
-    BoundaryShape, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError, Treatment,
-};
+use super::{BoundaryShape, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError, Treatment};
 use crate::linalg::{Analysis, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 

@@ -20,9 +20,7 @@ use super::scale::{complete_gauge, fit_gauge};
 use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
-use super::{
-    Control, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, Treatment, gauge_pins, verdict,
-};
+use super::{Control, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, Treatment, gauge_pins, verdict};
 use crate::mesh::DiskMesh;
 
 /// Why a run has come to its end.
@@ -265,15 +263,17 @@ impl Run {
                 *place = solution.embedding[vertex.index()];
             }
         }
-        Ok(Raw { rung: Method::Iterate, solution, bent_vertices: 0, virtual_boundary: None, note: None, prepared: None })
+        Ok(Raw {
+            rung: Method::Iterate,
+            solution,
+            bent_vertices: 0,
+            virtual_boundary: None,
+            note: None,
+            prepared: None,
+        })
     }
 
-    fn virtual_step(
-        &mut self,
-        mesh: &DiskMesh,
-        note: Option<String>,
-        control: Control<'_>,
-    ) -> Result<Raw, SolveError> {
+    fn virtual_step(&mut self, mesh: &DiskMesh, note: Option<String>, control: Control<'_>) -> Result<Raw, SolveError> {
         let run = self.virtual_boundary.get_or_insert_with(|| VirtualBoundaryRun::new(mesh, &self.settings));
         let simple = self.latest.as_ref().filter(|latest| latest.has_simple_boundary);
         let Bent { mut solution, pinned, stages, note: own_note } =

@@ -109,12 +109,7 @@ impl Extended {
         Self::join(mesh, Outline::Frame, positions, pockets)
     }
 
-    fn join(
-        mesh: &DiskMesh,
-        outline: Outline,
-        positions: Vec<DVec2>,
-        pockets: Vec<[VertexId; 3]>,
-    ) -> Option<Self> {
+    fn join(mesh: &DiskMesh, outline: Outline, positions: Vec<DVec2>, pockets: Vec<[VertexId; 3]>) -> Option<Self> {
         let triangles = mesh.mesh().triangles.iter().chain(&pockets).copied().collect();
         let places = positions.iter().map(|z| z.extend(0.0)).collect();
         let joined = TriMesh { positions: places, triangles, polygon_of: None };

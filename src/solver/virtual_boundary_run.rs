@@ -18,9 +18,7 @@ use glam::DVec2;
 use super::equations::{Equations, barycentric, uniform};
 use super::plane_weights::mean_value_in_plane;
 use super::virtual_boundary::{Extended, VirtualBoundary};
-use super::{
-    Control, Family, Growth, Method, PhaseSeconds, Pins, Prepared, Settings, Solution, SolveError, Treatment,
-};
+use super::{Control, Family, Growth, Method, PhaseSeconds, Pins, Prepared, Settings, Solution, SolveError, Treatment};
 use crate::mesh::DiskMesh;
 
 /// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,

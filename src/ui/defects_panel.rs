@@ -24,7 +24,7 @@ pub(super) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         ui.label("Nothing is solved yet.");
         return;
     };
-    let verdict = &outcome.verdict;
+    let verdict = &outcome.step.verdict;
     if verdict.planar {
         ui.colored_label(theme.planar, "Planar: proved one-to-one");
         ui.label(

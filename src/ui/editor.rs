@@ -160,7 +160,7 @@ impl Editor {
     /// Everything that is wrong with the embedding on the screen: flipped faces, crossings, overwound vertices.
     pub fn defects(&self) -> Vec<Defect> {
         let Some(outcome) = self.session.outcome() else { return Vec::new() };
-        let verdict = &outcome.verdict;
+        let verdict = &outcome.step.verdict;
         let flipped = verdict.flipped_faces.iter().map(|&face| Defect::Flipped(face));
         let crossings = verdict.boundary_crossings.iter().map(|&edges| Defect::Crossing(edges));
         let overwound = verdict.overwound_vertices.iter().map(|&vertex| Defect::Overwound(vertex));
@@ -236,9 +236,9 @@ impl Editor {
         let document = self.session.document();
         let users = if document.settings.method.uses_pins() { document.pins.clone() } else { BTreeMap::new() };
         let gauge = self.plane_scene.as_ref().filter(|scene| {
-            scene.outcome.solution.gauge_completed && scene.outcome.settings.method.uses_pins() && users.len() < 2
+            scene.outcome.step.solution.gauge_completed && scene.outcome.settings.method.uses_pins() && users.len() < 2
         });
-        let gauge = gauge.map(|scene| scene.outcome.solution.pins.clone()).unwrap_or_default();
+        let gauge = gauge.map(|scene| scene.outcome.step.solution.pins.clone()).unwrap_or_default();
         let own = users.clone();
         let solver = gauge.into_iter().filter(move |(vertex, _)| !own.contains_key(vertex));
         let users = users.into_iter().map(|(vertex, at)| (vertex, at, PinOwner::User));
@@ -264,7 +264,7 @@ impl Editor {
     /// How many defects are listed.
     pub fn defect_count(&self) -> usize {
         self.session.outcome().map_or(0, |outcome| {
-            let verdict = &outcome.verdict;
+            let verdict = &outcome.step.verdict;
             verdict.flipped_faces.len() + verdict.boundary_crossings.len() + verdict.overwound_vertices.len()
         })
     }
@@ -294,7 +294,7 @@ impl Editor {
             if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
         orbit.frame(ball, self.mesh_pane_size);
         let (Some(plane), Some(camera)) = (&self.plane_scene, &mut self.plane_camera) else { return };
-        let embedding = &plane.outcome.solution.embedding;
+        let embedding = &plane.outcome.step.solution.embedding;
         let bounds = plane.arrays.bounds();
         let wanted = if selected.is_empty() { bounds } else { grown_box(embedding, &selected, bounds) };
         camera.frame(wanted, self.plane_pane_size);

@@ -230,12 +230,12 @@ fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
         let tip = "The embedding does not belong to these settings and pins: press Solve";
         return Some(Pill { sign: Sign::Warning, colour: theme.stale, words: "not solved".to_owned(), tip });
     };
-    Some(if outcome.verdict.planar {
+    Some(if outcome.step.verdict.planar {
         let tip = "Exact arithmetic shows that no two faces overlap";
         Pill { sign: Sign::Good, colour: theme.planar, words: "Planar: proved".to_owned(), tip }
     } else {
         let tip = "Not planar. Click for the next defect (D)";
-        Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&outcome.verdict), tip }
+        Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&outcome.step.verdict), tip }
     })
 }
 

@@ -81,7 +81,10 @@ fn method_menu(ui: &mut egui::Ui, settings: &mut Settings) {
                 "convex" => Method::Convex(BoundaryShape::default()),
                 "lscm" => Method::Lscm,
                 "levy" => Method::Levy,
-                _ => Method::Natural,
+                "natural" => Method::Natural,
+                "iterate" => Method::Iterate,
+                "virtual-boundary" => Method::VirtualBoundary,
+                _ => Method::Auto,
             };
             let on = settings.method.name() == entry.name;
             let label =
@@ -199,7 +202,7 @@ fn figure(value: f64) -> String {
 }
 
 fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
-    let solution = &outcome.solution;
+    let solution = &outcome.step.solution;
     egui::CollapsingHeader::new("Numbers of the solve").default_open(false).show(ui, |ui| {
         egui::Grid::new("numbers").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
             let mut row = |name: &str, tip: &str, value: String| {
@@ -216,7 +219,7 @@ fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
                 ("Ordering", seconds.analyze),
                 ("Factoring", seconds.factor),
                 ("Substitution", seconds.solve),
-                ("Proof", outcome.verify_seconds),
+                ("Proof", outcome.step.verify_seconds),
             ];
             for (name, seconds) in phases {
                 row(name, "milliseconds", format!("{:.1} ms", 1000.0 * seconds));

@@ -96,7 +96,7 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
         let size = pane::size_of(rect);
         let [a, b] = [chosen.left_bottom(), chosen.right_top()]
             .map(|corner| camera.embedding_from_pane(pane::in_pane(rect, corner), size));
-        let embedding = plane.outcome.solution.embedding.iter().enumerate();
+        let embedding = plane.outcome.step.solution.embedding.iter().enumerate();
         let inside = embedding.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
         requests.push(Request::AddToSelection(inside.map(|(i, _)| VertexId::from_index(i)).collect()));
     }
@@ -125,7 +125,7 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
     let theme = theme_of(ui);
     let over = ui.painter_at(rect);
     let size = pane::size_of(rect);
-    let embedding = &plane.outcome.solution.embedding;
+    let embedding = &plane.outcome.step.solution.embedding;
     let spot = |vertex: VertexId| -> Pos2 {
         let z = embedding.get(vertex.index()).copied().unwrap_or(DVec2::NAN);
         pane::on_screen(rect, camera.pane_from_embedding(z, size))

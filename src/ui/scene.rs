@@ -58,7 +58,7 @@ pub struct PlaneScene {
 impl PlaneScene {
     /// Makes the scene of an embedding of `mesh`.
     pub fn new(mesh: &TriMesh, outcome: Arc<Outcome>, outcome_revision: u64) -> Self {
-        let embedding = &outcome.solution.embedding;
+        let embedding = &outcome.step.solution.embedding;
         Self {
             outcome_revision,
             arrays: Arc::new(PlaneArrays::new(embedding, &mesh.triangles)),
@@ -99,7 +99,7 @@ impl Paint {
         let Some(outcome) = outcome else {
             return Self { key, faces: Arc::new(FacePaint::plain(face_count, &[])), legend: None };
         };
-        let flipped = &flipped_faces(&outcome.verdict);
+        let flipped = &flipped_faces(&outcome.step.verdict);
         let by = |scale: Scale, of: fn(&FaceDistortion) -> f64| {
             let values: Vec<f64> = outcome.distortion.faces.iter().map(of).collect();
             let range = scale.robust_range(&values);

@@ -46,7 +46,7 @@ fn numbers(editor: &Editor) -> String {
         }
     }
     if let Some(outcome) = editor.session.outcome() {
-        parts.push(format!("{:.0} ms", 1000.0 * (outcome.solution.seconds.total() + outcome.verify_seconds)));
+        parts.push(format!("{:.0} ms", 1000.0 * (outcome.step.solution.seconds.total() + outcome.step.verify_seconds)));
     }
     parts.join("  ·  ")
 }

@@ -30,7 +30,7 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             requests.push(Request::GoTo(vec![vertex]));
         }
     });
-    let embedding = editor.session.outcome().map(|outcome| outcome.solution.embedding.as_slice());
+    let embedding = editor.session.outcome().map(|outcome| outcome.step.solution.embedding.as_slice());
     egui::Grid::new("vertex").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
         let mut row = |name: &str, value: String| {
             ui.label(name);

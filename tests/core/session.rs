@@ -88,10 +88,10 @@ fn a_file_that_is_not_there_leaves_the_mesh_that_was_open() {
 #[test]
 fn one_fixed_vertex_leaves_the_embedding_where_it_is() {
     let mut session = opened(Example::Dome);
-    let before = session.outcome().expect("solved").solution.embedding.clone();
+    let before = session.outcome().expect("solved").step.solution.embedding.clone();
     settled(&mut session, Action::Fix(vec![id(100)]));
     assert_eq!(session.document().pins[&id(100)], before[100]);
-    let after = &session.outcome().expect("solved").solution.embedding;
+    let after = &session.outcome().expect("solved").step.solution.embedding;
     assert!(before.iter().zip(after).all(|(a, b)| a.distance(*b) < 1e-9));
 }
 
@@ -122,7 +122,7 @@ fn a_drag_ends_where_a_fresh_solve_would() {
     let disk = session.model().expect("open").disk().expect("a disk");
     let Document { pins, settings } = session.document();
     let fresh = flatten(disk, settings, pins, Control::unattended()).expect("solvable");
-    assert_eq!(fresh.embedding, session.outcome().expect("solved").solution.embedding);
+    assert_eq!(fresh.embedding, session.outcome().expect("solved").step.solution.embedding);
 }
 
 #[test]
@@ -302,11 +302,11 @@ impl Walk {
         assert!(self.session.is_current() || failed(&self.session), "{:?}", self.session);
         let Some(outcome) = self.session.outcome() else { return };
         let model = self.session.model().expect("what is solved is open");
-        assert_eq!(outcome.solution.embedding.len(), model.mesh().vertex_count());
-        assert!(outcome.solution.embedding.iter().all(|z| z.is_finite()));
+        assert_eq!(outcome.step.solution.embedding.len(), model.mesh().vertex_count());
+        assert!(outcome.step.solution.embedding.iter().all(|z| z.is_finite()));
         if outcome.settings.method.uses_pins() {
             for (vertex, target) in &outcome.pins {
-                assert_eq!(outcome.solution.embedding[vertex.index()], *target);
+                assert_eq!(outcome.step.solution.embedding[vertex.index()], *target);
             }
         }
     }

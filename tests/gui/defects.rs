@@ -25,7 +25,7 @@ pub(crate) fn fold(window: &mut Window) {
     session.handle(Action::MovePin { vertex: b, target: embedding[a.index()] });
     session.handle(Action::EndGesture);
     window.settle();
-    assert!(!window.outcome().verdict.flipped_faces.is_empty(), "it folds");
+    assert!(!window.outcome().step.verdict.flipped_faces.is_empty(), "it folds");
 }
 
 #[test]
@@ -85,10 +85,10 @@ fn the_crossings_of_the_cow_are_listed_and_shown() {
     let Some(corpus) = corpus() else { return };
     let mut window = Window::with_file(&corpus.join("cow_seamster.obj"));
     let outcome = window.outcome();
-    assert!(!outcome.verdict.planar && !outcome.verdict.boundary_crossings.is_empty());
+    assert!(!outcome.step.verdict.planar && !outcome.step.verdict.boundary_crossings.is_empty());
     assert!(window.verdict().contains("crossing"), "{}", window.verdict());
-    let [a, b] = outcome.verdict.boundary_crossings[0];
-    let flipped = outcome.verdict.flipped_faces.len();
+    let [a, b] = outcome.step.verdict.boundary_crossings[0];
+    let flipped = outcome.step.verdict.flipped_faces.len();
     window.click(&format!("Defects {}", window.editor().defect_count()));
     for _ in 0..=flipped {
         window.key(Key::D);

@@ -213,7 +213,7 @@ fn escape_before_a_pin_has_moved_takes_nothing_back() {
 fn dragging_a_gauge_pin_makes_both_the_user_s() {
     let mut window = window();
     let before = window.embedding();
-    let gauge = window.outcome().solution.pins.clone();
+    let gauge = window.outcome().step.solution.pins.clone();
     let [(first, _), (second, at)] = gauge.iter().map(|(&v, &z)| (v, z)).collect::<Vec<_>>()[..] else {
         panic!("two gauge pins: {gauge:?}")
     };

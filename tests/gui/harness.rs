@@ -91,7 +91,7 @@ impl Window {
     }
 
     pub(crate) fn embedding(&self) -> Vec<DVec2> {
-        self.outcome().solution.embedding.clone()
+        self.outcome().step.solution.embedding.clone()
     }
 
     /// Opens a file as the session is asked to.

@@ -66,7 +66,7 @@ fn other_weights_change_the_verdict_s_words() {
     let mut window = Window::with_example(Example::Dome);
     assert_eq!(window.verdict(), "Planar: proved");
     window.choose("Weights", "Wachspress");
-    let count = window.outcome().verdict.flipped_faces.len();
+    let count = window.outcome().step.verdict.flipped_faces.len();
     assert!(count > 0, "Wachspress weights fold a face of the dome");
     assert!(window.verdict().starts_with(&format!("{count} flipped")), "{}", window.verdict());
     assert!(window.has_button(&format!("Defects {}", window.editor().defect_count())));

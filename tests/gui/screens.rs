@@ -62,7 +62,7 @@ fn a_flipped_face_is_red_in_the_embedding_and_the_verdict_too() {
         fold(&mut window);
         let folded = picture(&mut window);
         assert!(count_of(&folded, pill(&window), theme.flipped) > 20, "{name:?}: red");
-        for &face in &window.outcome().verdict.flipped_faces {
+        for &face in &window.outcome().step.verdict.flipped_faces {
             let part = box_of(&window, face);
             let least = (part.area() / 12.0).min(60.0);
             let count = count_of(&folded, part, theme.flipped) as f32;
