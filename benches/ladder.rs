@@ -60,6 +60,7 @@ fn main() {
             "runs",
             "natural",
             "iterate",
+            "started again",
             "virtual boundary, free",
             "convex",
             "not planar",
