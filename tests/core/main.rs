@@ -29,6 +29,8 @@ mod program;
 mod raster;
 mod reproduction;
 mod session;
+mod session_run;
+mod session_timeline;
 mod verdict;
 mod verdict_cases;
 mod verdict_oracle;
