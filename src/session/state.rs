@@ -173,6 +173,11 @@ impl Session {
         self.saving.first().map(|_| Busy::Saving)
     }
 
+    /// Whether a run takes steps in the background.
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
     /// What has been said and not dismissed.
     pub fn messages(&self) -> &[Message] {
         &self.messages
