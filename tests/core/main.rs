@@ -31,6 +31,8 @@ mod raster;
 mod reproduction;
 mod session;
 mod shapes;
+mod session_run;
+mod session_timeline;
 mod verdict;
 mod verdict_cases;
 mod verdict_oracle;
