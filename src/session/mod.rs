@@ -18,5 +18,5 @@ pub use load::{Model, Surface};
 pub use message::{Message, Place, Severity};
 pub use recent::RecentFiles;
 pub use save::{Finished, SaveRequest};
-pub use solve::{Outcome, OutputFit};
+pub use solve::{Outcome, OutputFit, Placement};
 pub use state::{Busy, Session, Wake};

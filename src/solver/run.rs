@@ -20,7 +20,7 @@ use super::scale::{complete_gauge, fit_gauge};
 use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
-use super::{Control, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, Treatment, gauge_pins, verdict};
+use super::{Control, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, gauge_pins, verdict};
 use crate::mesh::DiskMesh;
 
 /// Why a run has come to its end.
@@ -204,8 +204,7 @@ impl Run {
                 other => return other,
             }
         }
-        let bends = matches!(self.settings.method, Method::Auto | Method::VirtualBoundary);
-        let wants_bend = bends && self.may_bend_boundary() && self.ending.is_none();
+        let wants_bend = self.settings.method.bends_boundary() && self.may_bend_boundary() && self.ending.is_none();
         let iterated_out = self.settings.method == Method::VirtualBoundary || self.ending_of_iteration().is_some();
         if wants_bend && (iterated_out || self.virtual_boundary.is_some()) {
             return self.virtual_step(mesh, None, control);
@@ -225,8 +224,7 @@ impl Run {
             error,
             SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. }
         );
-        let bends = matches!(self.settings.method, Method::Auto | Method::VirtualBoundary);
-        of_the_system && bends && self.may_bend_boundary()
+        of_the_system && self.settings.method.bends_boundary() && self.may_bend_boundary()
     }
 
     fn linear(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
@@ -248,7 +246,7 @@ impl Run {
         let Some(latest) = &self.latest else { return Err(SolveError::Cancelled) };
         let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
         if self.iteration.as_ref().is_none_or(|iteration| !iteration.serves(&pins)) {
-            let treatment = self.settings.treatment.unwrap_or(Treatment::LeastSquares);
+            let treatment = self.settings.treatment_on(Method::Iterate, self.pins.len());
             self.iteration = Some(Iteration::new(mesh, &pins, treatment, control)?);
         }
         let iteration = self.iteration.as_ref().expect("made above");

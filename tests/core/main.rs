@@ -29,6 +29,7 @@ mod program;
 mod raster;
 mod reproduction;
 mod session;
+mod steps;
 mod verdict;
 mod verdict_cases;
 mod verdict_oracle;
