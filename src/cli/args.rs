@@ -34,6 +34,9 @@ pub enum Command {
     Check(CheckArguments),
     /// List methods and families with their sources.
     Methods,
+    /// Compute the paper's figures again, as drawings (SVG), pictures (PNG) and a table (CSV).
+    #[command(after_help = EXIT_HELP)]
+    Figures(FiguresArguments),
 }
 
 /// Arguments of `flatten`.
@@ -125,6 +128,13 @@ impl FlattenArguments {
         ];
         cases.into_iter().find(|(given, applies, ..)| *given && !applies).map(|(_, _, option, why)| (option, why))
     }
+}
+
+/// Arguments of `figures`.
+#[derive(Debug, Args)]
+pub struct FiguresArguments {
+    /// The folder to write into; made where it is missing.
+    pub folder: PathBuf,
 }
 
 /// Arguments of `check`.

@@ -149,7 +149,7 @@ fn ending_words(outcome: &Outcome, finished: &Finished, ending: Ending) -> Strin
         };
         let steps = if count == 1 { "step" } else { "steps" };
         let rung = rung_words(step.rung);
-        words += &format!(" after {count} {steps} ({rung}{boundary}{why})");
+        words = format!("{words} after {count} {steps} ({rung}{boundary}{why})");
     }
     if finished.report.placement == Some(Placement::Unmoved.name()) {
         words += "; not moved into the unit square, whose numbers would fold it";

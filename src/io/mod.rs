@@ -2,6 +2,7 @@
 
 mod atomic;
 mod error;
+pub mod figure;
 mod obj;
 mod obj_line;
 mod obj_parse;

@@ -58,7 +58,7 @@ impl View {
     }
 
     /// Right, up and towards the eye, orthonormal whatever was given.
-    fn axes(&self) -> [DVec3; 3] {
+    pub(super) fn axes(&self) -> [DVec3; 3] {
         let towards = self.eye.try_normalize().unwrap_or(DVec3::Z);
         let right = self.up.cross(towards).try_normalize().unwrap_or_else(|| towards.any_orthonormal_vector());
         [right, towards.cross(right), towards]

@@ -62,11 +62,14 @@ fn write_layout(
     )?;
     // Thin enough that the faces of a fine mesh still show between the lines.
     let width = (0.2 * SIZE / (mesh.face_count() as f64).sqrt()).min(1.0);
-    if let Some(outside) = outside {
-        write_outside(out, &outside, width, &frame)?;
+    if let Some(outside) = &outside {
+        write_pockets(out, outside, width, &frame)?;
     }
     let at = |v: VertexId| frame.place(embedding[v.index()]);
     write_faces(out, (mesh, verdict), width, &at)?;
+    if let Some(outside) = &outside {
+        write_hull(out, outside, width, &frame)?;
+    }
     write!(out, r##"<path stroke="#e8700a" stroke-width="3" d=""##)?;
     for edge in verdict.boundary_crossings.iter().flatten() {
         write_edge(out, mesh, *edge, &at)?;
@@ -105,19 +108,19 @@ fn write_faces(
     writeln!(out, r#""/>"#)
 }
 
-/// Pockets and outline.
-fn write_outside(out: &mut impl Write, outside: &Outside, width: f64, frame: &Frame) -> io::Result<()> {
+fn write_pockets(out: &mut impl Write, outside: &Outside, width: f64, frame: &Frame) -> io::Result<()> {
     let at = |v: VertexId| frame.place(outside.positions[v.index()]);
-    write!(
-        out,
-        r##"<path class="pockets" fill="#3fa34d" fill-opacity="0.25" stroke="#3fa34d" stroke-width="{width:.4}" d=""##
-    )?;
+    write!(out, r##"<path class="pockets" fill="#cfe8d2" stroke="#3fa34d" stroke-width="{width:.4}" d=""##)?;
     for pocket in &outside.stages.pockets {
         write_closed(out, &pocket.map(at))?;
     }
-    writeln!(out, r#""/>"#)?;
-    write!(out, r##"<path class="hull" stroke="#c93a3a" stroke-width="{:.4}" d=""##, 4.0 * width)?;
-    write_closed(out, &outside.stages.hull.iter().map(|&v| at(v)).collect::<Vec<_>>())?;
+    writeln!(out, r#""/>"#)
+}
+
+fn write_hull(out: &mut impl Write, outside: &Outside, width: f64, frame: &Frame) -> io::Result<()> {
+    let outline: Vec<DVec2> = outside.stages.hull.iter().map(|v| frame.place(outside.positions[v.index()])).collect();
+    write!(out, r##"<path class="hull" stroke="#c93a3a" stroke-width="{:.4}" d=""##, 3.0 * width)?;
+    write_closed(out, &outline)?;
     writeln!(out, r#""/>"#)
 }
 

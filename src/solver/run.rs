@@ -93,6 +93,13 @@ impl Run {
         Self { prepared, ..self }
     }
 
+    /// The same, going on from a step of another run's on the same mesh, which counts as this run's first.
+    #[must_use]
+    pub fn after(mut self, step: &Step) -> Self {
+        self.take_in(step);
+        self
+    }
+
     /// What was asked for.
     pub fn settings(&self) -> &Settings {
         &self.settings

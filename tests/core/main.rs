@@ -10,6 +10,7 @@ mod diagnosis;
 mod disk_oracle;
 mod distortion;
 mod examples;
+mod figures;
 mod flat;
 mod flatten_cli;
 mod flatten_files;
