@@ -25,6 +25,9 @@ const MARGIN: f64 = 0.03;
 /// Free space around the faces that a window shows, relative to their extent.
 const WINDOW_MARGIN: f64 = 0.45;
 
+/// The same around the triangles of a pocket.
+const TRIANGLES_MARGIN: f64 = 0.08;
+
 /// Faces nearer to each other than this share of the embedding's extent are shown in one window.
 const ZONE: f64 = 0.1;
 
@@ -50,9 +53,12 @@ impl Window {
         Self::around(faces.iter().flat_map(|&face| mesh.face(face)).map(|v| places[v.index()]), WINDOW_MARGIN)
     }
 
-    /// The square around some triangles of an embedding.
+    /// The square around some triangles of an embedding, moved to where a panel of the whole shows it.
     pub fn on_triangles(places: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
-        Self::around(triangles.iter().flatten().map(|v| places[v.index()]), WINDOW_MARGIN)
+        let whole = Self::around(places.iter().copied(), MARGIN);
+        let window = Self::around(triangles.iter().flatten().map(|v| places[v.index()]), TRIANGLES_MARGIN);
+        let room = DVec2::splat((whole.half - window.half).max(0.0));
+        Self { centre: window.centre.clamp(whole.centre - room, whole.centre + room), ..window }
     }
 }
 
