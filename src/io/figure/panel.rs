@@ -16,6 +16,9 @@ const LEAST_FRAME: f64 = 8.0;
 /// Width of the lines of an embedding that is shown whole, points.
 const EDGE: f64 = 0.4;
 
+/// Width of the hull, points.
+const HULL: f64 = 1.6;
+
 /// How many times wider lines are in a magnified window.
 const MAGNIFIED: f64 = 2.2;
 
@@ -196,7 +199,7 @@ impl PlaneDrawing {
                 Pockets::Filled => colours::POCKET,
                 Pockets::Triangulated => colours::POCKET_EDGE,
             };
-            page.outlines(pockets, Ink::both(colours::POCKET, edge, 1.5 * width), clip);
+            page.outlines(pockets, Ink::both(colours::POCKET, edge, 0.6 * width), clip);
         }
         page.outlines(corners(&all), Ink::fill(colours::FACE), clip);
         page.outlines(corners(&self.mended), Ink::fill(colours::MENDED), clip);
@@ -212,7 +215,7 @@ impl PlaneDrawing {
         page.outlines(vec![boundary], Ink::stroke(colours::INK, 2.5 * width), clip);
         if let Some(outside) = &self.outside {
             let hull = outside.hull.iter().map(|&v| at(v)).collect();
-            page.outlines(vec![hull], Ink::stroke(colours::HULL, 4.0 * width), clip);
+            page.outlines(vec![hull], Ink::stroke(colours::HULL, HULL), clip);
         }
         self.draw_pins(page, area, &at);
     }
