@@ -3,6 +3,7 @@
 //! Both come from one list of fills, strokes and words on a [`Page`], so that they show the same. Lengths on a page are
 //! points; x runs right, y down.
 
+mod clip;
 mod font;
 mod ink;
 mod panel;
@@ -12,6 +13,7 @@ mod svg;
 
 use glam::DVec2;
 
+use self::clip::{clip_polygon, clip_segment};
 use super::raster::Colour;
 
 pub use font::has_glyph;
@@ -79,13 +81,6 @@ impl Area {
         let (low, high) = (self.low, self.high);
         [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
     }
-
-    /// Whether the box around some points touches this rectangle.
-    fn touches(&self, points: &[DVec2]) -> bool {
-        let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-        low.cmple(self.high).all() && high.cmpge(self.low).all()
-    }
 }
 
 /// What a line or an outline is drawn with.
@@ -129,7 +124,6 @@ struct Path {
     lines: Vec<Vec<DVec2>>,
     is_closed: bool,
     ink: Ink,
-    clip: Option<Area>,
 }
 
 /// Words on their baseline.
@@ -160,20 +154,30 @@ impl Page {
         Self { size, items: Vec::new() }
     }
 
-    /// Draws closed outlines. Those that lie outside `clip` are left out.
-    pub fn outlines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, clip: Option<Area>) {
-        self.path(lines, true, ink, clip);
+    /// Draws closed outlines, or their parts within an area.
+    pub fn outlines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Area>) {
+        let Some(area) = within else { return self.path(lines, true, ink) };
+        if let Some(fill) = ink.fill {
+            let inside = lines.iter().map(|line| clip_polygon(line, area)).collect();
+            self.path(inside, true, Ink::fill(fill));
+        }
+        let closed = lines.into_iter().map(|mut line| {
+            line.extend(line.first().copied());
+            line
+        });
+        self.lines(closed.collect(), Ink { fill: None, ..ink }, within);
     }
 
-    /// Draws open lines. Those that lie outside `clip` are left out.
-    pub fn lines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, clip: Option<Area>) {
-        self.path(lines, false, ink, clip);
+    /// Draws open lines, or their parts within an area.
+    pub fn lines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Area>) {
+        let Some(area) = within else { return self.path(lines, false, ink) };
+        self.path(lines.iter().flat_map(|line| parts_within(line, area)).collect(), false, ink);
     }
 
-    fn path(&mut self, mut lines: Vec<Vec<DVec2>>, is_closed: bool, ink: Ink, clip: Option<Area>) {
-        lines.retain(|line| line.iter().all(|p| p.is_finite()) && clip.is_none_or(|area| area.touches(line)));
-        if !lines.is_empty() {
-            self.items.push(Item::Path(Path { lines, is_closed, ink, clip }));
+    fn path(&mut self, mut lines: Vec<Vec<DVec2>>, is_closed: bool, ink: Ink) {
+        lines.retain(|line| line.len() > 1 && line.iter().all(|p| p.is_finite()));
+        if !lines.is_empty() && ink != Ink::default() {
+            self.items.push(Item::Path(Path { lines, is_closed, ink }));
         }
     }
 
@@ -190,4 +194,17 @@ impl Page {
             .iter()
             .filter_map(|item| if let Item::Words(words) = item { Some(words.text.as_str()) } else { None })
     }
+}
+
+/// The parts of an open line within an area, in its order.
+fn parts_within(line: &[DVec2], area: Area) -> Vec<Vec<DVec2>> {
+    let mut parts: Vec<Vec<DVec2>> = Vec::new();
+    for pair in line.windows(2) {
+        let Some([from, to]) = clip_segment([pair[0], pair[1]], area) else { continue };
+        match parts.last_mut() {
+            Some(part) if part.last() == Some(&from) => part.push(to),
+            _ => parts.push(vec![from, to]),
+        }
+    }
+    parts
 }

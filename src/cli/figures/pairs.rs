@@ -40,7 +40,7 @@ pub const TOP_AND_BOUNDARY: PinPair =
 
 /// Two opposite corners of the cube's top.
 pub const TOP_DIAGONAL: PinPair =
-    PinPair { vertices: [VertexId::new(12), VertexId::new(36)], flipped_faces: [8, 5, 4], iterations: [2, 1, 1] };
+    PinPair { vertices: [VertexId::new(12), VertexId::new(36)], flipped_faces: [8, 5, 4], iterations: [2, 2, 1] };
 
 /// The rows of figure 4.
 pub const PAIRS: [PinPair; 2] = [TOP_AND_BOUNDARY, TOP_DIAGONAL];

@@ -9,7 +9,7 @@
 use glam::DVec2;
 
 use super::font::{strokes_of, width_of};
-use super::{Anchor, Area, Item, Page, Path, Words, colours};
+use super::{Anchor, Ink, Item, Page, Path, Words, colours};
 use crate::geom::Picture;
 use crate::io::raster::Colour;
 
@@ -42,7 +42,7 @@ fn strokes(words: &Words) -> Path {
         Anchor::Middle => width_of(&words.text, words.size) / 2.0,
     };
     let lines = strokes_of(&words.text, words.at - DVec2::new(shift, 0.0), words.size);
-    Path { lines, is_closed: false, ink: super::Ink::stroke(colours::INK, LETTER_STROKE * words.size), clip: None }
+    Path { lines, is_closed: false, ink: Ink::stroke(colours::INK, LETTER_STROKE * words.size) }
 }
 
 /// Fills and strokes a path.
@@ -50,7 +50,7 @@ fn draw(picture: &mut Picture, path: &Path, scale: f64) {
     let lines: Vec<Vec<DVec2>> =
         path.lines.iter().map(|line| line.iter().map(|&p| p * scale).collect::<Vec<_>>()).collect();
     if let Some(colour) = path.ink.fill {
-        let Some(mut mask) = Mask::over(picture, &lines, 1.0, path.clip.map(|area| scaled(area, scale))) else {
+        let Some(mut mask) = Mask::over(picture, &lines, 1.0) else {
             return;
         };
         mask.fill(&lines);
@@ -58,8 +58,7 @@ fn draw(picture: &mut Picture, path: &Path, scale: f64) {
     }
     if let Some((colour, width)) = path.ink.stroke {
         let half = (width * scale / 2.0).max(0.5);
-        let clip = path.clip.map(|area| scaled(area, scale));
-        let Some(mut mask) = Mask::over(picture, &lines, half + 1.0, clip) else { return };
+        let Some(mut mask) = Mask::over(picture, &lines, half + 1.0) else { return };
         // A line thinner than a pixel is a pixel wide, and fainter.
         let opacity = (width * scale).min(1.0) as f32;
         for line in &lines {
@@ -74,10 +73,6 @@ fn draw(picture: &mut Picture, path: &Path, scale: f64) {
     }
 }
 
-fn scaled(area: Area, scale: f64) -> Area {
-    Area { low: area.low * scale, high: area.high * scale }
-}
-
 /// How much of each pixel of a box is covered.
 struct Mask {
     left: usize,
@@ -88,16 +83,12 @@ struct Mask {
 }
 
 impl Mask {
-    /// The pixels of a picture around some lines, within a clip. None where there are none.
-    fn over(picture: &Picture, lines: &[Vec<DVec2>], margin: f64, clip: Option<Area>) -> Option<Self> {
+    /// The pixels of a picture around some lines. None where there are none.
+    fn over(picture: &Picture, lines: &[Vec<DVec2>], margin: f64) -> Option<Self> {
         let points = || lines.iter().flatten().copied();
         let page = DVec2::new(f64::from(picture.width), f64::from(picture.height));
-        let (mut low, mut high) = (DVec2::ZERO, page);
-        if let Some(area) = clip {
-            (low, high) = (low.max(area.low.round()), high.min(area.high.round()));
-        }
-        low = low.max((points().fold(DVec2::INFINITY, DVec2::min) - margin).floor());
-        high = high.min((points().fold(DVec2::NEG_INFINITY, DVec2::max) + margin).ceil());
+        let low = DVec2::ZERO.max((points().fold(DVec2::INFINITY, DVec2::min) - margin).floor());
+        let high = page.min((points().fold(DVec2::NEG_INFINITY, DVec2::max) + margin).ceil());
         if high.cmple(low).any() {
             return None;
         }

@@ -16,6 +16,9 @@ const LEAST_FRAME: f64 = 8.0;
 /// Width of the lines of an embedding that is shown whole, points.
 const EDGE: f64 = 0.4;
 
+/// Width of the hull, points.
+const HULL: f64 = 1.6;
+
 /// How many times wider lines are in a magnified window.
 const MAGNIFIED: f64 = 2.2;
 
@@ -24,6 +27,9 @@ const MARGIN: f64 = 0.03;
 
 /// Free space around the faces that a window shows, relative to their extent.
 const WINDOW_MARGIN: f64 = 0.45;
+
+/// The same around the triangles of a pocket.
+const TRIANGLES_MARGIN: f64 = 0.08;
 
 /// Faces nearer to each other than this share of the embedding's extent are shown in one window.
 const ZONE: f64 = 0.1;
@@ -50,9 +56,12 @@ impl Window {
         Self::around(faces.iter().flat_map(|&face| mesh.face(face)).map(|v| places[v.index()]), WINDOW_MARGIN)
     }
 
-    /// The square around some triangles of an embedding.
+    /// The square around some triangles of an embedding, moved to where a panel of the whole shows it.
     pub fn on_triangles(places: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
-        Self::around(triangles.iter().flatten().map(|v| places[v.index()]), WINDOW_MARGIN)
+        let whole = Self::around(places.iter().copied(), MARGIN);
+        let window = Self::around(triangles.iter().flatten().map(|v| places[v.index()]), TRIANGLES_MARGIN);
+        let room = DVec2::splat((whole.half - window.half).max(0.0));
+        Self { centre: window.centre.clamp(whole.centre - room, whole.centre + room), ..window }
     }
 }
 
@@ -190,7 +199,7 @@ impl PlaneDrawing {
                 Pockets::Filled => colours::POCKET,
                 Pockets::Triangulated => colours::POCKET_EDGE,
             };
-            page.outlines(pockets, Ink::both(colours::POCKET, edge, 1.5 * width), clip);
+            page.outlines(pockets, Ink::both(colours::POCKET, edge, 0.6 * width), clip);
         }
         page.outlines(corners(&all), Ink::fill(colours::FACE), clip);
         page.outlines(corners(&self.mended), Ink::fill(colours::MENDED), clip);
@@ -206,7 +215,7 @@ impl PlaneDrawing {
         page.outlines(vec![boundary], Ink::stroke(colours::INK, 2.5 * width), clip);
         if let Some(outside) = &self.outside {
             let hull = outside.hull.iter().map(|&v| at(v)).collect();
-            page.outlines(vec![hull], Ink::stroke(colours::HULL, 4.0 * width), clip);
+            page.outlines(vec![hull], Ink::stroke(colours::HULL, HULL), clip);
         }
         self.draw_pins(page, area, &at);
     }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use glam::DVec2;
 
-use super::{Anchor, Area, Item, Page, Path, Words, colours};
+use super::{Anchor, Item, Page, Path, Words, colours};
 use crate::io::raster::Colour;
 
 impl Page {
@@ -19,35 +19,13 @@ impl Page {
         write!(out, r#"width="{x:.1}" height="{y:.1}" stroke-linejoin="round" stroke-linecap="round" "#)?;
         writeln!(out, r#"font-family="Helvetica, Arial, sans-serif">"#)?;
         writeln!(out, r#"<rect width="{x:.1}" height="{y:.1}" fill="{}"/>"#, hex(colours::PAPER))?;
-        let clips = self.clips();
-        for (number, area) in clips.iter().enumerate() {
-            let size = area.size();
-            writeln!(
-                out,
-                r#"<clipPath id="clip{number}"><rect x="{:.3}" y="{:.3}" width="{:.3}" height="{:.3}"/></clipPath>"#,
-                area.low.x, area.low.y, size.x, size.y
-            )?;
-        }
         for item in &self.items {
             match item {
-                Item::Path(path) => write_path(out, path, &clips)?,
+                Item::Path(path) => write_path(out, path)?,
                 Item::Words(words) => write_words(out, words)?,
             }
         }
         writeln!(out, "</svg>")
-    }
-
-    /// The areas that paths are cut to, each once.
-    fn clips(&self) -> Vec<Area> {
-        let mut clips = Vec::new();
-        for item in &self.items {
-            if let Item::Path(Path { clip: Some(area), .. }) = item
-                && !clips.contains(area)
-            {
-                clips.push(*area);
-            }
-        }
-        clips
     }
 }
 
@@ -55,14 +33,11 @@ fn hex([r, g, b]: Colour) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn write_path(out: &mut impl Write, path: &Path, clips: &[Area]) -> io::Result<()> {
+fn write_path(out: &mut impl Write, path: &Path) -> io::Result<()> {
     let fill = path.ink.fill.map_or_else(|| "none".to_owned(), hex);
     write!(out, r#"<path fill="{fill}""#)?;
     if let Some((colour, width)) = path.ink.stroke {
         write!(out, r#" stroke="{}" stroke-width="{width:.3}""#, hex(colour))?;
-    }
-    if let Some(number) = path.clip.and_then(|area| clips.iter().position(|&clip| clip == area)) {
-        write!(out, r#" clip-path="url(#clip{number})""#)?;
     }
     write!(out, r#" d=""#)?;
     for line in &path.lines {
