@@ -123,6 +123,7 @@ pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Wheel or pinch", "Zoom to the pointer"),
     ("Double click on the mesh", "Set the point to orbit about"),
     ("Click, Shift + click", "The tool's work; add to the selection"),
+    ("Shift + click on a step", "Compare with it the step on the screen"),
 ];
 
 #[cfg(test)]

@@ -85,13 +85,12 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
         },
     );
     if editor.timeline.curves_shown() {
-        match notice(editor) {
-            Some(words) => {
-                let theme = theme_of(ui);
-                let ink = if words == PRESS_SPACE { theme.text } else { theme.weak_text };
-                ui.centered_and_justified(|ui| ui.label(RichText::new(words).color(ink)));
-            }
-            None => curves(ui, editor, requests),
+        if let Some(words) = notice(editor) {
+            let theme = theme_of(ui);
+            let ink = if words == PRESS_SPACE { theme.text } else { theme.weak_text };
+            ui.centered_and_justified(|ui| ui.label(RichText::new(words).color(ink)));
+        } else {
+            curves(ui, editor, requests);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use freebound::examples::Example;
 use freebound::io::OutputKind;
@@ -36,7 +36,12 @@ fn uninterrupted(session: &Session, count: usize) -> Vec<Step> {
 /// Polls until the run has at least so many steps.
 fn until_step(session: &mut Session, count: usize) {
     while step_count(session) < count {
-        assert!(session.busy().is_some(), "the run ended after {} steps", step_count(session));
+        assert!(
+            session.busy().is_some(),
+            "the run ended after {} steps: {:?}",
+            step_count(session),
+            session.messages()
+        );
         std::thread::sleep(Duration::from_micros(100));
         session.poll();
     }
@@ -117,6 +122,38 @@ fn a_paused_run_goes_on_where_it_was() {
         let kept = session.timeline().outcome(step.index).expect("a small mesh is kept whole");
         assert_eq!(kept.step.solution.embedding, step.solution.embedding, "step {}", step.index);
     }
+}
+
+#[test]
+fn a_pause_takes_effect_within_a_step_of_a_large_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("grid.obj");
+    let mut hill = grid(140, 140);
+    for position in &mut hill.positions {
+        position.z = 20.0 * (position.x / 40.0).sin() * (position.y / 50.0).cos();
+    }
+    write_obj(&path, &hill);
+    let mut session = session();
+    settled(&mut session, Action::SetStop(ON_AND_ON));
+    session.handle(Action::Open(path));
+    while step_count(&session) == 0 {
+        session.poll();
+    }
+    until_step(&mut session, 2);
+    let mut longest = Duration::ZERO;
+    for moment in 0..8 {
+        std::thread::sleep(Duration::from_millis(7 * moment));
+        let start = Instant::now();
+        settled(&mut session, Action::Cancel);
+        longest = longest.max(start.elapsed());
+        assert!(session.messages().is_empty() && session.is_current(), "{:?}", session.messages());
+        let count = step_count(&session);
+        session.handle(Action::Run);
+        until_step(&mut session, count + 1);
+    }
+    println!("paused after {longest:?} at most");
+    // Ten times what it has to take on an idle machine: tests run side by side.
+    assert!(longest < Duration::from_secs(1), "{longest:?}");
 }
 
 #[test]

@@ -14,4 +14,5 @@ mod screens;
 mod shaders;
 mod shortcuts;
 mod timeline;
+mod timeline_run;
 mod window;

@@ -1,20 +1,19 @@
-//! The strip under the panes: a newcomer's way, buttons and keys, steps, curves, stop conditions, play.
+//! The strip under the panes: buttons and keys, steps, curves, play.
 
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::app::Start;
-use freebound::examples::Example;
 use freebound::mesh::TriMesh;
 use freebound::session::{Action, StopConditions};
-use freebound::solver::{Family, Growth, Method, Settings, Treatment};
+use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Request;
 
 use crate::harness::{SIZE, Window, sheet};
 
 /// The window as it is at the very first start.
-fn at_first_start(size: Vec2) -> Window {
+pub(crate) fn at_first_start(size: Vec2) -> Window {
     Window::start(size, Start::default())
 }
 
@@ -28,16 +27,12 @@ fn with_four_steps() -> Window {
     window
 }
 
-fn step_count(window: &Window) -> usize {
+pub(crate) fn step_count(window: &Window) -> usize {
     window.editor().session.timeline().records().len()
 }
 
-fn shown(window: &Window) -> usize {
+pub(crate) fn shown(window: &Window) -> usize {
     window.editor().session.timeline().shown().expect("solved")
-}
-
-fn stop(window: &Window) -> StopConditions {
-    window.editor().session.stop_conditions()
 }
 
 /// The whole name of a step in the row.
@@ -45,108 +40,6 @@ fn name_of_step(window: &Window, index: usize) -> String {
     let start = format!("Step {index}: ");
     let mut controls = window.controls().into_iter();
     controls.find(|(_, name, _)| name.starts_with(&start)).map(|(_, name, _)| name).expect("a step in the row")
-}
-
-#[test]
-fn a_newcomer_repairs_the_first_fold_in_under_five_keys() {
-    let mut window = at_first_start(SIZE);
-    assert!(window.verdict().contains("flipped"), "{}", window.verdict());
-    assert!(window.shows("Press Space to take a step."));
-    let mut keys = 0;
-    while window.verdict() != "Planar: proved" {
-        window.key(Key::Space);
-        keys += 1;
-        assert!(keys < 5, "{}", window.verdict());
-    }
-    assert!(!window.shows("Press Space"), "whoever has done it need not be told");
-    assert_eq!(step_count(&window), keys + 1);
-}
-
-#[test]
-fn a_low_window_has_the_hint_too() {
-    let mut window = at_first_start(Vec2::new(640.0, 420.0));
-    assert!(!window.editor().timeline.curves_shown());
-    assert!(window.shows("Press Space to take a step."));
-    window.key(Key::Space);
-    assert!(!window.shows("Press Space"));
-}
-
-#[test]
-fn run_goes_on_until_it_is_planar() {
-    let mut window = at_first_start(SIZE);
-    window.click("Run");
-    assert_eq!(window.verdict(), "Planar: proved");
-    assert!(!window.is_enabled("Run"), "there is nothing left to run for");
-    window.click("Step");
-    assert_eq!((step_count(&window), shown(&window)), (3, 2), "a single step goes on all the same");
-
-    let mut window = at_first_start(SIZE);
-    window.press(Modifiers::SHIFT, Key::Space);
-    assert_eq!((window.verdict().as_str(), step_count(&window)), ("Planar: proved", 2));
-}
-
-#[test]
-fn an_embedding_that_leaves_the_pane_is_framed_anew_unless_a_detail_is_looked_at() {
-    let mut window = at_first_start(SIZE);
-    let is_in_sight = |window: &Window| {
-        let view = window.plane_view();
-        window.embedding().into_iter().all(|point| view.contains(window.place_in_plane(point)))
-    };
-    assert!(is_in_sight(&window));
-    window.key(Key::Space);
-    assert!(is_in_sight(&window), "the step moves the top of the face out of a view that stays");
-    let mut camera = window.editor().plane_camera.expect("framed");
-    camera.zoom_at(window.editor().plane_pane_size / 2.0, 4.0, window.editor().plane_pane_size);
-    window.editor_mut().plane_camera = Some(camera);
-    window.key(Key::ArrowLeft);
-    assert_eq!(window.editor().plane_camera, Some(camera), "whoever looks at a detail keeps it");
-}
-
-#[test]
-fn run_becomes_pause_while_it_goes_on() {
-    let mut window = long_run();
-    while step_count(&window) < 3 {
-        window.step();
-    }
-    assert!(window.has_button("Pause") && !window.has_button("Run"));
-    window.click("Pause");
-    let paused_at = step_count(&window);
-    assert!(paused_at < 100_000 && window.has_button("Run") && window.is_enabled("Run"));
-    window.key(Key::Space);
-    assert_eq!(step_count(&window), paused_at + 1);
-}
-
-/// A run that goes on for a long time.
-fn long_run() -> Window {
-    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
-    let session = &mut window.editor_mut().session;
-    session.handle(Action::SetStop(StopConditions { planar: false, stalled: false, ..StopConditions::default() }));
-    let settings = Settings { max_steps: 100_000, ..Settings::new(Method::Iterate, Family::Conformal) };
-    session.handle(Action::SetSettings(settings));
-    window.step();
-    window
-}
-
-#[test]
-fn a_key_that_is_held_down_leaves_no_steps_behind() {
-    let mut window = at_first_start(SIZE);
-    window.harness.key_down(Key::Space);
-    window.step();
-    let repeat = egui::Event::Key {
-        key: Key::Space,
-        physical_key: None,
-        pressed: true,
-        repeat: true,
-        modifiers: Modifiers::NONE,
-    };
-    while step_count(&window) < 3 {
-        window.harness.event(repeat.clone());
-        window.step();
-    }
-    window.harness.key_up(Key::Space);
-    let when_let_go = step_count(&window);
-    window.settle();
-    assert!(step_count(&window) <= when_let_go + 1, "{when_let_go} steps, then {}", step_count(&window));
 }
 
 #[test]
@@ -273,26 +166,6 @@ fn curves_can_be_put_away_one_by_one_and_all_together() {
 }
 
 #[test]
-fn the_stop_menu_says_where_a_run_comes_to_rest() {
-    let mut window = at_first_start(SIZE);
-    assert!(window.shows("Stop: planar, stalled"));
-    window.click("Where a run stops");
-    for name in ["it is planar", "it stalls", "the boundary crosses", "it reaches step"] {
-        window.harness.get_by_role_and_label(Role::CheckBox, name).click();
-        window.settle();
-    }
-    assert_eq!(stop(&window), StopConditions { planar: false, stalled: false, crossing: true, at_step: Some(10) });
-    window.fill_in(Role::SpinButton, "Step to stop at", "5");
-    window.key(Key::Enter);
-    assert_eq!(step_count(&window), 1, "neither menu nor typing takes a step");
-    window.key(Key::Escape);
-    assert!(window.shows("Stop: crossing, step 5"), "{:?}", window.words());
-    window.click("Run");
-    assert_eq!(step_count(&window), 6);
-    assert!(window.shows("the step to stop at is reached"), "{:?}", window.words());
-}
-
-#[test]
 fn steps_are_played_from_the_first_to_the_last() {
     let mut window = with_four_steps();
     window.click("Play the steps");
@@ -348,41 +221,6 @@ fn what_is_no_disk_has_no_timeline() {
     assert!(!window.editor().timeline_shown() && !window.has_button("Run"));
     window.key(Key::Space);
     assert_eq!(step_count(&window), 0);
-}
-
-#[test]
-fn a_drag_shows_a_preview_and_says_so() {
-    let mut window = at_first_start(SIZE);
-    window.key(Key::Space);
-    let (&vertex, &place) = window.outcome().step.solution.pins.iter().next().expect("a gauge pin");
-    let from = window.place_in_plane(place);
-    let to = from + Vec2::new(30.0, 12.0);
-    window.begin_drag(from, to, Modifiers::NONE);
-    window.settle();
-    assert_eq!(window.verdict(), "preview, not repaired");
-    assert_eq!(step_count(&window), 1);
-    window.end_drag(to);
-    assert_eq!(window.verdict(), "Planar: proved");
-    assert!(window.editor().session.document().pins.contains_key(&vertex));
-}
-
-#[test]
-fn treatment_step_limit_and_growth_are_chosen_in_the_method_panel() {
-    let mut window = Window::with_example(Example::Ell);
-    window.choose("Equations of pinned vertices", "Eliminate");
-    assert_eq!(window.editor().session.document().settings.treatment, Some(Treatment::Eliminate));
-    window.choose("Equations of pinned vertices", "Automatic");
-    assert!(window.harness.query_by_role_and_label(Role::SpinButton, "Step limit").is_none(), "folded away");
-    window.harness.get_by_label("More").click();
-    window.settle();
-    window.fill_in(Role::SpinButton, "Step limit", "7");
-    window.key(Key::Enter);
-    window.choose("How the virtual boundary goes on", "One more");
-    let expected = Settings { max_steps: 7, growth: Growth::One, ..Settings::default() };
-    assert_eq!(window.editor().session.document().settings, expected);
-    assert_eq!(window.outcome().settings, expected, "and it is solved");
-    window.choose("Method", "Convex boundary");
-    assert!(window.harness.query_by_label("More").is_none(), "nothing of it matters there");
 }
 
 #[test]
