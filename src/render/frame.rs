@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::mesh::FaceId;
 use crate::view::{
-    EdgeList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Srgb,
+    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Srgb,
 };
 
 /// Tells panes apart, so that each keeps its own target. Two panes in one window must not share a name.
@@ -76,6 +76,15 @@ pub struct LineLayer {
     pub width_in_points: f32,
 }
 
+/// Faces that are not the mesh's, filled with one colour. They show where no face of the mesh lies over them.
+#[derive(Clone, Debug)]
+pub struct FillLayer {
+    /// Which faces.
+    pub faces: Arc<FaceList>,
+    /// Their colour.
+    pub colour: Srgb,
+}
+
 /// A picture in the plane.
 #[derive(Clone, Debug)]
 pub struct PictureLayer {
@@ -117,6 +126,8 @@ pub struct PlaneFrame {
     pub plane: Option<Arc<PlaneArrays>>,
     /// Colours and flags of the faces. Without it none is flipped.
     pub paint: Option<Arc<FacePaint>>,
+    /// Faces beside the mesh's.
+    pub fills: Vec<FillLayer>,
     /// Lines, the later over the earlier.
     pub lines: Vec<LineLayer>,
     /// The picture behind the embedding.

@@ -49,6 +49,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::Num5, "Area distortion", || Request::SetShading(Shading::Area)),
     bind(NONE, Key::Num6, "Stretch", || Request::SetShading(Shading::Stretch)),
     bind(NONE, Key::W, "Wireframe", || Request::ToggleWireframe),
+    bind(NONE, Key::H, "Hull and pockets of the virtual boundary", || Request::ToggleHull),
     bind(NONE, Key::Tab, "The pane under the pointer in full size, and back", || Request::TogglePane),
     bind(NONE, Key::Escape, "End the gesture, then the tool, then the selection", || Request::Escape),
     bind(NONE, Key::F1, "This list", || Request::ToggleKeys),

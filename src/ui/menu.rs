@@ -134,6 +134,7 @@ fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     }
     ui.separator();
     choice(ui, editor.wireframe, "Wireframe", Request::ToggleWireframe, requests);
+    choice(ui, editor.hull.shown, "Hull and pockets", Request::ToggleHull, requests);
     choice(ui, editor.panels_shown(), "Panels", Request::TogglePanels, requests);
     ui.separator();
     item(ui, true, "Frame the selection, or all", Request::Frame, requests);

@@ -6,6 +6,7 @@ use eframe::egui;
 use egui::{CursorIcon, Pos2, Rect, Response, Role, Sense, Stroke, Vec2, WidgetInfo};
 use glam::DVec2;
 
+use super::hull;
 use super::mesh_pane::{boundary_line, clicked, cursor, style};
 use super::pane::{self, PinOwner};
 use super::scene::{MeshScene, PlaneScene};
@@ -30,7 +31,7 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     editor.plane_pane_size = pane::size_of(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
-    let scenes = (editor.mesh_scene().map(Arc::clone), editor.plane_scene().map(Arc::clone));
+    let scenes = (editor.mesh_scene().map(Arc::clone), editor.drawn_plane().map(Arc::clone));
     let (Some(mesh), Some(plane), Some(mut camera)) = (scenes.0, scenes.1, editor.plane_camera) else {
         return pane::empty_state(ui, rect, &waiting_words(editor));
     };
@@ -54,7 +55,10 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     }
     select(ui, &response, editor, &plane, requests);
     marks(ui, rect, editor, (&mesh, &plane), camera);
-    drag_pins(ui, rect, editor, camera, requests);
+    if !plane.is_stage() {
+        drag_pins(ui, rect, editor, camera, requests);
+    }
+    hull::stage_selector(ui, rect, editor, requests);
     if editor.mesh_hidden()
         && let Some(legend) = editor.paint().and_then(|paint| paint.legend.as_ref())
     {
@@ -96,8 +100,9 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
         let size = pane::size_of(rect);
         let [a, b] = [chosen.left_bottom(), chosen.right_top()]
             .map(|corner| camera.embedding_from_pane(pane::in_pane(rect, corner), size));
-        let embedding = plane.outcome.step.solution.embedding.iter().enumerate();
-        let inside = embedding.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
+        let count = plane.outcome.step.solution.embedding.len();
+        let positions = plane.positions()[..count].iter().enumerate();
+        let inside = positions.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
         requests.push(Request::AddToSelection(inside.map(|(i, _)| VertexId::from_index(i)).collect()));
     }
     if response.clicked() {
@@ -109,13 +114,25 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
 }
 
 fn frame(editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
+    let mut lines = vec![boundary_line(mesh, theme)];
+    let mut fills = Vec::new();
+    if let Some(scene) = editor.hull_scene() {
+        fills = scene.fills(theme);
+        lines.extend(scene.lines(theme));
+    }
+    let mut style = style(editor);
+    if plane.is_stage() && style.shading == render::Shading::Paint {
+        style.shading = render::Shading::Plain;
+    }
+    let paint = editor.stage_paint().or(editor.paint().map(|paint| &paint.faces));
     PlaneFrame {
         mesh: Arc::clone(&mesh.arrays),
         plane: Some(Arc::clone(&plane.arrays)),
-        paint: editor.paint().map(|paint| Arc::clone(&paint.faces)),
-        lines: vec![boundary_line(mesh, theme)],
+        paint: paint.map(Arc::clone),
+        fills,
+        lines,
         picture: None,
-        style: style(editor),
+        style,
         palette: theme.palette,
         camera,
     }
@@ -125,12 +142,13 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
     let theme = theme_of(ui);
     let over = ui.painter_at(rect);
     let size = pane::size_of(rect);
-    let embedding = &plane.outcome.step.solution.embedding;
     let spot = |vertex: VertexId| -> Pos2 {
-        let z = embedding.get(vertex.index()).copied().unwrap_or(DVec2::NAN);
+        let z = plane.positions().get(vertex.index()).copied().unwrap_or(DVec2::NAN);
         pane::on_screen(rect, camera.pane_from_embedding(z, size))
     };
-    for pair in super::defect_marks::crossings(editor, mesh) {
+    // The verdict is on the result, not on a stage before it.
+    let result = (!plane.is_stage()).then_some(editor);
+    for pair in result.map(|editor| super::defect_marks::crossings(editor, mesh)).unwrap_or_default() {
         let [first, second] = pair.map(|edge| edge.map(spot));
         for edge in [first, second] {
             over.line_segment(edge, Stroke::new(3.0, theme.crossing));
@@ -138,7 +156,7 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
         let at = super::defect_marks::crossing_point(first, second);
         over.circle_stroke(at, 7.0, Stroke::new(1.5, theme.crossing));
     }
-    for vertex in super::defect_marks::overwound(editor) {
+    for vertex in result.map(super::defect_marks::overwound).unwrap_or_default() {
         super::defect_marks::overwound_mark(&over, spot(vertex), theme);
     }
     for &vertex in editor.selection.iter().take(MARKS_SHOWN) {

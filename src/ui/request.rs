@@ -1,5 +1,6 @@
 //! What a person can ask of the window. Panels collect requests; the editor carries them out after the frame.
 
+use super::Stage;
 use crate::mesh::VertexId;
 use crate::session::{Action, OutputFit};
 use eframe::egui;
@@ -106,6 +107,10 @@ pub enum Request {
     SetShading(Shading),
     /// Shows or hides the wireframe.
     ToggleWireframe,
+    /// Shows or hides hull and pockets of the virtual boundary.
+    ToggleHull,
+    /// Chooses the stage of the virtual boundary that shows.
+    SetStage(Stage),
     /// Opens a tab.
     ShowTab(Tab),
     /// Shows or hides the panels.

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::Shading;
 use crate::mesh::{EdgeId, FaceId, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
@@ -53,6 +55,8 @@ pub struct PlaneScene {
     pub arrays: Arc<PlaneArrays>,
     /// Picks vertices.
     pub picker: PlanePicker,
+    /// Where vertices lie at a stage on the way to the result, those beyond the mesh's included.
+    stage: Option<Vec<DVec2>>,
 }
 
 impl PlaneScene {
@@ -63,8 +67,34 @@ impl PlaneScene {
             outcome_revision,
             arrays: Arc::new(PlaneArrays::new(embedding, &mesh.triangles)),
             picker: PlanePicker::new(embedding),
+            stage: None,
             outcome,
         }
+    }
+
+    /// Makes the scene of a stage on the way to an outcome: its revision, and where vertices lie.
+    pub(super) fn of_stage(
+        mesh: &TriMesh,
+        outcome: Arc<Outcome>,
+        (outcome_revision, positions): (u64, Vec<DVec2>),
+    ) -> Self {
+        Self {
+            outcome_revision,
+            arrays: Arc::new(PlaneArrays::new(&positions, &mesh.triangles)),
+            picker: PlanePicker::new(&positions[..mesh.vertex_count()]),
+            stage: Some(positions),
+            outcome,
+        }
+    }
+
+    /// Where vertices lie.
+    pub fn positions(&self) -> &[DVec2] {
+        self.stage.as_deref().unwrap_or(&self.outcome.step.solution.embedding)
+    }
+
+    /// Whether this is not the result.
+    pub fn is_stage(&self) -> bool {
+        self.stage.is_some()
     }
 }
 

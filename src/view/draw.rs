@@ -261,6 +261,30 @@ impl EdgeList {
     }
 }
 
+/// Faces that are not the mesh's, filled with one colour: the pockets of a virtual boundary.
+#[derive(Debug)]
+pub struct FaceList {
+    revision: Revision,
+    triangles: Vec<[VertexId; 3]>,
+}
+
+impl FaceList {
+    /// Faces by their corners.
+    pub fn new(triangles: Vec<[VertexId; 3]>) -> Self {
+        Self { revision: Revision::fresh(), triangles }
+    }
+
+    /// Which list this is.
+    pub fn revision(&self) -> Revision {
+        self.revision
+    }
+
+    /// The corners of each face.
+    pub fn triangles(&self) -> &[[VertexId; 3]] {
+        &self.triangles
+    }
+}
+
 /// A picture behind the embedding and on the faces.
 #[derive(Debug)]
 pub struct Picture {

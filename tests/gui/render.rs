@@ -113,6 +113,7 @@ fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
     PlaneFrame {
         plane: Some(Arc::new(PlaneArrays::new(&embedding, &triangles))),
         paint: Some(Arc::new(FacePaint::plain(triangles.len(), flipped))),
+        fills: Vec::new(),
         lines: Vec::new(),
         picture: None,
         camera: PlaneCamera::framing(box_of_sheet, PANE_SIZE),
