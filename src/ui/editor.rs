@@ -43,6 +43,8 @@ pub struct Editor {
     pub split: f32,
     /// Hull and pockets of the virtual boundary.
     pub hull: HullView,
+    /// Whether an inset magnifies a defect.
+    pub magnifier: bool,
     /// Selected vertices.
     pub selection: BTreeSet<VertexId>,
     /// The vertex under the pointer, in whichever pane.
@@ -111,6 +113,7 @@ impl Editor {
             full: None,
             split: 0.5,
             hull: HullView::default(),
+            magnifier: true,
             selection: BTreeSet::new(),
             hovered: None,
             pane_under_pointer: None,
@@ -198,6 +201,7 @@ impl Editor {
             Request::SetTool(tool) => self.tool = tool,
             Request::SetShading(shading) => self.shading = shading,
             Request::ToggleWireframe => self.wireframe = !self.wireframe,
+            Request::ToggleMagnifier => self.magnifier = !self.magnifier,
             Request::ToggleHull => self.toggle_hull(),
             Request::SetStage(stage) => self.hull.stage = stage,
             Request::ShowTab(tab) => (self.tab, self.panels_wanted) = (tab, Some(true)),

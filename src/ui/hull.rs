@@ -140,9 +140,14 @@ impl HullScene {
         }
     }
 
+    /// Faces of the mesh that are turned over at a stage before the result.
+    pub fn flipped_count(&self) -> usize {
+        self.plane.as_ref().map_or(0, |(_, paint)| paint.flipped().len())
+    }
+
     /// The faces beside the mesh.
     pub(super) fn fills(&self, theme: &Theme) -> Vec<FillLayer> {
-        vec![FillLayer { faces: Arc::clone(&self.pockets), colour: theme.pocket.with_alpha(POCKET_ALPHA) }]
+        vec![FillLayer { faces: Arc::clone(&self.pockets), colour: theme.pocket_fill }]
     }
 
     /// Edges of the pockets, and the hull over them.
@@ -155,9 +160,6 @@ impl HullScene {
         [line(&self.pocket_edges, theme.pocket, 0.75), line(&self.hull, theme.hull, 2.0)]
     }
 }
-
-/// A quarter, as in the paper's figures.
-const POCKET_ALPHA: u8 = 64;
 
 fn caption(stage: Stage, stages: &VirtualBoundary) -> String {
     let outline = match stages.outline {
@@ -322,4 +324,27 @@ pub(super) fn stage_selector(ui: &mut egui::Ui, rect: egui::Rect, editor: &Edito
         }
         ui.add(egui::Label::new(egui::RichText::new(&scene.caption).small().color(theme.weak_text)).wrap());
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::examples::Example;
+
+    #[test]
+    fn a_similarity_is_found_again() {
+        let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
+        let before: Vec<DVec2> = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+        let turn = DVec2::new(-0.3, 2.0);
+        let after: Vec<DVec2> = before.iter().map(|&z| turn.rotate(z) + DVec2::new(5.0, -1.0)).collect();
+        let moved = Similarity::between(&disk, &before, &after).moved(&before);
+        assert!(moved.iter().zip(&after).all(|(a, b)| a.distance(*b) < 1e-12));
+    }
+
+    #[test]
+    fn an_embedding_at_one_point_stays_where_it_is() {
+        let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
+        let before = vec![DVec2::ONE; disk.vertex_count()];
+        assert_eq!(Similarity::between(&disk, &before, &before).moved(&before), before);
+    }
 }

@@ -129,12 +129,14 @@ fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    for shading in Shading::ALL {
-        choice(ui, editor.shading == shading, shading.title(), Request::SetShading(shading), requests);
-    }
-    ui.separator();
+    ui.menu_button("Shading", |ui| {
+        for shading in Shading::ALL {
+            choice(ui, editor.shading == shading, shading.title(), Request::SetShading(shading), requests);
+        }
+    });
     choice(ui, editor.wireframe, "Wireframe", Request::ToggleWireframe, requests);
     choice(ui, editor.hull.shown, "Hull and pockets", Request::ToggleHull, requests);
+    choice(ui, editor.magnifier, "Magnifier over a defect", Request::ToggleMagnifier, requests);
     choice(ui, editor.panels_shown(), "Panels", Request::TogglePanels, requests);
     ui.separator();
     item(ui, true, "Frame the selection, or all", Request::Frame, requests);

@@ -12,6 +12,7 @@ mod framing;
 mod hull;
 mod icons;
 mod keys;
+mod magnifier;
 mod menu;
 mod mesh_pane;
 mod method_panel;

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use eframe::egui;
-use egui::{CursorIcon, Pos2, Rect, Response, Role, Sense, Stroke, Vec2, WidgetInfo};
+use egui::{CursorIcon, Pos2, Rect, Response, Role, Sense, Vec2, WidgetInfo};
 use glam::DVec2;
 
 use super::hull;
+use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, clicked, cursor, style};
 use super::pane::{self, PinOwner};
 use super::scene::{MeshScene, PlaneScene};
@@ -41,7 +42,9 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         ui.ctx().request_repaint();
     }
     let size = pane::size_of(rect);
-    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at));
+    let magnifier = Magnifier::over(editor, rect, &plane);
+    let is_covered = |at: Pos2| magnifier.as_ref().is_some_and(|magnifier| magnifier.rect.contains(at));
+    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at) && !is_covered(*at));
     if response.hovered() || response.contains_pointer() {
         editor.pane_under_pointer = Some(Pane::Plane);
         let pointer = pointer.map(|at| pane::in_pane(rect, at));
@@ -57,6 +60,9 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     marks(ui, rect, editor, (&mesh, &plane), camera);
     if !plane.is_stage() {
         drag_pins(ui, rect, editor, camera, requests);
+    }
+    if let Some(magnifier) = magnifier {
+        magnifier.show(ui, rect, editor, (&mesh, &plane), requests);
     }
     hull::stage_selector(ui, rect, editor, requests);
     if editor.mesh_hidden()
@@ -147,17 +153,9 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
         pane::on_screen(rect, camera.pane_from_embedding(z, size))
     };
     // The verdict is on the result, not on a stage before it.
-    let result = (!plane.is_stage()).then_some(editor);
-    for pair in result.map(|editor| super::defect_marks::crossings(editor, mesh)).unwrap_or_default() {
-        let [first, second] = pair.map(|edge| edge.map(spot));
-        for edge in [first, second] {
-            over.line_segment(edge, Stroke::new(3.0, theme.crossing));
-        }
-        let at = super::defect_marks::crossing_point(first, second);
-        over.circle_stroke(at, 7.0, Stroke::new(1.5, theme.crossing));
-    }
-    for vertex in result.map(super::defect_marks::overwound).unwrap_or_default() {
-        super::defect_marks::overwound_mark(&over, spot(vertex), theme);
+    if !plane.is_stage() {
+        let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
+        super::defect_marks::plane_marks(ui, rect, editor, (mesh, plane), &spot);
     }
     for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
         pane::halo(&over, spot(vertex), theme.selection, 6.0);

@@ -107,6 +107,8 @@ pub enum Request {
     SetShading(Shading),
     /// Shows or hides the wireframe.
     ToggleWireframe,
+    /// Shows or hides the inset that magnifies a defect.
+    ToggleMagnifier,
     /// Shows or hides hull and pockets of the virtual boundary.
     ToggleHull,
     /// Chooses the stage of the virtual boundary that shows.

@@ -47,8 +47,10 @@ pub struct Theme {
     pub boundary: Srgb,
     /// The hull of a virtual boundary.
     pub hull: Srgb,
-    /// The pockets between boundary and hull.
+    /// Edges of the pockets between boundary and hull.
     pub pocket: Srgb,
+    /// The pockets' faces: a quarter of the colour as screens mix it. The card mixes light, and so takes another share.
+    pub pocket_fill: Srgb,
     /// What the graphics card draws with.
     pub palette: Palette,
 }
@@ -80,7 +82,8 @@ pub const LIGHT: Theme = Theme {
     separator: hex(0x00DD_DDD9),
     boundary: Srgb::from_hex(0x003A_3A38),
     hull: Srgb::from_hex(0x00C9_3A3A),
-    pocket: Srgb::from_hex(0x003F_A34D),
+    pocket: Srgb::from_hex(0x003F_A34D).with_alpha(170),
+    pocket_fill: Srgb::from_hex(0x003F_A34D).with_alpha(78),
     palette: Palette {
         background: Srgb::from_hex(0x00F4_F4F2),
         grid: Srgb::from_hex(0x00D9_D9D5),
@@ -114,7 +117,8 @@ pub const DARK: Theme = Theme {
     separator: hex(0x0038_3A3F),
     boundary: Srgb::from_hex(0x00EC_ECE8),
     hull: Srgb::from_hex(0x00FF_7070),
-    pocket: Srgb::from_hex(0x0058_C46B),
+    pocket: Srgb::from_hex(0x0058_C46B).with_alpha(110),
+    pocket_fill: Srgb::from_hex(0x0058_C46B).with_alpha(24),
     palette: Palette {
         background: Srgb::from_hex(0x001E_1F22),
         grid: Srgb::from_hex(0x0034_363B),

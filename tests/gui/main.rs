@@ -8,6 +8,8 @@ mod dialogs;
 mod gestures;
 mod glyphs;
 mod harness;
+mod hull;
+mod magnifier;
 mod panels;
 mod render;
 mod screens;
