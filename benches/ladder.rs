@@ -31,6 +31,7 @@ const FAMILIES: [Family; 3] = [Family::Conformal, Family::MeanValue, Family::Wac
 struct Count {
     natural: usize,
     iterate: usize,
+    again: usize,
     virtual_free: usize,
     virtual_bent: usize,
     not_planar: usize,
@@ -59,6 +60,7 @@ fn main() {
             "runs",
             "natural",
             "iterate",
+            "started again",
             "virtual boundary, free",
             "convex",
             "not planar",
@@ -88,14 +90,15 @@ fn main() {
             runs,
             count.natural,
             count.iterate,
+            count.again,
             count.virtual_free,
             count.virtual_bent,
             count.not_planar,
             count.steps,
             count.most_steps,
         ];
-        let [a, b, c, d, e, f, g, h] = cells.map(|cell| cell.to_string());
-        let row = [name, a, b, c, d, e, f, g, h, format!("{:.2}", start.elapsed().as_secs_f64() / runs as f64)];
+        let [a, b, c, d, e, f, g, h, i] = cells.map(|cell| cell.to_string());
+        let row = [name, a, b, c, d, e, f, g, h, i, format!("{:.2}", start.elapsed().as_secs_f64() / runs as f64)];
         println!("{}", row.join("  "));
         table.row(row);
     }
@@ -119,7 +122,7 @@ fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
 
 fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool, count: &mut Count) {
     let mut run = Run::new(Settings::new(Method::Auto, family), pins.clone());
-    let mut last: Option<Step> = None;
+    let (mut last, mut started_again): (Option<Step>, bool) = (None, false);
     let outcome = run.finish(mesh, Control::unattended(), |step| {
         if trace {
             println!(
@@ -130,6 +133,7 @@ fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool, count: &mu
                 step.seconds(), step.note.as_deref().unwrap_or_default(),
             );
         }
+        started_again |= step.rung == Method::Natural && (step.index > 0 || step.note.is_some());
         last = Some(step);
     });
     let Some(last) = last else {
@@ -144,6 +148,7 @@ fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool, count: &mu
             println!("  not planar: {family} {pins:?} {:?} {outcome:?}", last.verdict.summary());
             &mut count.not_planar
         }
+        Method::Natural | Method::Iterate if started_again => &mut count.again,
         Method::Natural => &mut count.natural,
         Method::Iterate => &mut count.iterate,
         _ if last.bent_vertices == 0 => &mut count.virtual_free,

@@ -143,6 +143,11 @@ impl StepReport {
             note: step.note.clone(),
         }
     }
+
+    /// Flipped faces, boundary crossings and overwound vertices together.
+    pub fn defect_count(&self) -> usize {
+        self.flipped_faces + self.boundary_crossings + self.overwound_vertices
+    }
 }
 
 /// Seconds by phase of a run.

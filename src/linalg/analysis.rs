@@ -11,7 +11,7 @@ use super::LinalgError;
 use super::llt::{Llt, LltAnalysis};
 use super::lu::{Lu, LuAnalysis};
 use super::order::{Pattern, order};
-use super::refine::{Factors, Solved, System, refined};
+use super::refine::{Accept, Factors, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, check_finite};
 
@@ -150,7 +150,7 @@ impl<T: Scalar> Factor<T> {
     ///
     /// Those of [`Factor::solve`].
     pub fn solve_many(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, Operation::Plain, rhs)
+        self.run(matrix, (Operation::Plain, Accept::Residual), rhs)
     }
 
     /// Solves Aᴴ X = B, otherwise as [`Factor::solve_many`].
@@ -159,7 +159,7 @@ impl<T: Scalar> Factor<T> {
     ///
     /// Those of [`Factor::solve`].
     pub fn solve_adjoint_many(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, Operation::Adjoint, rhs)
+        self.run(matrix, (Operation::Adjoint, Accept::BackwardError), rhs)
     }
 
     /// Size of the factors and number of replaced pivots.
@@ -170,15 +170,30 @@ impl<T: Scalar> Factor<T> {
         }
     }
 
+    /// Solves A x = b for a correction x of an answer at hand, b being what that answer leaves; several, stored one
+    /// after another. An answer with a backward error of a few units of rounding is accepted whatever its residual.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Factor::solve`].
+    pub fn solve_correction(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+        self.run(matrix, (Operation::Plain, Accept::BackwardError), rhs)
+    }
+
     fn one(&self, matrix: &CscMatrix<T>, operation: Operation, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
         let order = self.shared.pattern.order();
         if rhs.len() != order {
             return Err(LinalgError::WrongLength { order, found: rhs.len() });
         }
-        self.run(matrix, operation, rhs)
+        self.run(matrix, (operation, accept_of(operation)), rhs)
     }
 
-    fn run(&self, matrix: &CscMatrix<T>, operation: Operation, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
+    fn run(
+        &self,
+        matrix: &CscMatrix<T>,
+        (operation, accept): (Operation, Accept),
+        rhs: &[T],
+    ) -> Result<Solved<T>, LinalgError> {
         let order = self.shared.pattern.order();
         if matrix.nrows() != order || matrix.nnz() != self.shared.pattern.rows.len() {
             return Err(LinalgError::OtherPattern);
@@ -195,7 +210,7 @@ impl<T: Scalar> Factor<T> {
             _ => None,
         };
         let factors = if self.stats().replaced_pivots == 0 { Factors::Faithful } else { Factors::Disturbed };
-        refined(&System { matrix, operation, row_scale, factors, solve: &solve }, rhs)
+        refined(&System { matrix, operation, row_scale, factors, accept, solve: &solve }, rhs)
     }
 
     fn solve_in_place(&self, operation: Operation, columns: &mut [T]) {
@@ -217,11 +232,17 @@ impl<T: Scalar> Factor<T> {
         let Some(row) = lu.first_replaced_row() else { return Ok(()) };
         let probe = |(index, scale): (usize, &f64)| T::from_real((0.5 + spread(index)) / scale);
         let rhs: Vec<T> = lu.row_scale().iter().enumerate().map(probe).collect();
-        match self.run(matrix, Operation::Plain, &rhs) {
+        match self.run(matrix, (Operation::Plain, Accept::Residual), &rhs) {
             Err(LinalgError::ResidualTooLarge { .. }) => Err(LinalgError::Singular { row }),
             other => other.map(|_| ()),
         }
     }
+}
+
+/// The adjoint systems of this project have single rows on their right, and answers larger than those by up to the
+/// condition number: there the backward error decides.
+fn accept_of(operation: Operation) -> Accept {
+    if operation == Operation::Plain { Accept::Residual } else { Accept::BackwardError }
 }
 
 /// A number in [0, 1) that looks random: multiples of the golden ratio, modulo one (Weyl's sequence).

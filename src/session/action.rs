@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use super::SaveRequest;
+use super::{SaveRequest, StopConditions};
 use crate::examples::Example;
 use crate::mesh::VertexId;
 use crate::solver::Settings;
@@ -45,8 +45,18 @@ pub enum Action {
     Redo,
     /// Solves again.
     Solve,
-    /// Stops what is going on in the background.
+    /// Takes one further step.
+    Step,
+    /// Goes on until a stop condition holds or the method has ended.
+    Run,
+    /// Stops what is going on in the background. The steps that there are stay.
     Cancel,
+    /// Puts a step on the screen.
+    ShowStep(usize),
+    /// Compares the step on the screen with another one, or with none.
+    Compare(Option<usize>),
+    /// Chooses where a run comes to rest.
+    SetStop(StopConditions),
     /// Writes a file.
     Save(SaveRequest),
     /// Says that a name does not tell what kind of file to write.

@@ -14,6 +14,13 @@ pub struct Document {
     pub settings: Settings,
 }
 
+impl Document {
+    /// Whether a run of these settings and pins is a run of this document: a convex boundary takes no pins.
+    pub(super) fn is_solved_by(&self, settings: &Settings, pins: &Pins) -> bool {
+        self.settings == *settings && (!settings.method.uses_pins() || self.pins == *pins)
+    }
+}
+
 /// One undoable edit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
@@ -95,6 +102,11 @@ impl History {
         }
         self.gesture = Some(gesture);
         self.redo.clear();
+    }
+
+    /// Whether a gesture has edited the document and has not ended.
+    pub fn is_in_gesture(&self) -> bool {
+        self.gesture.is_some()
     }
 
     /// Marks the end of a gesture: the next edit starts a new step.

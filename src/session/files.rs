@@ -4,7 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::state::{REPORT_IT, lost};
-use super::{Document, Finished, History, Job, Message, Model, Place, Poll, SaveRequest, Session, Severity, Surface};
+use super::{
+    Document, Finished, History, Job, Message, Model, Place, Poll, SaveRequest, Session, Severity, Surface, Timeline,
+};
 use crate::io::{ReadError, WriteError};
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
 use crate::solver::{Pins, Verdict};
@@ -63,26 +65,33 @@ impl Session {
                 });
             }
         }
+        let is_example = model.is_example();
         self.model = Some(Arc::new(model));
         self.model_revision += 1;
         self.document = Document { pins: Pins::new(), settings: self.document.settings };
         self.history = History::default();
-        self.outcome = None;
+        self.timeline = Timeline::default();
+        self.ending = None;
         self.outcome_revision += 1;
         self.prepared = None;
-        self.solving = None;
-        self.solve();
+        self.running = None;
+        if is_example {
+            // An example is there to be watched: it waits for the person to take the steps.
+            self.solve_first_step();
+        } else {
+            self.solve();
+        }
     }
 
     pub(super) fn save(&mut self, request: SaveRequest) {
-        let (Some(model), Some(outcome)) = (self.model.clone(), self.outcome.clone()) else {
+        let (Some(model), Some(outcome)) = (self.model.clone(), self.outcome().cloned()) else {
             return self.fail(Place::Embedding, "there is nothing to save yet: open a mesh first".to_owned(), None);
         };
         if !self.is_current() {
             let text = "the embedding on the screen does not belong to these settings and pins yet".to_owned();
             return self.fail(Place::Embedding, text, Some("save again when it is solved"));
         }
-        let records = self.records.clone();
+        let records = self.timeline.records()[..=outcome.step.index].to_vec();
         let work = move |_: &super::JobContext<()>| {
             let disk = model.disk().expect("only a disk has an outcome");
             let finished = Finished::new((&model, disk), &outcome, records, request.fit, 0.0);

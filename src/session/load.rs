@@ -72,6 +72,11 @@ impl Model {
         self.path.as_ref().map_or_else(|| format!("built-in: {}", self.name), |path| path.display().to_string())
     }
 
+    /// Whether it is a built-in mesh.
+    pub fn is_example(&self) -> bool {
+        self.path.is_none()
+    }
+
     /// The triangles.
     pub fn mesh(&self) -> &TriMesh {
         match &self.surface {

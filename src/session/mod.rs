@@ -7,9 +7,12 @@ mod job;
 mod load;
 mod message;
 mod recent;
+mod run;
 mod save;
 mod solve;
 mod state;
+mod stop;
+mod timeline;
 
 pub use action::Action;
 pub use document::{Command, Document, History};
@@ -20,3 +23,5 @@ pub use recent::RecentFiles;
 pub use save::{Finished, SaveRequest};
 pub use solve::{Outcome, OutputFit};
 pub use state::{Busy, Session, Wake};
+pub use stop::{Stop, StopConditions};
+pub use timeline::{TIMELINE_BUDGET, Timeline};

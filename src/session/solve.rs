@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{Distortion, Pins, Run, Settings, Step, distortion, to_unit_square};
 
 /// What to do with the size of an embedding that the user's pins do not fix.
@@ -35,6 +35,26 @@ impl Outcome {
         Self { settings: *run.settings(), pins: run.pins().clone(), step, distortion }
     }
 
+    /// Bytes of memory that it takes, the factors of a linear solve excepted: they are kept once, for the next solve.
+    pub fn bytes(&self) -> usize {
+        let Step { solution, verdict, virtual_boundary, .. } = &self.step;
+        let pin_count = self.pins.len() + solution.pins.len();
+        let stages = virtual_boundary.as_ref().map_or(0, |stages| {
+            size_of_val(&*stages.before)
+                + size_of_val(&*stages.solved)
+                + size_of_val(&*stages.hull)
+                + size_of_val(&*stages.pockets)
+        });
+        size_of::<Self>()
+            + size_of_val(&*solution.embedding)
+            + size_of_val(&*self.distortion.faces)
+            + size_of_val(&*verdict.flipped_faces)
+            + size_of_val(&*verdict.boundary_crossings)
+            + size_of_val(&*verdict.overwound_vertices)
+            + pin_count * size_of::<(VertexId, DVec2)>()
+            + stages
+    }
+
     /// The coordinates that go into a file. The user's pins keep their places; without any, `fit` decides the size.
     pub fn output(&self, fit: OutputFit) -> Vec<DVec2> {
         let mut coordinates = self.step.solution.embedding.clone();
@@ -46,13 +66,12 @@ impl Outcome {
 
     /// Largest distance of a pinned vertex from its target.
     pub fn pin_error(&self) -> f64 {
-        let distance =
-            |(v, target): (&crate::mesh::VertexId, &DVec2)| self.step.solution.embedding[v.index()].distance(*target);
+        let distance = |(v, target): (&VertexId, &DVec2)| self.step.solution.embedding[v.index()].distance(*target);
         self.pins_in_use().map(distance).fold(0.0, f64::max)
     }
 
     /// The user's pins, where the method takes any.
-    fn pins_in_use(&self) -> impl Iterator<Item = (&crate::mesh::VertexId, &DVec2)> {
+    fn pins_in_use(&self) -> impl Iterator<Item = (&VertexId, &DVec2)> {
         self.pins.iter().filter(|_| self.settings.method.uses_pins())
     }
 }

@@ -3,16 +3,19 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{Action, Command, Document, History, Job, Message, Model, Outcome, Place, Poll, RecentFiles, Severity};
-use crate::io::{ReadError, StepReport, WriteError};
+use super::run::Running;
+use super::{
+    Action, Command, Document, History, Job, Message, Model, Outcome, Place, RecentFiles, Severity, StopConditions,
+    Timeline,
+};
+use crate::io::{ReadError, WriteError};
 use crate::mesh::VertexId;
-use crate::solver::{Control, Phase, Prepared, Run, Settings, SolveError, Verdict};
+use crate::solver::{Ending, Phase, Prepared, Run, Verdict};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 pub(super) type LoadJob = Job<(), Result<Model, ReadError>>;
-type SolveJob = Job<Phase, Result<Solved, SolveError>>;
 pub(super) type SaveJob = Job<(), Result<(PathBuf, Verdict), WriteError>>;
 
 /// What goes on in the background.
@@ -26,21 +29,6 @@ pub enum Busy {
     Saving,
 }
 
-/// What a finished run leaves.
-struct Solved {
-    outcome: Outcome,
-    records: Vec<StepReport>,
-    prepared: Option<Arc<Prepared>>,
-}
-
-/// A solve that runs, and what it was asked for.
-pub(super) struct Solving {
-    job: SolveJob,
-    settings: Settings,
-    pinned: Vec<VertexId>,
-    phase: Option<Phase>,
-}
-
 /// One open document and the work on it.
 pub struct Session {
     pub(super) wake: Wake,
@@ -49,17 +37,23 @@ pub struct Session {
     pub(super) model_revision: u64,
     pub(super) document: Document,
     pub(super) history: History,
-    pub(super) outcome: Option<Arc<Outcome>>,
-    pub(super) records: Vec<StepReport>,
-    /// Counts the outcomes, for the same reason.
+    /// The steps on the screen: those of the document's run, once it has any.
+    pub(super) timeline: Timeline,
+    /// Changes with the step on the screen, for the same reason.
     pub(super) outcome_revision: u64,
+    /// What the run says after the newest step.
+    pub(super) ending: Option<Ending>,
+    pub(super) stop: StopConditions,
     /// Kept from solves that succeeded, to be used again while a pin is dragged.
     pub(super) prepared: Option<Arc<Prepared>>,
     pub(super) loading: Option<LoadJob>,
     /// The file that is being loaded, to be remembered once it is open.
     pub(super) loading_path: Option<PathBuf>,
-    pub(super) solving: Option<Solving>,
-    /// Whether the document changed since the running solve began.
+    /// The run that takes steps in the background.
+    pub(super) running: Option<Running>,
+    /// The run that waits to be taken on.
+    pub(super) resting: Option<Run>,
+    /// Whether the document changed since the step under way began.
     pub(super) solve_again: bool,
     /// Files being written, in the order they were asked for.
     pub(super) saving: Vec<SaveJob>,
@@ -85,13 +79,15 @@ impl Session {
             model_revision: 0,
             document: Document::default(),
             history: History::default(),
-            outcome: None,
-            records: Vec::new(),
+            timeline: Timeline::default(),
             outcome_revision: 0,
+            ending: None,
+            stop: StopConditions::default(),
             prepared: None,
             loading: None,
             loading_path: None,
-            solving: None,
+            running: None,
+            resting: None,
             solve_again: false,
             saving: Vec::new(),
             messages: Vec::new(),
@@ -121,22 +117,49 @@ impl Session {
         &self.history
     }
 
-    /// The newest finished solve.
-    pub fn outcome(&self) -> Option<&Arc<Outcome>> {
-        self.outcome.as_ref()
+    /// The steps that there are, and which of them is on the screen.
+    pub fn timeline(&self) -> &Timeline {
+        &self.timeline
     }
 
-    /// Changes whenever there is another outcome, or none any more.
+    /// When a run that goes on by itself comes to rest.
+    pub fn stop_conditions(&self) -> StopConditions {
+        self.stop
+    }
+
+    /// The step on the screen.
+    pub fn outcome(&self) -> Option<&Arc<Outcome>> {
+        self.timeline.outcome(self.timeline.shown()?)
+    }
+
+    /// The step that the one on the screen is compared with.
+    pub fn compared(&self) -> Option<&Arc<Outcome>> {
+        self.timeline.outcome(self.timeline.compared()?)
+    }
+
+    /// Changes whenever another step is on the screen, or none any more.
     pub fn outcome_revision(&self) -> u64 {
         self.outcome_revision
     }
 
     /// Whether the outcome on the screen belongs to the document as it is now.
     pub fn is_current(&self) -> bool {
-        self.outcome.as_ref().is_some_and(|outcome| {
-            outcome.settings == self.document.settings
-                && (!self.document.settings.method.uses_pins() || outcome.pins == self.document.pins)
-        })
+        self.outcome().is_some_and(|outcome| self.document.is_solved_by(&outcome.settings, &outcome.pins))
+    }
+
+    /// Whether the screen shows the first step of a run that others follow, because a gesture goes on.
+    pub fn is_preview(&self) -> bool {
+        self.history.is_in_gesture() && self.is_at_first_step()
+    }
+
+    /// Whether a run waits after its first step for a person to take the others.
+    pub fn is_held(&self) -> bool {
+        let is_at_rest = self.running.is_none() && !self.history.is_in_gesture();
+        is_at_rest && self.is_current() && self.is_at_first_step()
+    }
+
+    fn is_at_first_step(&self) -> bool {
+        self.timeline.records().len() == 1 && self.ending.is_none()
     }
 
     /// What goes on in the background.
@@ -144,10 +167,15 @@ impl Session {
         if self.loading.is_some() {
             return Some(Busy::Loading);
         }
-        if let Some(solving) = &self.solving {
-            return Some(Busy::Solving(solving.phase));
+        if let Some(running) = &self.running {
+            return Some(Busy::Solving(running.phase()));
         }
         self.saving.first().map(|_| Busy::Saving)
+    }
+
+    /// Whether a run takes steps in the background.
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
     }
 
     /// What has been said and not dismissed.
@@ -168,7 +196,7 @@ impl Session {
             Action::ClearRecent => self.recent.clear(),
             Action::Fix(vertices) => self.fix(&vertices),
             Action::MovePin { vertex, target } => self.move_pin(vertex, target),
-            Action::EndGesture => self.history.end_gesture(),
+            Action::EndGesture => self.end_gesture(),
             Action::GiveUpGesture => {
                 if self.history.give_up_gesture(&mut self.document) {
                     self.solve();
@@ -199,6 +227,15 @@ impl Session {
                 }
             }
             Action::Solve => self.solve(),
+            Action::Step => self.step(),
+            Action::Run => self.run_on(),
+            Action::ShowStep(index) => {
+                if self.timeline.show(index) {
+                    self.outcome_revision += 1;
+                }
+            }
+            Action::Compare(index) => self.timeline.compare(index),
+            Action::SetStop(stop) => self.set_stop(stop),
             Action::Cancel => self.cancel(),
             Action::Save(request) => self.save(request),
             Action::RefuseName(path) => {
@@ -212,12 +249,12 @@ impl Session {
     /// Takes in what the background has finished. Call once per frame.
     pub fn poll(&mut self) {
         self.poll_loading();
-        self.poll_solving();
+        self.poll_running();
         self.poll_saving();
     }
 
     fn fix(&mut self, vertices: &[VertexId]) {
-        let Some(outcome) = self.outcome.clone() else { return };
+        let Some(outcome) = self.outcome().cloned() else { return };
         if !self.document.settings.method.uses_pins() {
             let text = "a convex boundary takes no pins: every boundary vertex has its place".to_owned();
             return self.fail(Place::Embedding, text, Some("choose another method to pin vertices"));
@@ -237,7 +274,7 @@ impl Session {
     fn move_pin(&mut self, vertex: VertexId, target: glam::DVec2) {
         if !self.document.pins.contains_key(&vertex) {
             // A gauge pin: from here on all of them are the user's, each where it lies.
-            let Some(outcome) = &self.outcome else { return };
+            let Some(outcome) = self.outcome() else { return };
             let adopt = |(&vertex, &target)| Command::SetPin { vertex, target: Some(target) };
             let adopted: Vec<Command> = outcome.step.solution.pins.iter().map(adopt).collect();
             self.history.apply_in_gesture(Command::Together(adopted), &mut self.document);
@@ -255,83 +292,10 @@ impl Session {
         }
     }
 
-    /// Starts a solve, or lets the running one finish first where it only has other targets: then a pin that is
-    /// dragged is followed at the pace of the solver. Any other running solve is replaced.
-    pub(super) fn solve(&mut self) {
-        let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
-        let pinned: Vec<VertexId> = self.document.pins.keys().copied().collect();
-        if let Some(running) = &self.solving
-            && running.settings == self.document.settings
-            && running.pinned == pinned
-        {
-            self.solve_again = true;
-            return;
-        }
-        self.solve_again = false;
-        let Document { pins, settings } = self.document.clone();
-        let prepared = self.prepared.clone();
-        let work = move |context: &super::JobContext<Phase>| {
-            let report = |phase| context.report(phase);
-            let control = Control::new(context.cancel_flag(), &report);
-            let mut run = Run::new(settings, pins).with_prepared(prepared);
-            let (mut steps, mut records, mut prepared) = (None, Vec::new(), None);
-            run.finish(&disk, control, |step| {
-                records.push(StepReport::of(&step));
-                prepared = prepared.take().or(step.prepared.clone());
-                steps = Some(step);
-            })?;
-            let outcome = Outcome::new(&disk, &run, steps.expect("a run has a first step"));
-            Ok(Solved { outcome, records, prepared })
-        };
-        match Job::spawn("solve", self.waker(), work) {
-            Ok(job) => self.solving = Some(Solving { job, settings, pinned, phase: None }),
-            Err(error) => self.fail(Place::Embedding, format!("no thread to solve with: {error}"), None),
-        }
-    }
-
-    fn poll_solving(&mut self) {
-        let Some(solving) = &mut self.solving else { return };
-        solving.phase = solving.job.latest_progress().or(solving.phase);
-        let solved = match solving.job.poll() {
-            Poll::Running => return,
-            Poll::Done(solved) => solved,
-            Poll::Lost => {
-                self.solving = None;
-                return self.fail(Place::Embedding, lost("solving"), Some(REPORT_IT));
-            }
-        };
-        self.solving = None;
-        match solved {
-            Ok(Solved { outcome, records, prepared }) => {
-                self.forget_solve_message();
-                self.prepared = prepared;
-                self.records = records;
-                self.outcome = Some(Arc::new(outcome));
-                self.outcome_revision += 1;
-            }
-            Err(SolveError::Cancelled) => {}
-            Err(error) => {
-                self.forget_solve_message();
-                self.fail(Place::Embedding, error.to_string(), None);
-                self.solve_message = Some(self.next_message);
-            }
-        }
-        if std::mem::take(&mut self.solve_again) {
-            self.solve();
-        }
-    }
-
-    /// Takes away what a solve before said, and that a file was written which no longer shows what is on the screen.
-    fn forget_solve_message(&mut self) {
-        let stale = self.solve_message.take();
-        self.messages.retain(|message| Some(message.id) != stale && message.severity != Severity::Note);
-    }
-
     fn cancel(&mut self) {
-        self.loading = None;
         // Dropping the job raises its flag; whatever it still computes is not looked at.
-        self.solving = None;
-        self.solve_again = false;
+        self.loading = None;
+        self.pause();
     }
 
     pub(super) fn fail(&mut self, place: Place, text: String, remedy: Option<&str>) {

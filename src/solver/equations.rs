@@ -3,6 +3,8 @@
 //! The equation of vertex v is `Σ a_h (z_head(h) − z_v) = 0` over its outgoing halfedges h. Every method of this
 //! project has that form: coefficients are real where the boundary is prescribed and complex where it is free.
 
+use std::ops::Mul;
+
 use glam::DVec2;
 use num_complex::Complex;
 use rayon::prelude::*;
@@ -29,7 +31,10 @@ impl Equations<f64> {
     }
 }
 
-impl Equations<Complex<f64>> {
+impl<T> Equations<T>
+where
+    T: Copy + Mul<Complex<f64>, Output = Complex<f64>>,
+{
     /// What a vertex's equation leaves: `Σ a_h (z_head(h) − z_v)`.
     pub fn discrepancy(&self, mesh: &DiskMesh, embedding: &[DVec2], vertex: VertexId) -> Complex<f64> {
         let term = |h: HalfedgeId| {
@@ -38,7 +43,9 @@ impl Equations<Complex<f64>> {
         };
         mesh.outgoing(vertex).map(term).sum()
     }
+}
 
+impl Equations<Complex<f64>> {
     /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
     pub fn residual(&self, mesh: &DiskMesh, embedding: &[DVec2], has_equation: impl Fn(VertexId) -> bool) -> f64 {
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];

@@ -6,12 +6,13 @@ use std::time::Instant;
 use glam::DVec2;
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
+use rayon::prelude::*;
 
 use super::equations::Equations;
 use super::pinned_rows::{Factored, PinnedRows};
 use super::system::FreeSystem;
 use super::{Control, Phase, PhaseSeconds, Pins, SolveError, Treatment};
-use crate::linalg::{Analysis, Factor, FactorStats, LinalgError};
+use crate::linalg::{Analysis, Factor, FactorStats, LinalgError, Solved};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Equations, matrix and factors; for least squares also what the pinned vertices' equations add.
@@ -59,23 +60,67 @@ impl FreeSolve {
 
     /// The embedding with the pins on their targets, and the relative residual of the linear solve.
     pub(super) fn solve(&self, site: Site<'_>, pins: &Pins) -> Result<(Vec<DVec2>, f64), SolveError> {
+        let mut start = vec![DVec2::ZERO; site.mesh.vertex_count()];
+        for (vertex, target) in pins {
+            start[vertex.index()] = *target;
+        }
+        let left = self.left_over(site.mesh, &start);
+        self.move_from(site, (&start, &left), pins, |rhs| self.factor.solve(&self.matrix, rhs))
+    }
+
+    /// The same, found as a move from an embedding that has the pins on their targets already; `left` is what it leaves
+    /// of every vertex's equation. Where it nearly solves the equations the move is small, and so is its rounding.
+    pub(super) fn solve_from(
+        &self,
+        site: Site<'_>,
+        (from, left): (&[DVec2], &[Complex<f64>]),
+        pins: &Pins,
+    ) -> Result<(Vec<DVec2>, f64), SolveError> {
+        self.move_from(site, (from, left), pins, |rhs| self.factor.solve_correction(&self.matrix, rhs))
+    }
+
+    /// Solves for the move from `start` that takes up what is left there.
+    fn move_from(
+        &self,
+        site: Site<'_>,
+        (start, left): (&[DVec2], &[Complex<f64>]),
+        pins: &Pins,
+        solve: impl Fn(&[Complex<f64>]) -> Result<Solved<Complex<f64>>, LinalgError>,
+    ) -> Result<(Vec<DVec2>, f64), SolveError> {
         let named = |error| in_vertices(error, site.system.free());
-        let targets: BTreeMap<VertexId, Complex<f64>> =
-            pins.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
-        let mut terms = site.system.pinned_terms(site.mesh, &self.equations, &targets);
-        let mut solved = self.factor.solve(&self.matrix, &terms).map_err(named)?;
+        let mut terms: Vec<_> = site.system.free().iter().map(|v| left[v.index()]).collect();
+        let mut moves = solve(&terms).map_err(named)?.x;
+        let mut correction = vec![Complex::ZERO; terms.len()];
         if let Some(rows) = &self.pinned_rows {
-            let embedding = embedding_of(site, &solved.x, pins);
-            let discrepancy: Vec<_> =
-                site.pinned.iter().map(|&v| self.equations.discrepancy(site.mesh, &embedding, v)).collect();
             let factored = Factored { matrix: &self.matrix, factor: &self.factor };
-            let correction = rows.correction(&factored, &discrepancy).map_err(named)?;
-            for (term, y) in terms.iter_mut().zip(correction) {
+            let discrepancy = rows.discrepancy(site.pinned.iter().map(|v| left[v.index()]), &moves);
+            correction = rows.correction(&factored, &discrepancy).map_err(named)?;
+            for (term, y) in terms.iter_mut().zip(&correction) {
                 *term += y;
             }
-            solved = self.factor.solve(&self.matrix, &terms).map_err(named)?;
+            moves = solve(&terms).map_err(named)?.x;
         }
-        Ok((embedding_of(site, &solved.x, pins), solved.residual))
+        let embedding = moved(site, start, &moves);
+        let residual = self.relative_residual(site, &embedding, pins, &correction);
+        Ok((embedding, residual))
+    }
+
+    /// What all equations leave.
+    fn left_over(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<Complex<f64>> {
+        let at = |v: usize| self.equations.discrepancy(mesh, embedding, VertexId::from_index(v));
+        (0..mesh.vertex_count()).into_par_iter().map(at).collect()
+    }
+
+    /// ‖Ax − b‖ / ‖b‖ of the free vertices' equations, b being what the pins and the correction give.
+    fn relative_residual(&self, site: Site<'_>, embedding: &[DVec2], pins: &Pins, correction: &[Complex<f64>]) -> f64 {
+        let targets: BTreeMap<VertexId, Complex<f64>> =
+            pins.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
+        let rhs = site.system.pinned_terms(site.mesh, &self.equations, &targets);
+        let whole: f64 = rhs.iter().zip(correction).map(|(b, y)| (b + y).norm_sqr()).sum();
+        let left = self.left_over(site.mesh, embedding);
+        let free = site.system.free().iter().map(|v| left[v.index()]);
+        let left: f64 = free.zip(correction).map(|(r, y)| (r + y).norm_sqr()).sum();
+        if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
     }
 
     /// ‖A z‖ of all equations, relative to their terms.
@@ -92,14 +137,11 @@ impl FreeSolve {
     }
 }
 
-/// Free and pinned positions together; the pinned ones to the last bit.
-fn embedding_of(site: Site<'_>, unknowns: &[Complex<f64>], pins: &Pins) -> Vec<DVec2> {
-    let mut embedding = vec![DVec2::ZERO; site.mesh.vertex_count()];
-    for (vertex, z) in site.system.free().iter().zip(unknowns) {
-        embedding[vertex.index()] = DVec2::new(z.re, z.im);
-    }
-    for (vertex, target) in pins {
-        embedding[vertex.index()] = *target;
+/// An embedding with its free vertices moved; the pinned ones stay to the last bit.
+fn moved(site: Site<'_>, start: &[DVec2], moves: &[Complex<f64>]) -> Vec<DVec2> {
+    let mut embedding = start.to_vec();
+    for (vertex, z) in site.system.free().iter().zip(moves) {
+        embedding[vertex.index()] += DVec2::new(z.re, z.im);
     }
     embedding
 }

@@ -2,14 +2,14 @@
 //!
 //! `x_{k+1} = A(x_k)⁻¹ b`, where A(x) holds the mean-value equations of the planar geometry x, angles unsigned. The
 //! pins stay what they are. A planar embedding is a fixed point; a fixed point with turning number 1 that meets *all*
-//! equations is planar (Theorem 2). The pattern never changes, so it is ordered and analysed once a run.
+//! equations is planar (Theorem 2). It is solved for the move x_{k+1} − x_k, so that rounding dies away with it. The pattern never changes, so it is ordered and analysed once a run.
 
 use std::time::Instant;
 
 use glam::DVec2;
 
 use super::free_solve::{FreeSolve, Site};
-use super::plane_weights::natural_in_plane;
+use super::plane_weights::{left_over_in_plane, natural_in_plane};
 use super::system::FreeSystem;
 use super::{Control, Phase, PhaseSeconds, Pins, Solution, SolveError, Treatment, check_pins};
 use crate::linalg::{Analysis, Kind};
@@ -42,34 +42,30 @@ impl Iteration {
         Ok(Self { system, analysis, pinned, treatment, analyze_seconds: start.elapsed().as_secs_f64() })
     }
 
-    /// One step: the embedding that solves the mean-value equations of `embedding` with the pins at `pins`, which must
-    /// be those of the same vertices as before.
+    /// One step: the embedding that solves the mean-value equations of `embedding`. Its pinned vertices stay where they
+    /// are, and must be those that the iteration was made for.
     ///
     /// # Errors
     ///
     /// A singular matrix, a residual that refinement cannot bring down, or the caller's wish to stop.
-    pub fn step(
-        &self,
-        mesh: &DiskMesh,
-        embedding: &[DVec2],
-        pins: &Pins,
-        control: Control<'_>,
-    ) -> Result<Solution, SolveError> {
+    pub fn step(&self, mesh: &DiskMesh, embedding: &[DVec2], control: Control<'_>) -> Result<Solution, SolveError> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
+        let pins: Pins = self.pinned.iter().map(|&v| (v, embedding[v.index()])).collect();
         let site = Site { mesh, system: &self.system, pinned: &self.pinned };
         let equations = natural_in_plane(mesh, embedding);
+        let left = left_over_in_plane(mesh, embedding);
         let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
         let solve = FreeSolve::new(site, equations, (&self.analysis, self.treatment), &mut seconds, control)?;
         control.enter(Phase::Solve)?;
         let start = Instant::now();
-        let (embedding, residual) = solve.solve(site, pins)?;
+        let (embedding, residual) = solve.solve_from(site, (embedding, &left), &pins)?;
         let stats = solve.stats();
         let equation_residual = solve.equation_residual(mesh, &embedding);
         seconds.solve = start.elapsed().as_secs_f64();
         Ok(Solution {
             embedding,
-            pins: pins.clone(),
+            pins,
             gauge_completed: false,
             residual,
             equation_residual,

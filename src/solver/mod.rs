@@ -41,4 +41,4 @@ pub use solution::{PhaseSeconds, Solution};
 pub use step::{Step, diameter, largest_move};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, verdict};
-pub use virtual_boundary::{Outline, VirtualBoundary};
+pub use virtual_boundary::{Extended, Outline, Start, VirtualBoundary};

@@ -62,6 +62,12 @@ impl PinnedRows {
         Ok(Self { rows, gram })
     }
 
+    /// d, what the pinned rows leave after the free vertices' moves, from what they left before.
+    pub(super) fn discrepancy(&self, before: impl Iterator<Item = C64>, moves: &[C64]) -> Vec<C64> {
+        let taken = |row: &Vec<(usize, C64)>| row.iter().map(|&(at, value)| value * moves[at]).sum::<C64>();
+        before.zip(&self.rows).map(|(left, row)| left - taken(row)).collect()
+    }
+
     /// What is to be added to b, for the discrepancies d of the pinned rows: y.
     pub(super) fn correction(&self, factored: &Factored<'_>, discrepancy: &[C64]) -> Result<Vec<C64>, LinalgError> {
         let weights = self.gram.solve(&DVector::from_column_slice(discrepancy));

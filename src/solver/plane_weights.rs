@@ -7,6 +7,12 @@
 //! the paper asks: a flipped face counts like its mirror image, and so all weights are positive. A planar embedding
 //! satisfies the equations that it gives (2D reproduction), and only planar ones do (Theorem 1).
 //!
+//! # What an embedding leaves
+//!
+//! At a corner of a positive face eq. (1) holds, and its share of A(x) x is zero. At a corner of a flipped face the
+//! unsigned angle turns the sign of one side around: its share is `2i(û₂ − û₁)`, with û₁, û₂ the directions of its edges.
+//! So A(x) x is a sum over the flipped faces alone, and exactly zero for a planar embedding: see [`left_over_in_plane`].
+//!
 //! # Degenerate faces
 //!
 //! A face without area has a corner of 0 or π, or an edge of length 0, whose weight would be infinite and would hold
@@ -25,6 +31,7 @@ use rayon::prelude::*;
 
 use super::equations::Equations;
 use super::weights::bounded;
+use crate::geom::{Orientation, orientation};
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 
 /// Height of a degenerate face, and least length of its edges, relative to its longest edge. Thin enough to leave its
@@ -75,6 +82,42 @@ fn scale_of(embedding: &[DVec2], face_count: usize) -> f64 {
     let extent = embedding.iter().fold(0.0_f64, |m, z| m.max((*z - first).abs().max_element()));
     let mean_length = extent / (face_count.max(1) as f64).sqrt();
     if mean_length.is_normal() { mean_length.log2().round().exp2().recip() } else { 1.0 }
+}
+
+/// A(x) x: what every vertex's equation leaves, the natural boundary's i-terms included, found without rounding where
+/// faces are positive.
+pub fn left_over_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<Complex<f64>> {
+    let scale = scale_of(embedding, mesh.face_count());
+    let is_upright = |face: &FaceId| {
+        let [a, b, c] = mesh.face(*face).map(|v| embedding[v.index()]);
+        orientation(a, b, c) == Some(Orientation::CounterClockwise)
+    };
+    let folded: Vec<FaceId> = mesh.faces().collect::<Vec<_>>().into_par_iter().filter(|f| !is_upright(f)).collect();
+    let mut left = vec![Complex::ZERO; mesh.vertex_count()];
+    for face in folded {
+        let vertices = mesh.face(face);
+        let corners = vertices.map(|v| embedding[v.index()] * scale);
+        for (vertex, share) in vertices.iter().zip(shares_left(corners)) {
+            left[vertex.index()] += share / scale;
+        }
+    }
+    left
+}
+
+/// What a face that is not positive leaves at its corners.
+fn shares_left(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
+    let [a, b, c] = corners;
+    let edges = [b - a, c - b, a - c];
+    let (radii, _) = radii_of(edges, 1.0);
+    let FaceWeights { at_corner, degenerate } = face_weights(corners, 1.0);
+    [0, 1, 2].map(|k| {
+        let previous = (k + 2) % 3;
+        let (to_next, to_previous) = (edges[k], -edges[previous]);
+        let turned = (to_previous / radii[previous] - to_next / radii[k]).perp();
+        let left =
+            if degenerate { at_corner[k][0] * to_next + at_corner[k][1] * to_previous + turned } else { 2.0 * turned };
+        Complex::new(left.x, left.y)
+    })
 }
 
 /// The mean-value equations of an embedding without the boundary's i-terms: paper eq. (2) with d = 1.

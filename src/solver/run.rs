@@ -1,11 +1,15 @@
 //! A run: the steps of a method, one after another; for `auto` the rungs of the ladder.
 //!
 //! ```text
-//! auto              natural → iterate → virtual boundary      until planar
-//! iterate           natural → iterate                         until planar, stalled or at the limit
-//! virtual-boundary  natural → virtual boundary                until planar
+//! auto              natural → iterate → natural again → iterate → virtual boundary      until planar
+//! iterate           natural → iterate                                                   until planar, stalled or at the limit
+//! virtual-boundary  natural → virtual boundary                                          until planar
 //! others            one linear solve
 //! ```
+//!
+//! *Natural again* is our addition to the ladder. The virtual boundary keeps a boundary that is simple and bends one that
+//! is not to a circle. Before it has to bend, `auto` starts once more with conformal weights and the default pins, if
+//! other ones were asked for: their boundary is simple far more often, and stays free.
 //!
 //! A run is asked for one step at a time, so that it can be watched, paused and taken on by hand. A step that is
 //! cancelled leaves the run as it was.
@@ -20,7 +24,10 @@ use super::scale::{complete_gauge, fit_gauge};
 use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
-use super::{Control, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, Treatment, gauge_pins, verdict};
+use super::{
+    Control, Family, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, Treatment, flatten, gauge_pins,
+    verdict,
+};
 use crate::mesh::DiskMesh;
 
 /// Why a run has come to its end.
@@ -45,7 +52,10 @@ pub struct Run {
     iteration: Option<Iteration>,
     virtual_boundary: Option<VirtualBoundaryRun>,
     stall: Stall,
+    /// Iterations since the last linear solve.
     iterations: usize,
+    /// Whether the ladder may still start again with the default weights and pins.
+    may_start_again: bool,
     step_count: usize,
     latest: Option<Latest>,
     ending: Option<Ending>,
@@ -73,7 +83,9 @@ struct Raw {
 impl Run {
     /// A run that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
+        let is_default = settings.family == Family::default() && pins.is_empty();
         Self {
+            may_start_again: settings.method == Method::Auto && !is_default,
             settings,
             pins,
             prepared: None,
@@ -199,6 +211,9 @@ impl Run {
             match self.linear(mesh, control) {
                 Err(error) if self.has_rung_left_after(&error) => {
                     let note = format!("the natural boundary gave nothing: {error}");
+                    if self.may_start_again {
+                        return Ok(Raw { note: Some(note), ..self.start_again(mesh, control)? });
+                    }
                     return self.virtual_step(mesh, Some(note), control);
                 }
                 other => return other,
@@ -208,6 +223,10 @@ impl Run {
         let wants_bend = bends && self.may_bend_boundary() && self.ending.is_none();
         let iterated_out = self.settings.method == Method::VirtualBoundary || self.ending_of_iteration().is_some();
         if wants_bend && (iterated_out || self.virtual_boundary.is_some()) {
+            let would_bend = self.latest.as_ref().is_none_or(|latest| !latest.has_simple_boundary);
+            if would_bend && self.virtual_boundary.is_none() && self.may_start_again {
+                return self.start_again(mesh, control);
+            }
             return self.virtual_step(mesh, None, control);
         }
         match self.iterate(mesh, control) {
@@ -244,6 +263,30 @@ impl Run {
         Ok(Raw { rung, solution, bent_vertices: 0, virtual_boundary: None, note: None, prepared: Some(prepared) })
     }
 
+    /// The natural boundary with conformal weights and the default pins, moved to where the user's pins want it.
+    fn start_again(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        let settings = Settings::new(Method::Natural, Family::default());
+        let mut solution = flatten(mesh, &settings, &Pins::new(), control)?;
+        self.may_start_again = false;
+        (self.stall, self.iterations) = (Stall::default(), 0);
+        self.fit(mesh, &mut solution);
+        Ok(Raw {
+            rung: Method::Natural,
+            solution,
+            bent_vertices: 0,
+            virtual_boundary: None,
+            note: Some("started again with conformal weights and the farthest boundary vertices as pins".to_owned()),
+            prepared: None,
+        })
+    }
+
+    /// Moves an embedding to where up to two pins of the user's want it.
+    fn fit(&self, mesh: &DiskMesh, solution: &mut Solution) {
+        fit_gauge(mesh, &mut solution.embedding, &self.pins);
+        solution.gauge_completed = self.pins.len() < 2;
+        solution.pins = if self.pins.len() == 2 { self.pins.clone() } else { gauge_in(mesh, &solution.embedding) };
+    }
+
     fn iterate(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
         let Some(latest) = &self.latest else { return Err(SolveError::Cancelled) };
         let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
@@ -252,7 +295,7 @@ impl Run {
             self.iteration = Some(Iteration::new(mesh, &pins, treatment, control)?);
         }
         let iteration = self.iteration.as_ref().expect("made above");
-        let mut solution = iteration.step(mesh, &latest.embedding, &pins, control)?;
+        let mut solution = iteration.step(mesh, &latest.embedding, control)?;
         if self.iterations == 0 {
             solution.seconds.analyze = iteration.analyze_seconds();
         }
@@ -278,9 +321,7 @@ impl Run {
         let simple = self.latest.as_ref().filter(|latest| latest.has_simple_boundary);
         let Bent { mut solution, pinned, stages, note: own_note } =
             run.step(mesh, simple.map(|latest| latest.embedding.as_slice()), control)?;
-        fit_gauge(mesh, &mut solution.embedding, &self.pins);
-        solution.pins = if self.pins.len() == 2 { self.pins.clone() } else { gauge_in(mesh, &solution.embedding) };
-        solution.gauge_completed = self.pins.len() < 2;
+        self.fit(mesh, &mut solution);
         Ok(Raw {
             rung: Method::VirtualBoundary,
             solution,

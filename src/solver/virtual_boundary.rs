@@ -17,6 +17,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
+use num_complex::Complex;
 
 use super::equations::Equations;
 use super::free_solve::in_vertices;
@@ -64,25 +65,38 @@ pub struct VirtualBoundary {
     pub solved: Vec<DVec2>,
 }
 
-/// An embedding with its outside.
+/// An embedding with its outside: the paper's E′.
 #[derive(Debug)]
-pub(super) struct Extended {
-    /// Mesh and outside as one disk. Its positions mean nothing.
-    pub(super) disk: DiskMesh,
-    pub(super) outline: Outline,
+pub struct Extended {
+    /// Mesh and outside as one disk.
+    pub disk: DiskMesh,
+    /// What the outside was triangulated up to.
+    pub outline: Outline,
     /// Where all vertices lie, the virtual ones last.
-    pub(super) positions: Vec<DVec2>,
-    pub(super) pockets: Vec<[VertexId; 3]>,
+    pub positions: Vec<DVec2>,
+    /// The faces between the boundary and the outline.
+    pub pockets: Vec<[VertexId; 3]>,
+}
+
+/// Where a solve starts, with the outline in its place.
+#[derive(Clone, Copy, Debug)]
+pub struct Start<'a> {
+    /// All positions.
+    pub positions: &'a [DVec2],
+    /// What they leave of every vertex's equation, where that is known better than by summing up.
+    pub left: Option<&'a [Complex<f64>]>,
 }
 
 impl Extended {
     /// Extends an embedding whose boundary is simple and runs counter-clockwise: up to the hull, or up to a frame where
     /// the hull would not do. `None` where neither is possible.
-    pub(super) fn new(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
+    pub fn new(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
         Self::up_to_hull(mesh, embedding).or_else(|| Self::up_to_frame(mesh, embedding))
     }
 
-    fn up_to_hull(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
+    /// Extends an embedding up to its convex hull. `None` where its boundary is not simple, and where Tutte's theorem does
+    /// not cover the extended mesh.
+    pub fn up_to_hull(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
         let triangles = outside_triangles(&boundary_of(mesh, embedding), &[])?;
         let boundary = mesh.boundary_loop();
         let pockets = triangles.into_iter().map(|t| t.map(|corner| boundary[corner as usize])).collect();
@@ -90,7 +104,8 @@ impl Extended {
         (!extended.has_edge_along_outline()).then_some(extended)
     }
 
-    pub(super) fn up_to_frame(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
+    /// Extends an embedding up to a frame. `None` where its boundary is not simple.
+    pub fn up_to_frame(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
         let boundary = boundary_of(mesh, embedding);
         let low = boundary.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = boundary.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
@@ -128,11 +143,16 @@ impl Extended {
         })
     }
 
-    /// Solves equations of mesh and outside with the outline where it is. Returns all positions, the residual and what
-    /// the factors cost.
-    pub(super) fn solve(
+    /// Solves equations of mesh and outside with the outline where it is, for the move from `start`. Returns all
+    /// positions, the residual and what the factors cost.
+    ///
+    /// # Errors
+    ///
+    /// A system that cannot be solved, or the caller's wish to stop.
+    pub fn solve(
         &self,
         equations: &Equations<f64>,
+        start: Start<'_>,
         control: Control<'_>,
     ) -> Result<(Vec<DVec2>, f64, FactorStats), SolveError> {
         let system = FreeSystem::new(&self.disk, |v| self.disk.boundary_place(v).is_some());
@@ -143,18 +163,29 @@ impl Extended {
         control.enter(Phase::Factor)?;
         let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
         control.enter(Phase::Solve)?;
-        let terms = |axis: usize| {
-            let fixed = self.disk.boundary_loop().iter().map(|&v| (v, self.positions[v.index()][axis]));
-            system.pinned_terms(&self.disk, equations, &fixed.collect::<BTreeMap<VertexId, f64>>())
+        let left = |v: &VertexId| match start.left {
+            Some(left) => left[v.index()],
+            None => equations.discrepancy(&self.disk, start.positions, *v),
         };
-        let both: Vec<f64> = terms(0).into_iter().chain(terms(1)).collect();
-        let solved = factor.solve_many(&matrix, &both).map_err(named)?;
+        let left: Vec<Complex<f64>> = system.free().iter().map(left).collect();
+        let both: Vec<f64> = left.iter().map(|z| z.re).chain(left.iter().map(|z| z.im)).collect();
+        let solved = factor.solve_correction(&matrix, &both).map_err(named)?;
         let (x, y) = solved.x.split_at(system.free().len());
-        let mut positions = self.positions.clone();
+        let mut positions = start.positions.to_vec();
         for (vertex, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
-            positions[vertex.index()] = DVec2::new(x, y);
+            positions[vertex.index()] += DVec2::new(x, y);
         }
-        Ok((positions, solved.residual, factor.stats()))
+        let residual = self.relative_residual(equations, &system, &positions);
+        Ok((positions, residual, factor.stats()))
+    }
+
+    /// ‖Ax − b‖ / ‖b‖, b being what the outline gives.
+    fn relative_residual(&self, equations: &Equations<f64>, system: &FreeSystem, positions: &[DVec2]) -> f64 {
+        let fixed = self.disk.boundary_loop().iter().map(|&v| (v, positions[v.index()]));
+        let rhs = system.pinned_terms(&self.disk, equations, &fixed.collect::<BTreeMap<VertexId, DVec2>>());
+        let left = system.free().iter().map(|&v| equations.discrepancy(&self.disk, positions, v).norm_sqr());
+        let (left, whole): (f64, f64) = (left.sum(), rhs.iter().map(|b| b.length_squared()).sum());
+        if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
     }
 }
 

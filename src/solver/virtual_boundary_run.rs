@@ -15,9 +15,9 @@ use std::time::Instant;
 
 use glam::DVec2;
 
-use super::equations::{Equations, barycentric, uniform};
-use super::plane_weights::mean_value_in_plane;
-use super::virtual_boundary::{Extended, VirtualBoundary};
+use super::equations::{barycentric, uniform};
+use super::plane_weights::{left_over_in_plane, mean_value_in_plane};
+use super::virtual_boundary::{Extended, Start, VirtualBoundary};
 use super::{Control, Family, Growth, Method, PhaseSeconds, Pins, Prepared, Settings, Solution, SolveError, Treatment};
 use crate::mesh::DiskMesh;
 
@@ -158,9 +158,16 @@ fn bend(
     control: Control<'_>,
 ) -> Result<Bent, SolveError> {
     let start = Instant::now();
-    let equations = equations(mesh, extended, weights, solved)?;
+    let from = if weights == Weights::Again && !solved.is_empty() { solved } else { &extended.positions };
+    let has_pockets = !extended.pockets.is_empty();
+    let (equations, left) = match weights {
+        Weights::Surface if !has_pockets => (barycentric(mesh, 0.0)?, None),
+        Weights::Uniform => (uniform(&extended.disk), None),
+        _ => (mean_value_in_plane(&extended.disk, from), Some(left_over_in_plane(&extended.disk, from))),
+    };
     let bounded_corners = equations.bounded_corners;
-    let (positions, residual, stats) = extended.solve(&equations, control)?;
+    let start_at = Start { positions: from, left: left.as_deref() };
+    let (positions, residual, stats) = extended.solve(&equations, start_at, control)?;
     let embedding = positions[..mesh.vertex_count()].to_vec();
     let stages = VirtualBoundary {
         pinned,
@@ -184,21 +191,6 @@ fn bend(
         seconds,
     };
     Ok(Bent { solution, pinned, stages: Some(Arc::new(stages)), note: None })
-}
-
-fn equations(
-    mesh: &DiskMesh,
-    extended: &Extended,
-    weights: Weights,
-    solved: &[DVec2],
-) -> Result<Equations<f64>, SolveError> {
-    let has_pockets = !extended.pockets.is_empty();
-    Ok(match weights {
-        Weights::Again if !solved.is_empty() => mean_value_in_plane(&extended.disk, solved),
-        Weights::Surface if !has_pockets => barycentric(mesh, 0.0)?,
-        Weights::Uniform => uniform(&extended.disk),
-        _ => mean_value_in_plane(&extended.disk, &extended.positions),
-    })
 }
 
 /// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, at distances that follow the

@@ -12,7 +12,7 @@ use super::dialogs::{Choice, Dialogs, Purpose, kind_of};
 use super::framing::{grown, grown_box, positions_of};
 use super::pane::PinOwner;
 use super::scene::{MeshScene, Paint, PlaneScene, vertices_of};
-use super::{Defect, HullView, Pane, Request, Shading, Tab, Tool};
+use super::{Defect, HullView, Pane, Request, Shading, Tab, TimelineView, Tool};
 use crate::mesh::VertexId;
 use crate::session::{Action, Busy, Job, OutputFit, RecentFiles, SaveRequest, Session};
 use crate::view::{OrbitCamera, PlaneCamera};
@@ -73,6 +73,8 @@ pub struct Editor {
     pub keys_shown: bool,
     /// What is typed into "go to", where it shows.
     pub go_to: Option<String>,
+    /// The timeline under the panes.
+    pub timeline: TimelineView,
     /// Size of coordinates in files.
     pub fit: OutputFit,
     /// Whether there is a graphics card to draw with.
@@ -128,6 +130,7 @@ impl Editor {
             defect: None,
             keys_shown: false,
             go_to: None,
+            timeline: TimelineView::default(),
             fit: OutputFit::default(),
             has_gpu: false,
             dialogs: Dialogs::default(),
@@ -176,6 +179,7 @@ impl Editor {
     /// Takes in what the background has finished. Call at the start of each frame.
     pub fn poll(&mut self) {
         self.session.poll();
+        self.go_on_playing();
         self.poll_mesh_scene();
         self.poll_plane_scene();
         self.poll_hull_scene();
@@ -198,6 +202,10 @@ impl Editor {
     pub fn handle(&mut self, request: Request) {
         match request {
             Request::Do(action) => self.act(action),
+            Request::RunOrPause => self.run_or_pause(),
+            Request::GoToStep(target) => self.go_to_step(target),
+            Request::TogglePlay => self.toggle_play(),
+            Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
             Request::SetTool(tool) => self.tool = tool,
             Request::SetShading(shading) => self.shading = shading,
             Request::ToggleWireframe => self.wireframe = !self.wireframe,
@@ -285,6 +293,9 @@ impl Editor {
     }
 
     fn act(&mut self, action: Action) {
+        if matches!(action, Action::Step | Action::Run | Action::ShowStep(_)) {
+            self.timeline.playing_since = None;
+        }
         self.session.handle(action);
     }
 

@@ -3,8 +3,8 @@
 use eframe::egui;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::{Request, Shading, Tool};
-use crate::session::Action;
+use super::{Request, Shading, StepTarget, Tool};
+use crate::session::{Action, Session};
 
 /// One shortcut.
 pub struct Binding {
@@ -37,6 +37,12 @@ pub const BINDINGS: &[Binding] = &[
     bind(CTRL, Key::Enter, "Solve again", || Request::Do(Action::Solve)),
     bind(SHIFT, Key::D, "Previous defect", || Request::StepDefect(-1)),
     bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),
+    bind(SHIFT, Key::Space, "Run, or pause the run", || Request::RunOrPause),
+    bind(NONE, Key::Space, "Take one step", || Request::Do(Action::Step)),
+    bind(NONE, Key::ArrowLeft, "Previous step", || Request::GoToStep(StepTarget::Previous)),
+    bind(NONE, Key::ArrowRight, "Next step", || Request::GoToStep(StepTarget::Next)),
+    bind(NONE, Key::Home, "First step", || Request::GoToStep(StepTarget::First)),
+    bind(NONE, Key::End, "Last step", || Request::GoToStep(StepTarget::Last)),
     bind(NONE, Key::V, "Select vertices", || Request::SetTool(Tool::Select)),
     bind(NONE, Key::P, "Fix: pin a vertex where it lies", || Request::SetTool(Tool::Fix)),
     bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
@@ -57,24 +63,41 @@ pub const BINDINGS: &[Binding] = &[
 ];
 
 /// What the keys pressed in this frame ask for. While a text field has the keyboard, only Esc and combinations with
-/// Ctrl are the window's; Ctrl+Z stays the field's. While a menu or a list is open, Esc is the menu's. Shift+Tab moves
-/// the keyboard's focus, as it does everywhere.
-pub(super) fn requests(context: &egui::Context) -> Vec<Request> {
+/// Ctrl are the window's; Ctrl+Z stays the field's. While a menu or a list is open, Esc, Space and the arrows are the
+/// menu's; otherwise what has the keyboard's focus keeps those of them that it needs. Shift+Tab moves the focus, as it
+/// does everywhere.
+pub(super) fn requests(context: &egui::Context, session: &Session) -> Vec<Request> {
     let typing = context.text_edit_focused();
     let menu_open = egui::Popup::is_any_open(context);
+    let focused = context.memory(egui::Memory::focused);
+    let focused_clicks = focused.and_then(|id| context.read_response(id)).is_some_and(|r| r.sense.senses_click());
     let shift = context.input(|input| input.modifiers.shift);
     let wanted = |binding: &&Binding| {
-        let key = binding.shortcut.logical_key;
-        let left_to_egui = (key == Key::Escape && menu_open) || (key == Key::Tab && shift);
+        let left_to_egui = match binding.shortcut.logical_key {
+            Key::Escape => menu_open,
+            Key::Tab => shift,
+            Key::Space => menu_open || focused_clicks,
+            Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => menu_open || focused.is_some(),
+            _ => false,
+        };
         !left_to_egui && (!typing || (binding.shortcut.modifiers.command && !is_edit(binding)))
     };
-    let requests: Vec<Request> = context.input_mut(|input| {
+    let is_repeat = |event: &egui::Event| matches!(event, egui::Event::Key { key: Key::Space, repeat: true, .. });
+    let repeats_space = context.input(|input| input.events.iter().any(is_repeat));
+    let mut requests: Vec<Request> = context.input_mut(|input| {
         let pressed = |binding: &&Binding| input.consume_shortcut(&binding.shortcut);
         BINDINGS.iter().filter(wanted).filter(pressed).map(|binding| (binding.request)()).collect()
     });
     if requests.contains(&Request::TogglePane) {
         // Tab has its work here; egui would also hand the keyboard to the next control.
         context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
+    }
+    if repeats_space {
+        // A key that is held down takes step after step, but none that nobody waits for any more when it is let go.
+        let is_too_many = |request: &Request| {
+            *request == Request::RunOrPause || (session.is_running() && *request == Request::Do(Action::Step))
+        };
+        requests.retain(|request| !is_too_many(request));
     }
     requests
 }

@@ -5,7 +5,7 @@ use egui::{Button, RichText, Role, WidgetInfo};
 
 use super::icons::{self, Sign};
 use super::theme::{Theme, theme_of};
-use super::{Editor, Request, Shading, Tab, Tool, keys_of};
+use super::{Editor, Request, Shading, StepTarget, Tab, Tool, keys_of};
 use crate::examples::Example;
 use crate::session::{Action, Busy, OutputFit, Surface};
 use crate::solver::Verdict;
@@ -138,6 +138,7 @@ fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     choice(ui, editor.hull.shown, "Hull and pockets", Request::ToggleHull, requests);
     choice(ui, editor.magnifier, "Magnifier over a defect", Request::ToggleMagnifier, requests);
     choice(ui, editor.panels_shown(), "Panels", Request::TogglePanels, requests);
+    choice(ui, editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves, requests);
     ui.separator();
     item(ui, true, "Frame the selection, or all", Request::Frame, requests);
     item(ui, true, "Go to…", Request::AskGoTo, requests);
@@ -160,6 +161,22 @@ fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 
 fn solve_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let disk = editor.session.model().is_some_and(|model| model.disk().is_some());
+    let session = &editor.session;
+    let timeline = session.timeline();
+    let shown = timeline.shown();
+    item(ui, disk, "Take one step", Request::Do(Action::Step), requests);
+    let (run, can_run) = if session.is_running() { ("Pause the run", true) } else { ("Run on", session.can_run()) };
+    item(ui, can_run, run, Request::RunOrPause, requests);
+    ui.separator();
+    let has_previous = shown.and_then(|shown| timeline.previous_kept(shown)).is_some();
+    let has_next = shown.and_then(|shown| timeline.next_kept(shown)).is_some();
+    item(ui, has_previous, "First step", Request::GoToStep(StepTarget::First), requests);
+    item(ui, has_previous, "Previous step", Request::GoToStep(StepTarget::Previous), requests);
+    item(ui, has_next, "Next step", Request::GoToStep(StepTarget::Next), requests);
+    item(ui, has_next, "Last step", Request::GoToStep(StepTarget::Last), requests);
+    let play = if editor.timeline.playing_since.is_some() { "Stop the play" } else { "Play all steps" };
+    item(ui, has_previous || has_next, play, Request::TogglePlay, requests);
+    ui.separator();
     item(ui, disk, "Solve again", Request::Do(Action::Solve), requests);
     item(ui, editor.session.busy().is_some(), "Cancel", Request::Do(Action::Cancel), requests);
     ui.separator();
@@ -224,8 +241,14 @@ fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
         let tip = "The bars over the mesh say what is wrong and what to do";
         return Some(Pill { sign: Sign::Bad, colour: theme.flipped, words, tip });
     }
-    if session.busy().is_some() && !session.is_current() {
-        let words = if session.outcome().is_some() { "following…" } else { "solving…" };
+    if session.is_preview() {
+        let tip = "The first, linear step. What repairs it follows when the gesture ends";
+        let words = "preview, not repaired".to_owned();
+        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words, tip });
+    }
+    let more_to_come = session.is_running() && session.timeline().records().len() <= 1;
+    if more_to_come || (session.busy().is_some() && !session.is_current()) {
+        let words = if session.outcome().is_some() && !more_to_come { "following…" } else { "solving…" };
         let tip = "The solve is on its way";
         return Some(Pill { sign: Sign::Working, colour: theme.weak_text, words: words.to_owned(), tip });
     }

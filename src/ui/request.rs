@@ -96,11 +96,32 @@ impl Tab {
     }
 }
 
+/// A step among those that there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StepTarget {
+    /// The first.
+    First,
+    /// The one before that on the screen.
+    Previous,
+    /// The one after that on the screen.
+    Next,
+    /// The newest.
+    Last,
+}
+
 /// Something a person asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// An edit of the document, or work on it.
     Do(Action),
+    /// Lets the run go on, or pauses it.
+    RunOrPause,
+    /// Shows another step.
+    GoToStep(StepTarget),
+    /// Plays the steps as an animation, or stops it.
+    TogglePlay,
+    /// Shows or hides the curves under the panes.
+    ToggleCurves,
     /// Takes up a tool.
     SetTool(Tool),
     /// Colours faces.

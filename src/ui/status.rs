@@ -4,6 +4,7 @@ use eframe::egui;
 use egui::RichText;
 
 use super::theme::theme_of;
+use super::timeline::PRESS_SPACE;
 use super::{Editor, Tool};
 
 /// Shows the bar.
@@ -25,6 +26,9 @@ fn hint(editor: &Editor) -> &'static str {
     }
     if editor.session.model().is_none() {
         return "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.";
+    }
+    if editor.session.is_held() && !editor.timeline.curves_shown() {
+        return PRESS_SPACE;
     }
     match editor.tool {
         Tool::Select => {

@@ -6,6 +6,7 @@ use egui::{Frame, Margin, Panel, Rect, Sense, Vec2};
 use super::mesh_pane::mesh_pane_ui;
 use super::plane_pane::plane_pane_ui;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
+use super::timeline::{CURVES_FROM, timeline_ui};
 use super::{Editor, Pane, Request, floating, keys, menu, side_panel, status, tools};
 use crate::session::Action;
 
@@ -21,7 +22,7 @@ const LEAST_SHARE: f32 = 0.15;
 /// Shows everything and carries out what was asked for.
 pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.poll();
-    let mut requests = keys::requests(ui.ctx());
+    let mut requests = keys::requests(ui.ctx(), &editor.session);
     if let Some(place) = requests.iter().position(|request| *request == Request::Escape) {
         // Before the panes are shown: egui ends a drag at the same key, and the pane would forget what was dragged.
         editor.handle(requests.remove(place));
@@ -31,13 +32,8 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     let bar = Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 0));
     Panel::top("top").exact_size(TOP_HEIGHT).frame(bar).show(ui, |ui| menu::top_bar(ui, editor, &mut requests));
     Panel::bottom("bottom").exact_size(BOTTOM_HEIGHT).frame(bar).show(ui, |ui| status::status_bar(ui, editor));
-    let tool_frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(6, 8));
-    Panel::left("tools")
-        .exact_size(TOOLS_WIDTH)
-        .resizable(false)
-        .frame(tool_frame)
-        .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
-    editor.window_is_wide = ui.available_width() >= PANELS_FROM;
+    editor.window_is_wide = ui.available_width() - TOOLS_WIDTH >= PANELS_FROM;
+    editor.timeline.window_is_high = ui.available_height() >= CURVES_FROM;
     if editor.panels_shown() {
         let frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(12, 8));
         Panel::right("panels")
@@ -46,6 +42,18 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
             .frame(frame)
             .show(ui, |ui| side_panel::side_panel(ui, editor, &mut requests));
     }
+    if editor.timeline_shown() {
+        Panel::bottom("timeline")
+            .exact_size(editor.timeline.height())
+            .frame(bar)
+            .show(ui, |ui| timeline_ui(ui, editor, &mut requests));
+    }
+    let tool_frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(6, 8));
+    Panel::left("tools")
+        .exact_size(TOOLS_WIDTH)
+        .resizable(false)
+        .frame(tool_frame)
+        .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
     editor.pane_under_pointer = None;
     editor.pointer_in_embedding = None;
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));

@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 use freebound::examples::Example;
 use freebound::io::{OutputKind, read_mesh};
 use freebound::mesh::{TriMesh, VertexId};
-use freebound::session::{Action, Document, OutputFit, Place, RecentFiles, SaveRequest, Session, Severity};
+use freebound::session::{
+    Action, Document, OutputFit, Place, RecentFiles, SaveRequest, Session, Severity, StopConditions,
+};
 use freebound::solver::{BoundaryShape, Control, Family, Method, Settings, flatten};
 use glam::DVec2;
 use tempfile::TempDir;
@@ -17,12 +19,12 @@ use crate::common::{Random, grid};
 /// What the background is given before a test fails.
 const PATIENCE: Duration = Duration::from_secs(90);
 
-fn session() -> Session {
+pub(crate) fn session() -> Session {
     Session::new(Arc::new(|| ()), RecentFiles::default())
 }
 
 /// Polls until nothing goes on in the background.
-fn settle(session: &mut Session) {
+pub(crate) fn settle(session: &mut Session) {
     let start = Instant::now();
     session.poll();
     while session.busy().is_some() {
@@ -32,12 +34,12 @@ fn settle(session: &mut Session) {
     }
 }
 
-fn settled(session: &mut Session, action: Action) {
+pub(crate) fn settled(session: &mut Session, action: Action) {
     session.handle(action);
     settle(session);
 }
 
-fn opened(example: Example) -> Session {
+pub(crate) fn opened(example: Example) -> Session {
     let mut session = session();
     settled(&mut session, Action::OpenExample(example));
     session
@@ -47,7 +49,7 @@ fn id(number: u32) -> VertexId {
     VertexId::new(number)
 }
 
-fn write_obj(path: &Path, mesh: &TriMesh) {
+pub(crate) fn write_obj(path: &Path, mesh: &TriMesh) {
     use std::fmt::Write as _;
     let mut text = String::new();
     for p in &mesh.positions {
@@ -129,8 +131,8 @@ fn a_drag_ends_where_a_fresh_solve_would() {
 fn a_cancelled_solve_can_be_asked_for_again() {
     let mut session = opened(Example::Dome);
     session.handle(Action::SetSettings(Settings::new(Method::Levy, Family::Conformal)));
-    session.handle(Action::Cancel);
-    assert!(session.busy().is_none() && !session.is_current());
+    settled(&mut session, Action::Cancel);
+    assert!(!session.is_current(), "the step that was on its way is not there");
     settled(&mut session, Action::Solve);
     assert!(session.is_current());
 }
@@ -230,19 +232,20 @@ impl Walk {
 
     fn settings(&mut self) -> Settings {
         let methods = [
+            Method::Auto,
             Method::Natural,
-            Method::Natural,
+            Method::Iterate,
             Method::Lscm,
             Method::Levy,
             Method::Convex(BoundaryShape::Circle),
             Method::Convex(BoundaryShape::Square),
         ];
         let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5), Family::Uniform];
-        Settings::new(methods[self.random.below(6) as usize], families[self.random.below(5) as usize])
+        Settings::new(methods[self.random.below(7) as usize], families[self.random.below(5) as usize])
     }
 
     fn action(&mut self) -> Action {
-        match self.random.below(100) {
+        match self.random.below(110) {
             0 => Action::OpenExample(SMALL[self.random.below(2) as usize]),
             1 => Action::Open(self.folder.path().join("grid.obj")),
             2 => Action::Open(self.folder.path().join("bad.obj")),
@@ -266,7 +269,25 @@ impl Walk {
             90..93 => self.save(),
             93..96 => Action::Cancel,
             96 => Action::Dismiss(u64::from(self.random.below(50))),
-            _ => Action::Solve,
+            97 => Action::Solve,
+            _ => self.look(),
+        }
+    }
+
+    /// Takes steps, and looks at those that there are.
+    fn look(&mut self) -> Action {
+        let index = self.random.below(6) as usize;
+        match self.random.below(8) {
+            0..3 => Action::Step,
+            3 => Action::Run,
+            4 | 5 => Action::ShowStep(index),
+            6 => Action::Compare((index > 0).then_some(index)),
+            _ => Action::SetStop(StopConditions {
+                planar: index != 1,
+                stalled: index != 2,
+                crossing: index == 3,
+                at_step: (index > 3).then_some(index),
+            }),
         }
     }
 

@@ -1,0 +1,106 @@
+//! When a run that goes on by itself comes to rest.
+
+use super::Outcome;
+use crate::solver::Ending;
+
+/// At which steps a run comes to rest. Where its method has no further step, or has taken as many as it may, it always
+/// does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StopConditions {
+    /// Where the embedding is proved planar.
+    pub planar: bool,
+    /// Where the iteration gets no better.
+    pub stalled: bool,
+    /// Where the boundary crosses itself.
+    pub crossing: bool,
+    /// At this step.
+    pub at_step: Option<usize>,
+}
+
+impl Default for StopConditions {
+    fn default() -> Self {
+        Self { planar: true, stalled: true, crossing: false, at_step: None }
+    }
+}
+
+/// Why a run has come to rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The embedding is proved planar.
+    Planar,
+    /// The method has no further step.
+    Done,
+    /// The iteration gets no better.
+    Stalled,
+    /// It has taken as many steps as it may.
+    Limit,
+    /// The boundary crosses itself.
+    Crossing,
+    /// The step that was asked for.
+    AtStep,
+}
+
+impl Stop {
+    /// Words for the screen.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Planar => "planar",
+            Self::Done => "the method has no further step",
+            Self::Stalled => "stalled: it gets no better",
+            Self::Limit => "the step limit is reached",
+            Self::Crossing => "the boundary crosses itself",
+            Self::AtStep => "the step to stop at is reached",
+        }
+    }
+}
+
+impl StopConditions {
+    /// Why a run is at rest after a step, if it is. `ending` is what the run says after that step.
+    pub fn reason(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
+        let verdict = &outcome.step.verdict;
+        let crosses = !verdict.boundary_crossings.is_empty() || verdict.unlisted_crossings > 0;
+        self.reason_for_good(outcome, ending)
+            .or_else(|| (self.crossing && crosses).then_some(Stop::Crossing))
+            .or_else(|| (self.at_step == Some(outcome.step.index)).then_some(Stop::AtStep))
+    }
+
+    /// The same for the reasons that hold however often the run is asked to go on.
+    pub fn reason_for_good(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
+        match ending? {
+            Ending::Done => Some(Stop::Done),
+            Ending::Limit => Some(Stop::Limit),
+            Ending::Planar if self.planar => Some(Stop::Planar),
+            Ending::Stalled if self.stalled => Some(Stop::Stalled),
+            // Beyond the method's own ending the number of steps is the only limit that is left.
+            Ending::Planar | Ending::Stalled => {
+                (outcome.step.index >= outcome.settings.max_steps).then_some(Stop::Limit)
+            }
+        }
+    }
+}
+
+/// How far a run is to go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Goal {
+    /// So many further steps.
+    Steps(usize),
+    /// Until one of these holds.
+    Until(StopConditions),
+}
+
+impl Goal {
+    /// Counts a step that was taken.
+    pub(super) fn count_step(&mut self) {
+        if let Self::Steps(left) = self {
+            *left = left.saturating_sub(1);
+        }
+    }
+
+    /// Whether the run has gone far enough with this step.
+    pub(super) fn is_reached(&self, outcome: &Outcome, ending: Option<Ending>) -> bool {
+        match self {
+            Self::Steps(left) => *left == 0,
+            Self::Until(conditions) => conditions.reason(outcome, ending).is_some(),
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! The steps of a run, kept to be looked at again.
+//!
+//! The numbers of every step stay. Embeddings stay as long as they fit into a budget of memory: the first, the last and
+//! the best, those that the screen shows, then every one that is proved planar, then an even sample of the rest.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::Outcome;
+use crate::io::StepReport;
+
+/// Bytes that the steps kept whole may take together.
+pub const TIMELINE_BUDGET: usize = 512_000_000;
+
+/// The steps of one run, in order.
+#[derive(Debug)]
+pub struct Timeline {
+    budget: usize,
+    records: Vec<StepReport>,
+    kept: BTreeMap<usize, Kept>,
+    /// Sum over `kept`.
+    bytes: usize,
+    /// The first step with the fewest defects.
+    best: Option<usize>,
+    shown: Option<usize>,
+    compared: Option<usize>,
+    /// Whether the step shown is always the newest one.
+    follows_newest: bool,
+}
+
+/// A step kept whole.
+#[derive(Debug)]
+struct Kept {
+    outcome: Arc<Outcome>,
+    bytes: usize,
+}
+
+impl Default for Timeline {
+    fn default() -> Self {
+        Self::with_budget(TIMELINE_BUDGET)
+    }
+}
+
+impl Timeline {
+    /// A timeline without steps that keeps `budget` bytes of them whole.
+    pub fn with_budget(budget: usize) -> Self {
+        Self {
+            budget,
+            records: Vec::new(),
+            kept: BTreeMap::new(),
+            bytes: 0,
+            best: None,
+            shown: None,
+            compared: None,
+            follows_newest: true,
+        }
+    }
+
+    /// The numbers of every step.
+    pub fn records(&self) -> &[StepReport] {
+        &self.records
+    }
+
+    /// A step, where it is kept whole.
+    pub fn outcome(&self, index: usize) -> Option<&Arc<Outcome>> {
+        self.kept.get(&index).map(|kept| &kept.outcome)
+    }
+
+    /// The steps kept whole, in order.
+    pub fn kept(&self) -> impl DoubleEndedIterator<Item = (usize, &Arc<Outcome>)> {
+        self.kept.iter().map(|(&index, kept)| (index, &kept.outcome))
+    }
+
+    /// The newest step.
+    pub fn newest(&self) -> Option<usize> {
+        self.records.len().checked_sub(1)
+    }
+
+    /// The first step with the fewest defects.
+    pub fn best(&self) -> Option<usize> {
+        self.best
+    }
+
+    /// The step on the screen. It is always kept whole.
+    pub fn shown(&self) -> Option<usize> {
+        self.shown
+    }
+
+    /// The step that the one on the screen is compared with. It is always kept whole.
+    pub fn compared(&self) -> Option<usize> {
+        self.compared
+    }
+
+    /// The next step after `index` that is kept whole.
+    pub fn next_kept(&self, index: usize) -> Option<usize> {
+        self.kept.range(index + 1..).next().map(|(&index, _)| index)
+    }
+
+    /// The last step before `index` that is kept whole.
+    pub fn previous_kept(&self, index: usize) -> Option<usize> {
+        self.kept.range(..index).next_back().map(|(&index, _)| index)
+    }
+
+    /// Bytes of the steps kept whole.
+    pub fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    /// Takes in the next step. Returns whether it is now the one on the screen.
+    ///
+    /// # Panics
+    ///
+    /// If the step is not the next one of its run.
+    pub fn push(&mut self, outcome: Arc<Outcome>) -> bool {
+        let index = self.records.len();
+        assert_eq!(outcome.step.index, index, "steps come in order");
+        let record = StepReport::of(&outcome.step);
+        if self.best.is_none_or(|best| record.defect_count() < self.records[best].defect_count()) {
+            self.best = Some(index);
+        }
+        self.records.push(record);
+        let bytes = outcome.bytes();
+        self.bytes += bytes;
+        self.kept.insert(index, Kept { outcome, bytes });
+        if self.follows_newest {
+            self.shown = Some(index);
+        }
+        self.thin();
+        self.follows_newest
+    }
+
+    /// Puts a step on the screen, or the nearest one before it that is kept whole. Returns whether that is another one
+    /// than before. Whoever looks at the newest step sees the next one as soon as it is there.
+    pub fn show(&mut self, index: usize) -> bool {
+        let Some(found) = self.kept_at_or_before(index) else { return false };
+        self.follows_newest = Some(found) == self.newest();
+        self.shown.replace(found) != Some(found)
+    }
+
+    /// From now on the newest step is on the screen as soon as it is there.
+    pub fn follow_newest(&mut self) {
+        self.follows_newest = true;
+    }
+
+    /// Compares the step on the screen with another one, or the nearest one before it that is kept whole; or with none.
+    pub fn compare(&mut self, index: Option<usize>) {
+        self.compared = index.and_then(|index| self.kept_at_or_before(index));
+    }
+
+    fn kept_at_or_before(&self, index: usize) -> Option<usize> {
+        self.kept.range(..=index).next_back().map(|(&index, _)| index)
+    }
+
+    /// Lets go of whole steps until the rest fits into the budget.
+    fn thin(&mut self) {
+        while self.bytes > self.budget {
+            let expendable = self.most_expendable(|outcome| !outcome.step.verdict.planar);
+            let Some(index) = expendable.or_else(|| self.most_expendable(|_| true)) else { return };
+            if let Some(kept) = self.kept.remove(&index) {
+                self.bytes -= kept.bytes;
+            }
+        }
+    }
+
+    /// Of the steps of some kind, the one whose neighbours are nearest to each other: what remains is even.
+    fn most_expendable(&self, is_of_kind: impl Fn(&Outcome) -> bool) -> Option<usize> {
+        let needed = [Some(0), self.newest(), self.best, self.shown, self.compared];
+        let mut before = 0;
+        let mut found: Option<(usize, usize)> = None;
+        let mut steps = self.kept.iter().peekable();
+        while let Some((&index, kept)) = steps.next() {
+            let Some((after, _)) = steps.peek() else { break };
+            let gap = *after - before;
+            let is_expendable = !needed.contains(&Some(index)) && is_of_kind(&kept.outcome);
+            if is_expendable && found.is_none_or(|(least, _)| gap < least) {
+                found = Some((gap, index));
+            }
+            before = index;
+        }
+        found.map(|(_, index)| index)
+    }
+}
