@@ -111,13 +111,15 @@ impl Magnifier {
     fn mark_on_layout(&self, painter: &egui::Painter, theme: &Theme) {
         let least = Vec2::splat(LEAST_FRAME);
         let frame = Rect::from_center_size(self.looks_at.center(), self.looks_at.size().max(least));
-        let stroke = Stroke::new(1.0, theme.text);
+        let under = Stroke::new(3.0, theme.background.gamma_multiply(0.7));
         let toward = self.rect.clamp(frame.center());
         let from = frame.expand(1.0).clamp(toward);
         if !self.rect.intersects(frame) {
-            painter.line_segment([from, toward], Stroke::new(1.0, theme.weak_text));
+            painter.line_segment([from, toward], under);
+            painter.line_segment([from, toward], Stroke::new(1.0, theme.text));
         }
-        painter.rect_stroke(frame, 1.0, stroke, StrokeKind::Outside);
+        painter.rect_stroke(frame.expand(1.0), 1.0, under, StrokeKind::Middle);
+        painter.rect_stroke(frame.expand(1.0), 1.0, Stroke::new(1.25, theme.text), StrokeKind::Middle);
     }
 
     fn frame(&self, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene), theme: &Theme) -> PlaneFrame {

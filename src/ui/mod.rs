@@ -8,6 +8,7 @@ mod dialogs;
 mod editor;
 mod editor_scenes;
 mod editor_timeline;
+mod equation_table;
 mod floating;
 mod framing;
 mod hull;

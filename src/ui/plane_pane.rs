@@ -57,6 +57,7 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
     select(ui, &response, editor, &plane, requests);
+    super::equation_table::draw(ui, rect, editor, &plane, camera);
     marks(ui, rect, editor, (&mesh, &plane), camera);
     if !plane.is_stage() {
         drag_pins(ui, rect, editor, camera, requests);

@@ -263,6 +263,15 @@ impl Window {
         self.harness.output().shapes.iter().any(|shape| is_ring(&shape.shape))
     }
 
+    /// The ends of all straight lines painted in the last frame.
+    pub(crate) fn lines(&self) -> Vec<[Pos2; 2]> {
+        let line = |shape: &egui::Shape| match shape {
+            egui::Shape::LineSegment { points, .. } => Some(*points),
+            _ => None,
+        };
+        self.harness.output().shapes.iter().filter_map(|shape| line(&shape.shape)).collect()
+    }
+
     /// Whether a frame around a part of the window, and not much more, was painted in the last frame.
     pub(crate) fn has_frame_around(&self, part: Rect) -> bool {
         let is_frame = |shape: &egui::Shape| match shape {

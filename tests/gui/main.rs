@@ -5,6 +5,7 @@
 
 mod defects;
 mod dialogs;
+mod equation;
 mod gestures;
 mod glyphs;
 mod harness;
