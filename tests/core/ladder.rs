@@ -1,0 +1,189 @@
+//! The ladder (`auto`): it ends planar on every disk, whatever the first rung was given.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use freebound::examples::Example;
+use freebound::mesh::{DiskMesh, VertexId};
+use freebound::solver::{Control, Ending, Family, Method, Phase, Pins, Run, Settings, SolveError, Step, verdict};
+use glam::DVec2;
+
+use crate::common::{Random, corpus_disks};
+use crate::shapes::interior_pair;
+
+const FAMILIES: [Family; 3] = [Family::Conformal, Family::MeanValue, Family::Wachspress];
+
+fn disk(example: Example) -> DiskMesh {
+    DiskMesh::try_from(example.mesh()).unwrap()
+}
+
+fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Vec<Step> {
+    let mut steps = Vec::new();
+    Run::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+    steps
+}
+
+/// Pins on two vertices, at their distance in space.
+fn pins_on(mesh: &DiskMesh, [a, b]: [VertexId; 2]) -> Pins {
+    Pins::from([(a, DVec2::ZERO), (b, DVec2::new(mesh.position(a).distance(mesh.position(b)), 0.0))])
+}
+
+fn boundary_pair(mesh: &DiskMesh, random: &mut Random) -> [VertexId; 2] {
+    let boundary = mesh.boundary_loop();
+    let count = u32::try_from(boundary.len()).unwrap();
+    let first = random.below(count);
+    let second = (first + 1 + random.below(count - 1)) % count;
+    [first, second].map(|place| boundary[place as usize])
+}
+
+#[test]
+fn auto_ends_planar_on_every_disk_of_the_corpus() {
+    for entry in corpus_disks() {
+        let mesh = entry.disk();
+        let steps = steps_of(&mesh, Settings::default(), &Pins::new());
+        let last = steps.last().unwrap();
+        println!("{}: {} steps, {}", entry.file, steps.len(), last.rung.name());
+        assert!(last.verdict.planar, "{}: {}", entry.file, last.verdict.summary());
+        assert!(!last.verdict.mirrored);
+    }
+}
+
+#[test]
+fn auto_ends_planar_from_any_two_pins_and_any_family() {
+    let mut random = Random(0xadd);
+    let corpus = corpus_disks();
+    let small = corpus.iter().map(|entry| (entry.file.clone(), entry.disk())).filter(|(_, m)| m.face_count() < 6_000);
+    let built_in = Example::ALL.map(|example| (example.name().to_owned(), disk(example)));
+    for (name, mesh) in built_in.into_iter().chain(small) {
+        for pair in [boundary_pair(&mesh, &mut random), interior_pair(&mesh, &mut random)] {
+            let pins = pins_on(&mesh, pair);
+            for family in FAMILIES {
+                let steps = steps_of(&mesh, Settings::new(Method::Auto, family), &pins);
+                let last = steps.last().unwrap();
+                assert!(last.verdict.planar, "{name}, {family}, pins {pair:?}: {}", last.verdict.summary());
+                assert!(verdict(&mesh, &last.solution.embedding).planar);
+                for (v, target) in &pins {
+                    assert_eq!(last.solution.embedding[v.index()], *target, "{name}: pins are met to the last bit");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+#[ignore = "1200 runs take minutes: `cargo bench --bench ladder` prints their table"]
+fn auto_ends_planar_in_all_twelve_hundred_runs() {
+    let mut random = Random(0xadd2);
+    for entry in corpus_disks() {
+        let mesh = entry.disk();
+        for _ in 0..20 {
+            let pins = pins_on(&mesh, boundary_pair(&mesh, &mut random));
+            for family in FAMILIES {
+                let steps = steps_of(&mesh, Settings::new(Method::Auto, family), &pins);
+                let last = steps.last().unwrap();
+                assert!(last.verdict.planar, "{}, {family}, {pins:?}: {}", entry.file, last.verdict.summary());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_free_boundary_is_looked_for_before_one_is_bent() {
+    let Some(entry) = corpus_disks().into_iter().find(|entry| entry.file == "bunny_disk.obj") else { return };
+    let mesh = entry.disk();
+    let mut random = Random(94);
+    let loops = |steps: &Vec<Step>| !steps[0].has_simple_boundary();
+    let mut tries = (0..20).map(|_| pins_on(&mesh, boundary_pair(&mesh, &mut random)));
+    let steps = tries
+        .find_map(|pins| Some(steps_of(&mesh, Settings::new(Method::Auto, Family::Wachspress), &pins)).filter(loops))
+        .expect("for some pins these weights cross the boundary");
+    let last = steps.last().unwrap();
+    assert!(last.verdict.planar && !last.has_convex_boundary());
+    assert!(steps.iter().any(|step| step.note.as_ref().is_some_and(|note| note.contains("started again"))));
+}
+
+#[test]
+fn a_singular_first_rung_is_noted_and_stepped_over() {
+    let Some(entry) = corpus_disks().into_iter().find(|entry| entry.file == "maze.obj") else { return };
+    let mesh = entry.disk();
+    let alone = Run::new(Settings::new(Method::Natural, Family::MeanValue), Pins::new()).finish(
+        &mesh,
+        Control::unattended(),
+        |_| (),
+    );
+    assert!(matches!(alone, Err(SolveError::Singular { .. })), "{alone:?}");
+    let steps = steps_of(&mesh, Settings::new(Method::Auto, Family::MeanValue), &Pins::new());
+    assert!(steps[0].note.as_ref().is_some_and(|note| note.contains("singular")), "{:?}", steps[0].note);
+    assert!(steps.last().unwrap().verdict.planar);
+}
+
+#[test]
+fn what_the_user_got_wrong_is_an_error_and_no_rung_hides_it() {
+    let mesh = disk(Example::Dome);
+    let twice = Pins::from([(VertexId::new(1), DVec2::ONE), (VertexId::new(2), DVec2::ONE)]);
+    let outcome = Run::new(Settings::default(), twice).step(&mesh, Control::unattended());
+    assert!(matches!(outcome, Err(SolveError::CoincidentPins { .. })));
+    let uniform =
+        Run::new(Settings::new(Method::Auto, Family::Uniform), Pins::new()).step(&mesh, Control::unattended());
+    assert!(matches!(uniform, Err(SolveError::FamilyNotApplicable { .. })));
+}
+
+#[test]
+fn constraints_are_iterated_on_but_no_boundary_is_bent_for_them() {
+    let mesh = disk(Example::Face);
+    let mut pins = Pins::new();
+    let boundary = mesh.boundary_loop();
+    for (k, &v) in boundary.iter().step_by(boundary.len() / 5).enumerate() {
+        // Five places of a pentagram: the boundary has to cross itself.
+        pins.insert(v, DVec2::from_angle(2.0 * std::f64::consts::TAU * k as f64 / 5.0) * 10.0);
+    }
+    let mut run = Run::new(Settings { max_steps: 4, ..Settings::default() }, pins.clone());
+    let mut steps = Vec::new();
+    let ending = run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+    assert!(matches!(ending, Ending::Limit | Ending::Stalled), "{ending:?}");
+    assert!(steps[1..].iter().all(|step| step.rung == Method::Iterate));
+    assert!(steps.iter().all(|step| pins.iter().all(|(v, at)| step.solution.embedding[v.index()] == *at)));
+}
+
+#[test]
+fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
+    let mesh = disk(Example::Cube);
+    let pins = pins_on(&mesh, interior_pair(&mesh, &mut Random(3)));
+    let settings = Settings::new(Method::Auto, Family::Wachspress);
+    let undisturbed: Vec<Vec<DVec2>> =
+        steps_of(&mesh, settings, &pins).into_iter().map(|step| step.solution.embedding).collect();
+
+    let mut run = Run::new(settings, pins);
+    let mut found = Vec::new();
+    let mut cancelled = 0;
+    // Every step is first cancelled at its first, second … phase, then let through.
+    for allowed in 0.. {
+        if run.ending().is_some() {
+            break;
+        }
+        let (flag, phases) = (AtomicBool::new(false), AtomicUsize::new(0));
+        let report = |_: Phase| {
+            if phases.fetch_add(1, Ordering::Relaxed) == allowed % 7 {
+                flag.store(true, Ordering::Relaxed);
+            }
+        };
+        match run.step(&mesh, Control::new(&flag, &report)) {
+            Ok(step) => found.push(step.solution.embedding),
+            Err(error) => {
+                assert_eq!(error, SolveError::Cancelled);
+                cancelled += 1;
+            }
+        }
+    }
+    assert!(cancelled > 0, "some were cancelled");
+    assert_eq!(found, undisturbed);
+}
+
+#[test]
+fn the_same_run_gives_the_same_bits() {
+    let mesh = disk(Example::Cube);
+    let settings = Settings::new(Method::Auto, Family::MeanValue);
+    let bits = || -> Vec<Vec<DVec2>> {
+        steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.solution.embedding).collect()
+    };
+    assert_eq!(bits(), bits());
+}
