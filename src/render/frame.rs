@@ -85,6 +85,15 @@ pub struct FillLayer {
     pub colour: Srgb,
 }
 
+/// A line over the embedding whose vertices are not the embedding's.
+#[derive(Clone, Debug)]
+pub struct GhostLayer {
+    /// Where its vertices lie, in the same unit space as the embedding.
+    pub plane: Arc<PlaneArrays>,
+    /// The line.
+    pub line: LineLayer,
+}
+
 /// A picture in the plane.
 #[derive(Clone, Debug)]
 pub struct PictureLayer {
@@ -130,6 +139,8 @@ pub struct PlaneFrame {
     pub fills: Vec<FillLayer>,
     /// Lines, the later over the earlier.
     pub lines: Vec<LineLayer>,
+    /// A line of another embedding, over all others.
+    pub ghost: Option<GhostLayer>,
     /// The picture behind the embedding.
     pub picture: Option<PictureLayer>,
     /// What part of the plane is seen.

@@ -154,7 +154,8 @@ impl Planner<'_> {
         for layer in &frame.fills {
             plan.push_fill(self.fill_draw(plane, layer), LineUniforms::new(layer.colour, 0.0, 1.0, 0.0));
         }
-        for layer in &frame.lines {
+        let ghost = frame.ghost.as_ref().map(|ghost| (&ghost.plane, &ghost.line));
+        for (plane, layer) in frame.lines.iter().map(|layer| (plane, layer)).chain(ghost) {
             let key = Key::PlaneLines(plane.revision(), layer.edges.revision());
             self.ensure_with(key, || segments(plane.points(), vertex_pairs(&layer.edges)));
             plan.push_line(self.line_draw(key, PLANE_LINE_STRIDE), self.line(layer, 0.0));

@@ -8,11 +8,12 @@ use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
+use super::compare::Ghost;
 use super::dialogs::{Choice, Dialogs, Purpose, kind_of};
 use super::framing::{grown, grown_box, positions_of};
 use super::pane::PinOwner;
 use super::scene::{MeshScene, Paint, PlaneScene, vertices_of};
-use super::{Defect, HullView, Pane, Request, Shading, Tab, TimelineView, Tool};
+use super::{Defect, Ease, HullView, Pane, Request, Shading, Tab, TimelineView, Tool};
 use crate::mesh::VertexId;
 use crate::session::{Action, Busy, Job, OutputFit, RecentFiles, SaveRequest, Session};
 use crate::view::{OrbitCamera, PlaneCamera};
@@ -43,6 +44,8 @@ pub struct Editor {
     pub split: f32,
     /// Hull and pockets of the virtual boundary.
     pub hull: HullView,
+    /// The way between steps.
+    pub ease: Ease,
     /// Whether an inset magnifies a defect.
     pub magnifier: bool,
     /// Selected vertices.
@@ -91,6 +94,7 @@ pub struct Editor {
     pub(super) plane_scene: Option<Arc<PlaneScene>>,
     pub(super) plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
     pub(super) paint: Option<Paint>,
+    pub(super) ghost: Option<Ghost>,
     pub(super) busy_since: Option<Instant>,
 }
 
@@ -115,6 +119,7 @@ impl Editor {
             full: None,
             split: 0.5,
             hull: HullView::default(),
+            ease: Ease::default(),
             magnifier: true,
             selection: BTreeSet::new(),
             hovered: None,
@@ -142,6 +147,7 @@ impl Editor {
             plane_scene: None,
             plane_scene_job: None,
             paint: None,
+            ghost: None,
             busy_since: None,
         }
     }
@@ -182,7 +188,9 @@ impl Editor {
         self.go_on_playing();
         self.poll_mesh_scene();
         self.poll_plane_scene();
+        self.go_on_easing();
         self.poll_hull_scene();
+        self.refresh_ghost();
         self.refresh_paint();
         match (self.session.busy(), self.busy_since) {
             (Some(_), None) => self.busy_since = Some(Instant::now()),
@@ -209,6 +217,7 @@ impl Editor {
             Request::SetTool(tool) => self.tool = tool,
             Request::SetShading(shading) => self.shading = shading,
             Request::ToggleWireframe => self.wireframe = !self.wireframe,
+            Request::ToggleEase => self.ease.wanted = !self.ease.wanted,
             Request::ToggleMagnifier => self.magnifier = !self.magnifier,
             Request::ToggleHull => self.toggle_hull(),
             Request::SetStage(stage) => self.hull.stage = stage,

@@ -228,7 +228,7 @@ impl Editor {
     /// What the embedding's pane draws and picks in: the shown step's embedding, or a stage on the way to it.
     pub fn drawn_plane(&self) -> Option<&Arc<PlaneScene>> {
         let stage = self.hull_scene().and_then(|scene| scene.plane.as_ref()).map(|(plane, _)| plane);
-        stage.or(self.plane_scene.as_ref())
+        stage.or(self.result_plane())
     }
 
     /// The faces' colours at a stage that is not the result; there the distortion of the result says nothing.

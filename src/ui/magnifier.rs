@@ -129,6 +129,7 @@ impl Magnifier {
             paint: editor.paint().map(|paint| Arc::clone(&paint.faces)),
             fills: Vec::new(),
             lines: vec![mesh_pane::boundary_line(mesh, theme)],
+            ghost: editor.ghost.as_ref().map(|ghost| ghost.layer(theme)),
             picture: None,
             style: render::Style { shading: Shading::Plain, wire_in_points: 1.0, ..mesh_pane::style(editor) },
             palette: theme.palette,

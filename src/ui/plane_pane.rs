@@ -6,6 +6,7 @@ use eframe::egui;
 use egui::{CursorIcon, Pos2, Rect, Response, Role, Sense, Vec2, WidgetInfo};
 use glam::DVec2;
 
+use super::compare;
 use super::hull;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, clicked, cursor, style};
@@ -57,8 +58,8 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
     select(ui, &response, editor, &plane, requests);
-    super::equation_table::draw(ui, rect, editor, &plane, camera);
     marks(ui, rect, editor, (&mesh, &plane), camera);
+    super::equation_table::draw(ui, rect, editor, &plane, camera);
     if !plane.is_stage() {
         drag_pins(ui, rect, editor, camera, requests);
     }
@@ -69,7 +70,10 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     if editor.mesh_hidden()
         && let Some(legend) = editor.paint().and_then(|paint| paint.legend.as_ref())
     {
-        pane::legend(ui, rect, legend, editor.shading.title());
+        pane::legend(ui, rect, legend, &editor.shading_title());
+    }
+    if !plane.is_stage() {
+        compare::ghost_note(ui, rect, editor);
     }
 }
 
@@ -138,6 +142,7 @@ fn frame(editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCam
         paint: paint.map(Arc::clone),
         fills,
         lines,
+        ghost: editor.ghost.as_ref().filter(|_| !plane.is_stage()).map(|ghost| ghost.layer(theme)),
         picture: None,
         style,
         palette: theme.palette,

@@ -29,11 +29,13 @@ pub enum Shading {
     Area,
     /// Stretch.
     Stretch,
+    /// Distance moved since another step.
+    Move,
 }
 
 impl Shading {
     /// All shadings, in the order of menus.
-    pub const ALL: [Self; 5] = [Self::Plain, Self::Checker, Self::Angle, Self::Area, Self::Stretch];
+    pub const ALL: [Self; 6] = [Self::Plain, Self::Checker, Self::Angle, Self::Area, Self::Stretch, Self::Move];
 
     /// Its name in menus.
     pub const fn title(self) -> &'static str {
@@ -43,6 +45,7 @@ impl Shading {
             Self::Angle => "Angle distortion",
             Self::Area => "Area distortion",
             Self::Stretch => "Stretch",
+            Self::Move => "Move",
         }
     }
 
@@ -54,6 +57,7 @@ impl Shading {
             Self::Angle => "ratio of the singular values σ₁/σ₂ per face: 1 keeps angles",
             Self::Area => "area in the plane over area on the mesh per face, at equal total areas: 1 keeps areas",
             Self::Stretch => "root mean square stretch from the plane to the mesh per face (L²)",
+            Self::Move => "how far faces have moved since the compared step, or else since the one before",
         }
     }
 }
@@ -130,6 +134,8 @@ pub enum Request {
     ToggleWireframe,
     /// Shows or hides the inset that magnifies a defect.
     ToggleMagnifier,
+    /// Lets vertices glide from step to step, or not.
+    ToggleEase,
     /// Shows or hides hull and pockets of the virtual boundary.
     ToggleHull,
     /// Chooses the stage of the virtual boundary that shows.

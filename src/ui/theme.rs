@@ -45,6 +45,8 @@ pub struct Theme {
     pub separator: Color32,
     /// The boundary's line.
     pub boundary: Srgb,
+    /// The outline of a step that is compared.
+    pub ghost: Srgb,
     /// The hull of a virtual boundary.
     pub hull: Srgb,
     /// Edges of the pockets between boundary and hull.
@@ -81,6 +83,7 @@ pub const LIGHT: Theme = Theme {
     weak_text: hex(0x006A_6D70),
     separator: hex(0x00DD_DDD9),
     boundary: Srgb::from_hex(0x003A_3A38),
+    ghost: Srgb::from_hex(0x002F_5BD8).with_alpha(150),
     hull: Srgb::from_hex(0x00C9_3A3A),
     pocket: Srgb::from_hex(0x003F_A34D).with_alpha(170),
     pocket_fill: Srgb::from_hex(0x003F_A34D).with_alpha(78),
@@ -116,6 +119,7 @@ pub const DARK: Theme = Theme {
     weak_text: hex(0x009B_9EA3),
     separator: hex(0x0038_3A3F),
     boundary: Srgb::from_hex(0x00EC_ECE8),
+    ghost: Srgb::from_hex(0x007B_9BFF).with_alpha(170),
     hull: Srgb::from_hex(0x00FF_7070),
     pocket: Srgb::from_hex(0x0058_C46B).with_alpha(110),
     pocket_fill: Srgb::from_hex(0x0058_C46B).with_alpha(24),

@@ -125,7 +125,8 @@ impl Window {
         let plane_drawn = editor.plane_scene().map(|scene| scene.outcome_revision);
         let mesh_wanted = session.model().map(|_| session.model_revision());
         let plane_wanted = session.outcome().map(|_| session.outcome_revision());
-        let scenes_drawn = mesh_drawn == mesh_wanted && plane_drawn == plane_wanted && editor.hull_is_drawn();
+        let scenes_drawn =
+            mesh_drawn == mesh_wanted && plane_drawn == plane_wanted && editor.hull_is_drawn() && !editor.is_easing();
         session.busy().is_none() && scenes_drawn
     }
 

@@ -115,6 +115,7 @@ fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
         plane: Some(Arc::new(PlaneArrays::new(&embedding, &triangles))),
         paint: Some(Arc::new(FacePaint::plain(triangles.len(), flipped))),
         fills: Vec::new(),
+        ghost: None,
         lines: Vec::new(),
         picture: None,
         camera: PlaneCamera::framing(box_of_sheet, PANE_SIZE),

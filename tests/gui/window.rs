@@ -116,6 +116,7 @@ fn each_menu_has_its_entries() {
                 "Wireframe",
                 "Hull and pockets",
                 "Magnifier over a defect",
+                "Glide from step to step",
                 "Panels",
                 "Frame the selection, or all",
                 "Go to…",
@@ -123,7 +124,7 @@ fn each_menu_has_its_entries() {
                 "Previous defect",
             ],
         ),
-        (&["View", "Shading"], &["Plain", "Checker", "Angle distortion", "Area distortion", "Stretch"]),
+        (&["View", "Shading"], &["Plain", "Checker", "Angle distortion", "Area distortion", "Stretch", "Move"]),
         (&["View", "Theme"], &["As the system", "Light", "Dark"]),
         (&["Solve"], &["Solve again", "Cancel", "Method and weights"]),
         (&["Help"], &["All keys"]),
@@ -166,7 +167,9 @@ fn each_shading_of_the_view_menu_is_put_on() {
         window.menu(&["View", "Shading", shading.title()]);
         assert_eq!(window.editor().shading, shading);
         let legend = window.editor().paint().expect("painted").legend.is_some();
-        assert_eq!(legend, !matches!(shading, Shading::Plain | Shading::Checker), "{shading:?}");
+        // Nothing has moved at the first step.
+        let is_bare = matches!(shading, Shading::Plain | Shading::Checker | Shading::Move);
+        assert_eq!(legend, !is_bare, "{shading:?}");
     }
     window.choose("Shading of both panes", "Stretch");
     assert_eq!(window.editor().shading, Shading::Stretch);
