@@ -2,16 +2,11 @@
 
 use glam::DVec2;
 
-<<<<<<< HEAD
 use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{Distortion, Pins, Run, Settings, Step, distortion, to_unit_square};
-=======
-use crate::mesh::DiskMesh;
 use crate::solver::{
     Distortion, Pins, Run, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
     to_unit_square_by_power_of_two, verdict,
 };
->>>>>>> part-c
 
 /// What to do with the size of an embedding that the user's pins do not fix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -68,7 +63,6 @@ impl Outcome {
         Self { settings: *run.settings(), pins: run.pins().clone(), step, distortion }
     }
 
-<<<<<<< HEAD
     /// Bytes of memory that it takes, the factors of a linear solve excepted: they are kept once, for the next solve.
     pub fn bytes(&self) -> usize {
         let Step { solution, verdict, virtual_boundary, .. } = &self.step;
@@ -89,12 +83,6 @@ impl Outcome {
             + stages
     }
 
-    /// The coordinates that go into a file. The user's pins keep their places; without any, `fit` decides the size.
-    pub fn output(&self, fit: OutputFit) -> Vec<DVec2> {
-        let mut coordinates = self.step.solution.embedding.clone();
-        if fit == OutputFit::Unit && self.pins_in_use().next().is_none() {
-            to_unit_square(&mut coordinates);
-=======
     /// The coordinates that go into a file, where they lie, and the verdict on them. The user's pins keep their
     /// places; without any, `fit` decides the size.
     ///
@@ -104,7 +92,6 @@ impl Outcome {
         let embedding = &self.step.solution.embedding;
         if self.pins_in_use().next().is_some() {
             return (embedding.clone(), Placement::Pins, self.step.verdict.clone());
->>>>>>> part-c
         }
         if fit == OutputFit::True {
             return (embedding.clone(), Placement::TrueArea, self.step.verdict.clone());

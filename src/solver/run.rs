@@ -25,8 +25,7 @@ use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
 use super::{
-    Control, Family, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, flatten, gauge_pins,
-    verdict,
+    Control, Family, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, flatten, gauge_pins, verdict,
 };
 use crate::mesh::DiskMesh;
 
