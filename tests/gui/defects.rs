@@ -4,6 +4,7 @@ use eframe::egui;
 use egui::{Key, Modifiers};
 use freebound::mesh::VertexId;
 use freebound::session::Action;
+use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Defect;
 
 use crate::harness::{Window, corpus, sheet};
@@ -15,8 +16,11 @@ fn folded() -> Window {
     window
 }
 
-/// Exchanges two inner vertices of a sheet of 6 × 6 squares, its corners pinned.
+/// Exchanges two inner vertices of a sheet of 6 × 6 squares, its corners pinned, and repairs nothing.
 pub(crate) fn fold(window: &mut Window) {
+    let natural = Settings::new(Method::Natural, Family::Conformal);
+    window.editor_mut().session.handle(Action::SetSettings(natural));
+    window.settle();
     let embedding = window.embedding();
     let [a, b] = [VertexId::new(16), VertexId::new(32)];
     let session = &mut window.editor_mut().session;
@@ -84,6 +88,9 @@ fn a_defect_that_is_gone_is_not_gone_to() {
 fn the_crossings_of_the_cow_are_listed_and_shown() {
     let Some(corpus) = corpus() else { return };
     let mut window = Window::with_file(&corpus.join("cow_seamster.obj"));
+    let natural = Settings::new(Method::Natural, Family::Conformal);
+    window.editor_mut().session.handle(Action::SetSettings(natural));
+    window.settle();
     let outcome = window.outcome();
     assert!(!outcome.step.verdict.planar && !outcome.step.verdict.boundary_crossings.is_empty());
     assert!(window.verdict().contains("crossing"), "{}", window.verdict());

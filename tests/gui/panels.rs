@@ -64,6 +64,7 @@ fn each_family_solves_when_it_is_chosen() {
 #[test]
 fn other_weights_change_the_verdict_s_words() {
     let mut window = Window::with_example(Example::Dome);
+    window.choose("Method", "Natural boundary");
     assert_eq!(window.verdict(), "Planar: proved");
     window.choose("Weights", "Wachspress");
     let count = window.outcome().step.verdict.flipped_faces.len();
