@@ -32,19 +32,22 @@ pub(super) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             family_menu(ui, &mut chosen);
             ui.end_row();
         }
-        if chosen.method.uses_pins() {
-            ui.label("Pinned");
-            treatment_menu(ui, &mut chosen);
-            ui.end_row();
-        }
     });
-    if chosen != settings {
-        requests.push(Request::Do(Action::SetSettings(chosen)));
-    }
     if settings.method.uses_family()
         && let Some(power) = settings.family.power()
     {
         power_slider(ui, settings, power, requests);
+    }
+    if chosen.method.uses_pins() {
+        ui.add_space(2.0);
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 12.0;
+            ui.label("Pinned");
+            treatment_menu(ui, &mut chosen);
+        });
+    }
+    if chosen != settings {
+        requests.push(Request::Do(Action::SetSettings(chosen)));
     }
     ui.add_space(6.0);
     if let Some(entry) = METHODS.iter().find(|entry| entry.name == settings.method.name()) {

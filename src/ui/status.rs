@@ -14,7 +14,9 @@ pub(super) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.label(RichText::new(numbers(editor)).color(weak).monospace());
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                ui.add(egui::Label::new(RichText::new(hint(editor)).color(weak)).truncate());
+                let hint = hint(editor);
+                let ink = if hint == PRESS_SPACE { theme_of(ui).text } else { weak };
+                ui.add(egui::Label::new(RichText::new(hint).color(ink)).truncate());
             });
         });
     });

@@ -79,6 +79,7 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
                 if let Some(words) = rest_words(editor).filter(|_| room == Room::Ample) {
                     ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
                 }
+                ui.add_space(6.0);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| chips(ui, editor, requests));
             });
         },

@@ -188,7 +188,7 @@ pub(super) fn lasting_menu(ui: &mut egui::Ui, words: &str, add: impl FnOnce(&mut
     // Room at the end for the mark that tells a menu from a button.
     let button = Button::new(RichText::new(format!("{words}    ")).color(ink)).frame(false);
     let (response, _) = MenuButton::from_button(button).config(config).ui(ui, add);
-    let middle = response.rect.right_center() - Vec2::new(14.0, -1.0);
+    let middle = response.rect.right_center() - Vec2::new(4.5, -1.0);
     let corners = [(-3.5, -2.0), (3.5, -2.0), (0.0, 3.0)].map(|(x, y)| middle + Vec2::new(x, y));
     ui.painter().add(Shape::convex_polygon(corners.to_vec(), ink, Stroke::NONE));
     response

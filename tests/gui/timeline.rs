@@ -86,6 +86,23 @@ fn run_goes_on_until_it_is_planar() {
 }
 
 #[test]
+fn an_embedding_that_leaves_the_pane_is_framed_anew_unless_a_detail_is_looked_at() {
+    let mut window = at_first_start(SIZE);
+    let is_in_sight = |window: &Window| {
+        let view = window.plane_view();
+        window.embedding().into_iter().all(|point| view.contains(window.place_in_plane(point)))
+    };
+    assert!(is_in_sight(&window));
+    window.key(Key::Space);
+    assert!(is_in_sight(&window), "the step moves the top of the face out of a view that stays");
+    let mut camera = window.editor().plane_camera.expect("framed");
+    camera.zoom_at(window.editor().plane_pane_size / 2.0, 4.0, window.editor().plane_pane_size);
+    window.editor_mut().plane_camera = Some(camera);
+    window.key(Key::ArrowLeft);
+    assert_eq!(window.editor().plane_camera, Some(camera), "whoever looks at a detail keeps it");
+}
+
+#[test]
 fn run_becomes_pause_while_it_goes_on() {
     let mut window = long_run();
     while step_count(&window) < 3 {
