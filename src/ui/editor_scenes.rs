@@ -52,7 +52,7 @@ impl Editor {
                 Poll::Done(scene) => {
                     self.plane_scene_job = None;
                     if self.plane_camera.is_none() {
-                        self.plane_camera = Some(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
+                        self.set_framed(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
                     }
                     self.take_plane_scene(scene);
                 }
