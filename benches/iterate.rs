@@ -4,6 +4,10 @@
 
 mod common;
 
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
 use freebound::mesh::DiskMesh;
 use freebound::solver::{
     Control, Family, Iteration, Method, Pins, Settings, Treatment, flatten, gauge_pins, largest_move,
@@ -19,6 +23,9 @@ const SIZES: [usize; 3] = [20_000, 100_000, 500_000];
 
 /// Rounds of every measurement.
 const ROUNDS: usize = 5;
+
+/// Moments, spread over a step, at which it is cancelled.
+const CANCELS: u32 = 40;
 
 fn main() {
     print_machine();
@@ -70,6 +77,43 @@ fn main() {
             format!("{:.2} ×", steps[1].median() / first.median()),
             format!("{moved:.1e}"),
         ]);
+    }
+    table.print();
+    cancelling();
+}
+
+/// How long it takes from the wish to stop until the step has stopped, at moments spread over the whole step.
+fn cancelling() {
+    let heads = ["vertices", "median", "longest"];
+    let mut table = Table::new("cancelling a least-squares step, seconds until it has stopped", &heads);
+    for vertices in [20_000, 100_000] {
+        let mesh = DiskMesh::try_from(sheet_of_faces(2 * vertices)).expect("the sheet is a disk");
+        let first = flatten(&mesh, &Settings::default(), &Pins::new(), Control::unattended()).expect("solvable");
+        let iteration =
+            Iteration::new(&mesh, &first.pins, Treatment::LeastSquares, Control::unattended()).expect("analysable");
+        let (whole, _) = time(|| iteration.step(&mesh, &first.embedding, Control::unattended()).expect("solvable"));
+        let mut waits = Times::default();
+        let mut longest = 0.0_f64;
+        for k in 0..CANCELS {
+            let flag = AtomicBool::new(false);
+            let until = Duration::from_secs_f64(whole * f64::from(k) / f64::from(CANCELS));
+            let raised = Mutex::new(Instant::now());
+            std::thread::scope(|scope| {
+                scope.spawn(|| {
+                    std::thread::sleep(until);
+                    *raised.lock().expect("nobody panics") = Instant::now();
+                    flag.store(true, Ordering::Relaxed);
+                });
+                let outcome = iteration.step(&mesh, &first.embedding, Control::new(&flag, &|_| {}));
+                let ended = Instant::now();
+                if outcome.is_err() {
+                    let wait = ended.duration_since(*raised.lock().expect("nobody panics")).as_secs_f64();
+                    waits.add(wait);
+                    longest = longest.max(wait);
+                }
+            });
+        }
+        table.row([mesh.vertex_count().to_string(), seconds(waits.median()), seconds(longest)]);
     }
     table.print();
 }

@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Family, Method, Settings};
+use crate::solver::{BoundaryShape, Family, Growth, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -34,6 +34,9 @@ pub enum Command {
     Check(CheckArguments),
     /// List methods and families with their sources.
     Methods,
+    /// Compute the paper's figures again, as drawings (SVG), pictures (PNG) and a table (CSV).
+    #[command(after_help = EXIT_HELP)]
+    Figures(FiguresArguments),
 }
 
 /// Arguments of `flatten`.
@@ -56,6 +59,16 @@ pub struct FlattenArguments {
     /// Pin a vertex, numbered from 0, at u,v. Repeatable.
     #[arg(long = "pin", value_name = "V:U,V", value_parser = parse_pin, allow_hyphen_values = true)]
     pub pins: Vec<(VertexId, DVec2)>,
+    /// What becomes of the pinned vertices' equations. Without it: of two pins eliminated, of more kept, and kept in
+    /// the iteration.
+    #[arg(long, value_enum)]
+    pub treatment: Option<TreatmentName>,
+    /// The most mean-value iterations, for `auto` and `iterate`; 60 without it.
+    #[arg(long, value_name = "N")]
+    pub max_steps: Option<usize>,
+    /// How the virtual boundary pins more of the boundary while it crosses itself, for `auto` and `virtual-boundary`.
+    #[arg(long, value_enum)]
+    pub growth: Option<GrowthName>,
     /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface.
     #[arg(long, value_enum, default_value_t = Fit::Unit)]
     pub fit: Fit,
@@ -68,6 +81,10 @@ pub struct FlattenArguments {
     /// Draw the mesh and the layout side by side here (PNG).
     #[arg(long, value_name = "FILE")]
     pub png: Option<PathBuf>,
+    /// Draw every step into this folder (SVG), with a table of their numbers (steps.csv). The steps of an earlier run in
+    /// it are replaced.
+    #[arg(long, value_name = "DIR")]
+    pub steps: Option<PathBuf>,
     /// Threads to use; all cores without it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -88,8 +105,36 @@ impl FlattenArguments {
             MethodName::Lscm => Method::Lscm,
             MethodName::Levy => Method::Levy,
         };
-        Settings::new(method, self.family)
+        let treatment = self.treatment.map(|name| match name {
+            TreatmentName::Eliminate => Treatment::Eliminate,
+            TreatmentName::LeastSquares => Treatment::LeastSquares,
+        });
+        let growth = match self.growth {
+            Some(GrowthName::One) => Growth::One,
+            Some(GrowthName::Double) | None => Growth::Double,
+        };
+        let max_steps = self.max_steps.unwrap_or(Settings::MAX_STEPS);
+        Settings { treatment, max_steps, growth, ..Settings::new(method, self.family) }
     }
+
+    /// An option that was given but means nothing to the method, and why.
+    pub fn idle_option(&self) -> Option<(&'static str, &'static str)> {
+        let method = self.settings().method;
+        let cases = [
+            (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary by itself"),
+            (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
+            (self.max_steps.is_some(), method.iterates(), "--max-steps", "only auto and iterate do iterate"),
+            (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary pin more"),
+        ];
+        cases.into_iter().find(|(given, applies, ..)| *given && !applies).map(|(_, _, option, why)| (option, why))
+    }
+}
+
+/// Arguments of `figures`.
+#[derive(Debug, Args)]
+pub struct FiguresArguments {
+    /// The folder to write into; made where it is missing.
+    pub folder: PathBuf,
 }
 
 /// Arguments of `check`.
@@ -119,6 +164,24 @@ pub enum MethodName {
     Lscm,
     /// Lévy's equations summed around vertices (paper §3.2)
     Levy,
+}
+
+/// Names of the treatments of pinned vertices' equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TreatmentName {
+    /// Leave them out (paper §3.3)
+    Eliminate,
+    /// Keep all, meet them as well as can be (paper §6)
+    LeastSquares,
+}
+
+/// Names of the ways to pin more of the boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum GrowthName {
+    /// Twice as many each time
+    Double,
+    /// One more each time (paper §5)
+    One,
 }
 
 /// Names of the convex shapes.

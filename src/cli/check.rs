@@ -60,6 +60,7 @@ fn report(mesh: MeshReport, start: Instant, read: f64) -> Report {
         mesh,
         method: None,
         boundary: None,
+        placement: None,
         family: None,
         pins: None,
         steps: Vec::new(),

@@ -41,6 +41,7 @@ fn flatten_example() -> Result<Status, Failure> {
         fit: OutputFit::Unit,
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
         report: Some(&report),
+        steps: None,
     };
     let progress = Progress::default();
     write_portrait(&folder.join("portrait.png"))?;

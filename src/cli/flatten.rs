@@ -6,12 +6,16 @@ use std::time::Instant;
 use super::args::{Fit, FlattenArguments};
 use super::progress::{Progress, interrupted, is_interrupted};
 use super::{Failure, Status};
-use crate::io::{OutputKind, Report, StepReport};
+use crate::io::{OutputKind, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
-use crate::session::{Finished, Model, Outcome, OutputFit, Surface};
-use crate::solver::{Control, Phase, Pins, Run, Settings, SolveError};
+use crate::session::{Finished, Model, Outcome, OutputFit, Placement, Surface};
+use crate::solver::{Control, Ending, Method, Phase, Pins, Run, Settings, SolveError, Step};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
+    if let Some((option, why)) = arguments.idle_option() {
+        let name = arguments.settings().method.name();
+        return Err(Failure::Usage(format!("--method {name} takes no {option}: {why}")));
+    }
     set_threads(arguments.threads)?;
     let job = HeadlessJob {
         settings: arguments.settings(),
@@ -29,6 +33,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         .filter_map(|(kind, path)| Some((kind, path?)))
         .collect(),
         report: arguments.report.as_deref(),
+        steps: arguments.steps.as_deref(),
     };
     let progress = Progress::default();
     progress.follow(|| {
@@ -46,6 +51,7 @@ pub(super) struct HeadlessJob<'a> {
     pub(super) fit: OutputFit,
     pub(super) outputs: Vec<(OutputKind, &'a Path)>,
     pub(super) report: Option<&'a Path>,
+    pub(super) steps: Option<&'a Path>,
 }
 
 impl HeadlessJob<'_> {
@@ -53,18 +59,15 @@ impl HeadlessJob<'_> {
     pub(super) fn run(&self, model: &Model, start: Instant, progress: &Progress) -> Result<Status, Failure> {
         let mesh = disk_of(model)?;
         let read_seconds = start.elapsed().as_secs_f64();
-        let report_phase = |phase: Phase| progress.enter(phase.words());
-        let control = Control::new(interrupted(), &report_phase);
-        let mut run = Run::new(self.settings, self.pins.clone());
-        let (mut last, mut records) = (None, Vec::new());
-        run.finish(mesh, control, |step| {
-            records.push(StepReport::of(&step));
-            last = Some(step);
-        })?;
-        let outcome = Outcome::new(mesh, &run, last.expect("a run has a first step"));
+        let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
+        let Solved { outcome, records, ending } = self.solve(mesh, folder.as_mut(), progress)?;
         let mut finished = Finished::new((model, mesh), &outcome, records, self.fit, read_seconds);
         progress.enter("writing");
         let before_writing = Instant::now();
+        go_on()?;
+        if let Some(folder) = folder {
+            folder.finish()?;
+        }
         for (kind, path) in &self.outputs {
             go_on()?;
             finished.write(*kind, path)?;
@@ -77,10 +80,83 @@ impl HeadlessJob<'_> {
             None => {}
         }
         if self.report != Some(Path::new("-")) {
-            print_summary(&finished.report, finished.verdict().summary().as_str());
+            let end = ending_words(&outcome, &finished, ending);
+            print_summary(&finished.report, &end);
         }
         Ok(if finished.verdict().planar { Status::Fine } else { Status::NotPlanar })
     }
+
+    /// Takes all steps of the method.
+    fn solve(
+        &self,
+        mesh: &DiskMesh,
+        mut folder: Option<&mut StepsFolder>,
+        progress: &Progress,
+    ) -> Result<Solved, Failure> {
+        let report_phase = |phase: Phase| progress.enter(phase.words());
+        let control = Control::new(interrupted(), &report_phase);
+        let mut run = Run::new(self.settings, self.pins.clone());
+        let mut records = Vec::new();
+        loop {
+            let step = run.step(mesh, control)?;
+            progress.reach(step_words(&step));
+            records.push(StepReport::of(&step));
+            if let Some(folder) = folder.as_deref_mut() {
+                progress.enter("drawing the step");
+                folder.add(mesh, &step)?;
+            }
+            if let Some(ending) = run.ending() {
+                return Ok(Solved { outcome: Outcome::new(mesh, &run, step), records, ending });
+            }
+        }
+    }
+}
+
+/// A run at its end.
+struct Solved {
+    outcome: Outcome,
+    records: Vec<StepReport>,
+    ending: Ending,
+}
+
+/// A rung in words.
+fn rung_words(rung: Method) -> &'static str {
+    match rung {
+        Method::Natural => "natural boundary",
+        Method::Iterate => "iteration",
+        Method::VirtualBoundary => "virtual boundary",
+        other => other.name(),
+    }
+}
+
+/// What a step reached, for the line that follows the work.
+fn step_words(step: &Step) -> String {
+    let number = if step.rung == Method::Iterate { format!(" {}", step.index) } else { String::new() };
+    format!("{}{number}: {}", rung_words(step.rung), step.verdict.summary())
+}
+
+/// The verdict, and after how many steps and on which rung a run of several came to it.
+fn ending_words(outcome: &Outcome, finished: &Finished, ending: Ending) -> String {
+    let mut words = finished.verdict().summary();
+    let step = &outcome.step;
+    if matches!(outcome.settings.method, Method::Auto | Method::Iterate | Method::VirtualBoundary) {
+        let count = finished.report.steps.len();
+        let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
+        let why = match ending {
+            Ending::Planar | Ending::Done => "",
+            Ending::Stalled => ", which gets no better",
+            Ending::Limit => ", as many as it may take",
+        };
+        let steps = if count == 1 { "step" } else { "steps" };
+        let rung = rung_words(step.rung);
+        words = format!("{words} after {count} {steps} ({rung}{boundary}{why})");
+    }
+    if finished.report.placement == Some(Placement::Unmoved.name()) {
+        words += "; not moved into the unit square, whose numbers would fold it";
+    } else if step.verdict.planar && !finished.verdict().planar {
+        words += "; it was planar before it was brought to this size: try --fit true";
+    }
+    words
 }
 
 /// Writes a report to standard output, which must then hold nothing else.
@@ -104,11 +180,6 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
 }
 
 fn pins(arguments: &FlattenArguments) -> Result<Pins, Failure> {
-    let method = arguments.settings().method;
-    if !arguments.pins.is_empty() && !method.uses_pins() {
-        let name = method.name();
-        return Err(Failure::Usage(format!("--method {name} takes no --pin: it places the whole boundary by itself")));
-    }
     let mut pins = Pins::new();
     for &(vertex, target) in &arguments.pins {
         if pins.insert(vertex, target).is_some() {

@@ -4,6 +4,7 @@ mod args;
 mod check;
 mod example;
 mod exit;
+mod figures;
 mod flatten;
 mod methods;
 mod progress;
@@ -13,6 +14,7 @@ use std::process::ExitCode;
 pub use args::{Arguments, Command, FlattenArguments};
 pub use example::run_example;
 pub use exit::{Failure, Status};
+pub use figures::pairs;
 
 /// Runs a command and says how it ended.
 pub fn run(command: &Command) -> ExitCode {
@@ -20,6 +22,7 @@ pub fn run(command: &Command) -> ExitCode {
     let outcome = match command {
         Command::Flatten(arguments) => flatten::run(arguments),
         Command::Check(arguments) => check::run(arguments),
+        Command::Figures(arguments) => figures::run(&arguments.folder),
         Command::Methods => Ok(methods::run()),
     };
     exit::conclude(outcome)

@@ -41,15 +41,39 @@ pub(super) fn stop_on_interrupt() {
 /// What the program is doing, shown on a terminal once it takes over half a second.
 #[derive(Debug, Default)]
 pub(super) struct Progress {
-    doing: Mutex<&'static str>,
+    words: Mutex<Words>,
+}
+
+/// The line's words.
+#[derive(Debug, Default)]
+struct Words {
+    /// What is done: the last step.
+    done: String,
+    /// What is being done.
+    doing: &'static str,
 }
 
 impl Progress {
     /// Names what begins now.
     pub(super) fn enter(&self, words: &'static str) {
-        if let Ok(mut doing) = self.doing.lock() {
-            *doing = words;
+        if let Ok(mut line) = self.words.lock() {
+            line.doing = words;
         }
+    }
+
+    /// Says what has been reached, until something else is.
+    pub(super) fn reach(&self, words: String) {
+        if let Ok(mut line) = self.words.lock() {
+            line.done = words;
+        }
+    }
+
+    /// Both in one line.
+    fn line(&self) -> String {
+        self.words.lock().map_or_else(
+            |_| "working".to_owned(),
+            |line| if line.done.is_empty() { line.doing.to_owned() } else { format!("{}; {}", line.done, line.doing) },
+        )
     }
 
     /// Runs `work` while a line on the terminal follows it.
@@ -78,8 +102,7 @@ impl Progress {
     }
 
     fn show(&self, elapsed: Duration) {
-        let doing = self.doing.lock().map_or("working", |doing| *doing);
-        eprint!("\r\x1b[K{doing} … {:.1} s", elapsed.as_secs_f64());
+        eprint!("\r\x1b[K{} … {:.1} s", self.line(), elapsed.as_secs_f64());
         std::io::stderr().flush().ok();
     }
 }

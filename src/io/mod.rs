@@ -2,6 +2,7 @@
 
 mod atomic;
 mod error;
+pub mod figure;
 mod obj;
 mod obj_line;
 mod obj_parse;
@@ -11,6 +12,7 @@ mod obj_write;
 mod output;
 pub mod raster;
 mod report;
+mod steps;
 mod svg;
 
 pub use atomic::write_atomically;
@@ -19,6 +21,7 @@ pub use obj::{NO_TEXTURE, ObjMesh, Statement, Texture};
 pub use obj_read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
 pub use obj_texture::TextureMesh;
 pub use obj_write::write_obj;
-pub use output::{Output, OutputKind};
+pub use output::{Output, OutputKind, layout_picture};
 pub use report::{MeshReport, PinsReport, Report, Seconds, StepReport, peak_memory_bytes, verdict_as_in_file};
-pub use svg::write_svg;
+pub use steps::StepsFolder;
+pub use svg::{write_step_svg, write_svg};

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::{DVec2, DVec3};
 
-use super::raster::{Canvas, Paint, View, mesh_picture, plane_picture};
+use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::Report;
 use super::svg::write_svg;
 use super::{ObjMesh, WriteError, write_atomically, write_obj};
@@ -53,6 +53,15 @@ impl OutputKind {
     }
 }
 
+/// A picture of an embedding, with the faces red that the verdict on it calls flipped.
+pub fn layout_picture(mesh: &DiskMesh, embedding: &[DVec2], verdict: &Verdict, canvas: &Canvas) -> Picture {
+    let mut paint: Vec<Colour> = vec![colours::CLAY; mesh.face_count()];
+    for face in &verdict.flipped_faces {
+        paint[face.index()] = colours::FLIPPED;
+    }
+    plane_picture(embedding, &mesh.mesh().triangles, canvas, Paint::Faces(&paint))
+}
+
 /// A flattening with everything that files say about it.
 #[derive(Clone, Copy, Debug)]
 pub struct Output<'a> {
@@ -81,7 +90,7 @@ impl Output<'_> {
         let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
         let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, checker);
         let drawing = Canvas::drawing(PICTURE_SIZE, PICTURE_SIZE);
-        before.beside(&plane_picture(self.coordinates, &mesh.triangles, &drawing, Paint::Clay))
+        before.beside(&layout_picture(self.mesh, self.coordinates, self.verdict, &drawing))
     }
 
     /// Writes one file: aside first, then renamed, so that it is never half-written.

@@ -7,12 +7,10 @@
 mod brush;
 mod scene;
 
-use std::cmp::Ordering;
 use std::io::Write;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use robust::{Coord, orient2d};
 
 use self::scene::{Scene, vertex_normals};
 use crate::geom::Picture;
@@ -60,7 +58,7 @@ impl View {
     }
 
     /// Right, up and towards the eye, orthonormal whatever was given.
-    fn axes(&self) -> [DVec3; 3] {
+    pub(super) fn axes(&self) -> [DVec3; 3] {
         let towards = self.eye.try_normalize().unwrap_or(DVec3::Z);
         let right = self.up.cross(towards).try_normalize().unwrap_or_else(|| towards.any_orthonormal_vector());
         [right, towards.cross(right), towards]
@@ -108,7 +106,7 @@ impl Canvas {
 /// What colour the faces are.
 #[derive(Clone, Copy, Debug)]
 pub enum Paint<'a> {
-    /// Clay; flipped faces red in the plane.
+    /// Clay, with its own tone for the side that looks away.
     Clay,
     /// One colour per face.
     Faces(&'a [Colour]),
@@ -136,32 +134,16 @@ pub fn mesh_picture(
     scene.picture(&[])
 }
 
-/// A picture of an embedding: thin edges, the boundary as a darker line and, in clay, flipped faces red.
+/// A picture of an embedding: thin edges, the boundary as a darker line. Which faces are flipped is for the verdict to
+/// say, and for the caller to paint.
 pub fn plane_picture(embedding: &[DVec2], triangles: &[[VertexId; 3]], canvas: &Canvas, paint: Paint) -> Picture {
     let seen: Vec<DVec3> = embedding.iter().map(|p| p.extend(0.0)).collect();
-    let flipped: Vec<Colour>;
-    let paint = if let Paint::Clay = paint {
-        flipped = triangles
-            .par_iter()
-            .map(|t| if is_flipped(embedding, *t) { colours::FLIPPED } else { colours::CLAY })
-            .collect();
-        Paint::Faces(&flipped)
-    } else {
-        paint
-    };
     let table = EdgeTable::new(embedding.len(), triangles);
     let outer = |sides: &[u32]| (sides.len() == 1).then(|| sides[0] as usize);
     let boundary: Vec<[VertexId; 2]> =
         table.edges().filter_map(outer).map(|s| [triangles[s / 3][s % 3], triangles[s / 3][(s + 1) % 3]]).collect();
     let scene = Scene::new(&seen, triangles, canvas, paint, &[]);
     scene.picture(&boundary)
-}
-
-/// Whether a face of an embedding does not run counter-clockwise; decided exactly.
-fn is_flipped(embedding: &[DVec2], face: [VertexId; 3]) -> bool {
-    let [a, b, c] = face.map(|v| embedding[v.index()]).map(|p| Coord { x: p.x, y: p.y });
-    // Not a number is not counter-clockwise either.
-    orient2d(a, b, c).partial_cmp(&0.0) != Some(Ordering::Greater)
 }
 
 impl Picture {

@@ -24,6 +24,10 @@ pub struct Report {
     /// Whether the boundary is free, or convex: laid on a convex shape, or bent to one to make it simple.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub boundary: Option<&'static str>,
+    /// Where the coordinates lie: in the `unit` square, at `true` area, on the user's `pins`, or `unmoved` where moving
+    /// them into the unit square would have folded them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub placement: Option<&'static str>,
     /// Each step of each rung.
     pub steps: Vec<StepReport>,
     /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.
@@ -74,7 +78,7 @@ impl MeshReport {
 /// The pins of a run.
 #[derive(Debug, Serialize)]
 pub struct PinsReport {
-    /// How the pinned vertices' equations are treated.
+    /// How the pinned vertices' equations are treated in the step that is written.
     pub treatment: &'static str,
     /// Pins of the user's.
     pub count: usize,
@@ -120,7 +124,59 @@ pub struct StepReport {
     pub note: Option<String>,
 }
 
+/// A number that a table's cell shows.
+fn cell(number: f64) -> String {
+    if number.is_finite() { format!("{number:?}") } else { String::new() }
+}
+
+/// Text that a table's cell shows: in quotes where it has to be.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
 impl StepReport {
+    /// Names of the fields, as heads of a table's columns.
+    pub const COLUMNS: [&str; 16] = [
+        "rung",
+        "index",
+        "flipped_faces",
+        "boundary_crossings",
+        "overwound_vertices",
+        "turning_number",
+        "max_move",
+        "residual",
+        "equation_residual",
+        "replaced_pivots",
+        "bounded_corners",
+        "bent_vertices",
+        "factor_bytes",
+        "seconds",
+        "planar",
+        "note",
+    ];
+
+    /// The fields as cells of a table, in the order of [`Self::COLUMNS`]; empty where there is nothing to say.
+    pub fn cells(&self) -> [String; 16] {
+        [
+            self.rung.to_owned(),
+            self.index.to_string(),
+            self.flipped_faces.to_string(),
+            self.boundary_crossings.to_string(),
+            self.overwound_vertices.to_string(),
+            self.turning_number.map(|turns| turns.to_string()).unwrap_or_default(),
+            self.max_move.map(cell).unwrap_or_default(),
+            cell(self.residual),
+            cell(self.equation_residual),
+            self.replaced_pivots.to_string(),
+            self.bounded_corners.to_string(),
+            self.bent_vertices.to_string(),
+            self.factor_bytes.to_string(),
+            cell(self.seconds),
+            self.planar.to_string(),
+            self.note.as_deref().map(quoted).unwrap_or_default(),
+        ]
+    }
+
     /// The numbers of a step.
     pub fn of(step: &Step) -> Self {
         let Step { solution, verdict, .. } = step;

@@ -21,7 +21,7 @@ pub use load::{Model, Surface};
 pub use message::{Message, Place, Severity};
 pub use recent::RecentFiles;
 pub use save::{Finished, SaveRequest};
-pub use solve::{Outcome, OutputFit};
+pub use solve::{Outcome, OutputFit, Placement};
 pub use state::{Busy, Session, Wake};
 pub use stop::{Stop, StopConditions};
 pub use timeline::{TIMELINE_BUDGET, Timeline};

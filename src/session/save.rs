@@ -11,7 +11,7 @@ use crate::io::{
     verdict_as_in_file,
 };
 use crate::mesh::DiskMesh;
-use crate::solver::{Verdict, distortion, verdict};
+use crate::solver::{Verdict, distortion};
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,9 +47,8 @@ impl<'a> Finished<'a> {
         read_seconds: f64,
     ) -> Self {
         let start = Instant::now();
-        let coordinates = outcome.output(fit);
+        let (coordinates, placement, verdict) = outcome.output(mesh, fit);
         let unchanged = coordinates == outcome.step.solution.embedding;
-        let verdict = if unchanged { outcome.step.verdict.clone() } else { verdict(mesh, &coordinates) };
         let summary = if unchanged { outcome.distortion.summary } else { distortion(mesh, &coordinates).summary };
         let solve = steps.iter().map(|step| step.seconds).sum();
         let verify = outcome.step.verify_seconds + start.elapsed().as_secs_f64();
@@ -60,11 +59,12 @@ impl<'a> Finished<'a> {
             method: Some(settings.method.name()),
             family: settings.method.uses_family().then(|| settings.family.to_string()),
             pins: Some(PinsReport {
-                treatment: settings.treatment_of(outcome.pins.len()).name(),
+                treatment: settings.treatment_on(outcome.step.rung, outcome.pins.len()).name(),
                 count: outcome.pins.len(),
                 max_error: outcome.pin_error(),
             }),
             boundary: Some(if outcome.step.has_convex_boundary() { "convex" } else { "free" }),
+            placement: Some(placement.name()),
             steps,
             verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
             distortion: Some(summary),

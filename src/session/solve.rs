@@ -3,7 +3,10 @@
 use glam::DVec2;
 
 use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{Distortion, Pins, Run, Settings, Step, distortion, to_unit_square};
+use crate::solver::{
+    Distortion, Pins, Run, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
+    to_unit_square_by_power_of_two, verdict,
+};
 
 /// What to do with the size of an embedding that the user's pins do not fix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,6 +16,31 @@ pub enum OutputFit {
     Unit,
     /// Keep the area of the surface.
     True,
+}
+
+/// Where an embedding lies that is to be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Placement {
+    /// On the user's pins.
+    Pins,
+    /// In the unit square.
+    UnitSquare,
+    /// As large as the surface.
+    TrueArea,
+    /// Scaled by a power of two and not moved, because the numbers of the unit square would fold it.
+    Unmoved,
+}
+
+impl Placement {
+    /// The name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pins => "pins",
+            Self::UnitSquare => "unit",
+            Self::TrueArea => "true",
+            Self::Unmoved => "unmoved",
+        }
+    }
 }
 
 /// A step of a run with everything the screen and files show of it.
@@ -55,13 +83,33 @@ impl Outcome {
             + stages
     }
 
-    /// The coordinates that go into a file. The user's pins keep their places; without any, `fit` decides the size.
-    pub fn output(&self, fit: OutputFit) -> Vec<DVec2> {
-        let mut coordinates = self.step.solution.embedding.clone();
-        if fit == OutputFit::Unit && self.pins_in_use().next().is_none() {
-            to_unit_square(&mut coordinates);
+    /// The coordinates that go into a file, where they lie, and the verdict on them. The user's pins keep their
+    /// places; without any, `fit` decides the size.
+    ///
+    /// Moving to the unit square rounds. Where that breaks what was planar, the scale is a power of two, so that less
+    /// is rounded, and then nothing is moved, so that nothing is.
+    pub fn output(&self, mesh: &DiskMesh, fit: OutputFit) -> (Vec<DVec2>, Placement, Verdict) {
+        let embedding = &self.step.solution.embedding;
+        if self.pins_in_use().next().is_some() {
+            return (embedding.clone(), Placement::Pins, self.step.verdict.clone());
         }
-        coordinates
+        if fit == OutputFit::True {
+            return (embedding.clone(), Placement::TrueArea, self.step.verdict.clone());
+        }
+        let placed = |place: fn(&mut [DVec2]), name| {
+            let mut coordinates = embedding.clone();
+            place(&mut coordinates);
+            let verdict = verdict(mesh, &coordinates);
+            (coordinates, name, verdict)
+        };
+        let first = placed(to_unit_square, Placement::UnitSquare);
+        if first.2.planar || !self.step.verdict.planar {
+            return first;
+        }
+        let others: [(fn(&mut [DVec2]), Placement); 2] =
+            [(to_unit_square_by_power_of_two, Placement::UnitSquare), (to_unit_box, Placement::Unmoved)];
+        let rescued = others.into_iter().map(|(place, name)| placed(place, name)).find(|found| found.2.planar);
+        rescued.unwrap_or(first)
     }
 
     /// Largest distance of a pinned vertex from its target.

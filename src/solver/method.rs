@@ -42,6 +42,16 @@ impl Method {
         !matches!(self, Self::Lscm | Self::Levy)
     }
 
+    /// Whether it iterates, so that a limit of its steps matters.
+    pub const fn iterates(self) -> bool {
+        matches!(self, Self::Auto | Self::Iterate)
+    }
+
+    /// Whether it may bend the boundary, so that the growth of the pinned vertices matters.
+    pub const fn bends_boundary(self) -> bool {
+        matches!(self, Self::Auto | Self::VirtualBoundary)
+    }
+
     /// Whether pins matter.
     pub const fn uses_pins(self) -> bool {
         !matches!(self, Self::Convex(_))
@@ -200,5 +210,16 @@ impl Settings {
     pub fn treatment_of(&self, pin_count: usize) -> Treatment {
         let by_count = if pin_count > 2 { Treatment::LeastSquares } else { Treatment::Eliminate };
         self.treatment.unwrap_or(by_count)
+    }
+
+    /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. Gauge pins of the
+    /// solver's own, and a boundary that it places, are always eliminated from the linear solve.
+    pub fn treatment_on(&self, rung: Method, pin_count: usize) -> Treatment {
+        match rung {
+            Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
+            Method::VirtualBoundary | Method::Convex(_) => Treatment::Eliminate,
+            _ if pin_count < 2 => Treatment::Eliminate,
+            _ => self.treatment_of(pin_count),
+        }
     }
 }

@@ -36,7 +36,7 @@ pub use method::{BoundaryShape, Family, Growth, Method, Settings, Treatment};
 pub use pins::{Pins, check_pins, farthest_pair, gauge_pins};
 pub use prepared::{Prepared, flatten};
 pub use run::{Ending, Run};
-pub use scale::{to_true_area, to_unit_square};
+pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use shape_preserving::shape_preserving;
 pub use solution::{PhaseSeconds, Solution};
 pub use step::{Step, diameter, largest_move};

@@ -25,8 +25,7 @@ use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
 use super::{
-    Control, Family, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, Treatment, flatten, gauge_pins,
-    verdict,
+    Control, Family, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, flatten, gauge_pins, verdict,
 };
 use crate::mesh::DiskMesh;
 
@@ -103,6 +102,13 @@ impl Run {
     #[must_use]
     pub fn with_prepared(self, prepared: Option<Arc<Prepared>>) -> Self {
         Self { prepared, ..self }
+    }
+
+    /// The same, going on from a step of another run's on the same mesh, which counts as this run's first.
+    #[must_use]
+    pub fn after(mut self, step: &Step) -> Self {
+        self.take_in(step);
+        self
     }
 
     /// What was asked for.
@@ -219,8 +225,7 @@ impl Run {
                 other => return other,
             }
         }
-        let bends = matches!(self.settings.method, Method::Auto | Method::VirtualBoundary);
-        let wants_bend = bends && self.may_bend_boundary() && self.ending.is_none();
+        let wants_bend = self.settings.method.bends_boundary() && self.may_bend_boundary() && self.ending.is_none();
         let iterated_out = self.settings.method == Method::VirtualBoundary || self.ending_of_iteration().is_some();
         if wants_bend && (iterated_out || self.virtual_boundary.is_some()) {
             let would_bend = self.latest.as_ref().is_none_or(|latest| !latest.has_simple_boundary);
@@ -244,8 +249,7 @@ impl Run {
             error,
             SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. }
         );
-        let bends = matches!(self.settings.method, Method::Auto | Method::VirtualBoundary);
-        of_the_system && bends && self.may_bend_boundary()
+        of_the_system && self.settings.method.bends_boundary() && self.may_bend_boundary()
     }
 
     fn linear(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
@@ -291,7 +295,7 @@ impl Run {
         let Some(latest) = &self.latest else { return Err(SolveError::Cancelled) };
         let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
         if self.iteration.as_ref().is_none_or(|iteration| !iteration.serves(&pins)) {
-            let treatment = self.settings.treatment.unwrap_or(Treatment::LeastSquares);
+            let treatment = self.settings.treatment_on(Method::Iterate, self.pins.len());
             self.iteration = Some(Iteration::new(mesh, &pins, treatment, control)?);
         }
         let iteration = self.iteration.as_ref().expect("made above");

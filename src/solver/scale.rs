@@ -73,6 +73,27 @@ fn extent_of(embedding: &[DVec2]) -> f64 {
     embedding.iter().fold(0.0, |m, z| m.max(z.abs().max_element()))
 }
 
+/// As [`to_unit_square`], but scaled by a power of two alone: the one rounding is that of the move.
+pub fn to_unit_square_by_power_of_two(embedding: &mut [DVec2]) {
+    let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    for z in &mut *embedding {
+        *z -= low;
+    }
+    to_unit_box(embedding);
+}
+
+/// Scales an embedding about the origin by a power of two, so that no coordinate lies beyond −1 or 1. No digit is lost
+/// unless a coordinate is too small for 64 bits afterwards.
+pub fn to_unit_box(embedding: &mut [DVec2]) {
+    let extent = extent_of(embedding);
+    if extent.is_finite() && extent > 0.0 {
+        let factor = (-extent.log2().ceil()).exp2();
+        for z in embedding {
+            *z *= factor;
+        }
+    }
+}
+
 /// Moves and scales an embedding uniformly so that it fills the unit square's width or height from the origin on.
 ///
 /// An embedding without extent, or with one that is not finite, is left as it is.

@@ -10,9 +10,10 @@ const PLAY_SECONDS: f64 = 6.0;
 const STEP_SECONDS: (f64, f64) = (0.1, 0.8);
 
 impl Editor {
-    /// Whether something is said about steps at all: the strip under the panes shows.
+    /// Whether the strip under the panes shows: as soon as there is something that steps can be taken of, so that the
+    /// panes have their final size before the first step is there.
     pub fn timeline_shown(&self) -> bool {
-        self.session.outcome().is_some()
+        self.session.model().is_some_and(|model| model.disk().is_some())
     }
 
     pub(super) fn go_to_step(&mut self, target: StepTarget) {

@@ -6,7 +6,7 @@ use egui::{RichText, Role, WidgetInfo};
 use super::theme::theme_of;
 use super::{Editor, Request};
 use crate::session::{Action, Outcome};
-use crate::solver::{BoundaryShape, FAMILIES, Family, METHODS, Method, Settings};
+use crate::solver::{BoundaryShape, FAMILIES, Family, Growth, METHODS, Method, Settings, Treatment};
 
 /// The slider's ends: beyond them weights grow wild.
 const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
@@ -32,6 +32,11 @@ pub(super) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             family_menu(ui, &mut chosen);
             ui.end_row();
         }
+        if chosen.method.uses_pins() {
+            ui.label("Pinned");
+            treatment_menu(ui, &mut chosen);
+            ui.end_row();
+        }
     });
     if chosen != settings {
         requests.push(Request::Do(Action::SetSettings(chosen)));
@@ -46,6 +51,7 @@ pub(super) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
         let words = format!("{}. {}.", sentence(entry.about), entry.source);
         ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
     }
+    more(ui, settings, requests);
     ui.add_space(8.0);
     let disk = editor.session.model().is_some_and(|model| model.disk().is_some());
     let busy = editor.session.busy().is_some();
@@ -123,6 +129,85 @@ fn family_menu(ui: &mut egui::Ui, settings: &mut Settings) {
     menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Weights"));
 }
 
+/// What each treatment of the pinned vertices' equations does.
+const TREATMENTS: [(Option<Treatment>, &str, &str); 3] = [
+    (None, "Automatic", "Two pins only fix size and place: eliminated. More are constraints: least squares"),
+    (Some(Treatment::Eliminate), "Eliminate", "The equations of pinned vertices are dropped (paper §3.3)"),
+    (
+        Some(Treatment::LeastSquares),
+        "Least squares",
+        "All equations are kept and met as well as can be, the pins exactly (paper §6)",
+    ),
+];
+
+fn treatment_menu(ui: &mut egui::Ui, settings: &mut Settings) {
+    let title = TREATMENTS.iter().find(|(treatment, ..)| *treatment == settings.treatment).map_or("", |entry| entry.1);
+    let menu = egui::ComboBox::from_id_salt("treatment menu").selected_text(title).width(150.0).show_ui(ui, |ui| {
+        for (treatment, title, about) in TREATMENTS {
+            ui.selectable_value(&mut settings.treatment, treatment, title).on_hover_text(about);
+        }
+    });
+    menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Equations of pinned vertices"));
+    menu.response.on_hover_text("What becomes of the equations of pinned vertices");
+}
+
+/// What few people need: how long the iteration may go on, and how the virtual boundary does.
+fn more(ui: &mut egui::Ui, settings: Settings, requests: &mut Vec<Request>) {
+    let iterates = matches!(settings.method, Method::Auto | Method::Iterate);
+    let bends = matches!(settings.method, Method::Auto | Method::VirtualBoundary);
+    if !iterates && !bends {
+        return;
+    }
+    ui.add_space(4.0);
+    egui::CollapsingHeader::new("More").default_open(false).show(ui, |ui| {
+        egui::Grid::new("more").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
+            if iterates {
+                ui.label("Step limit");
+                step_limit(ui, settings, requests);
+                ui.end_row();
+            }
+            if bends {
+                ui.label("Bent vertices");
+                let mut chosen = settings;
+                growth_menu(ui, &mut chosen);
+                if chosen != settings {
+                    requests.push(Request::Do(Action::SetSettings(chosen)));
+                }
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn step_limit(ui: &mut egui::Ui, settings: Settings, requests: &mut Vec<Request>) {
+    let mut limit = settings.max_steps;
+    let field = ui.add(egui::DragValue::new(&mut limit).range(1..=10_000).suffix(" steps"));
+    field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "Step limit"));
+    let field = field.on_hover_text("The most mean-value iterations of a run. Drag, or click to type.");
+    if field.changed() {
+        requests.push(Request::Do(Action::SlideSettings(Settings { max_steps: limit, ..settings })));
+    }
+    if field.drag_stopped() || field.lost_focus() {
+        requests.push(Request::Do(Action::EndGesture));
+    }
+}
+
+fn growth_menu(ui: &mut egui::Ui, settings: &mut Settings) {
+    let entries = [
+        (Growth::Double, "Twice as many", "Quick: as many again are bent each time"),
+        (Growth::One, "One more", "As the paper's §5 has it: the least that is enough, found slowly"),
+    ];
+    let title = entries.iter().find(|(growth, ..)| *growth == settings.growth).map_or("", |entry| entry.1);
+    let menu = egui::ComboBox::from_id_salt("growth menu").selected_text(title).width(130.0).show_ui(ui, |ui| {
+        for (growth, title, about) in entries {
+            ui.selectable_value(&mut settings.growth, growth, title).on_hover_text(about);
+        }
+    });
+    menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "How the virtual boundary goes on"));
+    let tip = "Where the boundary crosses itself, vertices of it are bent to a convex polygon: how many the next time";
+    menu.response.on_hover_text(tip);
+}
+
 /// From Wachspress over mean value to conformal.
 fn power_slider(ui: &mut egui::Ui, settings: Settings, power: f64, requests: &mut Vec<Request>) {
     let mut wanted = power;
@@ -140,7 +225,9 @@ fn power_slider(ui: &mut egui::Ui, settings: Settings, power: f64, requests: &mu
             let settings = Settings { family: named_family(wanted), ..settings };
             requests.push(Request::Do(Action::SlideSettings(settings)));
         }
-        if response.drag_stopped() || response.lost_focus() {
+        // Neither a key nor a double click is the beginning of a drag: nothing else ends its gesture.
+        let is_whole = response.changed() && !response.dragged() && !ui.ctx().text_edit_focused();
+        if is_whole || response.double_clicked() || response.drag_stopped() || response.lost_focus() {
             requests.push(Request::Do(Action::EndGesture));
         }
     });

@@ -86,7 +86,9 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
     if editor.timeline.curves_shown() {
         match notice(editor) {
             Some(words) => {
-                ui.centered_and_justified(|ui| ui.label(RichText::new(words).color(theme_of(ui).weak_text)));
+                let theme = theme_of(ui);
+                let ink = if words == PRESS_SPACE { theme.text } else { theme.weak_text };
+                ui.centered_and_justified(|ui| ui.label(RichText::new(words).color(ink)));
             }
             None => curves(ui, editor, requests),
         }
@@ -104,8 +106,11 @@ fn rest_words(editor: &Editor) -> Option<&'static str> {
 /// What stands in the place of curves as long as there is only one step.
 fn notice(editor: &Editor) -> Option<&'static str> {
     let session = &editor.session;
-    if session.timeline().records().len() > 1 {
+    let count = session.timeline().records().len();
+    if count > 1 {
         None
+    } else if count == 0 {
+        Some(if session.is_running() { "The first step is on its way." } else { "There is no step yet." })
     } else if session.is_held() {
         Some(PRESS_SPACE)
     } else if session.is_preview() {

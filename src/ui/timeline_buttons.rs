@@ -156,9 +156,7 @@ pub(super) fn stop_menu(ui: &mut egui::Ui, editor: &Editor, room: Room, requests
     let before = editor.session.stop_conditions();
     let mut stop = before;
     let words = if room == Room::Ample { format!("Stop: {}", conditions_in_words(before)) } else { "Stop".to_owned() };
-    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let button = Button::new(RichText::new(words).color(theme_of(ui).weak_text)).frame(false);
-    let (response, _) = MenuButton::from_button(button).config(config).ui(ui, |ui| {
+    let response = lasting_menu(ui, &words, |ui| {
         ui.weak("A run comes to rest where");
         ui.checkbox(&mut stop.planar, "it is planar").on_hover_text("The embedding is proved one-to-one");
         ui.checkbox(&mut stop.stalled, "it stalls").on_hover_text("The iteration gets no better and hardly moves");
@@ -181,6 +179,19 @@ pub(super) fn stop_menu(ui: &mut egui::Ui, editor: &Editor, room: Room, requests
     if stop != before {
         requests.push(Request::Do(Action::SetStop(stop)));
     }
+}
+
+/// A quiet button with a menu that stays open while its boxes are ticked.
+pub(super) fn lasting_menu(ui: &mut egui::Ui, words: &str, add: impl FnOnce(&mut egui::Ui)) -> egui::Response {
+    let ink = theme_of(ui).weak_text;
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    // Room at the end for the mark that tells a menu from a button.
+    let button = Button::new(RichText::new(format!("{words}    ")).color(ink)).frame(false);
+    let (response, _) = MenuButton::from_button(button).config(config).ui(ui, add);
+    let middle = response.rect.right_center() - Vec2::new(14.0, -1.0);
+    let corners = [(-3.5, -2.0), (3.5, -2.0), (0.0, 3.0)].map(|(x, y)| middle + Vec2::new(x, y));
+    ui.painter().add(Shape::convex_polygon(corners.to_vec(), ink, Stroke::NONE));
+    response
 }
 
 /// The conditions in the fewest words.

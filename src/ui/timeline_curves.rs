@@ -1,13 +1,13 @@
 //! The numbers of the steps as curves, side by side. A click goes to the step under the pointer.
 
 use eframe::egui;
-use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Align, Button, Color32, Layout, PopupCloseBehavior, Rect, RichText, Role, Sense, WidgetInfo};
+use egui::{Align, Color32, Layout, Rect, RichText, Role, Sense, WidgetInfo};
 use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoints, PlotResponse, Points, VLine};
 
 use super::status::short;
 use super::theme::{Theme, theme_of};
 use super::timeline::TimelineView;
+use super::timeline_buttons::lasting_menu;
 use super::{Editor, Request};
 use crate::io::StepReport;
 use crate::session::{Action, Timeline};
@@ -112,15 +112,14 @@ impl Curve {
 
 /// Puts curves away, or shows them again.
 pub(super) fn curves_menu(ui: &mut egui::Ui, view: &mut TimelineView) {
-    let button = Button::new(RichText::new("Curves").color(theme_of(ui).weak_text)).frame(false);
-    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let (response, _) = MenuButton::from_button(button).config(config).ui(ui, |ui| {
+    let response = lasting_menu(ui, "Curves", |ui| {
         for (curve, hidden) in CURVES.iter().zip(&mut view.curves_hidden) {
             let mut shown = !*hidden;
             ui.checkbox(&mut shown, curve.title).on_hover_text(curve.about);
             *hidden = !shown;
         }
     });
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Which curves show"));
     response.on_hover_text("Which curves show. As many as there is room for are drawn, the first ones first.");
 }
 
@@ -185,7 +184,7 @@ fn plot(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline) -> PlotResponse<(
     let at_shown = shown.and_then(|shown| records.get(shown)).and_then(point);
     let compared = timeline.compared();
     let few = records.len() <= MOST_POINTS;
-    base(curve, &points, records.len()).show(ui, move |plot| {
+    base(theme, curve, &points, records.len()).show(ui, move |plot| {
         if let Some(compared) = compared {
             let style = LineStyle::dashed_dense();
             plot.vline(VLine::new("compared", compared as f64).color(theme.weak_text).width(1.0).style(style));
@@ -204,7 +203,7 @@ fn plot(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline) -> PlotResponse<(
 }
 
 /// A plot that only shows: it can neither be dragged nor zoomed, and its ends are those of the run.
-fn base<'a>(curve: &Curve, points: &[[f64; 2]], count: usize) -> Plot<'a> {
+fn base<'a>(theme: &Theme, curve: &Curve, points: &[[f64; 2]], count: usize) -> Plot<'a> {
     let low = points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
     let high = points.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
     let (low, high) = match curve.scale {
@@ -215,6 +214,8 @@ fn base<'a>(curve: &Curve, points: &[[f64; 2]], count: usize) -> Plot<'a> {
     Plot::new(curve.title)
         .show_axes([false, false])
         .show_grid([false, true])
+        .grid_color(theme.separator)
+        .grid_fade(0.0)
         .show_background(false)
         .show_x(false)
         .show_y(false)

@@ -224,7 +224,8 @@ mod interrupt {
     fn an_interrupted_flattening_ends_with_130_and_leaves_no_file() {
         let program = Program::new();
         program.write("in.obj", &obj_text(&PolygonMesh::from(&grid(300, 300))));
-        let arguments = ["flatten", "in.obj", "-o", "out.obj", "--svg", "out.svg", "--png", "out.png"];
+        let arguments =
+            ["flatten", "in.obj", "-o", "out.obj", "--svg", "out.svg", "--png", "out.png", "--steps", "steps"];
         for delay in [0, 100] {
             let run = interrupted(&program, &arguments, Duration::from_millis(delay));
             assert_eq!(run.status, Some(130), "after {delay} ms: {run:?}");

@@ -59,7 +59,8 @@ fn a_mesh_that_comes_out_planar_ends_with_0_and_a_folded_one_with_4() {
     for entry in corpus_disks().iter().filter(|e| ["cathead.obj", "cow_seamster.obj"].contains(&e.file.as_str())) {
         let planar = entry.file == "cathead.obj";
         let program = Program::new();
-        let arguments = ["flatten", argument(&entry.path), "-o", "out.obj", "--report", "out.json"];
+        let path = argument(&entry.path);
+        let arguments = ["flatten", path, "--method", "natural", "-o", "out.obj", "--report", "out.json"];
         let run = program.run(&arguments).expect(if planar { 0 } else { 4 });
         assert_eq!(run.stdout.contains("planar: proved one-to-one"), planar, "{}", run.stdout);
         assert_eq!(run.stdout.contains("boundary crossing"), !planar, "{}", run.stdout);
@@ -71,7 +72,7 @@ fn a_mesh_that_comes_out_planar_ends_with_0_and_a_folded_one_with_4() {
 fn wrong_use_ends_with_2_and_says_what_to_do() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str); 14] = [
+    let cases: [(&[&str], &str); 23] = [
         (&["--family", "uniform"], "convex"),
         (&["--family", "power:x"], "power:P"),
         (&["--method", "best"], "natural"),
@@ -85,6 +86,15 @@ fn wrong_use_ends_with_2_and_says_what_to_do() {
         (&["--fit", "tight"], "unit"),
         (&["--boundary", "heart"], "circle"),
         (&["--method", "convex", "--pin", "0:0,0"], "convex"),
+        (&["--method", "convex", "--treatment", "eliminate"], "--treatment"),
+        (&["--treatment", "ignore"], "least-squares"),
+        (&["--method", "natural", "--max-steps", "3"], "--max-steps"),
+        (&["--method", "virtual-boundary", "--max-steps", "3"], "--max-steps"),
+        (&["--max-steps=-1"], "--max-steps"),
+        (&["--method", "iterate", "--growth", "one"], "--growth"),
+        (&["--method", "levy", "--growth", "double"], "--growth"),
+        (&["--growth", "two"], "double"),
+        (&["--steps"], "--steps"),
         (&["--unknown"], "--unknown"),
     ];
     for (options, word) in cases {
@@ -132,7 +142,7 @@ fn the_report_is_one_json_object_with_the_fields_of_the_design() {
     example_file(&program, Example::Dome);
     let run = program.run(&["flatten", "in.obj", "--report", "-"]).expect(0);
     let report = run.json();
-    // In the order of DESIGN §7.
+    // In the order of DESIGN §7, with the boundary and the placement besides.
     assert_keys(
         &report,
         &[
@@ -141,6 +151,8 @@ fn the_report_is_one_json_object_with_the_fields_of_the_design() {
             "method",
             "family",
             "pins",
+            "boundary",
+            "placement",
             "steps",
             "verdict",
             "distortion",
@@ -151,7 +163,7 @@ fn the_report_is_one_json_object_with_the_fields_of_the_design() {
     );
     assert_keys(&report["mesh"], &["path", "vertices", "faces", "boundary_vertices", "dividing_edges", "ears"]);
     assert_keys(&report["pins"], &["treatment", "count", "max_error"]);
-    // The last three are not in the design.
+    // The last five are not in the design.
     assert_keys(
         &report["steps"][0],
         &[
@@ -168,6 +180,8 @@ fn the_report_is_one_json_object_with_the_fields_of_the_design() {
             "replaced_pivots",
             "bounded_corners",
             "factor_bytes",
+            "bent_vertices",
+            "planar",
         ],
     );
     assert_keys(
@@ -198,7 +212,8 @@ fn the_report_says_what_was_done() {
     assert_eq!(report["mesh"]["vertices"], mesh.vertex_count());
     assert_eq!(report["mesh"]["faces"], mesh.face_count());
     assert_eq!(report["mesh"]["boundary_vertices"], mesh.boundary_loop().len());
-    assert_eq!([&report["method"], &report["family"]], ["natural", "conformal"]);
+    assert_eq!([&report["method"], &report["family"]], ["auto", "conformal"]);
+    assert_eq!([&report["boundary"], &report["placement"]], ["free", "unit"]);
     assert_eq!(report["pins"]["count"], 0);
     assert_eq!(report["steps"].as_array().unwrap().len(), 1);
     assert_eq!(report["verdict"]["planar"], true);
@@ -224,7 +239,9 @@ fn the_report_in_a_file_is_the_report_on_standard_output() {
 fn forget_the_clock(report: &mut Value) {
     report["seconds"] = Value::Null;
     report["peak_memory_bytes"] = Value::Null;
-    report["steps"][0]["seconds"] = Value::Null;
+    for step in report["steps"].as_array_mut().expect("a list") {
+        step["seconds"] = Value::Null;
+    }
 }
 
 #[test]
@@ -253,9 +270,12 @@ fn the_same_run_writes_the_same_bytes_and_the_number_of_threads_changes_no_verdi
 fn all_methods_run_and_say_their_names() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str, Option<&str>); 8] = [
+    let cases: [(&[&str], &str, Option<&str>); 11] = [
         (&["--method", "natural", "--family", "power:0.5"], "natural", Some("power:0.5")),
-        (&["--family", "wachspress"], "natural", Some("wachspress")),
+        (&["--method", "natural", "--family", "wachspress"], "natural", Some("wachspress")),
+        (&[], "auto", Some("conformal")),
+        (&["--method", "iterate", "--family", "mean-value"], "iterate", Some("mean-value")),
+        (&["--method", "virtual-boundary", "--family", "power:0.5"], "virtual-boundary", Some("power:0.5")),
         (&["--method", "lscm"], "lscm", None),
         (&["--method", "levy"], "levy", None),
         (&["--method", "convex"], "convex", Some("conformal")),
@@ -272,8 +292,11 @@ fn all_methods_run_and_say_their_names() {
         assert_eq!(report["verdict"]["planar"] == true, run.status == Some(0), "{options:?}");
     }
     let listed = program.run(&["methods"]).expect(0).stdout;
-    for name in ["natural", "convex", "lscm", "levy", "conformal", "mean-value", "wachspress", "power:P", "uniform"] {
-        assert!(listed.contains(name), "{name}");
+    let methods = ["auto", "natural", "iterate", "virtual-boundary", "convex", "lscm", "levy"];
+    let families = ["conformal", "mean-value", "wachspress", "power:P", "uniform", "shape-preserving"];
+    let names: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    for name in methods.iter().chain(&families) {
+        assert!(names.contains(name), "{name} in {listed}");
     }
 }
 

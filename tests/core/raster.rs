@@ -1,8 +1,10 @@
 //! Pictures without a screen.
 
 use freebound::geom::Picture;
+use freebound::io::layout_picture;
 use freebound::io::raster::{Canvas, Colour, Paint, Shading, View, colours, mesh_picture, plane_picture};
-use freebound::mesh::VertexId;
+use freebound::mesh::{DiskMesh, TriMesh, VertexId};
+use freebound::solver::verdict;
 use glam::{DVec2, DVec3};
 
 const SQUARE: [DVec2; 4] = [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0), DVec2::new(0.0, 1.0)];
@@ -13,6 +15,24 @@ fn faces<const N: usize>(corners: [[u32; 3]; N]) -> [[VertexId; 3]; N] {
 
 fn unlit(width: u32, height: u32) -> Canvas {
     Canvas { shading: Shading::Unlit, wire: 0.0, ..Canvas::clay(width, height) }
+}
+
+fn disk(points: &[DVec2], triangles: &[[VertexId; 3]]) -> DiskMesh {
+    let triangles: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(VertexId::number)).collect();
+    DiskMesh::try_from(TriMesh::new(flat(points), &triangles)).expect("a disk")
+}
+
+#[test]
+fn a_picture_is_as_red_as_the_verdict_says() {
+    let points = [SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[3], DVec2::new(0.5, 0.5)];
+    let mesh = disk(&points, &faces([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]));
+    // In a mirror every face is turned over, and the map is one-to-one all the same.
+    let mirrored = points.map(|p| DVec2::new(-p.x, p.y));
+    let verdict = verdict(&mesh, &mirrored);
+    assert!(verdict.planar && verdict.mirrored);
+    let picture = layout_picture(&mesh, &mirrored, &verdict, &Canvas::drawing(100, 100));
+    assert_eq!(share_of(&picture, colours::FLIPPED), 0.0);
+    assert!(share_of(&picture, colours::CLAY) > 0.5);
 }
 
 fn share_of(picture: &Picture, colour: Colour) -> f64 {
@@ -101,11 +121,13 @@ fn a_flipped_face_is_red_and_the_boundary_dark() {
     let points = [SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[3], DVec2::new(0.5, 0.5)];
     let fan = faces([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]);
     let canvas = Canvas::drawing(200, 200);
-    let sound = plane_picture(&points, &fan, &canvas, Paint::Clay);
+    let mesh = disk(&points, &fan);
+    let picture_of = |points: &[DVec2]| layout_picture(&mesh, points, &verdict(&mesh, points), &canvas);
+    let sound = picture_of(&points);
     assert!(share_of(&sound, colours::FLIPPED) == 0.0);
     // Beyond the lower side, the centre turns the triangle over that side around.
     let folded = [points[0], points[1], points[2], points[3], DVec2::new(0.5, -0.4)];
-    let picture = plane_picture(&folded, &fan, &canvas, Paint::Clay);
+    let picture = picture_of(&folded);
     assert!(share_of(&picture, colours::FLIPPED) > 0.05);
     assert!(share_of(&sound, colours::BOUNDARY) > 0.01);
     assert_eq!(sound.pixel(8, 100), Some([0x2c, 0x2b, 0x29, 255]), "the left side of the square");

@@ -335,9 +335,10 @@ fn a_long_solve_is_cancelled_at_once() {
     assert!(window.editor().session.busy().is_some());
     let start = Instant::now();
     window.editor_mut().session.handle(Action::Cancel);
-    window.step();
-    assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
-    assert!(window.editor().session.busy().is_none());
+    while window.editor().session.busy().is_some() {
+        assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
+        window.step();
+    }
     assert!(Arc::ptr_eq(&before, &window.outcome()), "what was there stays");
     assert_eq!(window.verdict(), "not solved");
     window.press(Modifiers::COMMAND, Key::Enter);

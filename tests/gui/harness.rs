@@ -199,8 +199,15 @@ impl Window {
 
     /// Chooses from a drop-down list.
     pub(crate) fn choose(&mut self, list: &str, entry: &str) {
+        let places = |window: &Self| -> Vec<Rect> {
+            window.harness.query_all_by_role_and_label(Role::Button, entry).map(|node| node.rect()).collect()
+        };
+        let before = places(self);
         self.open_list(list);
-        self.harness.get_all_by_role_and_label(Role::Button, entry).last().expect("an entry").click();
+        let now = self.harness.query_all_by_role_and_label(Role::Button, entry);
+        let mut new = now.filter(|node| !before.contains(&node.rect()));
+        new.next().expect("an entry that the list has brought").click();
+        drop(new);
         self.settle();
     }
 

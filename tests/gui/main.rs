@@ -17,4 +17,5 @@ mod render;
 mod screens;
 mod shaders;
 mod shortcuts;
+mod timeline;
 mod window;

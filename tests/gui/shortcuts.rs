@@ -6,7 +6,7 @@ use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
-use freebound::ui::{BINDINGS, Pane, Request, Shading, Tool};
+use freebound::ui::{BINDINGS, Pane, Request, Shading, StepTarget, Tool};
 
 use crate::harness::{Window, sheet};
 
@@ -16,6 +16,12 @@ fn window() -> Window {
 
 fn document(window: &Window) -> Document {
     window.editor().session.document().clone()
+}
+
+/// How many steps there are, and which of them shows.
+fn steps(window: &Window) -> (usize, Option<usize>) {
+    let timeline = window.editor().session.timeline();
+    (timeline.records().len(), timeline.shown())
 }
 
 fn pin(window: &mut Window, vertices: &[u32]) {
@@ -35,6 +41,13 @@ fn shortcuts_do_what_the_table_says() {
         window.editor_mut().selection.insert(VertexId::new(40));
         window.editor_mut().tool = Tool::Fix;
         window.settle();
+        for action in [Action::Step, Action::Step] {
+            window.editor_mut().session.handle(action);
+            window.settle();
+        }
+        window.editor_mut().session.handle(Action::ShowStep(1));
+        window.settle();
+        assert_eq!(steps(&window), (3, Some(1)));
         let (pins, orbit) = (document(&window).pins.len(), window.editor().orbit);
         assert_eq!(pins, 3);
         // Away from where framing leads, and Select in hand where that is asked for.
@@ -46,7 +59,12 @@ fn shortcuts_do_what_the_table_says() {
         let editor = window.editor();
         let done = match request {
             Request::Do(Action::Undo | Action::Redo) => document(&window).pins.is_empty(),
-            Request::Do(Action::Solve) => editor.session.is_current(),
+            Request::Do(Action::Solve) => editor.session.is_current() && steps(&window) == (1, Some(0)),
+            Request::Do(Action::Step) => steps(&window) == (4, Some(3)),
+            // It is planar: there is nothing to run for.
+            Request::RunOrPause => steps(&window).0 == 3 && !editor.session.is_running(),
+            Request::GoToStep(StepTarget::First | StepTarget::Previous) => steps(&window) == (3, Some(0)),
+            Request::GoToStep(StepTarget::Next | StepTarget::Last) => steps(&window) == (3, Some(2)),
             Request::AskOpen | Request::AskSave | Request::AskExport => editor.dialogs.is_open(),
             Request::Quit => editor.quit,
             // Nothing is wrong here to go to.

@@ -31,7 +31,7 @@ fn the_name_and_the_size_of_what_is_open_show() {
 type State = (&'static str, fn(&mut Window));
 
 /// What a person can bring the window to.
-const STATES: [State; 23] = [
+const STATES: [State; 27] = [
     ("at the start", |_| ()),
     ("the File menu", |window| window.click("File")),
     ("the list of recent files", |window| window.menu(&["File", "Recent"])),
@@ -59,10 +59,27 @@ const STATES: [State; 23] = [
     ("a list of methods", |window| window.open_list("Method")),
     ("a list of weights", |window| window.open_list("Weights")),
     ("a list of shadings", |window| window.open_list("Shading of both panes")),
+    ("a run of steps", steps),
+    ("the stop conditions", |window| window.click("Where a run stops")),
+    ("the numbers of a step", |window| {
+        steps(window);
+        window.harness.get_by_label("Step 3: mean value, planar").hover();
+        window.settle();
+    }),
+    ("what few need of a method", |window| {
+        window.harness.get_by_label("More").click();
+        window.settle();
+    }),
     ("the keys", |window| window.key(Key::F1)),
     ("go to", |window| window.key(Key::G)),
     ("a file dialog", |window| window.press(Modifiers::COMMAND, Key::E)),
 ];
+
+fn steps(window: &mut Window) {
+    for _ in 0..3 {
+        window.key(Key::Space);
+    }
+}
 
 fn fix(window: &mut Window, vertices: &[u32]) {
     let vertices = vertices.iter().map(|&v| freebound::mesh::VertexId::new(v)).collect();
@@ -126,7 +143,7 @@ fn each_menu_has_its_entries() {
         ),
         (&["View", "Shading"], &["Plain", "Checker", "Angle distortion", "Area distortion", "Stretch", "Move"]),
         (&["View", "Theme"], &["As the system", "Light", "Dark"]),
-        (&["Solve"], &["Solve again", "Cancel", "Method and weights"]),
+        (&["Solve"], &["Take one step", "Run on", "Play all steps", "Solve again", "Cancel", "Method and weights"]),
         (&["Help"], &["All keys"]),
     ];
     for (path, entries) in menus {
@@ -271,7 +288,8 @@ fn is_scrolled(role: Role, name: &str) -> bool {
         || name.contains(" pin v")
         || name.contains(" of pin ")
         || std::path::Path::new(&name).extension().is_some_and(|e| e == "obj");
-    let in_panel = ["Numbers of the solve", "Solve", "Free", "Fix", "Free all", "Frame", "Copy"].contains(&name);
+    let in_panel =
+        ["Numbers of the solve", "Solve", "Free", "Fix", "Free all", "Frame", "Copy", "More"].contains(&name);
     role == Role::Label || role == Role::ScrollBar || role == Role::Link || listed || in_panel
 }
 

@@ -1,0 +1,110 @@
+//! The steps of a run as files: a drawing of each, and a table of their numbers.
+
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use super::WriteError;
+use super::report::StepReport;
+use super::svg::write_step_svg;
+use crate::mesh::DiskMesh;
+use crate::solver::Step;
+
+/// Name of the table.
+const TABLE: &str = "steps.csv";
+
+/// A folder of steps that is being filled aside; it is put in place when the run has ended, or not at all.
+#[derive(Debug)]
+pub struct StepsFolder {
+    target: PathBuf,
+    aside: TempDir,
+    names: Vec<String>,
+    table: String,
+}
+
+impl StepsFolder {
+    /// Begins a folder aside, near to `target`, so that its files can be renamed.
+    ///
+    /// # Errors
+    ///
+    /// Where `target` is something else than a folder, or nothing can be written there.
+    pub fn begin(target: &Path) -> Result<Self, WriteError> {
+        let named = |source| WriteError { path: target.to_owned(), source };
+        if fs::metadata(target).is_ok_and(|data| !data.is_dir()) {
+            return Err(named(io::Error::from(io::ErrorKind::NotADirectory)));
+        }
+        let here = Path::new(".");
+        let near = target.ancestors().find(|folder| folder.is_dir()).unwrap_or(here);
+        let aside = tempfile::Builder::new().prefix(".freebound-").tempdir_in(near).map_err(named)?;
+        let table = format!("{}\n", StepReport::COLUMNS.join(","));
+        Ok(Self { target: target.to_owned(), aside, names: Vec::new(), table })
+    }
+
+    /// Draws a step and notes its numbers.
+    ///
+    /// # Errors
+    ///
+    /// Where the drawing cannot be written.
+    pub fn add(&mut self, mesh: &DiskMesh, step: &Step) -> Result<(), WriteError> {
+        let name = format!("step-{:03}-{}.svg", step.index, step.rung.name());
+        let write = || {
+            let mut out = BufWriter::new(File::create(self.aside.path().join(&name))?);
+            write_step_svg(&mut out, mesh, step)?;
+            out.flush()
+        };
+        write().map_err(|source| WriteError { path: self.target.join(&name), source })?;
+        self.names.push(name);
+        writeln!(self.table, "{}", StepReport::of(step).cells().join(",")).expect("memory takes all");
+        Ok(())
+    }
+
+    /// Puts the files in place: the steps of an earlier run go, and those of this one come, the table last.
+    ///
+    /// # Errors
+    ///
+    /// Where a file cannot be removed or renamed.
+    pub fn finish(self) -> Result<(), WriteError> {
+        let put = || {
+            fs::write(self.aside.path().join(TABLE), &self.table)?;
+            fs::create_dir_all(&self.target)?;
+            for entry in fs::read_dir(&self.target)? {
+                let entry = entry?;
+                if is_drawing_of_a_step(&entry.file_name().to_string_lossy()) {
+                    fs::remove_file(entry.path())?;
+                }
+            }
+            for name in self.names.iter().map(String::as_str).chain([TABLE]) {
+                fs::rename(self.aside.path().join(name), self.target.join(name))?;
+            }
+            Ok(())
+        };
+        put().map_err(|source| WriteError { path: self.target.clone(), source })
+    }
+}
+
+/// Whether a file's name is one that [`StepsFolder::add`] gives.
+fn is_drawing_of_a_step(name: &str) -> bool {
+    let Some(rest) = name.strip_prefix("step-").and_then(|rest| rest.strip_suffix(".svg")) else { return false };
+    let Some((number, rung)) = rest.split_once('-') else { return false };
+    let is_number = number.len() >= 3 && number.bytes().all(|b| b.is_ascii_digit());
+    is_number && rung.bytes().all(|b| b.is_ascii_lowercase() || b == b'-')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_drawing_of_a_step;
+
+    #[test]
+    fn only_drawings_of_steps_are_replaced() {
+        for name in ["step-000-natural.svg", "step-1234-virtual-boundary.svg"] {
+            assert!(is_drawing_of_a_step(name), "{name}");
+        }
+        for name in ["steps.csv", "step-1-natural.svg", "step-001.svg", "step-001-my drawing.svg", "my-step-001-a.svg"]
+        {
+            assert!(!is_drawing_of_a_step(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,394 @@
+//! The strip under the panes: a newcomer's way, buttons and keys, steps, curves, stop conditions, play.
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use freebound::app::Start;
+use freebound::examples::Example;
+use freebound::mesh::TriMesh;
+use freebound::session::{Action, StopConditions};
+use freebound::solver::{Family, Growth, Method, Settings, Treatment};
+use freebound::ui::Request;
+
+use crate::harness::{SIZE, Window, sheet};
+
+/// The window as it is at the very first start.
+fn at_first_start(size: Vec2) -> Window {
+    Window::start(size, Start::default())
+}
+
+/// The built-in face after its natural step and three more.
+fn with_four_steps() -> Window {
+    let mut window = at_first_start(SIZE);
+    for _ in 0..3 {
+        window.key(Key::Space);
+    }
+    assert_eq!(step_count(&window), 4);
+    window
+}
+
+fn step_count(window: &Window) -> usize {
+    window.editor().session.timeline().records().len()
+}
+
+fn shown(window: &Window) -> usize {
+    window.editor().session.timeline().shown().expect("solved")
+}
+
+fn stop(window: &Window) -> StopConditions {
+    window.editor().session.stop_conditions()
+}
+
+/// The whole name of a step in the row.
+fn name_of_step(window: &Window, index: usize) -> String {
+    let start = format!("Step {index}: ");
+    let mut controls = window.controls().into_iter();
+    controls.find(|(_, name, _)| name.starts_with(&start)).map(|(_, name, _)| name).expect("a step in the row")
+}
+
+#[test]
+fn a_newcomer_repairs_the_first_fold_in_under_five_keys() {
+    let mut window = at_first_start(SIZE);
+    assert!(window.verdict().contains("flipped"), "{}", window.verdict());
+    assert!(window.shows("Press Space to take a step."));
+    let mut keys = 0;
+    while window.verdict() != "Planar: proved" {
+        window.key(Key::Space);
+        keys += 1;
+        assert!(keys < 5, "{}", window.verdict());
+    }
+    assert!(!window.shows("Press Space"), "whoever has done it need not be told");
+    assert_eq!(step_count(&window), keys + 1);
+}
+
+#[test]
+fn a_low_window_has_the_hint_too() {
+    let mut window = at_first_start(Vec2::new(640.0, 420.0));
+    assert!(!window.editor().timeline.curves_shown());
+    assert!(window.shows("Press Space to take a step."));
+    window.key(Key::Space);
+    assert!(!window.shows("Press Space"));
+}
+
+#[test]
+fn run_goes_on_until_it_is_planar() {
+    let mut window = at_first_start(SIZE);
+    window.click("Run");
+    assert_eq!(window.verdict(), "Planar: proved");
+    assert!(!window.is_enabled("Run"), "there is nothing left to run for");
+    window.click("Step");
+    assert_eq!((step_count(&window), shown(&window)), (3, 2), "a single step goes on all the same");
+
+    let mut window = at_first_start(SIZE);
+    window.press(Modifiers::SHIFT, Key::Space);
+    assert_eq!((window.verdict().as_str(), step_count(&window)), ("Planar: proved", 2));
+}
+
+#[test]
+fn run_becomes_pause_while_it_goes_on() {
+    let mut window = long_run();
+    while step_count(&window) < 3 {
+        window.step();
+    }
+    assert!(window.has_button("Pause") && !window.has_button("Run"));
+    window.click("Pause");
+    let paused_at = step_count(&window);
+    assert!(paused_at < 100_000 && window.has_button("Run") && window.is_enabled("Run"));
+    window.key(Key::Space);
+    assert_eq!(step_count(&window), paused_at + 1);
+}
+
+/// A run that goes on for a long time.
+fn long_run() -> Window {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    let session = &mut window.editor_mut().session;
+    session.handle(Action::SetStop(StopConditions { planar: false, stalled: false, ..StopConditions::default() }));
+    let settings = Settings { max_steps: 100_000, ..Settings::new(Method::Iterate, Family::Conformal) };
+    session.handle(Action::SetSettings(settings));
+    window.step();
+    window
+}
+
+#[test]
+fn a_key_that_is_held_down_leaves_no_steps_behind() {
+    let mut window = at_first_start(SIZE);
+    window.harness.key_down(Key::Space);
+    window.step();
+    let repeat = egui::Event::Key {
+        key: Key::Space,
+        physical_key: None,
+        pressed: true,
+        repeat: true,
+        modifiers: Modifiers::NONE,
+    };
+    while step_count(&window) < 3 {
+        window.harness.event(repeat.clone());
+        window.step();
+    }
+    window.harness.key_up(Key::Space);
+    let when_let_go = step_count(&window);
+    window.settle();
+    assert!(step_count(&window) <= when_let_go + 1, "{when_let_go} steps, then {}", step_count(&window));
+}
+
+#[test]
+fn keys_go_through_the_steps() {
+    let mut window = with_four_steps();
+    for (key, expected) in [
+        (Key::ArrowLeft, 2),
+        (Key::ArrowLeft, 1),
+        (Key::ArrowRight, 2),
+        (Key::Home, 0),
+        (Key::ArrowLeft, 0),
+        (Key::End, 3),
+        (Key::ArrowRight, 3),
+    ] {
+        window.key(key);
+        assert_eq!(shown(&window), expected, "{key:?}");
+        assert_eq!(window.outcome().step.index, expected);
+    }
+    assert_eq!(step_count(&window), 4, "looking takes no steps");
+}
+
+#[test]
+fn buttons_and_menu_go_through_the_steps() {
+    let mut window = with_four_steps();
+    assert!(!window.is_enabled("Next step") && !window.is_enabled("Last step"));
+    for (button, expected) in [("Previous step", 2), ("First step", 0), ("Next step", 1), ("Last step", 3)] {
+        window.click(button);
+        assert_eq!(shown(&window), expected, "{button}");
+    }
+    for (entry, expected) in [("Previous step", 2), ("First step", 0), ("Next step", 1), ("Last step", 3)] {
+        window.click("Solve");
+        // The entry has its keys after its name, the button in the strip has not.
+        let with_keys = format!("{entry} ");
+        let is_entry = |node: &egui_kittest::Node<'_>| {
+            node.accesskit_node().label().is_some_and(|label| label.starts_with(&with_keys))
+        };
+        window.harness.query_all_by_role(Role::Button).find(is_entry).expect("an entry").click();
+        window.settle();
+        assert_eq!(shown(&window), expected, "{entry}");
+    }
+    window.click("First step");
+    assert!(!window.is_enabled("Previous step") && !window.is_enabled("First step"));
+}
+
+#[test]
+fn each_step_says_what_it_is_and_shows_by_a_click() {
+    let mut window = with_four_steps();
+    let defects = window.editor().session.timeline().records()[0].defect_count();
+    assert_eq!(name_of_step(&window, 0), format!("Step 0: natural, {defects} defects"));
+    assert_eq!(name_of_step(&window, 1), "Step 1: mean value, planar");
+    window.click(&name_of_step(&window, 0));
+    assert_eq!(shown(&window), 0);
+    assert!(window.verdict().contains("flipped"), "the verdict is that of the step on the screen");
+    window.click(&name_of_step(&window, 2));
+    assert_eq!((shown(&window), window.verdict().as_str()), (2, "Planar: proved"));
+}
+
+#[test]
+fn a_click_with_shift_and_the_context_menu_choose_what_to_compare_with() {
+    let mut window = with_four_steps();
+    let at = |window: &Window, index| window.rect(Role::Button, &name_of_step(window, index)).center();
+    let place = at(&window, 1);
+    window.click_at(place, Modifiers::SHIFT);
+    assert_eq!((window.editor().session.timeline().compared(), shown(&window)), (Some(1), 3));
+    assert!(name_of_step(&window, 1).ends_with(", compared"));
+    window.click_at(place, Modifiers::SHIFT);
+    assert_eq!(window.editor().session.timeline().compared(), None, "the same again ends it");
+    let name = name_of_step(&window, 0);
+    window.harness.get_by_role_and_label(Role::Button, &name).click_secondary();
+    window.settle();
+    window.click("Compare with this");
+    assert_eq!(window.editor().session.timeline().compared(), Some(0));
+    let name = name_of_step(&window, 2);
+    window.harness.get_by_role_and_label(Role::Button, &name).click_secondary();
+    window.settle();
+    window.click("Stop comparing");
+    assert_eq!(window.editor().session.timeline().compared(), None);
+}
+
+#[test]
+fn the_numbers_of_a_step_show_under_the_pointer() {
+    let mut window = with_four_steps();
+    let name = name_of_step(&window, 1);
+    window.harness.get_by_role_and_label(Role::Button, &name).hover();
+    for _ in 0..60 {
+        window.step();
+    }
+    for words in ["Turning number", "Largest move, in units of the plane", "Time, proof included", "proved"] {
+        assert!(window.shows(words), "{words}: {:?}", window.words());
+    }
+}
+
+#[test]
+fn a_click_on_a_curve_goes_to_the_step_under_it() {
+    let mut window = with_four_steps();
+    for curve in ["Curve: flipped faces", "Curve: pairs of boundary edges that cross"] {
+        let rect = window.rect(Role::Image, curve);
+        // The first and the last step lie near the ends, and the others at equal distances between.
+        for (share, expected) in [(0.05, 0), (0.36, 1), (0.64, 2), (0.95, 3)] {
+            let at = egui::pos2(rect.left() + share * rect.width(), rect.center().y);
+            window.click_at(at, Modifiers::NONE);
+            assert_eq!(shown(&window), expected, "{curve} at {share}");
+        }
+    }
+}
+
+#[test]
+fn curves_can_be_put_away_one_by_one_and_all_together() {
+    let mut window = with_four_steps();
+    let has_curve = |window: &Window, name: &str| window.harness.query_by_role_and_label(Role::Image, name).is_some();
+    assert!(has_curve(&window, "Curve: flipped faces"));
+    window.click("Which curves show");
+    window.harness.get_by_role_and_label(Role::CheckBox, "Flipped").click();
+    window.settle();
+    window.key(Key::Escape);
+    assert!(!has_curve(&window, "Curve: flipped faces"));
+    assert!(has_curve(&window, "Curve: overwound vertices"));
+    let before = window.plane_view().height();
+    window.click("Hide the curves");
+    assert!(!has_curve(&window, "Curve: overwound vertices"));
+    assert!(window.plane_view().height() > before + 100.0, "the panes have the room");
+    window.menu(&["View", "Curves of the steps"]);
+    assert!(has_curve(&window, "Curve: overwound vertices"));
+}
+
+#[test]
+fn the_stop_menu_says_where_a_run_comes_to_rest() {
+    let mut window = at_first_start(SIZE);
+    assert!(window.shows("Stop: planar, stalled"));
+    window.click("Where a run stops");
+    for name in ["it is planar", "it stalls", "the boundary crosses", "it reaches step"] {
+        window.harness.get_by_role_and_label(Role::CheckBox, name).click();
+        window.settle();
+    }
+    assert_eq!(stop(&window), StopConditions { planar: false, stalled: false, crossing: true, at_step: Some(10) });
+    window.fill_in(Role::SpinButton, "Step to stop at", "5");
+    window.key(Key::Enter);
+    assert_eq!(step_count(&window), 1, "neither menu nor typing takes a step");
+    window.key(Key::Escape);
+    assert!(window.shows("Stop: crossing, step 5"), "{:?}", window.words());
+    window.click("Run");
+    assert_eq!(step_count(&window), 6);
+    assert!(window.shows("the step to stop at is reached"), "{:?}", window.words());
+}
+
+#[test]
+fn steps_are_played_from_the_first_to_the_last() {
+    let mut window = with_four_steps();
+    window.click("Play the steps");
+    assert_eq!(shown(&window), 0);
+    let mut seen = vec![0];
+    for _ in 0..60 * 10 {
+        window.step();
+        if seen.last() != Some(&shown(&window)) {
+            seen.push(shown(&window));
+        }
+    }
+    assert_eq!(seen, [0, 1, 2, 3]);
+    assert!(window.editor().timeline.playing_since.is_none(), "it ends by itself");
+    window.click("Play the steps");
+    window.click("Stop playing");
+    window.key(Key::Home);
+    window.click("Play the steps");
+    window.key(Key::ArrowRight);
+    assert!(window.editor().timeline.playing_since.is_none(), "who looks for himself has stopped it");
+}
+
+#[test]
+fn typing_into_a_field_takes_no_step() {
+    let mut window = with_four_steps();
+    window.key(Key::G);
+    for key in [Key::Space, Key::ArrowLeft, Key::Home, Key::End] {
+        window.key(key);
+    }
+    window.press(Modifiers::SHIFT, Key::Space);
+    assert_eq!((step_count(&window), shown(&window)), (4, 3));
+    assert!(window.editor().go_to.is_some());
+}
+
+#[test]
+fn space_on_a_control_with_the_focus_is_the_control_s() {
+    let mut window = at_first_start(SIZE);
+    window.harness.get_by_role_and_label(Role::Button, "Hide the curves").focus();
+    window.step();
+    window.key(Key::Space);
+    assert_eq!(step_count(&window), 1);
+    assert!(!window.editor().timeline.curves_shown());
+}
+
+#[test]
+fn what_is_no_disk_has_no_timeline() {
+    let cap = sheet(4, 0.3);
+    let mut triangles = cap.triangles.clone();
+    triangles.extend(cap.triangles.iter().take(1));
+    let mut window = Window::with_mesh(
+        "twice.obj",
+        &TriMesh::new(cap.positions, &triangles.iter().map(|t| t.map(|v| v.number())).collect::<Vec<_>>()),
+    );
+    assert!(!window.editor().timeline_shown() && !window.has_button("Run"));
+    window.key(Key::Space);
+    assert_eq!(step_count(&window), 0);
+}
+
+#[test]
+fn a_drag_shows_a_preview_and_says_so() {
+    let mut window = at_first_start(SIZE);
+    window.key(Key::Space);
+    let (&vertex, &place) = window.outcome().step.solution.pins.iter().next().expect("a gauge pin");
+    let from = window.place_in_plane(place);
+    let to = from + Vec2::new(30.0, 12.0);
+    window.begin_drag(from, to, Modifiers::NONE);
+    window.settle();
+    assert_eq!(window.verdict(), "preview, not repaired");
+    assert_eq!(step_count(&window), 1);
+    window.end_drag(to);
+    assert_eq!(window.verdict(), "Planar: proved");
+    assert!(window.editor().session.document().pins.contains_key(&vertex));
+}
+
+#[test]
+fn treatment_step_limit_and_growth_are_chosen_in_the_method_panel() {
+    let mut window = Window::with_example(Example::Ell);
+    window.choose("Equations of pinned vertices", "Eliminate");
+    assert_eq!(window.editor().session.document().settings.treatment, Some(Treatment::Eliminate));
+    window.choose("Equations of pinned vertices", "Automatic");
+    assert!(window.harness.query_by_role_and_label(Role::SpinButton, "Step limit").is_none(), "folded away");
+    window.harness.get_by_label("More").click();
+    window.settle();
+    window.fill_in(Role::SpinButton, "Step limit", "7");
+    window.key(Key::Enter);
+    window.choose("How the virtual boundary goes on", "One more");
+    let expected = Settings { max_steps: 7, growth: Growth::One, ..Settings::default() };
+    assert_eq!(window.editor().session.document().settings, expected);
+    assert_eq!(window.outcome().settings, expected, "and it is solved");
+    window.choose("Method", "Convex boundary");
+    assert!(window.harness.query_by_label("More").is_none(), "nothing of it matters there");
+}
+
+#[test]
+fn many_steps_scroll_and_the_one_on_the_screen_is_in_sight() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let session = &mut window.editor_mut().session;
+    session.handle(Action::SetStop(StopConditions { planar: false, stalled: false, ..StopConditions::default() }));
+    session.handle(Action::SetSettings(Settings::new(Method::Iterate, Family::Conformal)));
+    window.settle();
+    assert_eq!(step_count(&window), 61);
+    for _ in 0..60 {
+        window.step();
+    }
+    let strip = window.rect(Role::Button, "Where a run stops");
+    for (request, index) in [(None, 60), (Some(Action::ShowStep(0)), 0), (Some(Action::ShowStep(30)), 30)] {
+        if let Some(action) = request {
+            window.editor_mut().handle(Request::Do(action));
+            window.settle();
+            for _ in 0..60 {
+                window.step();
+            }
+        }
+        let chip = window.rect(Role::Button, &name_of_step(&window, index));
+        assert!(chip.right() < strip.left() && chip.left() > 0.0, "step {index} at {chip:?}");
+    }
+}
