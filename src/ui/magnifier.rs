@@ -31,6 +31,7 @@ pub(super) struct Magnifier {
     place: usize,
     defect: Defect,
     camera: PlaneCamera,
+    pane: Rect,
     /// What is shown, on the screen.
     looks_at: Rect,
     /// Where it is shown, words included.
@@ -59,20 +60,19 @@ impl Magnifier {
         let looks_at = Rect::from_two_pos(corners[0], corners[1]);
         let magnification = camera.points_per_unit() / around.points_per_unit();
         let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at);
-        (magnification > 1.0).then_some(Self { place, defect, camera, looks_at, rect, magnification })
+        (magnification > 1.0).then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
     }
 
     /// Draws the inset and the frame on the layout; a click goes there.
     pub(super) fn show(
         &self,
         ui: &mut egui::Ui,
-        pane: Rect,
         editor: &Editor,
         (mesh, plane): (&MeshScene, &PlaneScene),
         requests: &mut Vec<Request>,
     ) {
         let theme = theme_of(ui);
-        self.mark_on_layout(&ui.painter_at(pane), theme);
+        self.mark_on_layout(&ui.painter_at(self.pane), theme);
         let painter = ui.painter_at(self.rect.expand(1.0));
         painter.rect_filled(self.rect, 4.0, theme.panel);
         let words = format!("× {}", self.factor());

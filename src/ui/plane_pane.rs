@@ -67,7 +67,7 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         drag_pins(ui, rect, editor, camera, requests);
     }
     if let Some(magnifier) = magnifier {
-        magnifier.show(ui, rect, editor, (&mesh, &plane), requests);
+        magnifier.show(ui, editor, (&mesh, &plane), requests);
     }
     hull::stage_selector(ui, rect, editor, requests);
     if editor.mesh_hidden()
