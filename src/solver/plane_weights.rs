@@ -160,8 +160,7 @@ pub fn natural_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Equations<Compl
     let outer_sides = 3 * mesh.face_count()..mesh.halfedge_count();
     for outer in outer_sides.map(HalfedgeId::from_index) {
         let inner = mesh.twin(outer);
-        let face = mesh.face_of(inner).expect("a boundary edge has a face inside");
-        let corners = mesh.face(face).map(|v| embedding[v.index()] * scale);
+        let corners = mesh.face(FaceId::from_index(inner.index() / 3)).map(|v| embedding[v.index()] * scale);
         let (radii, _) = radii_of([corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]], 1.0);
         let offset_share = 1.0 / radii[inner.index() % 3];
         // A fan begins with the inner side of one boundary edge and ends with the outer side of another.
