@@ -327,6 +327,9 @@ impl Editor {
         let bounds = plane.arrays.bounds();
         let wanted = if selected.is_empty() { bounds } else { grown_box(plane.positions(), &selected, bounds) };
         camera.frame(wanted, self.plane_pane_size);
+        if let Some(camera) = self.plane_camera.filter(|_| selected.is_empty() && !plane.is_stage()) {
+            self.set_framed(camera);
+        }
     }
 
     fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::scene::{MeshScene, Paint, PaintKey, PlaneScene};
 use super::{Editor, Shading};
 use crate::session::{Job, Poll};
-use crate::view::{OrbitCamera, UpAxis};
+use crate::view::{OrbitCamera, PlaneCamera, UpAxis};
 
 impl Editor {
     pub(super) fn poll_mesh_scene(&mut self) {
@@ -51,7 +51,9 @@ impl Editor {
                 Poll::Lost => self.plane_scene_job = None,
                 Poll::Done(scene) => {
                     self.plane_scene_job = None;
-                    self.keep_in_sight(scene.arrays.bounds());
+                    if self.plane_camera.is_none() {
+                        self.set_framed(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
+                    }
                     self.take_plane_scene(scene);
                 }
             }

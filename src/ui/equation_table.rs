@@ -61,7 +61,9 @@ pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, 
         (false, false) if source == WeightSource::Extended => {
             "Not met: where the first solve fails, others with other weights follow."
         }
-        (false, false) => "Not met: the step meets all equations together as well as it can, or pinned more vertices.",
+        (false, false) => {
+            "Not met exactly: the step meets all equations together as well as it can, or held more vertices."
+        }
     };
     ui.label(RichText::new(words).small().color(weak));
 }
@@ -90,7 +92,9 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
             ("Share", "The weight over the sum of all: w"),
         ];
         for (words, tip) in heads {
-            ui.label(RichText::new(words).small().color(theme.weak_text)).on_hover_text(tip);
+            // Numbers are aligned at the right, and so are the words over them.
+            let words = if words == "Neighbour" { words.to_owned() } else { format!("{words:>8}") };
+            ui.label(RichText::new(words).monospace().color(theme.weak_text)).on_hover_text(tip);
         }
         ui.end_row();
         for term in &equation.terms {
@@ -104,15 +108,11 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
             }
             for value in [term.weight, term.offset, term.share] {
                 let colour = if value < 0.0 { theme.flipped } else { theme.text };
-                right_aligned(ui, RichText::new(compact(value)).monospace().color(colour));
+                ui.label(RichText::new(format!("{:>8}", compact(value))).monospace().color(colour));
             }
             ui.end_row();
         }
     });
-}
-
-fn right_aligned(ui: &mut egui::Ui, text: RichText) {
-    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text));
 }
 
 fn numbers(ui: &mut egui::Ui, equation: &VertexEquation) {

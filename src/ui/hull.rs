@@ -135,7 +135,7 @@ impl HullScene {
             hull: Arc::new(EdgeList::closed_loop(&corners)),
             pocket_edges: Arc::new(EdgeList::new(Vec::new())),
             pockets: Arc::new(FaceList::new(Vec::new())),
-            caption: "This step has no virtual boundary: the line is the hull of its own".to_owned(),
+            caption: "This step has no virtual boundary; the line is the hull of the free one".to_owned(),
             has_stages: false,
         }
     }

@@ -21,6 +21,8 @@ const SIDE: [f32; 2] = [110.0, 240.0];
 const GAP: f32 = 12.0;
 /// Height of the words above the picture, points.
 const TITLE: f32 = 20.0;
+/// An inset narrower than this only says how much larger it shows, points.
+const ROOM_FOR_WORDS: f32 = 180.0;
 /// Half of what the inset shows, in lengths of the defect.
 const REACH: f64 = 0.7;
 /// Least side of the frame on the layout, points: a mark to be found by.
@@ -31,6 +33,7 @@ pub(super) struct Magnifier {
     place: usize,
     defect: Defect,
     camera: PlaneCamera,
+    pane: Rect,
     /// What is shown, on the screen.
     looks_at: Rect,
     /// Where it is shown, words included.
@@ -59,27 +62,28 @@ impl Magnifier {
         let looks_at = Rect::from_two_pos(corners[0], corners[1]);
         let magnification = camera.points_per_unit() / around.points_per_unit();
         let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at);
-        (magnification > 1.0).then_some(Self { place, defect, camera, looks_at, rect, magnification })
+        (magnification > 1.0).then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
     }
 
     /// Draws the inset and the frame on the layout; a click goes there.
     pub(super) fn show(
         &self,
         ui: &mut egui::Ui,
-        pane: Rect,
         editor: &Editor,
         (mesh, plane): (&MeshScene, &PlaneScene),
         requests: &mut Vec<Request>,
     ) {
         let theme = theme_of(ui);
-        self.mark_on_layout(&ui.painter_at(pane), theme);
+        self.mark_on_layout(&ui.painter_at(self.pane), theme);
         let painter = ui.painter_at(self.rect.expand(1.0));
         painter.rect_filled(self.rect, 4.0, theme.panel);
         let words = format!("× {}", self.factor());
         let title = self.rect.min + Vec2::new(8.0, TITLE / 2.0);
         painter.text(title, Align2::LEFT_CENTER, words, FontId::proportional(11.0), theme.text);
-        let right = Pos2::new(self.rect.right() - 8.0, title.y);
-        painter.text(right, Align2::RIGHT_CENTER, self.defect.words(), FontId::proportional(11.0), theme.weak_text);
+        if self.rect.width() >= ROOM_FOR_WORDS {
+            let right = Pos2::new(self.rect.right() - 8.0, title.y);
+            painter.text(right, Align2::RIGHT_CENTER, self.defect.words(), FontId::proportional(11.0), theme.weak_text);
+        }
         let picture = Rect::from_min_max(self.rect.min + Vec2::new(0.0, TITLE), self.rect.max);
         if editor.has_gpu {
             ui.painter().add(render::plane_pane(
@@ -114,7 +118,7 @@ impl Magnifier {
         let under = Stroke::new(3.0, theme.background.gamma_multiply(0.7));
         let toward = self.rect.clamp(frame.center());
         let from = frame.expand(1.0).clamp(toward);
-        if !self.rect.intersects(frame) {
+        if self.pane.intersects(frame) && !self.rect.intersects(frame) {
             painter.line_segment([from, toward], under);
             painter.line_segment([from, toward], Stroke::new(1.0, theme.text));
         }

@@ -30,7 +30,10 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     pane::header(ui, editor, Pane::Plane, requests);
     pane::message_bars(ui, editor, Place::Embedding, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
-    editor.plane_pane_size = pane::size_of(rect);
+    if editor.plane_pane_size != pane::size_of(rect) {
+        editor.plane_pane_size = pane::size_of(rect);
+        editor.keep_framed();
+    }
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
     let scenes = (editor.mesh_scene().map(Arc::clone), editor.drawn_plane().map(Arc::clone));
@@ -64,7 +67,7 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         drag_pins(ui, rect, editor, camera, requests);
     }
     if let Some(magnifier) = magnifier {
-        magnifier.show(ui, rect, editor, (&mesh, &plane), requests);
+        magnifier.show(ui, editor, (&mesh, &plane), requests);
     }
     hull::stage_selector(ui, rect, editor, requests);
     if editor.mesh_hidden()

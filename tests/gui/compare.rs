@@ -97,6 +97,54 @@ fn who_wants_no_motion_gets_none() {
     assert_eq!(drawn(&window), window.embedding());
 }
 
+/// Whether the whole embedding lies within its pane.
+fn all_shows(window: &Window) -> bool {
+    let view = window.plane_view();
+    window.embedding().iter().all(|&z| view.contains(window.place_in_plane(z)))
+}
+
+#[test]
+fn the_camera_goes_along_with_an_embedding_that_would_leave_the_pane() {
+    for wanted in [true, false] {
+        let mut window = two_steps();
+        window.editor_mut().ease.wanted = wanted;
+        window.key(Key::ArrowLeft);
+        window.key(Key::F);
+        window.settle();
+        assert!(all_shows(&window));
+        window.key(Key::ArrowRight);
+        assert!(all_shows(&window), "with ease: {wanted}");
+    }
+}
+
+#[test]
+fn a_camera_that_somebody_moved_stays() {
+    let mut window = two_steps();
+    window.key(Key::ArrowLeft);
+    window.editor_mut().plane_camera.as_mut().expect("framed").pan(DVec2::splat(150.0));
+    let camera = window.editor().plane_camera;
+    window.key(Key::ArrowRight);
+    assert_eq!(window.editor().plane_camera, camera);
+    window.harness.set_size(egui::vec2(900.0, 700.0));
+    window.settle();
+    assert_eq!(window.editor().plane_camera, camera);
+}
+
+#[test]
+fn an_embedding_that_was_framed_stays_framed_when_the_pane_changes() {
+    let mut window = two_steps();
+    window.key(Key::F);
+    window.harness.set_size(egui::vec2(700.0, 500.0));
+    window.settle();
+    assert!(all_shows(&window));
+    window.harness.set_size(egui::vec2(1800.0, 1100.0));
+    window.settle();
+    let width = window.plane_view().size();
+    let bounds = window.editor().drawn_plane().expect("solved").arrays.bounds();
+    let shown = window.place_in_plane(bounds.max) - window.place_in_plane(bounds.min);
+    assert!((shown.x / width.x).max(-shown.y / width.y) > 0.85, "it fills the pane: {shown} of {width}");
+}
+
 #[test]
 fn a_dragged_pin_is_followed_without_delay() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));

@@ -23,11 +23,13 @@ pub(crate) fn fold(window: &mut Window) {
 
 /// Pins the corners where they lie and two inner vertices each where the other lies.
 fn exchange(window: &mut Window, corners: [u32; 4], inner: [u32; 2]) {
+    // The ladder would take the folds away again.
+    let natural = Settings::new(Method::Natural, Family::Conformal);
+    window.editor_mut().session.handle(Action::SetSettings(natural));
+    window.settle();
     let embedding = window.embedding();
     let [a, b] = inner.map(VertexId::new);
     let session = &mut window.editor_mut().session;
-    // The ladder would take the folds away again.
-    session.handle(Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
     session.handle(Action::Fix(corners.map(VertexId::new).into_iter().chain([a, b]).collect()));
     session.handle(Action::MovePin { vertex: a, target: embedding[b.index()] });
     session.handle(Action::MovePin { vertex: b, target: embedding[a.index()] });
@@ -97,7 +99,9 @@ fn a_defect_that_is_gone_is_not_gone_to() {
 fn the_crossings_of_the_cow_are_listed_and_shown() {
     let Some(corpus) = corpus() else { return };
     let mut window = Window::with_file(&corpus.join("cow_seamster.obj"));
-    window.choose("Method", "Natural boundary");
+    let natural = Settings::new(Method::Natural, Family::Conformal);
+    window.editor_mut().session.handle(Action::SetSettings(natural));
+    window.settle();
     let outcome = window.outcome();
     assert!(!outcome.step.verdict.planar && !outcome.step.verdict.boundary_crossings.is_empty());
     assert!(window.verdict().contains("crossing"), "{}", window.verdict());
