@@ -186,10 +186,11 @@ pub(super) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScen
 /// An arrow that reads on any ground.
 fn arrow(painter: &egui::Painter, [from, to]: [Pos2; 2], ink: egui::Color32, ground: egui::Color32) {
     let along = to - from;
-    if !(along.length() > 1.0) {
+    let length = along.length();
+    if length <= 1.0 || !length.is_finite() {
         return;
     }
-    let head = along.normalized() * HEAD.min(along.length());
+    let head = along.normalized() * HEAD.min(length);
     let base = to - head;
     let side = head.rot90() * 0.55;
     painter.line_segment([from, base], Stroke::new(4.5, ground));
