@@ -73,8 +73,7 @@ fn main() {
     let pairs = arguments.first().and_then(|text| text.parse().ok()).unwrap_or(PAIRS);
     let trace = arguments.iter().any(|argument| argument == "trace");
     let name = arguments.get(1).filter(|name| *name != "trace").cloned().unwrap_or_default();
-    let [a, b, c, d, e, f] = ENDS;
-    let heads = ["mesh", "runs", a, b, c, d, e, f, "steps a run", "most", "s a run"];
+    let heads: Vec<&str> = ["mesh", "runs"].into_iter().chain(ENDS).chain(["steps a run", "most", "s a run"]).collect();
     let mut table = Table::new("auto: runs by the rung that they ended planar on", &heads);
     let mut all = Count::default();
     for path in meshes(&name) {
@@ -121,8 +120,9 @@ fn on_mesh(mesh: &DiskMesh, pairs: usize, trace: bool) -> Count {
 /// Two different vertices of the boundary, at their distance in space.
 fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
     let boundary = mesh.boundary_loop();
-    let first = random.bits() as usize % boundary.len();
-    let second = (first + 1 + random.bits() as usize % (boundary.len() - 1)) % boundary.len();
+    let mut below = |limit: usize| usize::try_from(random.bits() >> 32).unwrap_or_default() % limit;
+    let first = below(boundary.len());
+    let second = (first + 1 + below(boundary.len() - 1)) % boundary.len();
     let [first, second] = [boundary[first], boundary[second]];
     let distance = mesh.position(first).distance(mesh.position(second));
     Pins::from([(first, DVec2::ZERO), (second, DVec2::new(distance, 0.0))])

@@ -41,8 +41,8 @@ pub(super) struct Running {
     /// Whether a step has come in.
     has_delivered: bool,
     phase: Option<Phase>,
-    /// Once it was asked to pause: how far to go on after that.
-    paused: Option<Option<Goal>>,
+    /// Once it was asked to pause: how far to go on after that; no step further, unless it was asked for.
+    paused: Option<Goal>,
 }
 
 impl Running {
@@ -57,12 +57,11 @@ impl Running {
 
     /// Asks for another goal, after a pause where one was asked for.
     fn set_goal(&mut self, change: impl FnOnce(Goal) -> Goal) {
-        match &mut self.paused {
-            Some(after) => *after = Some(change(after.unwrap_or(Goal::Steps(0)))),
-            None => {
-                let mut goal = self.goal();
-                *goal = change(*goal);
-            }
+        if let Some(after) = &mut self.paused {
+            *after = change(*after);
+        } else {
+            let mut goal = self.goal();
+            *goal = change(*goal);
         }
     }
 
@@ -202,7 +201,7 @@ impl Session {
     pub(super) fn pause(&mut self) {
         self.solve_again = false;
         if let Some(running) = &mut self.running {
-            running.paused = Some(None);
+            running.paused = Some(Goal::Steps(0));
             running.job.cancel();
         }
     }
@@ -277,7 +276,9 @@ impl Session {
         let Some(running) = self.running.take() else { return };
         self.resting = Some(run);
         let goal = match result {
-            Ok(()) | Err(SolveError::Cancelled) if running.paused.is_some() => running.paused.flatten(),
+            Ok(()) | Err(SolveError::Cancelled) if running.paused.is_some() => {
+                running.paused.filter(|goal| *goal != Goal::Steps(0))
+            }
             Ok(()) => Some(*running.goal()).filter(|goal| {
                 let newest = self.timeline.newest().and_then(|newest| self.timeline.outcome(newest));
                 newest.is_some_and(|newest| !goal.is_reached(newest, self.ending))

@@ -74,8 +74,8 @@ impl Editor {
         self.ghost = match (other, mesh.model.disk()) {
             (Some(other), Some(disk)) => {
                 let embedding = &other.step.solution.embedding;
-                let place = |v: &VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
-                let boundary: Vec<DVec2> = disk.boundary_loop().iter().map(place).collect();
+                let position_of = |v: &VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
+                let boundary: Vec<DVec2> = disk.boundary_loop().iter().map(position_of).collect();
                 Some(Ghost::new(key, &boundary, &plane.arrays))
             }
             _ => None,

@@ -164,13 +164,13 @@ pub(super) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScen
     let (theme, painter, size) = (theme_of(ui), ui.painter_at(rect), pane::size_of(rect));
     let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
     let at = |v: VertexId| plane.positions().get(v.index()).map(|&z| spot(z));
-    let Some(place) = at(vertex) else { return };
+    let Some(centre) = at(vertex) else { return };
     for term in &equation.terms {
         #[expect(clippy::cast_possible_truncation, reason = "a width in points")]
         let share = term.share as f32;
         let colour = if share < 0.0 { theme.flipped } else { theme.selection };
         if let Some(end) = at(term.neighbour) {
-            painter.line_segment([place, end], Stroke::new((SPOKE * share.abs()).clamp(0.75, SPOKE), colour));
+            painter.line_segment([centre, end], Stroke::new((SPOKE * share.abs()).clamp(0.75, SPOKE), colour));
         }
     }
     let barycentre = spot(equation.barycentre);

@@ -43,22 +43,22 @@ pub(super) struct Magnifier {
 
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
-    pub(super) fn over(editor: &Editor, pane: Rect, plane: &PlaneScene) -> Option<Self> {
-        if !editor.magnifier || plane.is_stage() {
+    pub(super) fn over(editor: &Editor, pane: Rect, scene: &PlaneScene) -> Option<Self> {
+        if !editor.magnifier || scene.is_stage() {
             return None;
         }
-        let verdict = &plane.outcome.step.verdict;
+        let verdict = &scene.outcome.step.verdict;
         let chosen = editor.defect.and_then(|place| Some((place, Defect::nth(verdict, place)?)));
         let (place, defect) = chosen.or_else(|| Some((0, Defect::nth(verdict, 0)?)))?;
         let side = (SHARE * pane.width().min(pane.height())).clamp(SIDE[0], SIDE[1]);
         if pane.width() < 2.0 * side || pane.height() < 2.0 * side {
             return None;
         }
-        let shown = neighbourhood(editor, plane, defect)?;
+        let shown = neighbourhood(editor, scene, defect)?;
         let camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
         let around = editor.plane_camera?;
-        let size = pane::size_of(pane);
-        let corners = [shown.min, shown.max].map(|z| pane::on_screen(pane, around.pane_from_embedding(z, size)));
+        let extent = pane::size_of(pane);
+        let corners = [shown.min, shown.max].map(|z| pane::on_screen(pane, around.pane_from_embedding(z, extent)));
         let looks_at = Rect::from_two_pos(corners[0], corners[1]);
         let magnification = camera.points_per_unit() / around.points_per_unit();
         let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at);
