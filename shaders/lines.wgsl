@@ -1,4 +1,5 @@
-// Lines of the same width in pixels, with round ends: boundary, crossings, outlines of flipped faces.
+// Lines of the same width in pixels, with round ends: boundary, crossings, outlines of flipped faces; and faces filled
+// with one colour beside the mesh's.
 
 // Matches `LineUniforms` of src/render/uniforms.rs.
 struct Line {
@@ -80,6 +81,20 @@ fn vs_plane(
     let a = ((begin.xy - pane.plane_center.xy) + (begin.zw - pane.plane_center.zw)) * pane.plane_scale.xy;
     let b = ((end.xy - pane.plane_center.xy) + (end.zw - pane.plane_center.zw)) * pane.plane_scale.xy;
     return quad(vertex_index, vec4<f32>(a, 0.1, 1.0), vec4<f32>(b, 0.1, 1.0));
+}
+
+// Behind the faces of plane.wgsl.
+const DEPTH_FILL: f32 = 0.75;
+
+@vertex
+fn vs_fill(@location(0) point: vec4<f32>) -> @builtin(position) vec4<f32> {
+    let relative = (point.xy - pane.plane_center.xy) + (point.zw - pane.plane_center.zw);
+    return vec4<f32>(relative * pane.plane_scale.xy, DEPTH_FILL, 1.0);
+}
+
+@fragment
+fn fs_fill() -> @location(0) vec4<f32> {
+    return line.colour;
 }
 
 @fragment

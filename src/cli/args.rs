@@ -50,12 +50,13 @@ pub struct FlattenArguments {
     /// How to flatten.
     #[arg(long, value_enum, default_value_t = MethodName::Auto)]
     pub method: MethodName,
-    /// The shape of the boundary, for `--method convex`.
-    #[arg(long, value_enum, default_value_t = BoundaryName::Circle)]
-    pub boundary: BoundaryName,
-    /// The weights: conformal, mean-value, wachspress, power:P, and for `--method convex` uniform, shape-preserving.
-    #[arg(long, default_value = "conformal", value_parser = Family::from_str)]
-    pub family: Family,
+    /// The shape of the boundary, for `--method convex`; a circle without it.
+    #[arg(long, value_enum)]
+    pub boundary: Option<BoundaryName>,
+    /// The weights: conformal, mean-value, wachspress, power:P, and for `--method convex` uniform, shape-preserving;
+    /// conformal without it.
+    #[arg(long, value_parser = Family::from_str)]
+    pub family: Option<Family>,
     /// Pin a vertex, numbered from 0, at u,v. Repeatable.
     #[arg(long = "pin", value_name = "V:U,V", value_parser = parse_pin, allow_hyphen_values = true)]
     pub pins: Vec<(VertexId, DVec2)>,
@@ -99,8 +100,8 @@ impl FlattenArguments {
             MethodName::Iterate => Method::Iterate,
             MethodName::VirtualBoundary => Method::VirtualBoundary,
             MethodName::Convex => Method::Convex(match self.boundary {
-                BoundaryName::Circle => BoundaryShape::Circle,
-                BoundaryName::Square => BoundaryShape::Square,
+                Some(BoundaryName::Square) => BoundaryShape::Square,
+                Some(BoundaryName::Circle) | None => BoundaryShape::Circle,
             }),
             MethodName::Lscm => Method::Lscm,
             MethodName::Levy => Method::Levy,
@@ -114,13 +115,16 @@ impl FlattenArguments {
             Some(GrowthName::Double) | None => Growth::Double,
         };
         let max_steps = self.max_steps.unwrap_or(Settings::MAX_STEPS);
-        Settings { treatment, max_steps, growth, ..Settings::new(method, self.family) }
+        Settings { treatment, max_steps, growth, ..Settings::new(method, self.family.unwrap_or_default()) }
     }
 
     /// An option that was given but means nothing to the method, and why.
     pub fn idle_option(&self) -> Option<(&'static str, &'static str)> {
         let method = self.settings().method;
+        let is_convex = matches!(method, Method::Convex(_));
         let cases = [
+            (self.boundary.is_some(), is_convex, "--boundary", "only convex lays the boundary on a shape"),
+            (self.family.is_some(), method.uses_family(), "--family", "its weights are its own"),
             (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary by itself"),
             (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
             (self.max_steps.is_some(), method.iterates(), "--max-steps", "only auto and iterate do iterate"),

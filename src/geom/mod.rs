@@ -1,12 +1,14 @@
-//! The plane: exact predicates on points, segments and closed polygons, and pictures. Knows no mesh.
+//! The plane: exact predicates on points, segments and closed polygons, convex hulls, and pictures. Knows no mesh.
 
 mod crossings;
+mod hull;
 mod orient;
 mod outside;
 mod picture;
 mod polygon;
 
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, segments_meet};
+pub use hull::convex_hull;
 pub use orient::{Orientation, orientation};
 pub use outside::outside_triangles;
 pub use picture::Picture;

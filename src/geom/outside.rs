@@ -11,6 +11,10 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 /// Corners of the frame, which must lie outside the polygon's hull, are numbered after those of the polygon. Triangles
 /// are counter-clockwise. `None` where a coordinate is not finite or beyond what the triangulation can represent, and
 /// where the polygon is not simple.
+///
+/// # Panics
+///
+/// If there are 2³² points or more.
 pub fn outside_triangles(polygon: &[DVec2], frame: &[DVec2]) -> Option<Vec<[u32; 3]>> {
     let count = polygon.len();
     let points: Vec<Point2<f64>> = polygon.iter().chain(frame).map(|z| Point2::new(z.x, z.y)).collect();
@@ -43,6 +47,7 @@ fn is_inside([a, b, c]: [usize; 3], count: usize) -> bool {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "areas of polygons with small whole corners are exact")]
 mod tests {
     use super::*;
     use crate::geom::{Orientation, orientation};

@@ -43,14 +43,14 @@ pub fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io:
         let positions = stages.solved.iter().map(|&z| fit.apply(z)).collect();
         Outside { positions, stages }
     });
-    write_layout(out, mesh, (embedding, &step.verdict), outside)
+    write_layout(out, mesh, (embedding, &step.verdict), outside.as_ref())
 }
 
 fn write_layout(
     out: &mut impl Write,
     mesh: &DiskMesh,
     (embedding, verdict): (&[DVec2], &Verdict),
-    outside: Option<Outside>,
+    outside: Option<&Outside>,
 ) -> io::Result<()> {
     let frame = Frame::of(embedding.iter().chain(outside.iter().flat_map(|outside| &outside.positions)));
     let extent = frame.extent();

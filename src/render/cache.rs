@@ -28,6 +28,8 @@ pub(super) enum Key {
     MeshLines(Revision, Revision),
     /// Lines of a list in an embedding.
     PlaneLines(Revision, Revision),
+    /// Faces of a list in an embedding.
+    PlaneFills(Revision, Revision),
 }
 
 /// Buffers in use.

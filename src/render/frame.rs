@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::mesh::FaceId;
 use crate::view::{
-    EdgeList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Srgb,
+    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Srgb,
 };
 
 /// Tells panes apart, so that each keeps its own target. Two panes in one window must not share a name.
@@ -76,6 +76,24 @@ pub struct LineLayer {
     pub width_in_points: f32,
 }
 
+/// Faces that are not the mesh's, filled with one colour. They show where no face of the mesh lies over them.
+#[derive(Clone, Debug)]
+pub struct FillLayer {
+    /// Which faces.
+    pub faces: Arc<FaceList>,
+    /// Their colour.
+    pub colour: Srgb,
+}
+
+/// A line over the embedding whose vertices are not the embedding's.
+#[derive(Clone, Debug)]
+pub struct GhostLayer {
+    /// Where its vertices lie, in the same unit space as the embedding.
+    pub plane: Arc<PlaneArrays>,
+    /// The line.
+    pub line: LineLayer,
+}
+
 /// A picture in the plane.
 #[derive(Clone, Debug)]
 pub struct PictureLayer {
@@ -117,8 +135,12 @@ pub struct PlaneFrame {
     pub plane: Option<Arc<PlaneArrays>>,
     /// Colours and flags of the faces. Without it none is flipped.
     pub paint: Option<Arc<FacePaint>>,
+    /// Faces beside the mesh's.
+    pub fills: Vec<FillLayer>,
     /// Lines, the later over the earlier.
     pub lines: Vec<LineLayer>,
+    /// A line of another embedding, over all others.
+    pub ghost: Option<GhostLayer>,
     /// The picture behind the embedding.
     pub picture: Option<PictureLayer>,
     /// What part of the plane is seen.

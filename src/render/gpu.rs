@@ -199,7 +199,7 @@ impl PaneState {
 
     fn upload_uniforms(&self, queue: &wgpu::Queue, plan: &Plan) {
         queue.write_buffer(&self.uniforms, 0, &plan.uniforms);
-        for (layer, bytes) in (0..).zip(&plan.line_uniforms) {
+        for (layer, bytes) in (0..).zip(&plan.layer_uniforms) {
             queue.write_buffer(&self.line_uniforms, layer * LINE_STRIDE, bytes);
         }
     }
@@ -252,8 +252,17 @@ impl Scene<'_> {
                 calls += 1;
             }
         }
+        let mut offsets = (0_u32..).step_by(256);
+        pass.set_pipeline(&self.pipelines.plane_fills);
+        for (draw, offset) in plan.fills.iter().zip(&mut offsets) {
+            if self.bind(&mut pass, draw) {
+                pass.set_bind_group(1, &state.line_group, &[offset]);
+                pass.draw(0..draw.count, 0..1);
+                calls += 1;
+            }
+        }
         pass.set_pipeline(lines);
-        for (draw, offset) in plan.lines.iter().zip((0_u32..).step_by(256)) {
+        for (draw, offset) in plan.lines.iter().zip(&mut offsets) {
             if self.bind(&mut pass, draw) {
                 pass.set_bind_group(1, &state.line_group, &[offset]);
                 pass.draw(0..6, 0..draw.count);

@@ -24,6 +24,8 @@ mod target;
 mod uniforms;
 
 pub use callback::{install, mesh_pane, plane_pane, stats};
-pub use frame::{LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Shading, Style};
+pub use frame::{
+    FillLayer, GhostLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Shading, Style,
+};
 pub use gpu::Stats;
 pub use pipelines::{SHADERS, ShaderFile};

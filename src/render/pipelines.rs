@@ -3,7 +3,7 @@
 use eframe::wgpu;
 use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, CompareFunction};
 
-use super::plan::{MESH_LINE_STRIDE, PLANE_LINE_STRIDE};
+use super::plan::{MESH_LINE_STRIDE, PLANE_LINE_STRIDE, PLANE_POINT_STRIDE};
 use super::target::{COLOUR, DEPTH, SAMPLES};
 use super::uniforms::{LineUniforms, PaneUniforms};
 
@@ -44,6 +44,7 @@ pub(super) struct Pipelines {
     pub(super) mesh_lines: wgpu::RenderPipeline,
     pub(super) plane_background: wgpu::RenderPipeline,
     pub(super) plane_faces: wgpu::RenderPipeline,
+    pub(super) plane_fills: wgpu::RenderPipeline,
     pub(super) plane_lines: wgpu::RenderPipeline,
     pub(super) blit: wgpu::RenderPipeline,
 }
@@ -73,6 +74,12 @@ impl Pipelines {
             mesh_lines: pipeline(&Recipe {
                 vertex_entry: "vs_mesh",
                 buffers: &MESH_LINE_BUFFERS,
+                ..Recipe::lines(lines)
+            }),
+            plane_fills: pipeline(&Recipe {
+                vertex_entry: "vs_fill",
+                fragment_entry: "fs_fill",
+                buffers: &PLANE_FILL_BUFFERS,
                 ..Recipe::lines(lines)
             }),
             plane_lines: pipeline(&Recipe {
@@ -131,6 +138,9 @@ static PLANE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
     Some(buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4])),
     Some(buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![1 => Unorm8x4])),
 ];
+/// Corners of `FaceList` in an embedding.
+static PLANE_FILL_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
+    [Some(buffer(PLANE_POINT_STRIDE, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4]))];
 /// Two points in unit space.
 static MESH_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
     [Some(buffer(MESH_LINE_STRIDE, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3]))];

@@ -6,18 +6,20 @@ use std::sync::Arc;
 use eframe::wgpu;
 
 use super::cache::{Cache, Key};
-use super::frame::{LineLayer, MeshFrame, PictureLayer, PlaneFrame, Style};
+use super::frame::{FillLayer, LineLayer, MeshFrame, PictureLayer, PlaneFrame, Style};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::mesh::VertexId;
 use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PlaneArrays};
 
 /// Share of its distance by which a line comes nearer to the eye than the surface that it lies on.
 const LIFT: f32 = 0.0015;
-/// The most line layers of a pane, outlines of flipped faces included.
+/// The most layers of a pane: fills and lines, outlines of flipped faces included.
 pub(super) const LAYER_LIMIT: usize = 16;
 
 /// Bytes of a line on the mesh: two points.
 pub(super) const MESH_LINE_STRIDE: u64 = 24;
+/// Bytes of a point in the plane.
+pub(super) const PLANE_POINT_STRIDE: u64 = 16;
 /// Bytes of a line in the plane: two split points.
 pub(super) const PLANE_LINE_STRIDE: u64 = 32;
 
@@ -33,7 +35,7 @@ pub(super) enum Kind {
 pub(super) struct Draw {
     /// Vertex buffers in the order of their slots.
     pub(super) buffers: Vec<Key>,
-    /// Vertices of faces, instances of lines.
+    /// Vertices of faces and fills, instances of lines.
     pub(super) count: u32,
 }
 
@@ -45,9 +47,10 @@ pub(super) struct Plan {
     /// The bytes of [`PaneUniforms`].
     pub(super) uniforms: Vec<u8>,
     pub(super) faces: Vec<Draw>,
+    pub(super) fills: Vec<Draw>,
     pub(super) lines: Vec<Draw>,
-    /// The bytes of a [`LineUniforms`] per line layer.
-    pub(super) line_uniforms: Vec<Vec<u8>>,
+    /// The bytes of a [`LineUniforms`] per layer: first the fills, then the lines.
+    pub(super) layer_uniforms: Vec<Vec<u8>>,
     pub(super) picture: Option<crate::view::Revision>,
     pub(super) clear: [f64; 4],
 }
@@ -55,7 +58,7 @@ pub(super) struct Plan {
 impl Plan {
     /// All buffers that the pane needs.
     pub(super) fn keys(&self) -> impl Iterator<Item = Key> + '_ {
-        self.faces.iter().chain(&self.lines).flat_map(|draw| draw.buffers.iter().copied())
+        self.faces.iter().chain(&self.fills).chain(&self.lines).flat_map(|draw| draw.buffers.iter().copied())
     }
 
     fn new(kind: Kind, size: PaneSize, uniforms: &PaneUniforms, palette: &Palette) -> Self {
@@ -65,18 +68,27 @@ impl Plan {
             size: size.in_pixels,
             uniforms: bytemuck::bytes_of(uniforms).to_vec(),
             faces: Vec::new(),
+            fills: Vec::new(),
             lines: Vec::new(),
-            line_uniforms: Vec::new(),
+            layer_uniforms: Vec::new(),
             picture: None,
             // Alpha counts faces; there are none yet.
             clear: [r, g, b, 0.0],
         }
     }
 
+    /// Call before [`Self::push_line`]: the uniforms of fills come first.
+    fn push_fill(&mut self, draw: Draw, uniforms: LineUniforms) {
+        if draw.count > 0 && self.layer_uniforms.len() < LAYER_LIMIT {
+            self.fills.push(draw);
+            self.layer_uniforms.push(bytemuck::bytes_of(&uniforms).to_vec());
+        }
+    }
+
     fn push_line(&mut self, draw: Draw, uniforms: LineUniforms) {
-        if draw.count > 0 && self.lines.len() < LAYER_LIMIT {
+        if draw.count > 0 && self.layer_uniforms.len() < LAYER_LIMIT {
             self.lines.push(draw);
-            self.line_uniforms.push(bytemuck::bytes_of(&uniforms).to_vec());
+            self.layer_uniforms.push(bytemuck::bytes_of(&uniforms).to_vec());
         }
     }
 }
@@ -139,7 +151,11 @@ impl Planner<'_> {
         let paint = self.paint_or_zeros(frame.paint.as_ref(), mesh);
         plan.faces.push(Draw { buffers: vec![corners, paint], count: corner_count(mesh) });
 
-        for layer in &frame.lines {
+        for layer in &frame.fills {
+            plan.push_fill(self.fill_draw(plane, layer), LineUniforms::new(layer.colour, 0.0, 1.0, 0.0));
+        }
+        let ghost = frame.ghost.as_ref().map(|ghost| (&ghost.plane, &ghost.line));
+        for (plane, layer) in frame.lines.iter().map(|layer| (plane, layer)).chain(ghost) {
             let key = Key::PlaneLines(plane.revision(), layer.edges.revision());
             self.ensure_with(key, || segments(plane.points(), vertex_pairs(&layer.edges)));
             plan.push_line(self.line_draw(key, PLANE_LINE_STRIDE), self.line(layer, 0.0));
@@ -185,6 +201,14 @@ impl Planner<'_> {
         let size = (stride * mesh.corner_positions().len()) as u64;
         self.cache.ensure_zeros(self.device, size);
         Key::Zeros(size)
+    }
+
+    /// One call for all the faces of a layer; corners at vertices that are not there fall together.
+    fn fill_draw(&mut self, plane: &PlaneArrays, layer: &FillLayer) -> Draw {
+        let key = Key::PlaneFills(plane.revision(), layer.faces.revision());
+        let point = |v: VertexId| plane.points().get(v.index()).copied().unwrap_or_default();
+        self.ensure_with(key, || layer.faces.triangles().iter().flat_map(|corners| corners.map(point)).collect());
+        self.line_draw(key, PLANE_POINT_STRIDE)
     }
 
     /// One call for all the lines of a buffer.

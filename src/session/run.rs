@@ -41,18 +41,8 @@ pub(super) struct Running {
     /// Whether a step has come in.
     has_delivered: bool,
     phase: Option<Phase>,
-    pause: Pause,
-}
-
-/// Whether a run was asked to come to rest before its goal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pause {
-    /// It was not.
-    None,
-    /// It was.
-    Asked,
-    /// It was, and then to go on so far.
-    AskedThen(Goal),
+    /// Once it was asked to pause: how far to go on after that; no step further, unless it was asked for.
+    paused: Option<Goal>,
 }
 
 impl Running {
@@ -67,20 +57,18 @@ impl Running {
 
     /// Asks for another goal, after a pause where one was asked for.
     fn set_goal(&mut self, change: impl FnOnce(Goal) -> Goal) {
-        match self.pause {
-            Pause::None => {
-                let mut goal = self.goal();
-                *goal = change(*goal);
-            }
-            Pause::Asked => self.pause = Pause::AskedThen(change(Goal::Steps(0))),
-            Pause::AskedThen(goal) => self.pause = Pause::AskedThen(change(goal)),
+        if let Some(after) = &mut self.paused {
+            *after = change(*after);
+        } else {
+            let mut goal = self.goal();
+            *goal = change(*goal);
         }
     }
 
     /// Whether another document only needs the first step again, with other targets of the same pins.
     fn is_followed_by(&self, document: &Document) -> bool {
         let same_vertices = self.document.pins.keys().eq(document.pins.keys());
-        self.pause == Pause::None && !self.has_delivered && self.document.settings == document.settings && same_vertices
+        self.paused.is_none() && !self.has_delivered && self.document.settings == document.settings && same_vertices
     }
 }
 
@@ -161,8 +149,8 @@ impl Session {
         };
         match Job::spawn("solve", self.waker(), work) {
             Ok(job) => {
-                let (has_delivered, phase, pause) = (false, None, Pause::None);
-                self.running = Some(Running { job, deliveries, goal, document, has_delivered, phase, pause });
+                let (has_delivered, phase, paused) = (false, None, None);
+                self.running = Some(Running { job, deliveries, goal, document, has_delivered, phase, paused });
             }
             Err(error) => self.fail(Place::Embedding, format!("no thread to solve with: {error}"), None),
         }
@@ -213,7 +201,7 @@ impl Session {
     pub(super) fn pause(&mut self) {
         self.solve_again = false;
         if let Some(running) = &mut self.running {
-            running.pause = Pause::Asked;
+            running.paused = Some(Goal::Steps(0));
             running.job.cancel();
         }
     }
@@ -288,10 +276,9 @@ impl Session {
         let Some(running) = self.running.take() else { return };
         self.resting = Some(run);
         let goal = match result {
-            Ok(()) | Err(SolveError::Cancelled) if running.pause != Pause::None => match running.pause {
-                Pause::AskedThen(goal) => Some(goal),
-                Pause::None | Pause::Asked => None,
-            },
+            Ok(()) | Err(SolveError::Cancelled) if running.paused.is_some() => {
+                running.paused.filter(|goal| *goal != Goal::Steps(0))
+            }
             Ok(()) => Some(*running.goal()).filter(|goal| {
                 let newest = self.timeline.newest().and_then(|newest| self.timeline.outcome(newest));
                 newest.is_some_and(|newest| !goal.is_reached(newest, self.ending))

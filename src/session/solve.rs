@@ -89,6 +89,7 @@ impl Outcome {
     /// Moving to the unit square rounds. Where that breaks what was planar, the scale is a power of two, so that less
     /// is rounded, and then nothing is moved, so that nothing is.
     pub fn output(&self, mesh: &DiskMesh, fit: OutputFit) -> (Vec<DVec2>, Placement, Verdict) {
+        type Way = (fn(&mut [DVec2]), Placement);
         let embedding = &self.step.solution.embedding;
         if self.pins_in_use().next().is_some() {
             return (embedding.clone(), Placement::Pins, self.step.verdict.clone());
@@ -106,7 +107,7 @@ impl Outcome {
         if first.2.planar || !self.step.verdict.planar {
             return first;
         }
-        let others: [(fn(&mut [DVec2]), Placement); 2] =
+        let others: [Way; 2] =
             [(to_unit_square_by_power_of_two, Placement::UnitSquare), (to_unit_box, Placement::Unmoved)];
         let rescued = others.into_iter().map(|(place, name)| placed(place, name)).find(|found| found.2.planar);
         rescued.unwrap_or(first)

@@ -75,6 +75,18 @@ fn face_weights([a, b, c]: [DVec2; 3], mean_length: f64) -> FaceWeights {
     FaceWeights { at_corner, degenerate }
 }
 
+/// What the first corner of a face gives to its edges to the next corner and to the previous one, in the embedding's own
+/// units: for one corner alone there is no overflow to be afraid of.
+pub(super) fn corner_weights(corners: [DVec2; 3]) -> [f64; 2] {
+    face_weights(corners, 1.0).at_corner[0]
+}
+
+/// The length of a face's edge from corner k on as the weights take it: positive.
+pub(super) fn edge_radius(corners: [DVec2; 3], k: usize) -> f64 {
+    let [a, b, c] = corners;
+    radii_of([b - a, c - b, a - c], 1.0).0[k]
+}
+
 /// A power of two that brings an embedding to edges of a length near 1, and that length. Multiplying by it rounds
 /// nothing.
 fn scale_of(embedding: &[DVec2], face_count: usize) -> f64 {
@@ -148,8 +160,7 @@ pub fn natural_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Equations<Compl
     let outer_sides = 3 * mesh.face_count()..mesh.halfedge_count();
     for outer in outer_sides.map(HalfedgeId::from_index) {
         let inner = mesh.twin(outer);
-        let face = mesh.face_of(inner).expect("a boundary edge has a face inside");
-        let corners = mesh.face(face).map(|v| embedding[v.index()] * scale);
+        let corners = mesh.face(FaceId::from_index(inner.index() / 3)).map(|v| embedding[v.index()] * scale);
         let (radii, _) = radii_of([corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]], 1.0);
         let offset_share = 1.0 / radii[inner.index() % 3];
         // A fan begins with the inner side of one boundary edge and ends with the outer side of another.

@@ -29,6 +29,11 @@ pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
     Equations { coefficients, bounded_corners }
 }
 
+/// The weights of an interior vertex's ring, given by the edges to its neighbours.
+pub(super) fn weights_of_ring(arms: &[glam::DVec3]) -> Vec<f64> {
+    ring_weights(&polar_map(arms)).0
+}
+
 /// Angle and radius of each neighbour in the flattened ring.
 fn polar_map(arms: &[glam::DVec3]) -> Vec<(f64, f64)> {
     let gaps: Vec<f64> = arms.iter().zip(arms.iter().cycle().skip(1)).map(|(a, b)| a.angle_between(*b)).collect();

@@ -2,6 +2,7 @@
 
 use super::Element;
 use crate::mesh::{EdgeId, FaceId, VertexId};
+use crate::solver::Verdict;
 
 /// One thing wrong with an embedding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +23,15 @@ impl Defect {
             Self::Crossing([a, b]) => [Some(Element::Edge(a)), Some(Element::Edge(b))],
             Self::Overwound(vertex) => [Some(Element::Vertex(vertex)), None],
         }
+    }
+
+    /// The defect of a verdict by its place: flipped faces, then crossings, then overwound vertices.
+    pub fn nth(verdict: &Verdict, place: usize) -> Option<Self> {
+        let Verdict { flipped_faces, boundary_crossings, overwound_vertices, .. } = verdict;
+        let flipped = flipped_faces.iter().map(|&face| Self::Flipped(face));
+        let crossings = boundary_crossings.iter().map(|&edges| Self::Crossing(edges));
+        let overwound = overwound_vertices.iter().map(|&vertex| Self::Overwound(vertex));
+        flipped.chain(crossings).chain(overwound).nth(place)
     }
 
     /// What it is, for lists.

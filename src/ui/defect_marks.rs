@@ -3,10 +3,11 @@
 
 use eframe::egui;
 use egui::{Pos2, Stroke};
+use glam::DVec2;
 
 use super::Editor;
-use super::scene::MeshScene;
-use super::theme::Theme;
+use super::scene::{MeshScene, PlaneScene};
+use super::theme::{Theme, theme_of};
 use crate::mesh::VertexId;
 
 /// Crossings and overwound vertices marked at most; the list in the panel has them all.
@@ -19,12 +20,33 @@ pub(super) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2
     pairs.map(|edges| edges.map(|edge| disk.ends(edge))).collect()
 }
 
-/// Where two segments of the screen cross; the middle of the first where they are parallel.
-pub(super) fn crossing_point([a, b]: [Pos2; 2], [c, d]: [Pos2; 2]) -> Pos2 {
-    let (along, across, between) = (b - a, d - c, c - a);
-    let cross = |u: egui::Vec2, w: egui::Vec2| u.x * w.y - u.y * w.x;
-    let share = cross(between, across) / cross(along, across);
+/// Where two segments cross; the middle of the first where they are parallel.
+pub(super) fn crossing_point([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> DVec2 {
+    let (along, across) = (b - a, d - c);
+    let share = (c - a).perp_dot(across) / along.perp_dot(across);
     a + along * if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 }
+}
+
+/// Crossings and overwound vertices of the embedding, where `spot` has points of the plane on the screen.
+pub(super) fn plane_marks(
+    ui: &egui::Ui,
+    clip: egui::Rect,
+    editor: &Editor,
+    (mesh, plane): (&MeshScene, &PlaneScene),
+    spot: &dyn Fn(DVec2) -> Pos2,
+) {
+    let (painter, theme) = (&ui.painter_at(clip), theme_of(ui));
+    let at = |vertex: VertexId| plane.positions().get(vertex.index()).copied().unwrap_or(DVec2::NAN);
+    for pair in crossings(editor, mesh) {
+        let [first, second] = pair.map(|edge| edge.map(at));
+        for edge in [first, second] {
+            painter.line_segment(edge.map(spot), Stroke::new(3.0, theme.crossing));
+        }
+        painter.circle_stroke(spot(crossing_point(first, second)), 7.0, Stroke::new(1.5, theme.crossing));
+    }
+    for vertex in overwound(editor) {
+        overwound_mark(painter, spot(at(vertex)), theme);
+    }
 }
 
 /// The overwound vertices that are marked.

@@ -8,11 +8,12 @@ use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
+use super::compare::Ghost;
 use super::dialogs::{Choice, Dialogs, Purpose, kind_of};
 use super::framing::{grown, grown_box, positions_of};
 use super::pane::PinOwner;
 use super::scene::{MeshScene, Paint, PlaneScene, vertices_of};
-use super::{Defect, Pane, Request, Shading, Tab, TimelineView, Tool};
+use super::{Defect, Ease, HullView, Pane, Request, Shading, Tab, TimelineView, Tool};
 use crate::mesh::VertexId;
 use crate::session::{Action, Busy, Job, OutputFit, RecentFiles, SaveRequest, Session};
 use crate::view::{OrbitCamera, PlaneCamera};
@@ -41,6 +42,12 @@ pub struct Editor {
     pub full: Option<Pane>,
     /// Share of the width that the mesh's pane has.
     pub split: f32,
+    /// Hull and pockets of the virtual boundary.
+    pub hull: HullView,
+    /// The way between steps.
+    pub ease: Ease,
+    /// Whether an inset magnifies a defect.
+    pub magnifier: bool,
     /// Selected vertices.
     pub selection: BTreeSet<VertexId>,
     /// The vertex under the pointer, in whichever pane.
@@ -87,6 +94,7 @@ pub struct Editor {
     pub(super) plane_scene: Option<Arc<PlaneScene>>,
     pub(super) plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
     pub(super) paint: Option<Paint>,
+    pub(super) ghost: Option<Ghost>,
     pub(super) busy_since: Option<Instant>,
 }
 
@@ -110,6 +118,9 @@ impl Editor {
             window_is_wide: true,
             full: None,
             split: 0.5,
+            hull: HullView::default(),
+            ease: Ease::default(),
+            magnifier: true,
             selection: BTreeSet::new(),
             hovered: None,
             pane_under_pointer: None,
@@ -136,6 +147,7 @@ impl Editor {
             plane_scene: None,
             plane_scene_job: None,
             paint: None,
+            ghost: None,
             busy_since: None,
         }
     }
@@ -176,13 +188,16 @@ impl Editor {
         self.go_on_playing();
         self.poll_mesh_scene();
         self.poll_plane_scene();
+        self.go_on_easing();
+        self.poll_hull_scene();
+        self.refresh_ghost();
         self.refresh_paint();
         match (self.session.busy(), self.busy_since) {
             (Some(_), None) => self.busy_since = Some(Instant::now()),
             (None, Some(_)) => self.busy_since = None,
             _ => {}
         }
-        let scenes_pending = self.mesh_scene_job.is_some() || self.plane_scene_job.is_some();
+        let scenes_pending = self.mesh_scene_job.is_some() || self.plane_scene_job.is_some() || self.is_making_hull();
         if self.session.busy().is_some() || scenes_pending || self.dialogs.is_open() {
             self.context.request_repaint_after(Duration::from_millis(100));
         }
@@ -202,6 +217,10 @@ impl Editor {
             Request::SetTool(tool) => self.tool = tool,
             Request::SetShading(shading) => self.shading = shading,
             Request::ToggleWireframe => self.wireframe = !self.wireframe,
+            Request::ToggleEase => self.ease.wanted = !self.ease.wanted,
+            Request::ToggleMagnifier => self.magnifier = !self.magnifier,
+            Request::ToggleHull => self.toggle_hull(),
+            Request::SetStage(stage) => self.hull.stage = stage,
             Request::ShowTab(tab) => (self.tab, self.panels_wanted) = (tab, Some(true)),
             Request::TogglePanels => self.panels_wanted = Some(!self.panels_shown()),
             Request::Frame => self.frame(),
@@ -304,11 +323,13 @@ impl Editor {
         let ball =
             if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
         orbit.frame(ball, self.mesh_pane_size);
-        let (Some(plane), Some(camera)) = (&self.plane_scene, &mut self.plane_camera) else { return };
-        let embedding = &plane.outcome.step.solution.embedding;
+        let (Some(plane), Some(camera)) = (self.drawn_plane().cloned(), &mut self.plane_camera) else { return };
         let bounds = plane.arrays.bounds();
-        let wanted = if selected.is_empty() { bounds } else { grown_box(embedding, &selected, bounds) };
+        let wanted = if selected.is_empty() { bounds } else { grown_box(plane.positions(), &selected, bounds) };
         camera.frame(wanted, self.plane_pane_size);
+        if let Some(camera) = self.plane_camera.filter(|_| selected.is_empty() && !plane.is_stage()) {
+            self.set_framed(camera);
+        }
     }
 
     fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {

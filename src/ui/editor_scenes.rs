@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::Editor;
-use super::scene::{MeshScene, Paint, PlaneScene};
+use super::scene::{MeshScene, Paint, PaintKey, PlaneScene};
+use super::{Editor, Shading};
 use crate::session::{Job, Poll};
-use crate::view::{OrbitCamera, UpAxis};
+use crate::view::{OrbitCamera, PlaneCamera, UpAxis};
 
 impl Editor {
     pub(super) fn poll_mesh_scene(&mut self) {
@@ -51,8 +51,10 @@ impl Editor {
                 Poll::Lost => self.plane_scene_job = None,
                 Poll::Done(scene) => {
                     self.plane_scene_job = None;
-                    self.keep_in_sight(scene.arrays.bounds());
-                    self.plane_scene = Some(Arc::new(scene));
+                    if self.plane_camera.is_none() {
+                        self.set_framed(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
+                    }
+                    self.take_plane_scene(scene);
                 }
             }
         }
@@ -71,11 +73,17 @@ impl Editor {
 
     pub(super) fn refresh_paint(&mut self) {
         let Some(mesh_scene) = &self.mesh_scene else { return };
-        let plane_revision = self.plane_scene.as_ref().map_or(0, |scene| scene.outcome_revision);
-        let key = (mesh_scene.model_revision, plane_revision, self.shading);
+        let base = self.moved_from().filter(|_| self.shading == Shading::Move);
+        let key = PaintKey {
+            model: mesh_scene.model_revision,
+            outcome: self.plane_scene.as_ref().map_or(0, |scene| scene.outcome_revision),
+            shading: self.shading,
+            moved_from: base.map(|base| base.step.index),
+        };
         if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
             let outcome = self.plane_scene.as_ref().map(|scene| scene.outcome.as_ref());
-            self.paint = Some(Paint::new(key, mesh_scene.model.mesh().face_count(), outcome));
+            let base = base.map(AsRef::as_ref);
+            self.paint = Some(Paint::new(key, mesh_scene.model.mesh(), outcome, base));
         }
     }
 }

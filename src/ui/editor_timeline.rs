@@ -1,27 +1,13 @@
 //! The editor's way through the steps of a run.
 
-use glam::DVec2;
-
 use super::{Editor, StepTarget};
 use crate::session::Action;
-use crate::view::{PlaneBox, PlaneCamera};
 
 /// Playing all steps takes about so long, seconds.
 const PLAY_SECONDS: f64 = 6.0;
 
 /// How long one step shows while they are played, at least and at most, seconds.
 const STEP_SECONDS: (f64, f64) = (0.1, 0.8);
-
-/// An embedding that covers less than this share of its pane, along both sides, is framed anew.
-const LEAST_SHARE: f64 = 0.3;
-
-fn contains(outer: PlaneBox, inner: PlaneBox) -> bool {
-    outer.min.cmple(inner.min).all() && outer.max.cmpge(inner.max).all()
-}
-
-fn extent(of: PlaneBox) -> DVec2 {
-    of.max - of.min
-}
 
 impl Editor {
     /// Whether the strip under the panes shows: as soon as there is something that steps can be taken of, so that the
@@ -61,25 +47,6 @@ impl Editor {
             self.session.handle(Action::ShowStep(0));
         }
         self.timeline.playing_since = Some(self.context.input(|input| input.time));
-    }
-
-    /// Frames an embedding that has just come where it is the first one; or where the whole of the one before was in
-    /// sight, and of this one a part would not be, or it would be lost in a wide plane. Whoever looks at a detail keeps
-    /// the view, and so does whoever has pins: what was dropped at a place of the screen stays there.
-    pub(super) fn keep_in_sight(&mut self, bounds: PlaneBox) {
-        let before = self.plane_scene.as_ref().map(|scene| scene.arrays.bounds());
-        let is_out_of_sight = match (self.plane_camera, before) {
-            (Some(camera), Some(before)) => {
-                let visible = camera.visible(self.plane_pane_size);
-                let share = (extent(bounds) / extent(visible)).max_element();
-                let has_pins = !self.session.document().pins.is_empty() || self.dragged_pin.is_some();
-                !has_pins && contains(visible, before) && (!contains(visible, bounds) || share < LEAST_SHARE)
-            }
-            _ => true,
-        };
-        if is_out_of_sight {
-            self.plane_camera = Some(PlaneCamera::framing(bounds, self.plane_pane_size));
-        }
     }
 
     /// Shows the next step when it is time. Call once per frame.

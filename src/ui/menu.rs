@@ -129,11 +129,15 @@ fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    for shading in Shading::ALL {
-        choice(ui, editor.shading == shading, shading.title(), Request::SetShading(shading), requests);
-    }
-    ui.separator();
+    ui.menu_button("Shading", |ui| {
+        for shading in Shading::ALL {
+            choice(ui, editor.shading == shading, shading.title(), Request::SetShading(shading), requests);
+        }
+    });
     choice(ui, editor.wireframe, "Wireframe", Request::ToggleWireframe, requests);
+    choice(ui, editor.hull.shown, "Hull and pockets", Request::ToggleHull, requests);
+    choice(ui, editor.magnifier, "Magnifier over a defect", Request::ToggleMagnifier, requests);
+    choice(ui, editor.ease.wanted, "Glide from step to step", Request::ToggleEase, requests);
     choice(ui, editor.panels_shown(), "Panels", Request::TogglePanels, requests);
     choice(ui, editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves, requests);
     ui.separator();

@@ -50,8 +50,9 @@ pub(super) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mu
     }
     marks(ui, rect, editor, &scene, &camera);
     if let Some(legend) = editor.paint().and_then(|paint| paint.legend.as_ref()) {
-        pane::legend(ui, rect, legend, editor.shading.title());
+        pane::legend(ui, rect, legend, &editor.shading_title());
     }
+    super::compare::no_move_note(ui, rect, editor);
 }
 
 /// Camera moves: turntable, pan, zoom to the pointer, pivot.
@@ -124,7 +125,7 @@ pub(super) fn cursor(editor: &Editor) -> CursorIcon {
 }
 
 fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, theme: &Theme) -> MeshFrame {
-    let plane = editor.plane_scene().map(|plane| Arc::clone(&plane.arrays));
+    let plane = editor.result_plane().map(|plane| Arc::clone(&plane.arrays));
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         lines: vec![boundary_line(scene, theme)],
@@ -147,7 +148,8 @@ pub(super) fn style(editor: &Editor) -> Style {
     let shading = match editor.shading {
         Shading::Plain => render::Shading::Plain,
         Shading::Checker => render::Shading::Checker,
-        Shading::Angle | Shading::Area | Shading::Stretch => render::Shading::Paint,
+        Shading::Move if editor.moved_from().is_none() => render::Shading::Plain,
+        Shading::Angle | Shading::Area | Shading::Stretch | Shading::Move => render::Shading::Paint,
     };
     let extent = editor.plane_scene().map_or(1.0, |plane| plane.arrays.bounds().extent());
     Style {

@@ -56,6 +56,16 @@ pub(super) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     }
     more(ui, settings, requests);
     ui.add_space(8.0);
+    solve_and_cancel(ui, editor, requests);
+    if let Some(outcome) = editor.session.outcome() {
+        ui.add_space(8.0);
+        distortion(ui, outcome);
+        ui.add_space(4.0);
+        numbers(ui, outcome);
+    }
+}
+
+fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let disk = editor.session.model().is_some_and(|model| model.disk().is_some());
     let busy = editor.session.busy().is_some();
     ui.horizontal(|ui| {
@@ -68,12 +78,6 @@ pub(super) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             requests.push(Request::Do(Action::Cancel));
         }
     });
-    if let Some(outcome) = editor.session.outcome() {
-        ui.add_space(8.0);
-        distortion(ui, outcome);
-        ui.add_space(4.0);
-        numbers(ui, outcome);
-    }
 }
 
 /// The words with a capital at the beginning.

@@ -1,17 +1,22 @@
 //! The window's panels and panes: they show the editor's state and collect requests.
 
 mod boxes;
+mod compare;
 mod defect;
 mod defect_marks;
 mod defects_panel;
 mod dialogs;
+mod ease;
 mod editor;
 mod editor_scenes;
 mod editor_timeline;
+mod equation_table;
 mod floating;
 mod framing;
+mod hull;
 mod icons;
 mod keys;
+mod magnifier;
 mod menu;
 mod mesh_pane;
 mod method_panel;
@@ -33,12 +38,14 @@ mod window;
 
 pub use defect::Defect;
 pub use dialogs::{Choice, Dialogs, Purpose};
+pub use ease::Ease;
 pub use editor::Editor;
+pub use hull::{HullScene, HullView, Stage};
 pub use keys::{BINDINGS, Binding, keys_of};
 pub use method_panel::sentence;
 pub use pane::PinOwner;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
-pub use scene::{Element, MeshScene, Paint, PlaneScene};
+pub use scene::{Element, MeshScene, Paint, PaintKey, PlaneScene};
 pub use timeline::TimelineView;
 pub use window::window_ui;
 

@@ -50,11 +50,22 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
             if button.clicked() {
                 requests.push(Request::ToggleFull(pane));
             }
+            if pane == Pane::Plane {
+                hull_switch(ui, editor, requests);
+            }
             if pane == Pane::Mesh || editor.full == Some(Pane::Plane) {
                 shading_menu(ui, editor, requests);
             }
         });
     });
+}
+
+fn hull_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let switch = ui.selectable_label(editor.hull.shown, "Hull");
+    let tip = format!("Hull and pockets of the virtual boundary ({})", keys_of(ui.ctx(), &Request::ToggleHull));
+    if switch.on_hover_text(tip).clicked() {
+        requests.push(Request::ToggleHull);
+    }
 }
 
 fn shading_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {

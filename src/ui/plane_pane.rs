@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use eframe::egui;
-use egui::{CursorIcon, Pos2, Rect, Response, Role, Sense, Stroke, Vec2, WidgetInfo};
+use egui::{CursorIcon, Pos2, Rect, Response, Role, Sense, Vec2, WidgetInfo};
 use glam::DVec2;
 
+use super::compare;
+use super::hull;
+use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, clicked, cursor, style};
 use super::pane::{self, PinOwner};
 use super::scene::{MeshScene, PlaneScene};
@@ -27,10 +30,13 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     pane::header(ui, editor, Pane::Plane, requests);
     pane::message_bars(ui, editor, Place::Embedding, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
-    editor.plane_pane_size = pane::size_of(rect);
+    if editor.plane_pane_size != pane::size_of(rect) {
+        editor.plane_pane_size = pane::size_of(rect);
+        editor.keep_framed();
+    }
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
-    let scenes = (editor.mesh_scene().map(Arc::clone), editor.plane_scene().map(Arc::clone));
+    let scenes = (editor.mesh_scene().map(Arc::clone), editor.drawn_plane().map(Arc::clone));
     let (Some(mesh), Some(plane), Some(mut camera)) = (scenes.0, scenes.1, editor.plane_camera) else {
         return pane::empty_state(ui, rect, &waiting_words(editor));
     };
@@ -40,7 +46,9 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         ui.ctx().request_repaint();
     }
     let size = pane::size_of(rect);
-    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at));
+    let magnifier = Magnifier::over(editor, rect, &plane);
+    let is_covered = |at: Pos2| magnifier.as_ref().is_some_and(|magnifier| magnifier.rect.contains(at));
+    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at) && !is_covered(*at));
     if response.hovered() || response.contains_pointer() {
         editor.pane_under_pointer = Some(Pane::Plane);
         let pointer = pointer.map(|at| pane::in_pane(rect, at));
@@ -54,11 +62,21 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     }
     select(ui, &response, editor, &plane, requests);
     marks(ui, rect, editor, (&mesh, &plane), camera);
-    drag_pins(ui, rect, editor, camera, requests);
+    super::equation_table::draw(ui, rect, editor, &plane, camera);
+    if !plane.is_stage() {
+        drag_pins(ui, rect, editor, camera, requests);
+    }
+    if let Some(magnifier) = magnifier {
+        magnifier.show(ui, editor, (&mesh, &plane), requests);
+    }
+    hull::stage_selector(ui, rect, editor, requests);
     if editor.mesh_hidden()
         && let Some(legend) = editor.paint().and_then(|paint| paint.legend.as_ref())
     {
-        pane::legend(ui, rect, legend, editor.shading.title());
+        pane::legend(ui, rect, legend, &editor.shading_title());
+    }
+    if !plane.is_stage() {
+        compare::ghost_note(ui, rect, editor);
     }
 }
 
@@ -96,8 +114,9 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
         let size = pane::size_of(rect);
         let [a, b] = [chosen.left_bottom(), chosen.right_top()]
             .map(|corner| camera.embedding_from_pane(pane::in_pane(rect, corner), size));
-        let embedding = plane.outcome.step.solution.embedding.iter().enumerate();
-        let inside = embedding.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
+        let count = plane.outcome.step.solution.embedding.len();
+        let positions = plane.positions()[..count].iter().enumerate();
+        let inside = positions.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
         requests.push(Request::AddToSelection(inside.map(|(i, _)| VertexId::from_index(i)).collect()));
     }
     if response.clicked() {
@@ -109,13 +128,26 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
 }
 
 fn frame(editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
+    let mut lines = vec![boundary_line(mesh, theme)];
+    let mut fills = Vec::new();
+    if let Some(scene) = editor.hull_scene() {
+        fills = scene.fills(theme);
+        lines.extend(scene.lines(theme));
+    }
+    let mut style = style(editor);
+    if plane.is_stage() && style.shading == render::Shading::Paint {
+        style.shading = render::Shading::Plain;
+    }
+    let paint = editor.stage_paint().or(editor.paint().map(|paint| &paint.faces));
     PlaneFrame {
         mesh: Arc::clone(&mesh.arrays),
         plane: Some(Arc::clone(&plane.arrays)),
-        paint: editor.paint().map(|paint| Arc::clone(&paint.faces)),
-        lines: vec![boundary_line(mesh, theme)],
+        paint: paint.map(Arc::clone),
+        fills,
+        lines,
+        ghost: editor.ghost.as_ref().filter(|_| !plane.is_stage()).map(|ghost| ghost.layer(theme)),
         picture: None,
-        style: style(editor),
+        style,
         palette: theme.palette,
         camera,
     }
@@ -125,21 +157,14 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
     let theme = theme_of(ui);
     let over = ui.painter_at(rect);
     let size = pane::size_of(rect);
-    let embedding = &plane.outcome.step.solution.embedding;
     let spot = |vertex: VertexId| -> Pos2 {
-        let z = embedding.get(vertex.index()).copied().unwrap_or(DVec2::NAN);
+        let z = plane.positions().get(vertex.index()).copied().unwrap_or(DVec2::NAN);
         pane::on_screen(rect, camera.pane_from_embedding(z, size))
     };
-    for pair in super::defect_marks::crossings(editor, mesh) {
-        let [first, second] = pair.map(|edge| edge.map(spot));
-        for edge in [first, second] {
-            over.line_segment(edge, Stroke::new(3.0, theme.crossing));
-        }
-        let at = super::defect_marks::crossing_point(first, second);
-        over.circle_stroke(at, 7.0, Stroke::new(1.5, theme.crossing));
-    }
-    for vertex in super::defect_marks::overwound(editor) {
-        super::defect_marks::overwound_mark(&over, spot(vertex), theme);
+    // The verdict is on the result, not on a stage before it.
+    if !plane.is_stage() {
+        let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
+        super::defect_marks::plane_marks(ui, rect, editor, (mesh, plane), &spot);
     }
     for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
         pane::halo(&over, spot(vertex), theme.selection, 6.0);

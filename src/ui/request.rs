@@ -1,5 +1,6 @@
 //! What a person can ask of the window. Panels collect requests; the editor carries them out after the frame.
 
+use super::Stage;
 use crate::mesh::VertexId;
 use crate::session::{Action, OutputFit};
 use eframe::egui;
@@ -28,11 +29,13 @@ pub enum Shading {
     Area,
     /// Stretch.
     Stretch,
+    /// Distance moved since another step.
+    Move,
 }
 
 impl Shading {
     /// All shadings, in the order of menus.
-    pub const ALL: [Self; 5] = [Self::Plain, Self::Checker, Self::Angle, Self::Area, Self::Stretch];
+    pub const ALL: [Self; 6] = [Self::Plain, Self::Checker, Self::Angle, Self::Area, Self::Stretch, Self::Move];
 
     /// Its name in menus.
     pub const fn title(self) -> &'static str {
@@ -42,6 +45,7 @@ impl Shading {
             Self::Angle => "Angle distortion",
             Self::Area => "Area distortion",
             Self::Stretch => "Stretch",
+            Self::Move => "Move",
         }
     }
 
@@ -53,6 +57,7 @@ impl Shading {
             Self::Angle => "ratio of the singular values σ₁/σ₂ per face: 1 keeps angles",
             Self::Area => "area in the plane over area on the mesh per face, at equal total areas: 1 keeps areas",
             Self::Stretch => "root mean square stretch from the plane to the mesh per face (L²)",
+            Self::Move => "how far faces have moved since the compared step, or else since the one before",
         }
     }
 }
@@ -127,6 +132,14 @@ pub enum Request {
     SetShading(Shading),
     /// Shows or hides the wireframe.
     ToggleWireframe,
+    /// Shows or hides the inset that magnifies a defect.
+    ToggleMagnifier,
+    /// Lets vertices glide from step to step, or not.
+    ToggleEase,
+    /// Shows or hides hull and pockets of the virtual boundary.
+    ToggleHull,
+    /// Chooses the stage of the virtual boundary that shows.
+    SetStage(Stage),
     /// Opens a tab.
     ShowTab(Tab),
     /// Shows or hides the panels.

@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::Shading;
+use super::compare::face_moves;
 use crate::mesh::{EdgeId, FaceId, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
-use crate::solver::{FaceDistortion, Verdict};
+use crate::solver::FaceDistortion;
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
 
 /// The mesh, ready to be drawn and picked in.
@@ -52,7 +55,10 @@ pub struct PlaneScene {
     /// Draw arrays.
     pub arrays: Arc<PlaneArrays>,
     /// Picks vertices.
-    pub picker: PlanePicker,
+    pub picker: Arc<PlanePicker>,
+    /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
+    positions: Option<Vec<DVec2>>,
+    is_stage: bool,
 }
 
 impl PlaneScene {
@@ -62,21 +68,74 @@ impl PlaneScene {
         Self {
             outcome_revision,
             arrays: Arc::new(PlaneArrays::new(embedding, &mesh.triangles)),
-            picker: PlanePicker::new(embedding),
+            picker: Arc::new(PlanePicker::new(embedding)),
+            positions: None,
+            is_stage: false,
             outcome,
         }
+    }
+
+    /// Makes the scene of a stage on the way to an outcome: its revision, and where vertices lie.
+    pub(super) fn of_stage(
+        mesh: &TriMesh,
+        outcome: Arc<Outcome>,
+        (outcome_revision, positions): (u64, Vec<DVec2>),
+    ) -> Self {
+        Self {
+            outcome_revision,
+            arrays: Arc::new(PlaneArrays::new(&positions, &mesh.triangles)),
+            picker: Arc::new(PlanePicker::new(&positions[..mesh.vertex_count()])),
+            positions: Some(positions),
+            is_stage: true,
+            outcome,
+        }
+    }
+
+    /// The same with vertices on their way to where they will lie. Picks them where they go.
+    pub(super) fn with_positions(&self, mesh: &TriMesh, positions: Vec<DVec2>) -> Self {
+        Self {
+            outcome: Arc::clone(&self.outcome),
+            outcome_revision: self.outcome_revision,
+            arrays: Arc::new(PlaneArrays::in_frame(&positions, &mesh.triangles, self.arrays.frame())),
+            picker: Arc::clone(&self.picker),
+            positions: Some(positions),
+            is_stage: false,
+        }
+    }
+
+    /// Where vertices lie.
+    pub fn positions(&self) -> &[DVec2] {
+        self.positions.as_deref().unwrap_or(&self.outcome.step.solution.embedding)
+    }
+
+    /// Whether this is a stage on the way to the result.
+    pub fn is_stage(&self) -> bool {
+        self.is_stage
     }
 }
 
 /// Faces coloured by a shading, with what a legend needs.
 #[derive(Clone, Debug)]
 pub struct Paint {
-    /// What it was made for: outcome, model, shading.
-    pub key: (u64, u64, Shading),
+    /// What it was made for.
+    pub key: PaintKey,
     /// Colours and flags per face.
     pub faces: Arc<FacePaint>,
     /// The scale of a shading by numbers.
     pub legend: Option<Legend>,
+}
+
+/// What a paint is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PaintKey {
+    /// The mesh, by its revision.
+    pub model: u64,
+    /// The outcome, by its revision.
+    pub outcome: u64,
+    /// The shading.
+    pub shading: Shading,
+    /// The step that moves are measured from, where they are asked for.
+    pub moved_from: Option<usize>,
 }
 
 /// A scale with its range and how many faces lie where.
@@ -94,31 +153,33 @@ pub struct Legend {
 const BARS: usize = 40;
 
 impl Paint {
-    /// Colours the faces of an embedding.
-    pub fn new(key: (u64, u64, Shading), face_count: usize, outcome: Option<&Outcome>) -> Self {
+    /// Colours the faces of an embedding; moves are measured from `base`.
+    pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
         let Some(outcome) = outcome else {
-            return Self { key, faces: Arc::new(FacePaint::plain(face_count, &[])), legend: None };
+            return Self { key, faces: Arc::new(FacePaint::plain(mesh.face_count(), &[])), legend: None };
         };
-        let flipped = &flipped_faces(&outcome.step.verdict);
+        let flipped = &outcome.step.verdict.flipped_faces;
+        let by_values = |scale: Scale, values: &[f64]| {
+            let range = scale.robust_range(values);
+            let faces = Arc::new(FacePaint::by_value(values, scale, range, flipped));
+            Self { key, faces, legend: Some(Legend { scale, range, histogram: histogram(values, range) }) }
+        };
         let by = |scale: Scale, of: fn(&FaceDistortion) -> f64| {
-            let values: Vec<f64> = outcome.distortion.faces.iter().map(of).collect();
-            let range = scale.robust_range(&values);
-            let faces = Arc::new(FacePaint::by_value(&values, scale, range, flipped));
-            Self { key, faces, legend: Some(Legend { scale, range, histogram: histogram(&values, range) }) }
+            by_values(scale, &outcome.distortion.faces.iter().map(of).collect::<Vec<f64>>())
         };
-        match key.2 {
-            Shading::Plain | Shading::Checker => {
-                Self { key, faces: Arc::new(FacePaint::plain(face_count, flipped)), legend: None }
+        match (key.shading, base) {
+            (Shading::Plain | Shading::Checker, _) | (Shading::Move, None) => {
+                Self { key, faces: Arc::new(FacePaint::plain(mesh.face_count(), flipped)), legend: None }
             }
-            Shading::Angle => by(Scale::Angle, |face| face.angle),
-            Shading::Area => by(Scale::Area, |face| face.area.log2()),
-            Shading::Stretch => by(Scale::Stretch, |face| face.stretch_l2),
+            (Shading::Angle, _) => by(Scale::Angle, |face| face.angle),
+            (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
+            (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),
+            (Shading::Move, Some(base)) => {
+                let [before, after] = [base, outcome].map(|outcome| outcome.step.solution.embedding.as_slice());
+                by_values(Scale::Move, &face_moves(mesh, before, after))
+            }
         }
     }
-}
-
-fn flipped_faces(verdict: &Verdict) -> Vec<crate::mesh::FaceId> {
-    verdict.flipped_faces.clone()
 }
 
 fn histogram(values: &[f64], range: Range) -> Vec<u32> {

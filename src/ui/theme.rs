@@ -45,6 +45,14 @@ pub struct Theme {
     pub separator: Color32,
     /// The boundary's line.
     pub boundary: Srgb,
+    /// The outline of a step that is compared.
+    pub ghost: Srgb,
+    /// The hull of a virtual boundary.
+    pub hull: Srgb,
+    /// Edges of the pockets between boundary and hull.
+    pub pocket: Srgb,
+    /// The pockets' faces: a quarter of the colour as screens mix it. The card mixes light, and so takes another share.
+    pub pocket_fill: Srgb,
     /// What the graphics card draws with.
     pub palette: Palette,
 }
@@ -75,6 +83,10 @@ pub const LIGHT: Theme = Theme {
     weak_text: hex(0x006A_6D70),
     separator: hex(0x00DD_DDD9),
     boundary: Srgb::from_hex(0x003A_3A38),
+    ghost: Srgb::from_hex(0x006F_8CE4),
+    hull: Srgb::from_hex(0x00C9_3A3A),
+    pocket: Srgb::from_hex(0x003F_A34D).with_alpha(170),
+    pocket_fill: Srgb::from_hex(0x003F_A34D).with_alpha(78),
     palette: Palette {
         background: Srgb::from_hex(0x00F4_F4F2),
         grid: Srgb::from_hex(0x00D9_D9D5),
@@ -107,6 +119,10 @@ pub const DARK: Theme = Theme {
     weak_text: hex(0x009B_9EA3),
     separator: hex(0x0038_3A3F),
     boundary: Srgb::from_hex(0x00EC_ECE8),
+    ghost: Srgb::from_hex(0x006F_8BEA),
+    hull: Srgb::from_hex(0x00FF_7070),
+    pocket: Srgb::from_hex(0x0058_C46B).with_alpha(110),
+    pocket_fill: Srgb::from_hex(0x0058_C46B).with_alpha(24),
     palette: Palette {
         background: Srgb::from_hex(0x001E_1F22),
         grid: Srgb::from_hex(0x0034_363B),

@@ -6,7 +6,7 @@ use eframe::egui;
 use glam::DVec2;
 
 use super::status::short;
-use super::{Editor, Request};
+use super::{Editor, Request, equation_table};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::Action;
 
@@ -55,6 +55,7 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             }
         }
     });
+    equation_table::equation_ui(ui, editor, vertex, requests);
     ui.add_space(8.0);
     if editor.session.document().pins.contains_key(&vertex) {
         if ui.button("Free").on_hover_text("Take its pin away").clicked() {

@@ -5,6 +5,7 @@
 //! | angle   | σ₁/σ₂, 1 is conformal  | white → violet      | 1 to the 99th percentile                    |
 //! | area    | log₂ of the area ratio | blue – white – red  | symmetric, the wider of 1st and 99th        |
 //! | stretch | root mean square of σ  | viridis             | 1st to 99th percentile                      |
+//! | move    | distance in the plane  | viridis             | 0 to the 99th percentile                    |
 //!
 //! Viridis is by S. van der Walt and N. Smith (CC0); nine samples of it stand here.
 
@@ -43,6 +44,8 @@ pub enum Scale {
     Area,
     /// Stretch, or any positive quantity.
     Stretch,
+    /// Distance that a face has moved, embedding units. It may be of any size.
+    Move,
 }
 
 /// The values that the ends of a scale stand for.
@@ -76,6 +79,7 @@ impl Scale {
                 Range { low: middle - LEAST_WIDTH / 2.0, high: middle + LEAST_WIDTH / 2.0 }
             }
             Self::Stretch => Range { low, high },
+            Self::Move => Range { low: 0.0, high: if high > 0.0 { high } else { 1.0 } },
         }
     }
 
@@ -89,7 +93,7 @@ impl Scale {
         match self {
             Self::Angle => sample(&ANGLE, share),
             Self::Area => sample(&AREA, share),
-            Self::Stretch => sample(&VIRIDIS, share),
+            Self::Stretch | Self::Move => sample(&VIRIDIS, share),
         }
     }
 
@@ -99,7 +103,7 @@ impl Scale {
         let tick = |(value, step): (f64, f64)| Tick {
             at: range.share(value),
             label: match self {
-                Self::Angle | Self::Stretch => ticks::label(value, step),
+                Self::Angle | Self::Stretch | Self::Move => ticks::label(value, step),
                 Self::Area => ratio_label(value, step),
             },
         };

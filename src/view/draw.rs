@@ -125,8 +125,16 @@ impl PlaneArrays {
     ///
     /// If a corner names a vertex that is not there.
     pub fn new(embedding: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
+        Self::in_frame(embedding, triangles, UnitPlane::of(PlaneBox::around(embedding)))
+    }
+
+    /// The same in the unit space of another embedding, so that both can be drawn over each other.
+    ///
+    /// # Panics
+    ///
+    /// If a corner names a vertex that is not there.
+    pub fn in_frame(embedding: &[DVec2], triangles: &[[VertexId; 3]], frame: UnitPlane) -> Self {
         let bounds = PlaneBox::around(embedding);
-        let frame = UnitPlane::of(bounds);
         let points: Vec<[f32; 4]> = embedding.iter().map(|&p| split_point(frame.unit_from_embedding(p))).collect();
         let corners = triangles.iter().flatten().map(|v| points[v.index()]).collect();
         Self { revision: Revision::fresh(), frame, bounds, points, corners }
@@ -258,6 +266,30 @@ impl EdgeList {
     /// The ends of each edge.
     pub fn ends(&self) -> &[[VertexId; 2]] {
         &self.ends
+    }
+}
+
+/// Faces that are not the mesh's, filled with one colour: the pockets of a virtual boundary.
+#[derive(Debug)]
+pub struct FaceList {
+    revision: Revision,
+    triangles: Vec<[VertexId; 3]>,
+}
+
+impl FaceList {
+    /// Faces by their corners.
+    pub fn new(triangles: Vec<[VertexId; 3]>) -> Self {
+        Self { revision: Revision::fresh(), triangles }
+    }
+
+    /// Which list this is.
+    pub fn revision(&self) -> Revision {
+        self.revision
+    }
+
+    /// The corners of each face.
+    pub fn triangles(&self) -> &[[VertexId; 3]] {
+        &self.triangles
     }
 }
 

@@ -26,7 +26,7 @@ mod ticks;
 
 pub use colour::{Range, Scale};
 pub use corners::crease_normals;
-pub use draw::{EdgeList, FacePaint, MeshArrays, Picture, PlaneArrays, Revision};
+pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, Picture, PlaneArrays, Revision};
 pub use orbit::{OrbitCamera, Ray, UpAxis};
 pub use palette::{Palette, Srgb};
 pub use pick::{PICK_RADIUS, PlanePicker, SurfaceHit, SurfacePicker, VertexPick, Visibility};

@@ -255,6 +255,14 @@ mod interrupt {
     }
 
     #[test]
+    fn interrupted_figures_end_with_130_and_leave_no_file() {
+        let program = Program::new();
+        let run = interrupted(&program, &["figures", "out"], Duration::ZERO);
+        assert_eq!(run.status, Some(130), "{run:?}");
+        assert!(program.files().is_empty(), "{:?}", program.files());
+    }
+
+    #[test]
     fn an_interrupted_check_ends_with_130_and_leaves_no_file() {
         let program = Program::new();
         let mesh = grid(300, 300);

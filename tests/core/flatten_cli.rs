@@ -72,7 +72,7 @@ fn a_mesh_that_comes_out_planar_ends_with_0_and_a_folded_one_with_4() {
 fn wrong_use_ends_with_2_and_says_what_to_do() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str); 23] = [
+    let cases: [(&[&str], &str); 25] = [
         (&["--family", "uniform"], "convex"),
         (&["--family", "power:x"], "power:P"),
         (&["--method", "best"], "natural"),
@@ -94,6 +94,8 @@ fn wrong_use_ends_with_2_and_says_what_to_do() {
         (&["--method", "iterate", "--growth", "one"], "--growth"),
         (&["--method", "levy", "--growth", "double"], "--growth"),
         (&["--growth", "two"], "double"),
+        (&["--boundary", "square"], "--boundary"),
+        (&["--method", "lscm", "--family", "mean-value"], "--family"),
         (&["--steps"], "--steps"),
         (&["--unknown"], "--unknown"),
     ];

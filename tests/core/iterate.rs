@@ -194,9 +194,9 @@ fn embeddings_squeezed_over_twenty_decades_iterate_without_breaking_down() {
         let folds: Vec<usize> = steps.iter().map(|s| s.verdict.flipped_faces.len()).collect();
         println!("{rings} rings: areas from {least:.1e} to {greatest:.1e}, folds {folds:?}");
         assert!(greatest / least > 1e20, "{rings} rings are squeezed: {:.1e}", greatest / least);
-        let last = steps.last().unwrap();
-        assert!(last.verdict.planar, "{rings} rings: {} after {folds:?}", last.verdict.summary());
-        assert!(last.index <= 2, "{rings} rings: {folds:?}");
+        let end = steps.last().unwrap();
+        assert!(end.verdict.planar, "{rings} rings: {} after {folds:?}", end.verdict.summary());
+        assert!(end.index <= 2, "{rings} rings: {folds:?}");
     }
 }
 

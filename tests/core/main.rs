@@ -40,6 +40,7 @@ mod verdict;
 mod verdict_cases;
 mod verdict_oracle;
 mod verdict_random;
+mod vertex_equation;
 mod view;
 mod virtual_boundary;
 mod weights;

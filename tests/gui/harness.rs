@@ -125,7 +125,9 @@ impl Window {
         let plane_drawn = editor.plane_scene().map(|scene| scene.outcome_revision);
         let mesh_wanted = session.model().map(|_| session.model_revision());
         let plane_wanted = session.outcome().map(|_| session.outcome_revision());
-        session.busy().is_none() && mesh_drawn == mesh_wanted && plane_drawn == plane_wanted
+        let scenes_drawn =
+            mesh_drawn == mesh_wanted && plane_drawn == plane_wanted && editor.hull_is_drawn() && !editor.is_easing();
+        session.busy().is_none() && scenes_drawn
     }
 
     /// Presses keys together with modifiers.
@@ -267,6 +269,29 @@ impl Window {
             _ => false,
         };
         self.harness.output().shapes.iter().any(|shape| is_ring(&shape.shape))
+    }
+
+    /// The ends of all straight lines painted in the last frame.
+    pub(crate) fn lines(&self) -> Vec<[Pos2; 2]> {
+        let line = |shape: &egui::Shape| match shape {
+            egui::Shape::LineSegment { points, .. } => Some(*points),
+            _ => None,
+        };
+        self.harness.output().shapes.iter().filter_map(|shape| line(&shape.shape)).collect()
+    }
+
+    /// Whether a frame around a part of the window, and not much more, was painted in the last frame.
+    pub(crate) fn has_frame_around(&self, part: Rect) -> bool {
+        let is_frame = |shape: &egui::Shape| match shape {
+            egui::Shape::Rect(shape) => {
+                let room = shape.rect.size() - part.size();
+                shape.stroke.width > 0.0
+                    && shape.rect.expand(1.0).contains_rect(part)
+                    && room.max_elem() < part.size().max_elem() + 20.0
+            }
+            _ => false,
+        };
+        self.harness.output().shapes.iter().any(|shape| is_frame(&shape.shape))
     }
 
     /// Where a vertex shows on the mesh.

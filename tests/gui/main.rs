@@ -3,11 +3,15 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails fails its test")]
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
+mod compare;
 mod defects;
 mod dialogs;
+mod equation;
 mod gestures;
 mod glyphs;
 mod harness;
+mod hull;
+mod magnifier;
 mod panels;
 mod render;
 mod screens;

@@ -4,6 +4,7 @@
 //! can be folded over.
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use eframe::egui;
 use eframe::egui_wgpu::{RenderState, RendererOptions};
@@ -11,12 +12,12 @@ use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use freebound::mesh::{FaceId, VertexId};
 use freebound::render::{
-    LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Shading, Style, install, mesh_pane, plane_pane,
-    stats,
+    FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Shading, Style, install, mesh_pane,
+    plane_pane, stats,
 };
 use freebound::view::{
-    EdgeList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Sphere, Srgb,
-    UpAxis,
+    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera,
+    Sphere, Srgb, UpAxis,
 };
 use glam::{DVec2, DVec3};
 use image::RgbaImage;
@@ -113,6 +114,8 @@ fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
     PlaneFrame {
         plane: Some(Arc::new(PlaneArrays::new(&embedding, &triangles))),
         paint: Some(Arc::new(FacePaint::plain(triangles.len(), flipped))),
+        fills: Vec::new(),
+        ghost: None,
         lines: Vec::new(),
         picture: None,
         camera: PlaneCamera::framing(box_of_sheet, PANE_SIZE),
@@ -276,6 +279,24 @@ fn lines_lie_where_their_vertices_lie() {
 
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn filled_faces_show_beside_the_mesh_and_under_it_mixed_with_what_is_behind() {
+    // The sheet, its lower right corner drawn in to the middle, and two faces: one over the gap, one over the mesh.
+    let mut frame = plane_frame(DVec2::new(0.0, -1.0) + 1e-3, &[]);
+    let mut positions: Vec<DVec2> = sheet().0.iter().map(|p| p.truncate()).collect();
+    positions[2] = DVec2::new(0.0, -1.0) + 1e-3;
+    positions.push(DVec2::new(1.0, -1.0));
+    frame.plane = Some(Arc::new(PlaneArrays::new(&positions, frame.mesh.triangles())));
+    let faces = Arc::new(FaceList::new(vec![[id(1), id(9), id(5)], [id(3), id(4), id(7)]]));
+    frame.fills.push(FillLayer { faces, colour: Srgb([0, 0, 255, 128]) });
+    let picture = plane_picture(frame.clone());
+    let [r, g, b] = plane_pixel(&picture, &frame, DVec2::new(0.7, -0.7));
+    assert!(b > 240 && (120..220).contains(&r) && r.abs_diff(g) < 3, "half over the background: {r} {g} {b}");
+    let [r, g, b] = plane_pixel(&picture, &frame, DVec2::new(-0.3, 0.2));
+    assert!(g > 180 && r < 10 && b < 10, "hidden by the mesh: {r} {g} {b}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn the_picture_lies_in_its_box_upper_row_up() {
     let pixels = [[255, 0, 0, 255], [0, 0, 255, 255]].concat();
     let picture = Arc::new(Picture::new([1, 2], pixels).expect("two pixels"));
@@ -321,6 +342,39 @@ fn an_unchanged_frame_sends_and_draws_nothing() {
     let second = window.picture();
     assert_eq!(stats(&window.state), Some(after_first));
     assert_eq!(first, second, "and shows the same");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn an_inset_of_the_same_embedding_sends_nothing() {
+    let is_shown = Arc::new(AtomicBool::new(false));
+    let (frame, shown) = (plane_frame(DVec2::new(-0.5, 0.5), &[FaceId::new(2)]), Arc::clone(&is_shown));
+    let mut inset = frame.clone();
+    inset.camera.frame(PlaneBox { min: DVec2::splat(-0.2), max: DVec2::splat(0.2) }, DVec2::splat(60.0));
+    inset.style = Style { shading: Shading::Plain, wire_in_points: 1.0, ..inset.style };
+    let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+    install(&state);
+    let mut harness = Harness::builder()
+        .with_size(egui::Vec2::splat(WINDOW))
+        .renderer(WgpuTestRenderer::from_render_state(state.clone()))
+        .build_ui(move |ui| {
+            ui.painter().add(plane_pane(PANE, RECT, frame.clone()));
+            if shown.load(std::sync::atomic::Ordering::Relaxed) {
+                let corner = egui::Rect::from_min_size(egui::pos2(110.0, 120.0), egui::Vec2::splat(60.0));
+                ui.painter().add(plane_pane(PaneId("inset"), corner, inset.clone()));
+            }
+        });
+    let mut stats_of_frame = || {
+        harness.step();
+        harness.render().expect("the driver draws");
+        stats(&state).expect("installed")
+    };
+    let alone = stats_of_frame();
+    is_shown.store(true, std::sync::atomic::Ordering::Relaxed);
+    let with_inset = stats_of_frame();
+    assert_eq!(with_inset.uploads, alone.uploads, "both draw from the same buffers");
+    assert_eq!(with_inset.drawn_panes, alone.drawn_panes + 1);
+    assert_eq!(stats_of_frame(), with_inset, "an unchanged frame draws nothing");
 }
 
 #[test]

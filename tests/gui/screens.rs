@@ -3,8 +3,10 @@
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Color32, Pos2, Rect, Theme};
-use freebound::mesh::FaceId;
-use freebound::ui::{Shading, theme};
+use freebound::mesh::{FaceId, VertexId};
+use freebound::solver::{Method, Settings};
+use freebound::ui::{Request, Shading, Stage, theme};
+use freebound::view::Srgb;
 use glam::DVec2;
 use image::RgbaImage;
 
@@ -132,13 +134,125 @@ fn the_legend_shows_with_shadings_by_numbers_only() {
 fn a_pin_is_drawn_where_it_lies_in_both_panes() {
     for (name, theme) in THEMES {
         let mut window = drawn(name);
-        let vertex = freebound::mesh::VertexId::new(24);
+        let vertex = VertexId::new(24);
         window.editor_mut().session.handle(freebound::session::Action::Fix(vec![vertex]));
         let picture = picture(&mut window);
         let target: DVec2 = window.embedding()[24];
         let around = |at: Pos2| Rect::from_center_size(at, egui::Vec2::splat(9.0));
         for at in [window.place_in_plane(target), window.place_on_mesh(vertex)] {
             assert!(count_of(&picture, around(at), theme.pin) > 40, "{name:?} at {at}");
+        }
+    }
+}
+
+/// The built-in face as the virtual boundary bends it.
+fn bent(theme: Theme) -> Window {
+    let file = Window::with_mesh("face.obj", &freebound::examples::Example::Face.mesh());
+    let mut window = Window::drawn(theme, &file.path("face.obj"));
+    let settings = Settings { method: Method::VirtualBoundary, ..Settings::default() };
+    window.editor_mut().session.handle(freebound::session::Action::SetSettings(settings));
+    window.settle();
+    window
+}
+
+fn colour_of(colour: Srgb) -> Color32 {
+    let [r, g, b, _] = colour.0;
+    theme::rgb([r, g, b])
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn the_hull_is_red_until_it_is_peeled_off() {
+    for (name, theme) in THEMES {
+        let mut window = bent(name);
+        let bare = picture(&mut window);
+        window.editor_mut().handle(Request::ToggleHull);
+        let pockets = picture(&mut window);
+        window.editor_mut().handle(Request::SetStage(Stage::Before));
+        let before = picture(&mut window);
+        window.editor_mut().handle(Request::SetStage(Stage::Peeled));
+        let peeled = picture(&mut window);
+        let hull = |picture: &RgbaImage| count_of(picture, window.plane_view(), colour_of(theme.hull));
+        assert!(hull(&bare) < 10 && hull(&pockets) > 500 && hull(&before) > 500, "{name:?}: {}", hull(&pockets));
+        assert!(hull(&peeled) < 10, "{name:?}: {}", hull(&peeled));
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_pocket_is_filled_with_a_quarter_of_its_green() {
+    for (name, theme) in THEMES {
+        let mut window = bent(name);
+        window.editor_mut().handle(Request::ToggleHull);
+        window.settle();
+        let stages = window.outcome().step.virtual_boundary.clone().expect("the face bends");
+        let plane = window.editor().drawn_plane().expect("solved").clone();
+        let corners = |t: &[VertexId; 3]| t.map(|v| plane.positions()[v.index()]);
+        let area = |t: &[VertexId; 3]| {
+            let [a, b, c] = corners(t);
+            (b - a).perp_dot(c - a)
+        };
+        let widest = stages.pockets.iter().max_by(|s, t| area(s).total_cmp(&area(t))).expect("a pocket");
+        let (corners, size) = (corners(widest), window.editor().plane_pane_size);
+        let bounds = freebound::view::PlaneBox::around(&corners);
+        window.editor_mut().plane_camera.as_mut().expect("framed").frame(bounds, size);
+        let picture = picture(&mut window);
+        let middle = window.place_in_plane(corners.iter().sum::<DVec2>() / 3.0);
+        let mix = |a: u8, b: u8| u8::try_from((3 * u16::from(a) + u16::from(b)) / 4).expect("a mean of bytes");
+        let (ground, pocket) = (theme.background, colour_of(theme.pocket));
+        let mixed = [mix(ground.r(), pocket.r()), mix(ground.g(), pocket.g()), mix(ground.b(), pocket.b())];
+        let part = Rect::from_center_size(middle, egui::Vec2::splat(4.0));
+        let count = count_of(&picture, part, theme::rgb(mixed));
+        assert!(count >= 12, "{name:?}: {count} of 16 pixels, {:?} for {mixed:?}", pixels(&picture, part));
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn the_magnifier_shows_its_flipped_face_hatched() {
+    for (name, theme) in THEMES {
+        let mut window = drawn(name);
+        fold(&mut window);
+        // From afar hardly a pixel of the layout is red.
+        let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+        camera.zoom_at(DVec2::splat(150.0), 0.02, DVec2::splat(400.0));
+        let picture = picture(&mut window);
+        let inset = window.controls().into_iter().find(|(_, name, _)| name.starts_with("Magnifier: "));
+        let (.., part) = inset.expect("it shows");
+        let (red, all) = (count_of(&picture, part, theme.flipped), pixels(&picture, part).len());
+        assert!(red > all / 20, "{name:?}: {red} of {all}");
+        let elsewhere = count_of(&picture, window.plane_view(), theme.flipped) - red;
+        assert!(elsewhere < 100, "{name:?}: {elsewhere}");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn the_compared_step_is_an_outline_in_its_own_colour() {
+    for (name, theme) in THEMES {
+        let mut window = bent(name);
+        let ghost =
+            |picture: &RgbaImage, window: &Window| count_of(picture, window.plane_view(), colour_of(theme.ghost));
+        let alone = picture(&mut window);
+        window.editor_mut().session.handle(freebound::session::Action::Compare(Some(0)));
+        let compared = picture(&mut window);
+        let count = ghost(&compared, &window).saturating_sub(ghost(&alone, &window));
+        assert!(count > 300, "{name:?}: {count} pixels");
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn moves_are_coloured_in_both_panes() {
+    for (name, _) in THEMES {
+        let mut window = bent(name);
+        window.editor_mut().shading = Shading::Plain;
+        let plain = picture(&mut window);
+        window.editor_mut().shading = Shading::Move;
+        let moved = picture(&mut window);
+        for view in [window.mesh_view(), window.plane_view()] {
+            let changed = pixels(&plain, view).iter().zip(pixels(&moved, view)).filter(|(a, b)| *a != b).count();
+            assert!(changed > 20_000, "{name:?}: {changed} pixels");
         }
     }
 }

@@ -74,6 +74,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::Frame => editor.orbit != orbit,
             Request::AskGoTo => editor.go_to.is_some(),
             Request::SetShading(shading) => editor.shading == shading,
+            Request::ToggleHull => editor.hull.shown,
             Request::ToggleWireframe => editor.wireframe,
             Request::TogglePane => editor.full == Some(Pane::Plane),
             Request::Escape => editor.tool == Tool::Select,

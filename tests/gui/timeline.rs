@@ -5,7 +5,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::app::Start;
-use freebound::mesh::TriMesh;
+use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::{Action, StopConditions};
 use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Request;
@@ -216,7 +216,7 @@ fn what_is_no_disk_has_no_timeline() {
     triangles.extend(cap.triangles.iter().take(1));
     let mut window = Window::with_mesh(
         "twice.obj",
-        &TriMesh::new(cap.positions, &triangles.iter().map(|t| t.map(|v| v.number())).collect::<Vec<_>>()),
+        &TriMesh::new(cap.positions, &triangles.iter().map(|t| t.map(VertexId::number)).collect::<Vec<_>>()),
     );
     assert!(!window.editor().timeline_shown() && !window.has_button("Run"));
     window.key(Key::Space);

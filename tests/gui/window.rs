@@ -31,7 +31,7 @@ fn the_name_and_the_size_of_what_is_open_show() {
 type State = (&'static str, fn(&mut Window));
 
 /// What a person can bring the window to.
-const STATES: [State; 24] = [
+const STATES: [State; 27] = [
     ("at the start", |_| ()),
     ("the File menu", |window| window.click("File")),
     ("the list of recent files", |window| window.menu(&["File", "Recent"])),
@@ -39,9 +39,12 @@ const STATES: [State; 24] = [
     ("the sizes in files", |window| window.menu(&["File", "Size in files"])),
     ("the Edit menu", |window| window.click("Edit")),
     ("the View menu", |window| window.click("View")),
+    ("the shadings", |window| window.menu(&["View", "Shading"])),
     ("the themes", |window| window.menu(&["View", "Theme"])),
     ("the Solve menu", |window| window.click("Solve")),
     ("the Help menu", |window| window.click("Help")),
+    ("hull and pockets", |window| window.key(Key::H)),
+    ("a magnifier", crate::defects::fold_any),
     ("the Pins tab", |window| window.click("Pins")),
     ("the Pins tab with pins", |window| {
         window.click("Pins");
@@ -116,7 +119,7 @@ fn no_two_controls_of_a_state_have_the_same_role_and_name() {
 
 #[test]
 fn each_menu_has_its_entries() {
-    let menus: [(&[&str], &[&str]); 8] = [
+    let menus: [(&[&str], &[&str]); 9] = [
         (&["File"], &["Open…", "Save with texture coordinates…", "Export drawing or report…", "Quit"]),
         (&["File", "Examples"], &["Face", "Open cube", "Flat L", "Dome", "Bumpy cap", "Spiral strip"]),
         (&["File", "Size in files"], &["Fit into the unit square", "True scale: the mesh's own area"]),
@@ -126,8 +129,19 @@ fn each_menu_has_its_entries() {
         ),
         (
             &["View"],
-            &["Wireframe", "Panels", "Frame the selection, or all", "Go to…", "Next defect", "Previous defect"],
+            &[
+                "Wireframe",
+                "Hull and pockets",
+                "Magnifier over a defect",
+                "Glide from step to step",
+                "Panels",
+                "Frame the selection, or all",
+                "Go to…",
+                "Next defect",
+                "Previous defect",
+            ],
         ),
+        (&["View", "Shading"], &["Plain", "Checker", "Angle distortion", "Area distortion", "Stretch", "Move"]),
         (&["View", "Theme"], &["As the system", "Light", "Dark"]),
         (&["Solve"], &["Take one step", "Run on", "Play all steps", "Solve again", "Cancel", "Method and weights"]),
         (&["Help"], &["All keys"]),
@@ -167,10 +181,12 @@ fn each_example_opens_from_the_menu() {
 fn each_shading_of_the_view_menu_is_put_on() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     for shading in Shading::ALL {
-        window.menu(&["View", shading.title()]);
+        window.menu(&["View", "Shading", shading.title()]);
         assert_eq!(window.editor().shading, shading);
         let legend = window.editor().paint().expect("painted").legend.is_some();
-        assert_eq!(legend, !matches!(shading, Shading::Plain | Shading::Checker), "{shading:?}");
+        // Nothing has moved at the first step.
+        let is_bare = matches!(shading, Shading::Plain | Shading::Checker | Shading::Move);
+        assert_eq!(legend, !is_bare, "{shading:?}");
     }
     window.choose("Shading of both panes", "Stretch");
     assert_eq!(window.editor().shading, Shading::Stretch);
@@ -274,7 +290,7 @@ fn is_scrolled(role: Role, name: &str) -> bool {
         || std::path::Path::new(&name).extension().is_some_and(|e| e == "obj");
     let in_panel =
         ["Numbers of the solve", "Solve", "Free", "Fix", "Free all", "Frame", "Copy", "More"].contains(&name);
-    role == Role::Label || role == Role::ScrollBar || listed || in_panel
+    role == Role::Label || role == Role::ScrollBar || role == Role::Link || listed || in_panel
 }
 
 #[test]

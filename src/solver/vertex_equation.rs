@@ -1,0 +1,261 @@
+//! The equation of one vertex, to be looked at: its neighbours with their weights, and how well an embedding meets it.
+//!
+//! # Equation
+//!
+//! ```text
+//! Σ kᵢ (zᵢ − z₀) + i·( d₂ (z₂−z₀)/r₂ − d₁ (z₁−z₀)/r₁ ) = 0          paper, eq. (2) inside, eq. (3) on the boundary
+//! z₀ = Σ wᵢ zᵢ + o        wᵢ = kᵢ / Σ kⱼ        o = i·( … ) / Σ kⱼ
+//! ```
+//!
+//! Neighbours 1 and 2 are the first and the last of a boundary vertex's fan, which runs counter-clockwise; inside there
+//! is no i-term. So a vertex lies at the barycentre of its neighbours, and on the boundary at an *offset* o from it. Only
+//! what is around the vertex is computed. The sums are those of [`equations`](super::equations) and
+//! [`plane_weights`](super::plane_weights), in the units of the mesh and of the embedding; shares and residual have no
+//! unit.
+//!
+//! # Symbols
+//!
+//! | paper | code            | meaning                              | unit                            |
+//! |-------|-----------------|--------------------------------------|---------------------------------|
+//! | kᵢ, λᵢ| `weight`        | unnormalised weight of a neighbour   | lengthᵖ⁻¹                       |
+//! | dᵢ    | `offset`        | offset along the edge, rᵖ            | lengthᵖ                         |
+//! | wᵢ    | `share`         | weight over the sum of all           | none                            |
+//! | o     | `offset_vector` | from the barycentre to the vertex    | of the embedding                |
+
+use glam::DVec2;
+
+use super::plane_weights::{corner_weights, edge_radius};
+use super::shape_preserving::weights_of_ring;
+use super::weights::{Corner, three_point_weights};
+use super::{Family, Method, Settings, Step, VirtualBoundary};
+use crate::mesh::{DiskMesh, VertexId};
+
+/// A neighbour in the equation of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquationTerm {
+    /// The neighbour. Beyond the mesh's vertices it is a virtual one.
+    pub neighbour: VertexId,
+    /// Its weight k, not normalised.
+    pub weight: f64,
+    /// The offset d of its edge.
+    pub offset: f64,
+    /// Its weight over the sum of all.
+    pub share: f64,
+}
+
+/// The equation of a vertex, and an embedding put into it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VertexEquation {
+    /// The neighbours, counter-clockwise; on the boundary from one boundary edge to the other.
+    pub terms: Vec<EquationTerm>,
+    /// Sum of the weights.
+    pub weight_sum: f64,
+    /// The neighbours' barycentre in the embedding.
+    pub barycentre: DVec2,
+    /// From the barycentre to where eq. (3) wants the vertex; none inside.
+    pub offset_vector: Option<DVec2>,
+    /// What the equation leaves, relative to the sizes of its terms.
+    pub residual: f64,
+}
+
+/// What a step's weights were computed from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WeightSource {
+    /// The surface in space (§3).
+    Surface,
+    /// The embedding of the step before (§4).
+    StepBefore,
+    /// The embedding before, with its outside (§5).
+    Extended,
+}
+
+/// Why there is no equation to show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoEquation {
+    /// The vertex has its place on a convex boundary.
+    Prescribed,
+    /// Lévy's equations have complex coefficients, and no barycentre.
+    OfTriangles,
+    /// The weights come from a step that was not kept.
+    StepBeforeMissing,
+}
+
+impl NoEquation {
+    /// The reason in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Prescribed => "Its place is prescribed: it has no equation.",
+            Self::OfTriangles => "Lévy's equations belong to triangles: they have no barycentre.",
+            Self::StepBeforeMissing => "Its weights come from the step before, of which only the numbers were kept.",
+        }
+    }
+}
+
+/// The equation of a vertex in a step that was solved with `settings`. `before` is the embedding of the step before.
+///
+/// # Errors
+///
+/// Why there is none.
+pub fn equation_of_step(
+    mesh: &DiskMesh,
+    settings: &Settings,
+    (step, before): (&Step, Option<&[DVec2]>),
+    vertex: VertexId,
+) -> Result<(VertexEquation, WeightSource), NoEquation> {
+    let embedding = step.solution.embedding.as_slice();
+    let on_surface = |family| (on_surface(mesh, family, embedding, vertex), WeightSource::Surface);
+    match step.rung {
+        Method::Levy => Err(NoEquation::OfTriangles),
+        Method::Convex(_) if mesh.boundary_place(vertex).is_some() => Err(NoEquation::Prescribed),
+        Method::Lscm => Ok(on_surface(Family::Conformal)),
+        Method::Iterate => {
+            let before = before.ok_or(NoEquation::StepBeforeMissing)?;
+            Ok((in_plane(&Fan::of_mesh(mesh, vertex), before, embedding), WeightSource::StepBefore))
+        }
+        Method::VirtualBoundary => match &step.virtual_boundary {
+            Some(stages) if stages.hull.contains(&vertex) => Err(NoEquation::Prescribed),
+            Some(stages) => {
+                let fan = Fan::of_extended(mesh, stages, vertex);
+                Ok((in_plane(&fan, &stages.before, &stages.solved), WeightSource::Extended))
+            }
+            // With all of the boundary on a circle, only weights that cannot fail will do.
+            None if step.bent_vertices >= mesh.boundary_loop().len() => Ok(on_surface(Family::MeanValue)),
+            None => Ok(on_surface(settings.family)),
+        },
+        // The ladder starts again with the default weights.
+        Method::Natural if step.index > 0 => Ok(on_surface(Family::default())),
+        Method::Auto | Method::Natural | Method::Convex(_) => Ok(on_surface(settings.family)),
+    }
+}
+
+/// What lies around a vertex: the other two corners of each face, counter-clockwise.
+struct Fan {
+    vertex: VertexId,
+    corners: Vec<[VertexId; 2]>,
+}
+
+impl Fan {
+    fn of_mesh(mesh: &DiskMesh, vertex: VertexId) -> Self {
+        let inner = mesh.outgoing(vertex).filter(|&h| !mesh.is_outer(h));
+        Self { vertex, corners: inner.map(|h| [mesh.head(h), mesh.tail(mesh.previous(h))]).collect() }
+    }
+
+    /// With the faces of the outside, which close the fan of a boundary vertex that is not on the hull.
+    fn of_extended(mesh: &DiskMesh, stages: &VirtualBoundary, vertex: VertexId) -> Self {
+        let Self { mut corners, .. } = Self::of_mesh(mesh, vertex);
+        let from_pocket = |&[a, b, c]: &[VertexId; 3]| match vertex {
+            v if v == a => Some([b, c]),
+            v if v == b => Some([c, a]),
+            v if v == c => Some([a, b]),
+            _ => None,
+        };
+        let mut left: Vec<[VertexId; 2]> = stages.pockets.iter().filter_map(from_pocket).collect();
+        while let Some(&[_, last]) = corners.last()
+            && let Some(place) = left.iter().position(|&[first, _]| first == last)
+        {
+            corners.push(left.swap_remove(place));
+        }
+        Self { vertex, corners }
+    }
+
+    fn is_closed(&self) -> bool {
+        match (self.corners.first(), self.corners.last()) {
+            (Some([first, _]), Some([_, last])) => first == last,
+            _ => false,
+        }
+    }
+
+    /// The neighbours in turn, each once.
+    fn neighbours(&self) -> Vec<VertexId> {
+        let last = self.corners.last().filter(|_| !self.is_closed()).map(|&[_, last]| last);
+        self.corners.iter().map(|&[first, _]| first).chain(last).collect()
+    }
+
+    /// Adds up what each corner gives to its two edges.
+    fn sums(&self, shares: impl Fn(VertexId, VertexId) -> [f64; 2]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.neighbours().len()];
+        let count = sums.len();
+        for (place, &[next, previous]) in self.corners.iter().enumerate() {
+            let [to_next, to_previous] = shares(next, previous);
+            sums[place] += to_next;
+            sums[(place + 1) % count] += to_previous;
+        }
+        sums
+    }
+}
+
+/// Weights computed in space.
+fn on_surface(mesh: &DiskMesh, family: Family, embedding: &[DVec2], vertex: VertexId) -> VertexEquation {
+    let fan = Fan::of_mesh(mesh, vertex);
+    let neighbours = fan.neighbours();
+    let centre = mesh.position(vertex);
+    let arms: Vec<_> = neighbours.iter().map(|&v| mesh.position(v) - centre).collect();
+    let Some(power) = family.power() else {
+        let weights = match family {
+            Family::ShapePreserving if fan.is_closed() => weights_of_ring(&arms),
+            _ => vec![1.0; neighbours.len()],
+        };
+        let ones = vec![1.0; neighbours.len()];
+        return put_together(&fan, embedding, Coefficients { weights, offsets: ones.clone(), radii: ones });
+    };
+    let shares = |next, previous| {
+        let corner = [vertex, next, previous].map(|v: VertexId| mesh.position(v));
+        three_point_weights(&Corner::at(corner), power).shares
+    };
+    let radii: Vec<f64> = arms.iter().map(|arm| arm.length()).collect();
+    let offsets = radii.iter().map(|r| r.powf(power)).collect();
+    put_together(&fan, embedding, Coefficients { weights: fan.sums(shares), offsets, radii })
+}
+
+/// Mean-value weights of one embedding, another one put into them.
+fn in_plane(fan: &Fan, weights_from: &[DVec2], embedding: &[DVec2]) -> VertexEquation {
+    let at = |v: VertexId| weights_from[v.index()];
+    let shares = |next, previous| corner_weights([fan.vertex, next, previous].map(at));
+    let weights = fan.sums(shares);
+    let mut radii: Vec<f64> = fan.neighbours().iter().map(|&v| at(v).distance(at(fan.vertex))).collect();
+    // The edges of the i-term are as long as their faces say.
+    if let (Some(&[next, previous]), Some(first)) = (fan.corners.first(), radii.first_mut()) {
+        *first = edge_radius([fan.vertex, next, previous].map(at), 0);
+    }
+    if let (false, Some(&[next, previous]), Some(last)) = (fan.is_closed(), fan.corners.last(), radii.last_mut()) {
+        *last = edge_radius([fan.vertex, next, previous].map(at), 2);
+    }
+    put_together(fan, embedding, Coefficients { offsets: vec![1.0; weights.len()], weights, radii })
+}
+
+/// k, d and r of each neighbour.
+struct Coefficients {
+    weights: Vec<f64>,
+    offsets: Vec<f64>,
+    radii: Vec<f64>,
+}
+
+fn put_together(fan: &Fan, embedding: &[DVec2], coefficients: Coefficients) -> VertexEquation {
+    let Coefficients { weights, offsets, radii } = coefficients;
+    let neighbours = fan.neighbours();
+    let place = embedding[fan.vertex.index()];
+    let arms: Vec<DVec2> = neighbours.iter().map(|v| embedding[v.index()] - place).collect();
+    let weight_sum: f64 = weights.iter().sum();
+    let terms = neighbours
+        .iter()
+        .zip(weights.iter().zip(&offsets))
+        .map(|(&neighbour, (&weight, &offset))| EquationTerm { neighbour, weight, offset, share: weight / weight_sum });
+    let sum: DVec2 = weights.iter().zip(&arms).map(|(&k, &arm)| k * arm).sum();
+    let turned = |place: usize| (offsets[place] / radii[place] * arms[place]).perp();
+    let last = neighbours.len() - 1;
+    let boundary_term = if fan.is_closed() { DVec2::ZERO } else { turned(last) - turned(0) };
+    // An entry of the matrix is k, on the boundary's edges k ± i d/r.
+    let size = |place: usize| {
+        let is_end = !fan.is_closed() && (place == 0 || place == last);
+        let turned = if is_end { offsets[place] / radii[place] } else { 0.0 };
+        weights[place].hypot(turned) * arms[place].length()
+    };
+    let whole: f64 = (0..neighbours.len()).map(size).sum();
+    VertexEquation {
+        terms: terms.collect(),
+        weight_sum,
+        barycentre: place + sum / weight_sum,
+        offset_vector: (!fan.is_closed()).then(|| boundary_term / weight_sum),
+        residual: if whole > 0.0 { (sum + boundary_term).length() / whole } else { 0.0 },
+    }
+}

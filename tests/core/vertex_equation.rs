@@ -1,0 +1,229 @@
+//! The equation of one vertex (paper, eq. 2 and 3) against the system of all of them.
+
+use freebound::examples::Example;
+use freebound::mesh::{DiskMesh, VertexId};
+use freebound::solver::equations::{self, Equations};
+use freebound::solver::plane_weights::natural_in_plane;
+use freebound::solver::{
+    BoundaryShape, Control, Family, Method, NoEquation, Pins, Run, Settings, Step, Treatment, VertexEquation,
+    WeightSource, equation_of_step,
+};
+use glam::DVec2;
+use num_complex::Complex;
+
+use crate::common::{Random, corpus_disks, grid};
+
+/// Sums in another order, relative to the sizes of their terms.
+const ROUNDING: f64 = 1e-12;
+
+/// What a solve leaves of an equation, relative to the sizes of its terms.
+const SOLVED: f64 = 1e-8;
+
+fn disk(example: Example) -> DiskMesh {
+    DiskMesh::try_from(example.mesh()).unwrap()
+}
+
+fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
+    let mut steps = Vec::new();
+    Run::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+    steps
+}
+
+/// A linear step with another embedding in the place of its own.
+fn step_with(mesh: &DiskMesh, family: Family, embedding: Vec<DVec2>) -> Step {
+    let mut step = steps_of(mesh, Settings::new(Method::Natural, family)).swap_remove(0);
+    step.solution.embedding = embedding;
+    step
+}
+
+fn equation(mesh: &DiskMesh, settings: &Settings, step: &Step, vertex: VertexId) -> VertexEquation {
+    equation_of_step(mesh, settings, (step, None), vertex).unwrap().0
+}
+
+/// Places that satisfy nothing.
+fn at_random(count: usize, seed: u64) -> Vec<DVec2> {
+    let mut random = Random(seed);
+    (0..count).map(|_| DVec2::new(random.unit(), random.unit())).collect()
+}
+
+/// That an equation is a row of the system, up to the unit of length.
+fn assert_is_row(
+    mesh: &DiskMesh,
+    found: &VertexEquation,
+    all: &Equations<Complex<f64>>,
+    embedding: &[DVec2],
+    vertex: VertexId,
+) {
+    let row: Vec<(VertexId, Complex<f64>)> =
+        mesh.outgoing(vertex).map(|h| (mesh.head(h), all.coefficients[h.index()])).collect();
+    let sum: f64 = row.iter().map(|(_, a)| a.re).sum();
+    assert_eq!(
+        found.terms.iter().map(|term| term.neighbour).collect::<Vec<_>>(),
+        row.iter().map(|(v, _)| *v).collect::<Vec<_>>()
+    );
+    let reach: f64 = row.iter().map(|(_, a)| (a.re / sum).abs()).sum();
+    for (term, (neighbour, a)) in found.terms.iter().zip(&row) {
+        assert!(
+            (term.share - a.re / sum).abs() <= 1e-9 * reach,
+            "{vertex} to {neighbour}: {} is {}",
+            term.share,
+            a.re / sum
+        );
+    }
+    let at = |v: VertexId| embedding[v.index()] - embedding[vertex.index()];
+    let whole: f64 = row.iter().map(|(v, a)| a.norm() * at(*v).length()).sum();
+    let left = all.discrepancy(mesh, embedding, vertex).norm() / whole;
+    assert!((found.residual - left).abs() < 1e-9, "{vertex}: {} is {left}", found.residual);
+}
+
+#[test]
+fn each_equation_is_a_row_of_the_system() {
+    let mesh = disk(Example::Cube);
+    let embedding = at_random(mesh.vertex_count(), 1);
+    for family in [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.4)] {
+        let all = equations::natural(&mesh, family.power().unwrap()).unwrap();
+        let step = step_with(&mesh, family, embedding.clone());
+        for vertex in mesh.vertices() {
+            let found = equation(&mesh, &Settings::new(Method::Natural, family), &step, vertex);
+            assert_is_row(&mesh, &found, &all, &embedding, vertex);
+        }
+    }
+}
+
+#[test]
+fn each_equation_of_an_iteration_is_a_row_of_its_system() {
+    let mesh = disk(Example::Cube);
+    let (before, after) = (at_random(mesh.vertex_count(), 2), at_random(mesh.vertex_count(), 3));
+    let all = natural_in_plane(&mesh, &before);
+    let step = Step { rung: Method::Iterate, ..step_with(&mesh, Family::Conformal, after.clone()) };
+    for vertex in mesh.vertices() {
+        let (found, source) = equation_of_step(&mesh, &Settings::default(), (&step, Some(&before)), vertex).unwrap();
+        assert_eq!(source, WeightSource::StepBefore);
+        assert_is_row(&mesh, &found, &all, &after, vertex);
+    }
+}
+
+#[test]
+fn a_planar_ring_and_a_planar_fan_satisfy_it() {
+    let mesh = disk(Example::Ell);
+    let flat: Vec<DVec2> = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
+    for family in [Family::Conformal, Family::MeanValue, Family::Wachspress] {
+        let step = step_with(&mesh, family, flat.clone());
+        for vertex in mesh.vertices() {
+            let found = equation(&mesh, &Settings::new(Method::Natural, family), &step, vertex);
+            assert!(found.residual < ROUNDING, "{family} at {vertex}: {}", found.residual);
+            let shares: f64 = found.terms.iter().map(|term| term.share).sum();
+            assert!((shares - 1.0).abs() < ROUNDING);
+            assert_eq!(found.offset_vector.is_some(), mesh.boundary_place(vertex).is_some());
+            // The rounding of a sum whose weights nearly cancel is that of its terms.
+            let size: f64 = found.terms.iter().map(|term| term.share.abs()).sum();
+            let met = found.barycentre + found.offset_vector.unwrap_or_default();
+            assert!(met.distance(flat[vertex.index()]) < 1e-10 * size.max(1.0), "{family} at {vertex}: {met}");
+        }
+    }
+}
+
+#[test]
+fn an_open_fan_leaves_the_boundary_term() {
+    // A vertex in the middle of the lower side of a grid of unit squares: with d = 1 its offset is i(û₂ − û₁) / Σ k, û₁
+    // to the right and û₂ to the left, and so downwards, out of the mesh.
+    let mesh = DiskMesh::try_from(grid(4, 4)).unwrap();
+    let flat: Vec<DVec2> = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
+    let vertex = VertexId::new(2);
+    let settings = Settings::new(Method::Natural, Family::MeanValue);
+    let found = equation(&mesh, &settings, &step_with(&mesh, Family::MeanValue, flat), vertex);
+    let offset = found.offset_vector.unwrap();
+    assert!(found.terms.iter().all(|term| (term.offset - 1.0).abs() < f64::EPSILON && term.weight > 0.0));
+    assert!((offset * found.weight_sum).distance(DVec2::new(0.0, -2.0)) < ROUNDING, "{offset}");
+}
+
+#[test]
+fn the_offset_along_an_edge_follows_the_family() {
+    let mesh = disk(Example::Dome);
+    let vertex = mesh.boundary_loop()[3];
+    for (family, power) in [(Family::Conformal, 1), (Family::MeanValue, 0), (Family::Wachspress, -1)] {
+        let settings = Settings::new(Method::Natural, family);
+        let step = steps_of(&mesh, settings).swap_remove(0);
+        for term in equation(&mesh, &settings, &step, vertex).terms {
+            let length: f64 = mesh.position(term.neighbour).distance(mesh.position(vertex));
+            assert!((term.offset - length.powi(power)).abs() < ROUNDING * term.offset, "{family}");
+        }
+    }
+}
+
+#[test]
+fn a_linear_solve_and_an_iteration_satisfy_theirs_but_at_pins() {
+    let mesh = disk(Example::Face);
+    let settings =
+        Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Iterate, Family::MeanValue) };
+    let steps = steps_of(&mesh, settings);
+    assert!(steps.len() > 1, "the first step folds");
+    let mut before: Option<&[DVec2]> = None;
+    for step in &steps {
+        for vertex in mesh.vertices().filter(|v| !step.solution.pins.contains_key(v)) {
+            let (found, _) = equation_of_step(&mesh, &settings, (step, before), vertex).unwrap();
+            assert!(found.residual < SOLVED, "step {} at {vertex}: {}", step.index, found.residual);
+        }
+        before = Some(&step.solution.embedding);
+    }
+}
+
+/// That all vertices off the outline satisfy the equations of mesh and outside.
+fn assert_virtual_boundary_is_solved(mesh: &DiskMesh, step: &Step) {
+    let stages = step.virtual_boundary.as_ref().unwrap();
+    let mut closed = 0;
+    for vertex in mesh.vertices() {
+        let found = equation_of_step(mesh, &Settings::default(), (step, None), vertex);
+        if stages.hull.contains(&vertex) {
+            assert_eq!(found, Err(NoEquation::Prescribed));
+            continue;
+        }
+        let (found, source) = found.unwrap();
+        assert_eq!((source, found.offset_vector), (WeightSource::Extended, None));
+        assert!(found.residual < SOLVED, "{vertex}: {}", found.residual);
+        closed += usize::from(mesh.boundary_place(vertex).is_some());
+    }
+    assert!(closed > 0, "some boundary vertices lie in pockets");
+}
+
+#[test]
+fn a_boundary_vertex_in_a_pocket_has_a_whole_ring() {
+    let mesh = disk(Example::Face);
+    let steps = steps_of(&mesh, Settings::new(Method::VirtualBoundary, Family::Conformal));
+    assert_virtual_boundary_is_solved(&mesh, &steps[1]);
+}
+
+#[test]
+fn virtual_vertices_are_neighbours_too() {
+    let Some(cow) = corpus_disks().into_iter().find(|entry| entry.file == "cow_seamster.obj") else { return };
+    let mesh = cow.disk();
+    let steps = steps_of(&mesh, Settings::new(Method::VirtualBoundary, Family::Conformal));
+    let step = steps.iter().find(|step| step.virtual_boundary.is_some()).unwrap();
+    let first_virtual = VertexId::from_index(mesh.vertex_count());
+    let of_vertex = |&v: &VertexId| equation_of_step(&mesh, &Settings::default(), (step, None), v).unwrap().0;
+    let has_virtual = |equation: VertexEquation| equation.terms.iter().any(|term| term.neighbour >= first_virtual);
+    assert!(mesh.boundary_loop().iter().map(of_vertex).any(has_virtual));
+    assert_virtual_boundary_is_solved(&mesh, step);
+}
+
+#[test]
+fn what_has_no_equation_says_why() {
+    let mesh = disk(Example::Dome);
+    let boundary = mesh.boundary_loop()[0];
+    let inside = mesh.vertices().find(|&v| mesh.boundary_place(v).is_none()).unwrap();
+    let reason = |method, family, vertex| {
+        let settings = Settings::new(method, family);
+        let step = steps_of(&mesh, settings).pop().unwrap();
+        equation_of_step(&mesh, &settings, (&step, None), vertex)
+    };
+    let convex = Method::Convex(BoundaryShape::Circle);
+    assert_eq!(reason(convex, Family::MeanValue, boundary), Err(NoEquation::Prescribed));
+    assert_eq!(reason(Method::Levy, Family::Conformal, inside), Err(NoEquation::OfTriangles));
+    for family in [Family::MeanValue, Family::Uniform, Family::ShapePreserving] {
+        assert!(reason(convex, family, inside).unwrap().0.residual < SOLVED, "{family}");
+    }
+    let mut step = steps_of(&mesh, Settings::default()).pop().unwrap();
+    step.rung = Method::Iterate;
+    let missing = equation_of_step(&mesh, &Settings::default(), (&step, None), inside);
+    assert_eq!(missing, Err(NoEquation::StepBeforeMissing));
+}

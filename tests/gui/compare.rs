@@ -1,0 +1,217 @@
+//! Steps beside each other: the way from one to the next, the outline of one over the other, and how far faces moved.
+
+use eframe::egui;
+use egui::Key;
+use freebound::app::Start;
+use freebound::mesh::VertexId;
+use freebound::session::Action;
+use freebound::solver::{Method, Settings};
+use freebound::ui::{Shading, Stage};
+use glam::DVec2;
+
+use crate::harness::{SIZE, Window, sheet};
+
+/// The built-in face after its first iteration: two steps, the second on the screen.
+fn two_steps() -> Window {
+    let mut window = Window::start(SIZE, Start { dialogs_inside: true, ..Start::default() });
+    let settings = Settings { method: Method::Iterate, ..Settings::default() };
+    window.editor_mut().session.handle(Action::SetSettings(settings));
+    window.settle();
+    while window.editor().session.timeline().records().len() < 2 {
+        window.key(Key::Space);
+    }
+    window.editor_mut().session.handle(Action::ShowStep(1));
+    window.settle();
+    window
+}
+
+fn drawn(window: &Window) -> Vec<DVec2> {
+    window.editor().drawn_plane().expect("solved").positions().to_vec()
+}
+
+/// Steps until vertices are on their way, or for half a second.
+fn step_until_easing(window: &mut Window) -> bool {
+    for _ in 0..500 {
+        window.step();
+        if window.editor().is_easing() {
+            return true;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    false
+}
+
+/// The largest distance between two embeddings.
+fn gap(a: &[DVec2], b: &[DVec2]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn vertices_glide_from_step_to_step() {
+    let mut window = two_steps();
+    let last = window.embedding();
+    window.key_now(Key::ArrowLeft);
+    assert!(step_until_easing(&mut window));
+    let first = window.embedding();
+    let whole = gap(&first, &last);
+    let mut left = whole;
+    let mut frames = 0;
+    while window.editor().is_easing() {
+        let now = gap(&drawn(&window), &first);
+        assert!(now <= left + 1e-12 && now < whole + 1e-12, "{now} after {left}");
+        (left, frames) = (now, frames + 1);
+        window.step();
+    }
+    assert!((8..=20).contains(&frames), "a quarter of a second at 60 frames a second: {frames}");
+    assert_eq!(drawn(&window), first);
+}
+
+#[test]
+fn a_step_that_comes_while_vertices_glide_takes_them_from_where_they_are() {
+    let mut window = two_steps();
+    window.key_now(Key::ArrowLeft);
+    assert!(step_until_easing(&mut window));
+    for _ in 0..6 {
+        window.step();
+    }
+    let on_the_way = drawn(&window);
+    let revision = window.editor().plane_scene().expect("solved").outcome_revision;
+    window.key_now(Key::ArrowRight);
+    while window.editor().plane_scene().expect("solved").outcome_revision == revision {
+        window.step();
+    }
+    // It turns around: no jump to either end. The frames in between have moved them on a little.
+    let whole = gap(&window.embedding(), &on_the_way);
+    assert!(gap(&drawn(&window), &window.embedding()) > 0.2 * whole);
+    window.settle();
+    assert_eq!(drawn(&window), window.embedding());
+}
+
+#[test]
+fn who_wants_no_motion_gets_none() {
+    let mut window = two_steps();
+    window.menu(&["View", "Glide from step to step"]);
+    window.key_now(Key::ArrowLeft);
+    assert!(!step_until_easing(&mut window));
+    assert_eq!(window.editor().session.timeline().shown(), Some(0));
+    assert_eq!(drawn(&window), window.embedding());
+}
+
+/// Whether the whole embedding lies within its pane.
+fn all_shows(window: &Window) -> bool {
+    let view = window.plane_view();
+    window.embedding().iter().all(|&z| view.contains(window.place_in_plane(z)))
+}
+
+#[test]
+fn the_camera_goes_along_with_an_embedding_that_would_leave_the_pane() {
+    for wanted in [true, false] {
+        let mut window = two_steps();
+        window.editor_mut().ease.wanted = wanted;
+        window.key(Key::ArrowLeft);
+        window.key(Key::F);
+        window.settle();
+        assert!(all_shows(&window));
+        window.key(Key::ArrowRight);
+        assert!(all_shows(&window), "with ease: {wanted}");
+    }
+}
+
+#[test]
+fn a_camera_that_somebody_moved_stays() {
+    let mut window = two_steps();
+    window.key(Key::ArrowLeft);
+    window.editor_mut().plane_camera.as_mut().expect("framed").pan(DVec2::splat(150.0));
+    let camera = window.editor().plane_camera;
+    window.key(Key::ArrowRight);
+    assert_eq!(window.editor().plane_camera, camera);
+    window.harness.set_size(egui::vec2(900.0, 700.0));
+    window.settle();
+    assert_eq!(window.editor().plane_camera, camera);
+}
+
+#[test]
+fn an_embedding_that_was_framed_stays_framed_when_the_pane_changes() {
+    let mut window = two_steps();
+    window.key(Key::F);
+    window.harness.set_size(egui::vec2(700.0, 500.0));
+    window.settle();
+    assert!(all_shows(&window));
+    window.harness.set_size(egui::vec2(1800.0, 1100.0));
+    window.settle();
+    let width = window.plane_view().size();
+    let bounds = window.editor().drawn_plane().expect("solved").arrays.bounds();
+    let shown = window.place_in_plane(bounds.max) - window.place_in_plane(bounds.min);
+    assert!((shown.x / width.x).max(-shown.y / width.y) > 0.85, "it fills the pane: {shown} of {width}");
+}
+
+#[test]
+fn a_dragged_pin_is_followed_without_delay() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let corner = VertexId::new(0);
+    window.editor_mut().session.handle(Action::Fix(vec![corner, VertexId::new(6)]));
+    window.settle();
+    let target = window.embedding()[0] + 0.1;
+    window.editor_mut().session.handle(Action::MovePin { vertex: corner, target });
+    assert!(!step_until_easing(&mut window), "other pins are another run");
+    window.editor_mut().session.handle(Action::EndGesture);
+    window.settle();
+}
+
+#[test]
+fn the_outline_of_the_compared_step_shows_and_goes() {
+    let mut window = two_steps();
+    window.editor_mut().session.handle(Action::Compare(Some(0)));
+    window.settle();
+    assert_eq!(window.editor().ghost_step(), Some(0));
+    assert!(window.shows("Outline of step 0"));
+    window.key(Key::ArrowLeft);
+    assert_eq!(window.editor().ghost_step(), None, "a step is not compared with itself");
+    window.key(Key::ArrowRight);
+    assert_eq!(window.editor().ghost_step(), Some(0));
+    window.editor_mut().session.handle(Action::Compare(None));
+    window.settle();
+    assert_eq!(window.editor().ghost_step(), None);
+    assert!(!window.shows("Outline of step"));
+}
+
+#[test]
+fn moves_are_measured_from_the_compared_step_or_else_from_the_one_before() {
+    let mut window = two_steps();
+    window.key(Key::Num7);
+    assert!(window.shows("Move from step 0, plane units"), "{:?}", window.words());
+    let legend = window.editor().paint().expect("painted").legend.clone().expect("a legend");
+    assert!(legend.range.low.abs() < f64::EPSILON && legend.range.high > 0.0);
+    let max_move = window.outcome().step.max_move.expect("not the first");
+    assert!(legend.range.high <= max_move, "{:?} is at most {max_move}", legend.range);
+
+    window.key(Key::ArrowLeft);
+    assert!(window.editor().paint().expect("painted").legend.is_none(), "nothing comes before");
+    assert!(window.shows("nothing has moved"));
+    window.editor_mut().session.handle(Action::Compare(Some(1)));
+    window.settle();
+    assert!(window.shows("Move from step 1"));
+    assert_eq!(window.editor().moved_from().expect("compared").step.index, 1);
+}
+
+#[test]
+fn the_stages_of_a_virtual_boundary_show_no_outline_of_another_step() {
+    let mut window = Window::start(SIZE, Start { dialogs_inside: true, ..Start::default() });
+    window.choose("Method", "Virtual boundary");
+    window.editor_mut().session.handle(Action::Compare(Some(0)));
+    window.settle();
+    assert!(window.shows("Outline of step 0"));
+    window.key(Key::H);
+    assert_eq!(window.editor().hull.stage, Stage::Pockets);
+    assert!(!window.shows("Outline of step 0"));
+}
+
+#[test]
+fn move_is_one_of_the_shadings() {
+    let mut window = two_steps();
+    window.choose("Shading of both panes", "Move");
+    assert_eq!(window.editor().shading, Shading::Move);
+    window.menu(&["View", "Shading", "Checker"]);
+    window.menu(&["View", "Shading", "Move"]);
+    assert_eq!(window.editor().shading, Shading::Move);
+}

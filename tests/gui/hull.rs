@@ -1,0 +1,146 @@
+//! Hull and pockets of the virtual boundary, stage by stage.
+
+use eframe::egui;
+use egui::Key;
+use freebound::app::Start;
+use freebound::examples::Example;
+use freebound::ui::Stage;
+use glam::DVec2;
+
+use crate::harness::{SIZE, Window, sheet};
+
+/// The built-in face, whose three folds the virtual boundary takes away within the hull.
+fn bent() -> Window {
+    let mut window = Window::start(SIZE, Start { dialogs_inside: true, ..Start::default() });
+    window.choose("Method", "Virtual boundary");
+    assert!(window.outcome().step.virtual_boundary.is_some(), "the face bends");
+    window
+}
+
+fn positions(window: &Window) -> Vec<DVec2> {
+    window.editor().drawn_plane().expect("solved").positions().to_vec()
+}
+
+#[test]
+fn h_shows_the_stages_and_hides_them_again() {
+    let mut window = bent();
+    assert!(!window.has_button("Pockets"));
+    window.key(Key::H);
+    let pockets = window.outcome().step.virtual_boundary.clone().expect("bent").pockets.len();
+    assert!(window.shows(&format!("{pockets} triangles up to the hull")), "{:?}", window.words());
+    for stage in Stage::ALL {
+        window.click(stage.title());
+        assert_eq!(window.editor().hull.stage, stage);
+    }
+    window.key(Key::H);
+    assert!(!window.has_button("Pockets"));
+    window.menu(&["View", "Hull and pockets"]);
+    assert!(window.has_button("Pockets"));
+    window.click("Hull");
+    assert!(!window.has_button("Pockets"));
+}
+
+#[test]
+fn each_stage_shows_the_mesh_where_it_was_then() {
+    let mut window = bent();
+    let result = window.embedding();
+    let stages = window.outcome().step.virtual_boundary.clone().expect("bent");
+    window.key(Key::H);
+    let extent = window.editor().drawn_plane().expect("solved").arrays.bounds().extent();
+    let gap = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / extent;
+
+    let pockets = positions(&window);
+    window.click("Before");
+    assert_eq!(positions(&window), pockets);
+    assert!(gap(&pockets, &result) > 1e-3, "the folds are still there");
+    window.click("Solved");
+    let solved = positions(&window);
+    assert!(gap(&solved[..result.len()], &result) < 1e-9, "{}", gap(&solved, &result));
+    for v in &stages.hull {
+        assert!(solved[v.index()].distance(pockets[v.index()]) < 1e-9 * extent, "the hull stays at {v}");
+    }
+    window.click("Peeled");
+    assert_eq!(positions(&window), result);
+}
+
+#[test]
+fn the_folds_of_the_stage_before_are_drawn_with_it() {
+    // The result is planar, so red faces can only be those of the stage.
+    let mut window = bent();
+    assert_eq!(window.verdict(), "Planar: proved");
+    window.key(Key::H);
+    let flipped = |window: &Window| window.editor().hull_scene().expect("shown").flipped_count();
+    assert_eq!(flipped(&window), 3);
+    window.click("Solved");
+    assert_eq!(flipped(&window), 0);
+}
+
+#[test]
+fn pins_are_not_dragged_in_a_stage_before_the_result() {
+    let mut window = bent();
+    let pin = |window: &Window| window.controls().iter().any(|(_, name, _)| name.starts_with("Gauge pin"));
+    assert!(pin(&window));
+    window.key(Key::H);
+    assert!(!pin(&window));
+    window.click("Peeled");
+    assert!(pin(&window));
+}
+
+#[test]
+fn a_vertex_is_picked_where_the_stage_shows_it() {
+    let mut window = bent();
+    window.key(Key::H);
+    window.click("Before");
+    let boundary = window.editor().session.model().expect("open").disk().expect("a disk").boundary_loop()[7];
+    let at = window.place_in_plane(positions(&window)[boundary.index()]);
+    window.click_at(at, egui::Modifiers::NONE);
+    assert_eq!(window.editor().selection, [boundary].into());
+}
+
+#[test]
+fn the_camera_comes_back_where_the_stages_needed_more_room() {
+    let mut window = bent();
+    // Nearer than all of the hull.
+    let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+    camera.zoom_at(DVec2::splat(100.0), 1.5, DVec2::splat(400.0));
+    let before = *camera;
+    window.key(Key::H);
+    assert_ne!(window.editor().plane_camera, Some(before), "all of the hull is framed");
+    window.key(Key::H);
+    assert_eq!(window.editor().plane_camera, Some(before));
+    // Where somebody has moved it in between it stays.
+    window.key(Key::H);
+    window.editor_mut().plane_camera.as_mut().expect("framed").pan(DVec2::splat(10.0));
+    let moved = window.editor().plane_camera;
+    window.key(Key::H);
+    assert_eq!(window.editor().plane_camera, moved);
+}
+
+#[test]
+fn a_step_without_a_virtual_boundary_says_so_and_shows_its_hull() {
+    let mut window = Window::with_example(Example::Ell);
+    window.key(Key::H);
+    assert!(window.shows("This step has no virtual boundary"), "{:?}", window.words());
+    assert!(!window.has_button("Pockets"));
+    assert_eq!(positions(&window), window.embedding());
+}
+
+#[test]
+fn another_step_shows_its_own_hull() {
+    let mut window = bent();
+    window.key(Key::H);
+    window.choose("Method", "Natural boundary");
+    assert!(window.shows("This step has no virtual boundary"), "{:?}", window.words());
+    window.choose("Method", "Virtual boundary");
+    assert!(window.has_button("Pockets"));
+}
+
+#[test]
+fn another_mesh_has_another_hull() {
+    let mut window = bent();
+    window.key(Key::H);
+    let path = window.path("sheet.obj");
+    crate::harness::write_obj(&path, &sheet(6, 0.0));
+    window.open(&path);
+    assert!(window.shows("This step has no virtual boundary"), "{:?}", window.words());
+}

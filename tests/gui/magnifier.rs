@@ -1,0 +1,171 @@
+//! The inset that shows a defect from near by.
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Rect};
+use egui_kittest::kittest::Queryable as _;
+use freebound::app::Start;
+use freebound::mesh::VertexId;
+use freebound::session::Action;
+use freebound::ui::Defect;
+
+use crate::defects::fold;
+use crate::harness::{SIZE, Window, corpus, sheet};
+
+fn folded() -> Window {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    fold(&mut window);
+    window
+}
+
+/// The name of the inset, where it shows.
+fn inset(window: &Window) -> Option<String> {
+    let names = window.controls().into_iter().map(|(_, name, _)| name);
+    names.into_iter().find(|name| name.starts_with("Magnifier: "))
+}
+
+fn inset_rect(window: &Window) -> Rect {
+    window.rect(Role::Button, &inset(window).expect("it shows"))
+}
+
+/// How much larger the inset says that it shows.
+fn factor(window: &Window) -> f64 {
+    let name = inset(window).expect("it shows");
+    name.rsplit("× ").next().expect("a factor").parse().expect("a number")
+}
+
+#[test]
+fn it_shows_the_first_defect_and_goes_when_there_is_none() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    assert_eq!(inset(&window), None, "nothing is wrong yet");
+    fold(&mut window);
+    let first = window.editor().defects()[0].words();
+    assert!(inset(&window).expect("it shows").starts_with(&format!("Magnifier: {first}, × ")));
+    assert!(factor(&window) > 1.5, "{}", factor(&window));
+    window.menu(&["Edit", "Free all pins"]);
+    assert_eq!(inset(&window), None, "nothing is wrong any more");
+}
+
+#[test]
+fn it_shows_the_defect_gone_to() {
+    let mut window = folded();
+    window.key(Key::D);
+    window.key(Key::D);
+    let second = window.editor().defects()[1].words();
+    // The pane has come as near as the inset was; from afar it shows which defect it is.
+    window.key(Key::Escape);
+    window.key(Key::F);
+    assert!(inset(&window).expect("it shows").contains(&second), "{:?} is {second}", inset(&window));
+}
+
+#[test]
+fn a_click_goes_to_its_defect() {
+    let mut window = folded();
+    let name = inset(&window).expect("it shows");
+    let before = window.editor().plane_camera;
+    window.click(&name);
+    assert_eq!(window.editor().defect, Some(0));
+    assert_ne!(window.editor().plane_camera, before);
+}
+
+#[test]
+fn it_can_be_switched_off() {
+    let mut window = folded();
+    window.menu(&["View", "Magnifier over a defect"]);
+    assert_eq!(inset(&window), None);
+    window.menu(&["View", "Magnifier over a defect"]);
+    assert!(inset(&window).is_some());
+}
+
+#[test]
+fn the_frame_on_the_layout_lies_around_the_defect_and_not_under_the_inset() {
+    let mut window = folded();
+    let Defect::Flipped(face) = window.editor().defects()[0] else { panic!("flipped faces come first") };
+    let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
+    let embedding = window.embedding();
+    let place = |window: &Window| {
+        let places = corners.map(|v: VertexId| window.place_in_plane(embedding[v.index()]));
+        Rect::from_points(&places)
+    };
+    assert!(window.has_frame_around(place(&window)));
+    // Pan until the defect lies where the inset was.
+    let by = inset_rect(&window).center() - place(&window).center();
+    let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+    camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
+    window.settle();
+    assert!(!inset_rect(&window).intersects(place(&window)), "it has made room");
+    assert!(window.has_frame_around(place(&window)));
+}
+
+#[test]
+fn what_the_pane_shows_as_large_is_not_magnified() {
+    let mut window = folded();
+    let Defect::Flipped(face) = window.editor().defects()[0] else { panic!("flipped faces come first") };
+    let corner = window.editor().session.model().expect("open").mesh().triangles[face.index()][0];
+    let at = window.embedding()[corner.index()];
+    let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+    camera.frame(freebound::view::PlaneBox { min: at - 1e-3, max: at + 1e-3 }, glam::DVec2::splat(400.0));
+    window.settle();
+    assert_eq!(inset(&window), None);
+}
+
+#[test]
+fn the_pointer_over_it_picks_nothing_behind_it() {
+    let mut window = folded();
+    let corner = VertexId::new(6);
+    let at = |window: &Window| window.place_in_plane(window.embedding()[corner.index()]);
+    // The lower right corner of the sheet, which has nothing to do with the defect.
+    let by = inset_rect(&window).center() - at(&window);
+    window.harness.hover_at(at(&window));
+    window.harness.run_steps(2);
+    assert_eq!(window.editor().hovered, Some(corner), "as long as nothing lies over it");
+    let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+    camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
+    window.settle();
+    assert!(inset_rect(&window).contains(at(&window)));
+    window.harness.hover_at(at(&window));
+    window.harness.run_steps(2);
+    assert_eq!(window.editor().hovered, None);
+}
+
+#[test]
+fn a_small_pane_has_no_room_for_it() {
+    let mut window = folded();
+    window.harness.set_size(egui::vec2(640.0, 260.0));
+    window.settle();
+    assert_eq!(inset(&window), None);
+    window.harness.set_size(egui::vec2(1280.0, 800.0));
+    window.settle();
+    assert!(inset(&window).is_some());
+}
+
+#[test]
+fn a_stage_before_the_result_has_no_verdict_and_so_no_inset() {
+    let mut window = Window::start(SIZE, Start { dialogs_inside: true, ..Start::default() });
+    window.choose("Method", "Natural boundary");
+    assert!(inset(&window).is_some());
+    window.key(Key::H);
+    assert!(inset(&window).is_some(), "without stages the result shows");
+    window.choose("Method", "Virtual boundary");
+    window.click("Before");
+    assert!(window.editor().hull_scene().expect("shown").flipped_count() > 0);
+    assert_eq!(inset(&window), None, "folds, but no verdict");
+}
+
+#[test]
+fn a_crossing_of_the_cow_is_shown_with_its_ring() {
+    let Some(corpus) = corpus() else { return };
+    let mut window = Window::with_file(&corpus.join("cow_seamster.obj"));
+    window.choose("Method", "Natural boundary");
+    let flipped = window.outcome().step.verdict.flipped_faces.len();
+    let crossing = window.editor().defects()[flipped];
+    assert!(matches!(crossing, Defect::Crossing(_)));
+    window.editor_mut().defect = Some(flipped);
+    window.editor_mut().session.handle(Action::EndGesture);
+    window.settle();
+    assert!(inset(&window).expect("it shows").contains(&crossing.words()));
+    // What is looked at lies in the middle of the picture under the title.
+    let rect = inset_rect(&window);
+    assert!(window.has_ring_at(rect.center() + egui::vec2(0.0, 10.0)));
+    assert!(window.harness.query_by_label(&inset(&window).expect("it shows")).is_some());
+}
