@@ -2,11 +2,12 @@
 //!
 //! `x_{k+1} = A(x_k)⁻¹ b`, where A(x) holds the mean-value equations of the planar geometry x, angles unsigned. The
 //! pins stay what they are. A planar embedding is a fixed point; a fixed point with turning number 1 that meets *all*
-//! equations is planar (Theorem 2). It is solved for the move `x_{k+1} − x_k`, so that rounding dies away with it. The pattern never changes, so it is ordered and analysed once a run.
+//! equations is planar (Theorem 2). Nothing is solved for such an embedding. It is solved for the move `x_{k+1} − x_k`, so that rounding dies away with it. The pattern never changes, so it is ordered and analysed once a run.
 
 use std::time::Instant;
 
 use glam::DVec2;
+use num_complex::Complex;
 
 use super::free_solve::{FreeSolve, Site};
 use super::plane_weights::{left_over_in_plane, natural_in_plane};
@@ -55,6 +56,9 @@ impl Iteration {
         let site = Site { mesh, system: &self.system, pinned: &self.pinned };
         let equations = natural_in_plane(mesh, embedding);
         let left = left_over_in_plane(mesh, embedding);
+        if left.iter().all(|left| *left == Complex::ZERO) {
+            return Ok(self.unmoved(embedding, start.elapsed().as_secs_f64()));
+        }
         let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
         let solve = FreeSolve::new(site, equations, (&self.analysis, self.treatment), &mut seconds, control)?;
         control.enter(Phase::Solve)?;
@@ -74,6 +78,21 @@ impl Iteration {
             factor_bytes: stats.factor_bytes,
             seconds,
         })
+    }
+
+    /// The answer to an embedding that leaves nothing of its equations: itself.
+    fn unmoved(&self, embedding: &[DVec2], seconds: f64) -> Solution {
+        Solution {
+            embedding: embedding.to_vec(),
+            pins: self.pinned.iter().map(|&v| (v, embedding[v.index()])).collect(),
+            gauge_completed: false,
+            residual: 0.0,
+            equation_residual: 0.0,
+            replaced_pivots: 0,
+            bounded_corners: 0,
+            factor_bytes: 0,
+            seconds: PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() },
+        }
     }
 
     /// Whether this iteration serves pins on these vertices.

@@ -214,6 +214,33 @@ fn beyond_what_doubles_can_tell_apart_the_ladder_ends_planar_all_the_same() {
 }
 
 #[test]
+fn a_planar_embedding_satisfies_its_own_equations() {
+    let spiral = disk(Example::Spiral);
+    let flat: Vec<DVec2> = spiral.mesh().positions.iter().map(|x| DVec2::new(x.x, x.y)).collect();
+    let dome = disk(Example::Dome);
+    let solved = flatten(&dome, &Settings::default(), &Pins::new(), Control::unattended()).unwrap().embedding;
+    for (mesh, embedding) in [(spiral, flat), (dome, solved)] {
+        let equations = natural_in_plane(&mesh, &embedding);
+        let left = equations.residual(&mesh, &embedding, |_| true);
+        assert!(left <= 1e-14, "summed up from the weights: {left:.1e}");
+        assert!(left_over_in_plane(&mesh, &embedding).iter().all(|left| left.norm() == 0.0), "found without rounding");
+    }
+}
+
+#[test]
+fn a_large_regular_grid_stays_where_it_is() {
+    // Its free-boundary system is singular in 64 bits for pins at these corners; nothing has to be solved.
+    for columns in [40, 80] {
+        let mesh = DiskMesh::try_from(grid(columns, columns)).unwrap();
+        let mut run = Run::new(Settings::default(), Pins::new());
+        let first = run.step(&mesh, Control::unattended()).unwrap();
+        assert!(first.verdict.planar);
+        let second = run.step(&mesh, Control::unattended()).unwrap();
+        assert!(second.max_move.is_some_and(|moved| moved <= 1e-12 * f64::from(columns)), "{:?}", second.max_move);
+    }
+}
+
+#[test]
 fn what_an_embedding_leaves_is_what_its_equations_leave() {
     let mut random = Random(11);
     for columns in [3, 8, 20] {
