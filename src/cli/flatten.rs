@@ -80,7 +80,7 @@ impl HeadlessJob<'_> {
             None => {}
         }
         if self.report != Some(Path::new("-")) {
-            let end = ending_words(&outcome, &finished, ending);
+            let end = ending_words(&outcome, &finished, &ending);
             print_summary(&finished.report, &end);
         }
         Ok(if finished.verdict().planar { Status::Fine } else { Status::NotPlanar })
@@ -96,9 +96,18 @@ impl HeadlessJob<'_> {
         let report_phase = |phase: Phase| progress.enter(phase.words());
         let control = Control::new(interrupted(), &report_phase);
         let mut run = Run::new(self.settings, self.pins.clone());
-        let mut records = Vec::new();
+        let mut records: Vec<StepReport> = Vec::new();
+        let mut last: Option<Step> = None;
         loop {
-            let step = run.step(mesh, control)?;
+            let step = match (run.step(mesh, control), last) {
+                (Ok(step), _) => step,
+                // A rung that gives nothing leaves the steps before it, which are written.
+                (Err(error), Some(last)) if error != SolveError::Cancelled => {
+                    let outcome = Outcome::new(mesh, &run, last);
+                    return Ok(Solved { outcome, records, ending: Err(error) });
+                }
+                (Err(error), _) => return Err(error.into()),
+            };
             progress.reach(step_words(&step));
             records.push(StepReport::of(&step));
             if let Some(folder) = folder.as_deref_mut() {
@@ -106,8 +115,9 @@ impl HeadlessJob<'_> {
                 folder.add(mesh, &step)?;
             }
             if let Some(ending) = run.ending() {
-                return Ok(Solved { outcome: Outcome::new(mesh, &run, step), records, ending });
+                return Ok(Solved { outcome: Outcome::new(mesh, &run, step), records, ending: Ok(ending) });
             }
+            last = Some(step);
         }
     }
 }
@@ -116,7 +126,8 @@ impl HeadlessJob<'_> {
 struct Solved {
     outcome: Outcome,
     records: Vec<StepReport>,
-    ending: Ending,
+    /// Why it ended; the error of the rung that gave nothing, where it could not go on.
+    ending: Result<Ending, SolveError>,
 }
 
 /// A rung in words.
@@ -136,16 +147,17 @@ fn step_words(step: &Step) -> String {
 }
 
 /// The verdict, and after how many steps and on which rung a run of several came to it.
-fn ending_words(outcome: &Outcome, finished: &Finished, ending: Ending) -> String {
+fn ending_words(outcome: &Outcome, finished: &Finished, ending: &Result<Ending, SolveError>) -> String {
     let mut words = finished.verdict().summary();
     let step = &outcome.step;
     if matches!(outcome.settings.method, Method::Auto | Method::Iterate | Method::VirtualBoundary) {
         let count = finished.report.steps.len();
         let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
         let why = match ending {
-            Ending::Planar | Ending::Done => "",
-            Ending::Stalled => ", which gets no better",
-            Ending::Limit => ", as many as it may take",
+            Ok(Ending::Planar | Ending::Done) => String::new(),
+            Ok(Ending::Stalled) => ", which gets no better".to_owned(),
+            Ok(Ending::Limit) => ", as many as it may take".to_owned(),
+            Err(error) => format!("; the next gave nothing: {error}"),
         };
         let steps = if count == 1 { "step" } else { "steps" };
         let rung = rung_words(step.rung);

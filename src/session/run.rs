@@ -140,6 +140,7 @@ impl Session {
         self.solve_again = false;
         let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
         let document = Document { pins: run.pins().clone(), settings: *run.settings() };
+        let has_delivered = run.step_count() > 0;
         let (sender, deliveries) = sync_channel(STEPS_WAITING);
         let goal = Arc::new(Mutex::new(goal));
         let courier = Courier { deliveries: sender, goal: Arc::clone(&goal), wake: Arc::clone(&self.wake) };
@@ -149,7 +150,7 @@ impl Session {
         };
         match Job::spawn("solve", self.waker(), work) {
             Ok(job) => {
-                let (has_delivered, phase, paused) = (false, None, None);
+                let (phase, paused) = (None, None);
                 self.running = Some(Running { job, deliveries, goal, document, has_delivered, phase, paused });
             }
             Err(error) => self.fail(Place::Embedding, format!("no thread to solve with: {error}"), None),

@@ -62,6 +62,19 @@ pub enum SolveError {
         needed: usize,
     },
 
+    /// More pins than the method can do with.
+    #[error("{count} vertices are pinned, but a virtual boundary goes with at most {most}: choose auto or iterate")]
+    TooManyPins {
+        /// Pins of the user's.
+        count: usize,
+        /// The most that only fix the similarity.
+        most: usize,
+    },
+
+    /// The last rung of the ladder has no way left.
+    #[error("the whole boundary is on a circle, and 64-bit numbers still cannot hold the faces apart")]
+    LadderExhausted,
+
     /// The linear solver found the matrix singular.
     #[error("the system is singular at vertex {vertex}: choose other pins or another family")]
     Singular {

@@ -1,6 +1,7 @@
 //! One factored system of a free boundary, and its solution for given pins.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use glam::DVec2;
@@ -14,6 +15,9 @@ use super::system::FreeSystem;
 use super::{Control, Phase, PhaseSeconds, Pins, SolveError, Treatment};
 use crate::linalg::{Analysis, Factor, FactorStats, LinalgError, Solved};
 use crate::mesh::{DiskMesh, VertexId};
+
+/// One further solve is not worth an interruption.
+static NEVER: AtomicBool = AtomicBool::new(false);
 
 /// Equations, matrix and factors; for least squares also what the pinned vertices' equations add.
 pub(super) struct FreeSolve {
@@ -50,7 +54,7 @@ impl FreeSolve {
         let pinned_rows = match treatment {
             Treatment::Eliminate => None,
             Treatment::LeastSquares => {
-                let factored = Factored { matrix: &matrix, factor: &factor };
+                let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
                 Some(PinnedRows::new(site.mesh, site.system, &equations, site.pinned, &factored).map_err(named)?)
             }
         };
@@ -92,7 +96,7 @@ impl FreeSolve {
         let mut moves = solve(&terms).map_err(named)?.x;
         let mut correction = vec![Complex::ZERO; terms.len()];
         if let Some(rows) = &self.pinned_rows {
-            let factored = Factored { matrix: &self.matrix, factor: &self.factor };
+            let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: &NEVER };
             let discrepancy = rows.discrepancy(site.pinned.iter().map(|v| left[v.index()]), &moves);
             correction = rows.correction(&factored, &discrepancy).map_err(named)?;
             for (term, y) in terms.iter_mut().zip(&correction) {

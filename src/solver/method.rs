@@ -216,6 +216,8 @@ impl Settings {
     /// solver's own, and a boundary that it places, are always eliminated from the linear solve.
     pub fn treatment_on(&self, rung: Method, pin_count: usize) -> Treatment {
         match rung {
+            // By hand after a convex boundary, all of which is pinned.
+            Method::Iterate if matches!(self.method, Method::Convex(_)) => Treatment::Eliminate,
             Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
             Method::VirtualBoundary | Method::Convex(_) => Treatment::Eliminate,
             _ if pin_count < 2 => Treatment::Eliminate,

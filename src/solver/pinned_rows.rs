@@ -16,6 +16,8 @@
 //!
 //! G is never kept. Its Gram matrix is found from `Gᴴ eⱼ = B⁻ᴴ Cᴴ eⱼ`, one adjoint solve a pin, and y with one more.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
@@ -41,6 +43,8 @@ pub(super) struct PinnedRows {
 pub(super) struct Factored<'a> {
     pub(super) matrix: &'a CscMatrix<C64>,
     pub(super) factor: &'a Factor<C64>,
+    /// Looked at between groups of solves.
+    pub(super) cancel: &'a AtomicBool,
 }
 
 impl PinnedRows {
@@ -112,6 +116,9 @@ fn gram(rows: &[Vec<(usize, C64)>], factored: &Factored<'_>) -> Result<DMatrix<C
     }
     // Too many to keep them all: G Gᴴ eⱼ = C B⁻¹ B⁻ᴴ Cᴴ eⱼ.
     for first in (0..count).step_by(GROUP) {
+        if factored.cancel.load(Ordering::Relaxed) {
+            return Err(LinalgError::Cancelled);
+        }
         let group = &rows[first..(first + GROUP).min(count)];
         let solved = factored.factor.solve_many(factored.matrix, &adjoint_columns(group)?)?.x;
         for (j, column) in (first..).zip(solved.chunks_exact(n)) {

@@ -43,6 +43,8 @@ const THIN: f64 = 1e-3;
 struct FaceWeights {
     at_corner: [[f64; 2]; 3],
     degenerate: bool,
+    /// Corners whose weight is not what the geometry gives.
+    bounded_corners: usize,
 }
 
 /// The lengths of a face's edges, `radii[k]` from corner k to the next, made positive.
@@ -63,16 +65,18 @@ fn face_weights([a, b, c]: [DVec2; 3], mean_length: f64) -> FaceWeights {
     let exact = edges[0].perp_dot(-edges[2]).abs();
     let degenerate = has_short_edge || exact == 0.0;
     let cross = if degenerate { exact.max(THIN * longest * longest) } else { exact };
+    let mut bounded_corners = 0;
     let at_corner = [0, 1, 2].map(|k| {
         let (to_next, to_previous) = (radii[k], radii[(k + 2) % 3]);
         let product = to_next * to_previous;
         let dot = -edges[k].dot(edges[(k + 2) % 3]);
         // The form that does not cancel.
         let tan_half = if dot > 0.0 { cross / (product + dot) } else { (product - dot) / cross };
-        let (tan_half, _) = bounded(tan_half);
+        let (tan_half, is_bounded) = bounded(tan_half);
+        bounded_corners += usize::from(is_bounded || degenerate);
         [tan_half / to_next, tan_half / to_previous]
     });
-    FaceWeights { at_corner, degenerate }
+    FaceWeights { at_corner, degenerate, bounded_corners }
 }
 
 /// What the first corner of a face gives to its edges to the next corner and to the previous one, in the embedding's own
@@ -121,7 +125,7 @@ fn shares_left(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
     let [a, b, c] = corners;
     let edges = [b - a, c - b, a - c];
     let (radii, _) = radii_of(edges, 1.0);
-    let FaceWeights { at_corner, degenerate } = face_weights(corners, 1.0);
+    let FaceWeights { at_corner, degenerate, .. } = face_weights(corners, 1.0);
     [0, 1, 2].map(|k| {
         let previous = (k + 2) % 3;
         let (to_next, to_previous) = (edges[k], -edges[previous]);
@@ -143,7 +147,7 @@ pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Equations<f6
     let mut coefficients = vec![0.0; mesh.halfedge_count()];
     let mut bounded_corners = 0;
     for (face, weights) in found.iter().enumerate() {
-        bounded_corners += 3 * usize::from(weights.degenerate);
+        bounded_corners += weights.bounded_corners;
         for (k, &[to_next, to_previous]) in weights.at_corner.iter().enumerate() {
             let side = HalfedgeId::from_index(3 * face + k);
             coefficients[side.index()] += to_next;

@@ -58,6 +58,8 @@ pub struct Run {
     step_count: usize,
     latest: Option<Latest>,
     ending: Option<Ending>,
+    /// What there is to say about the next step: why others gave nothing.
+    notes: Vec<String>,
 }
 
 /// What the next step goes on from.
@@ -72,10 +74,10 @@ struct Latest {
 /// What a rung gave, before it is proved.
 struct Raw {
     rung: Method,
+    family: Family,
     solution: Solution,
     bent_vertices: usize,
     virtual_boundary: Option<Arc<super::VirtualBoundary>>,
-    note: Option<String>,
     prepared: Option<Arc<Prepared>>,
 }
 
@@ -95,6 +97,7 @@ impl Run {
             step_count: 0,
             latest: None,
             ending: None,
+            notes: Vec::new(),
         }
     }
 
@@ -119,6 +122,11 @@ impl Run {
     /// The user's pins.
     pub fn pins(&self) -> &Pins {
         &self.pins
+    }
+
+    /// How many steps it has taken.
+    pub fn step_count(&self) -> usize {
+        self.step_count
     }
 
     /// Why the method has come to its end, if it has. [`Run::step`] goes on all the same.
@@ -153,13 +161,15 @@ impl Run {
     /// wish to stop. In a ladder only the last rung's errors are errors.
     pub fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
         let raw = self.next_raw(mesh, control)?;
-        control.enter(Phase::Verify)?;
+        // What is solved is handed over, even where the caller has meanwhile asked to stop: the run has moved on.
+        control.enter(Phase::Verify).ok();
         let start = Instant::now();
         let verdict = verdict(mesh, &raw.solution.embedding);
         let verify_seconds = start.elapsed().as_secs_f64();
         let max_move = self.latest.as_ref().map(|latest| largest_move(&latest.embedding, &raw.solution.embedding));
         let step = Step {
             rung: raw.rung,
+            family: raw.family,
             index: self.step_count,
             solution: raw.solution,
             verdict,
@@ -167,7 +177,7 @@ impl Run {
             verify_seconds,
             bent_vertices: raw.bent_vertices,
             virtual_boundary: raw.virtual_boundary,
-            note: raw.note,
+            note: (!self.notes.is_empty()).then(|| std::mem::take(&mut self.notes).join("; ")),
             prepared: raw.prepared,
         };
         self.take_in(&step);
@@ -191,8 +201,7 @@ impl Run {
 
     fn ending_of_method(&self) -> Option<Ending> {
         match self.settings.method {
-            Method::Auto if self.may_bend_boundary() => None,
-            Method::VirtualBoundary => None,
+            Method::Auto | Method::VirtualBoundary if self.may_bend_boundary() => None,
             Method::Auto | Method::Iterate => self.ending_of_iteration(),
             _ => Some(Ending::Done),
         }
@@ -214,33 +223,48 @@ impl Run {
 
     fn next_raw(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
         if self.latest.is_none() && self.virtual_boundary.is_none() {
-            match self.linear(mesh, control) {
+            return match self.linear(mesh, control) {
                 Err(error) if self.has_rung_left_after(&error) => {
-                    let note = format!("the natural boundary gave nothing: {error}");
-                    if self.may_start_again {
-                        return Ok(Raw { note: Some(note), ..self.start_again(mesh, control)? });
-                    }
-                    return self.virtual_step(mesh, Some(note), control);
+                    self.say(format!("the natural boundary gave nothing: {error}"));
+                    self.last_rungs(mesh, control)
+                }
+                other => other,
+            };
+        }
+        let climbs = self.settings.method.bends_boundary() && self.may_bend_boundary() && self.ending.is_none();
+        let iterated_out = self.settings.method == Method::VirtualBoundary || self.ending_of_iteration().is_some();
+        if climbs && (iterated_out || self.virtual_boundary.is_some()) {
+            return self.last_rungs(mesh, control);
+        }
+        match self.iterate(mesh, control) {
+            Err(error) if climbs && error != SolveError::Cancelled => {
+                self.say(format!("the iteration gave nothing: {error}"));
+                self.last_rungs(mesh, control)
+            }
+            other => other,
+        }
+    }
+
+    /// Keeps something to say about the next step, once.
+    fn say(&mut self, note: String) {
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
+    /// What is left where neither the natural boundary nor the iteration helps.
+    fn last_rungs(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        let would_bend = self.latest.as_ref().is_none_or(|latest| !latest.has_simple_boundary);
+        if would_bend && self.virtual_boundary.is_none() && self.may_start_again {
+            match self.start_again(mesh, control) {
+                Err(error) if error != SolveError::Cancelled => {
+                    self.may_start_again = false;
+                    self.say(format!("starting again gave nothing: {error}"));
                 }
                 other => return other,
             }
         }
-        let wants_bend = self.settings.method.bends_boundary() && self.may_bend_boundary() && self.ending.is_none();
-        let iterated_out = self.settings.method == Method::VirtualBoundary || self.ending_of_iteration().is_some();
-        if wants_bend && (iterated_out || self.virtual_boundary.is_some()) {
-            let would_bend = self.latest.as_ref().is_none_or(|latest| !latest.has_simple_boundary);
-            if would_bend && self.virtual_boundary.is_none() && self.may_start_again {
-                return self.start_again(mesh, control);
-            }
-            return self.virtual_step(mesh, None, control);
-        }
-        match self.iterate(mesh, control) {
-            Err(error) if wants_bend && error != SolveError::Cancelled => {
-                let note = format!("the iteration gave nothing: {error}");
-                self.virtual_step(mesh, Some(note), control)
-            }
-            other => other,
-        }
+        self.virtual_step(mesh, control)
     }
 
     /// Whether a failed linear solve leaves another rung: the system may be at fault, but not what the user asked for.
@@ -253,6 +277,9 @@ impl Run {
     }
 
     fn linear(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        if self.settings.method == Method::VirtualBoundary && !self.may_bend_boundary() {
+            return Err(SolveError::TooManyPins { count: self.pins.len(), most: 2 });
+        }
         let at_hand = self.prepared.take().filter(|prepared| prepared.serves(&self.settings, &self.pins));
         let prepared = match at_hand {
             Some(prepared) => prepared,
@@ -264,7 +291,8 @@ impl Run {
             Method::Auto | Method::Iterate | Method::VirtualBoundary => Method::Natural,
             other => other,
         };
-        Ok(Raw { rung, solution, bent_vertices: 0, virtual_boundary: None, note: None, prepared: Some(prepared) })
+        let family = self.settings.family;
+        Ok(Raw { rung, family, solution, bent_vertices: 0, virtual_boundary: None, prepared: Some(prepared) })
     }
 
     /// The natural boundary with conformal weights and the default pins, moved to where the user's pins want it.
@@ -273,22 +301,27 @@ impl Run {
         let mut solution = flatten(mesh, &settings, &Pins::new(), control)?;
         self.may_start_again = false;
         (self.stall, self.iterations) = (Stall::default(), 0);
+        self.say("started again with conformal weights and the farthest boundary vertices as pins".to_owned());
         self.fit(mesh, &mut solution);
         Ok(Raw {
             rung: Method::Natural,
+            family: settings.family,
             solution,
             bent_vertices: 0,
             virtual_boundary: None,
-            note: Some("started again with conformal weights and the farthest boundary vertices as pins".to_owned()),
             prepared: None,
         })
     }
 
     /// Moves an embedding to where up to two pins of the user's want it.
-    fn fit(&self, mesh: &DiskMesh, solution: &mut Solution) {
-        fit_gauge(mesh, &mut solution.embedding, &self.pins);
+    fn fit(&mut self, mesh: &DiskMesh, solution: &mut Solution) {
+        let is_fitted = fit_gauge(mesh, &mut solution.embedding, &self.pins);
+        if !is_fitted {
+            self.say("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
+        }
         solution.gauge_completed = self.pins.len() < 2;
-        solution.pins = if self.pins.len() == 2 { self.pins.clone() } else { gauge_in(mesh, &solution.embedding) };
+        let has_both = self.pins.len() == 2 && is_fitted;
+        solution.pins = if has_both { self.pins.clone() } else { gauge_in(mesh, &solution.embedding) };
     }
 
     fn iterate(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
@@ -312,26 +345,29 @@ impl Run {
         }
         Ok(Raw {
             rung: Method::Iterate,
+            family: Family::MeanValue,
             solution,
             bent_vertices: 0,
             virtual_boundary: None,
-            note: None,
             prepared: None,
         })
     }
 
-    fn virtual_step(&mut self, mesh: &DiskMesh, note: Option<String>, control: Control<'_>) -> Result<Raw, SolveError> {
+    fn virtual_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
         let run = self.virtual_boundary.get_or_insert_with(|| VirtualBoundaryRun::new(mesh, &self.settings));
         let simple = self.latest.as_ref().filter(|latest| latest.has_simple_boundary);
-        let Bent { mut solution, pinned, stages, note: own_note } =
-            run.step(mesh, simple.map(|latest| latest.embedding.as_slice()), control)?;
+        let bent = run.step(mesh, simple.map(|latest| latest.embedding.as_slice()), control);
+        for note in run.take_notes() {
+            self.say(note);
+        }
+        let Bent { mut solution, pinned, family, stages } = bent?;
         self.fit(mesh, &mut solution);
         Ok(Raw {
             rung: Method::VirtualBoundary,
+            family,
             solution,
             bent_vertices: if pinned > 2 { pinned } else { 0 },
             virtual_boundary: stages,
-            note: note.or(own_note),
             prepared: None,
         })
     }

@@ -48,24 +48,26 @@ pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pi
 }
 
 /// Moves an embedding by the similarity that takes up to two pins to their targets; without any, to true area. The
-/// pins then lie on their targets to the last bit.
-pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pins) {
+/// pins then lie on their targets to the last bit. Returns whether there is such a similarity.
+pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pins) -> bool {
     let mut iter = pins.iter();
     let (Some((first, a)), Some((second, b))) = (iter.next(), iter.next()) else {
-        return complete_gauge(mesh, embedding, pins);
+        complete_gauge(mesh, embedding, pins);
+        return true;
     };
     let origin = embedding[first.index()];
     let (is, wanted) = (embedding[second.index()] - origin, *b - *a);
     // The quotient wanted / is of complex numbers.
     let turn = DVec2::new(is.dot(wanted), is.perp_dot(wanted)) / is.length_squared();
     if !turn.is_finite() || turn == DVec2::ZERO {
-        return;
+        return false;
     }
     for z in &mut *embedding {
         *z = *a + turn.rotate(*z - origin);
     }
     embedding[first.index()] = *a;
     embedding[second.index()] = *b;
+    true
 }
 
 /// Largest coordinate by amount.

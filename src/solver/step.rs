@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Method, Prepared, Solution, Verdict, VirtualBoundary};
+use super::{Family, Method, Prepared, Solution, Verdict, VirtualBoundary};
 
 /// An embedding, what made it, and how good it is.
 #[derive(Clone, Debug)]
@@ -12,6 +12,8 @@ pub struct Step {
     /// The rung of the ladder, as the method that it is by itself: natural, iterate, virtual boundary, or the linear
     /// method that was asked for.
     pub rung: Method,
+    /// The family of its weights, where its method has a choice.
+    pub family: Family,
     /// Place in the run, from 0.
     pub index: usize,
     /// The embedding and the numbers of its solve.

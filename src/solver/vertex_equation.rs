@@ -27,7 +27,7 @@ use glam::DVec2;
 use super::plane_weights::{corner_weights, edge_radius};
 use super::shape_preserving::weights_of_ring;
 use super::weights::{Corner, three_point_weights};
-use super::{Family, Method, Settings, Step, VirtualBoundary};
+use super::{Family, Method, Step, VirtualBoundary};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// A neighbour in the equation of a vertex.
@@ -78,6 +78,8 @@ pub enum NoEquation {
     OfTriangles,
     /// The weights come from a step that was not kept.
     StepBeforeMissing,
+    /// The weights are a last resort against rounding: equal ones, or those of the surface.
+    OtherWeights,
 }
 
 impl NoEquation {
@@ -87,18 +89,18 @@ impl NoEquation {
             Self::Prescribed => "Its place is prescribed: it has no equation.",
             Self::OfTriangles => "Lévy's equations belong to triangles: they have no barycentre.",
             Self::StepBeforeMissing => "Its weights come from the step before, of which only the numbers were kept.",
+            Self::OtherWeights => "Its weights are a last resort against rounding, not those of an embedding.",
         }
     }
 }
 
-/// The equation of a vertex in a step that was solved with `settings`. `before` is the embedding of the step before.
+/// The equation of a vertex in a step. `before` is the embedding of the step before.
 ///
 /// # Errors
 ///
 /// Why there is none.
 pub fn equation_of_step(
     mesh: &DiskMesh,
-    settings: &Settings,
     (step, before): (&Step, Option<&[DVec2]>),
     vertex: VertexId,
 ) -> Result<(VertexEquation, WeightSource), NoEquation> {
@@ -114,17 +116,14 @@ pub fn equation_of_step(
         }
         Method::VirtualBoundary => match &step.virtual_boundary {
             Some(stages) if stages.hull.contains(&vertex) => Err(NoEquation::Prescribed),
+            Some(stages) if !stages.weights_of_before => Err(NoEquation::OtherWeights),
             Some(stages) => {
                 let fan = Fan::of_extended(mesh, stages, vertex);
                 Ok((in_plane(&fan, &stages.before, &stages.solved), WeightSource::Extended))
             }
-            // With all of the boundary on a circle, only weights that cannot fail will do.
-            None if step.bent_vertices >= mesh.boundary_loop().len() => Ok(on_surface(Family::MeanValue)),
-            None => Ok(on_surface(settings.family)),
+            None => Ok(on_surface(step.family)),
         },
-        // The ladder starts again with the default weights.
-        Method::Natural if step.index > 0 => Ok(on_surface(Family::default())),
-        Method::Auto | Method::Natural | Method::Convex(_) => Ok(on_surface(settings.family)),
+        Method::Auto | Method::Natural | Method::Convex(_) => Ok(on_surface(step.family)),
     }
 }
 

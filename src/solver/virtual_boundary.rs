@@ -14,7 +14,7 @@
 //! hull. Then the outside is triangulated up to a strictly convex frame around the hull, and every doubled edge is
 //! split by a virtual vertex. The frame's vertices and these are peeled off afterwards, as the faces are.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 use num_complex::Complex;
@@ -55,8 +55,10 @@ pub struct VirtualBoundary {
     pub pinned: usize,
     /// What the outside was triangulated up to.
     pub outline: Outline,
-    /// The embedding before, with the virtual vertices at its end.
+    /// What mesh and outside were solved from, with the virtual vertices at its end.
     pub before: Vec<DVec2>,
+    /// Whether the weights are mean values of `before`. Where rounding collapses faces, others are tried at the very end.
+    pub weights_of_before: bool,
     /// Vertices of the convex outline B′, counter-clockwise.
     pub hull: Vec<VertexId>,
     /// The faces between the boundary and the outline.
@@ -179,6 +181,12 @@ impl Extended {
         Ok((positions, residual, factor.stats()))
     }
 
+    /// ‖A z‖ of the equations within the outline, relative to their terms.
+    pub(super) fn equation_residual(&self, equations: &Equations<f64>, positions: &[DVec2]) -> f64 {
+        let is_inside = |v: VertexId| self.disk.boundary_place(v).is_none();
+        equations.to_complex().residual(&self.disk, positions, is_inside)
+    }
+
     /// ‖Ax − b‖ / ‖b‖, b being what the outline gives.
     fn relative_residual(&self, equations: &Equations<f64>, system: &FreeSystem, positions: &[DVec2]) -> f64 {
         let fixed = self.disk.boundary_loop().iter().map(|&v| (v, positions[v.index()]));
@@ -198,13 +206,12 @@ fn boundary_of(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<DVec2> {
 fn split_doubled_edges(mesh: &DiskMesh, positions: &mut Vec<DVec2>, pockets: &mut Vec<[VertexId; 3]>) {
     let key = |a: VertexId, b: VertexId| [a.min(b), a.max(b)];
     let sides = |t: [VertexId; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
-    let doubled: Vec<[VertexId; 2]> = mesh.dividing_edges().iter().map(|&[a, b]| key(a, b)).collect();
+    let edges: BTreeSet<[VertexId; 2]> = pockets.iter().flat_map(|&t| sides(t)).map(|(a, b)| key(a, b)).collect();
+    let both = mesh.dividing_edges().iter().map(|&[a, b]| key(a, b)).filter(|edge| edges.contains(edge));
+    let doubled: Vec<[VertexId; 2]> = both.collect();
     for [a, b] in doubled {
         let has_edge = |t: &[VertexId; 3]| sides(*t).iter().any(|&(u, v)| key(u, v) == [a, b]);
         let (split, mut kept): (Vec<_>, Vec<_>) = pockets.iter().copied().partition(has_edge);
-        if split.is_empty() {
-            continue;
-        }
         let middle = VertexId::from_index(positions.len());
         positions.push(positions[a.index()].midpoint(positions[b.index()]));
         for triangle in split {

@@ -5,8 +5,8 @@
 //! extend the embedding up to a convex outline, solve the mean-value equations with the outline fixed, peel
 //! ```
 //!
-//! With all boundary vertices pinned the boundary is simple, so the method ends. What can still go wrong is rounding:
-//! a solve that collapses faces. Then it is repeated with weights from its own result, which squeeze less, and at the
+//! With all boundary vertices pinned the boundary is simple, so the method ends planar where numbers are exact. What can
+//! still go wrong is rounding: a solve that collapses faces. Then it is repeated with weights from its own result, which squeeze less, and at the
 //! very end with weights from the surface and with equal weights.
 
 use std::f64::consts::TAU;
@@ -67,25 +67,44 @@ pub(super) struct VirtualBoundaryRun {
     solved: Vec<DVec2>,
     /// How many weights have been tried on `extended`.
     tried: usize,
+    /// Whether nothing is left to do.
+    is_exhausted: bool,
+    /// What gave nothing, and why.
+    notes: Vec<String>,
 }
 
 /// What a step gave.
 pub(super) struct Bent {
     pub(super) solution: Solution,
     pub(super) pinned: usize,
+    pub(super) family: Family,
     pub(super) stages: Option<Arc<VirtualBoundary>>,
-    pub(super) note: Option<String>,
 }
 
 impl VirtualBoundaryRun {
     pub(super) fn new(mesh: &DiskMesh, settings: &Settings) -> Self {
         let boundary = mesh.boundary_loop().len();
-        Self { settings: *settings, pinned: 2, boundary, extended: None, solved: Vec::new(), tried: 0 }
+        Self {
+            settings: *settings,
+            pinned: 2,
+            boundary,
+            extended: None,
+            solved: Vec::new(),
+            tried: 0,
+            is_exhausted: false,
+            notes: Vec::new(),
+        }
     }
 
     /// Whether nothing is left to do.
     pub(super) fn is_exhausted(&self) -> bool {
-        self.pinned >= self.boundary && self.extended.is_some() && self.tried >= self.weights().len()
+        let has_tried_all = self.extended.is_some() && self.tried >= self.weights().len();
+        self.is_exhausted || (self.pinned >= self.boundary && has_tried_all)
+    }
+
+    /// What gave nothing since the last call, and why.
+    pub(super) fn take_notes(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notes)
     }
 
     fn weights(&self) -> &'static [Weights] {
@@ -102,19 +121,18 @@ impl VirtualBoundaryRun {
         if self.extended.is_none() && self.tried == 0 {
             self.extended = simple.and_then(|embedding| Extended::new(mesh, embedding));
         }
-        let mut note = None;
         while let (Some(extended), Some(&weights)) = (&self.extended, self.weights().get(self.tried)) {
             self.tried += 1;
             match bend(mesh, extended, (weights, &self.solved, self.pinned), control) {
                 Ok(bent) => {
                     self.solved.clone_from(&bent.stages.as_ref().expect("bending has stages").solved);
-                    return Ok(Bent { note, ..bent });
+                    return Ok(bent);
                 }
                 Err(SolveError::Cancelled) => {
                     self.tried -= 1;
                     return Err(SolveError::Cancelled);
                 }
-                Err(error) => note = Some(error.to_string()),
+                Err(error) => self.notes.push(format!("the virtual boundary gave nothing: {error}")),
             }
         }
         self.pin_more(mesh, control)
@@ -122,8 +140,11 @@ impl VirtualBoundaryRun {
 
     /// Solves the natural boundary equations with more vertices on a circle.
     fn pin_more(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Bent, SolveError> {
-        let mut note = None;
         loop {
+            if self.pinned >= self.boundary {
+                self.is_exhausted = true;
+                return Err(SolveError::LadderExhausted);
+            }
             let wanted = match self.settings.growth {
                 Growth::Double => 2 * self.pinned,
                 Growth::One => self.pinned + 1,
@@ -137,12 +158,11 @@ impl VirtualBoundaryRun {
             let solved = Prepared::new(mesh, &settings, &pins, control).and_then(|p| p.solve(mesh, &pins, control));
             match solved {
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
-                Err(error) if is_last => return Err(error),
-                Err(error) => note = Some(format!("{pinned} boundary pins gave nothing: {error}")),
+                Err(error) => self.notes.push(format!("{pinned} boundary pins gave nothing: {error}")),
                 Ok(solution) => {
                     (self.pinned, self.extended, self.tried) = (pinned, None, 0);
                     self.solved.clear();
-                    return Ok(Bent { solution, pinned, stages: None, note });
+                    return Ok(Bent { solution, pinned, family, stages: None });
                 }
             }
             self.pinned = pinned;
@@ -172,7 +192,8 @@ fn bend(
     let stages = VirtualBoundary {
         pinned,
         outline: extended.outline,
-        before: extended.positions.clone(),
+        before: from.to_vec(),
+        weights_of_before: left.is_some(),
         hull: extended.disk.boundary_loop().to_vec(),
         pockets: extended.pockets.clone(),
         solved: positions,
@@ -183,14 +204,14 @@ fn bend(
         pins: Pins::new(),
         gauge_completed: true,
         residual,
-        // Boundary vertices have no equation in the extended system but as inner vertices.
-        equation_residual: residual,
+        // All equations of the extended mesh are solved; those of the outline are prescribed.
+        equation_residual: extended.equation_residual(&equations, &stages.solved),
         replaced_pivots: stats.replaced_pivots,
         bounded_corners,
         factor_bytes: stats.factor_bytes,
         seconds,
     };
-    Ok(Bent { solution, pinned, stages: Some(Arc::new(stages)), note: None })
+    Ok(Bent { solution, pinned, family: Family::MeanValue, stages: Some(Arc::new(stages)) })
 }
 
 /// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, at distances that follow the

@@ -33,7 +33,7 @@ fn equation_of(
     let timeline = editor.session.timeline();
     let before = step.index.checked_sub(1).and_then(|index| timeline.outcome(index));
     let before = before.map(|before| before.step.solution.embedding.as_slice());
-    (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, &outcome.settings, (step, before), vertex))
+    (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, (step, before), vertex))
 }
 
 /// Shows the equation in the panel.

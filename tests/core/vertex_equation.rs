@@ -36,8 +36,8 @@ fn step_with(mesh: &DiskMesh, family: Family, embedding: Vec<DVec2>) -> Step {
     step
 }
 
-fn equation(mesh: &DiskMesh, settings: &Settings, step: &Step, vertex: VertexId) -> VertexEquation {
-    equation_of_step(mesh, settings, (step, None), vertex).unwrap().0
+fn equation(mesh: &DiskMesh, step: &Step, vertex: VertexId) -> VertexEquation {
+    equation_of_step(mesh, (step, None), vertex).unwrap().0
 }
 
 /// Places that satisfy nothing.
@@ -84,7 +84,7 @@ fn each_equation_is_a_row_of_the_system() {
         let all = equations::natural(&mesh, family.power().unwrap()).unwrap();
         let step = step_with(&mesh, family, embedding.clone());
         for vertex in mesh.vertices() {
-            let found = equation(&mesh, &Settings::new(Method::Natural, family), &step, vertex);
+            let found = equation(&mesh, &step, vertex);
             assert_is_row(&mesh, &found, &all, &embedding, vertex);
         }
     }
@@ -97,7 +97,7 @@ fn each_equation_of_an_iteration_is_a_row_of_its_system() {
     let all = natural_in_plane(&mesh, &before);
     let step = Step { rung: Method::Iterate, ..step_with(&mesh, Family::Conformal, after.clone()) };
     for vertex in mesh.vertices() {
-        let (found, source) = equation_of_step(&mesh, &Settings::default(), (&step, Some(&before)), vertex).unwrap();
+        let (found, source) = equation_of_step(&mesh, (&step, Some(&before)), vertex).unwrap();
         assert_eq!(source, WeightSource::StepBefore);
         assert_is_row(&mesh, &found, &all, &after, vertex);
     }
@@ -110,7 +110,7 @@ fn a_planar_ring_and_a_planar_fan_satisfy_it() {
     for family in [Family::Conformal, Family::MeanValue, Family::Wachspress] {
         let step = step_with(&mesh, family, flat.clone());
         for vertex in mesh.vertices() {
-            let found = equation(&mesh, &Settings::new(Method::Natural, family), &step, vertex);
+            let found = equation(&mesh, &step, vertex);
             assert!(found.residual < ROUNDING, "{family} at {vertex}: {}", found.residual);
             let shares: f64 = found.terms.iter().map(|term| term.share).sum();
             assert!((shares - 1.0).abs() < ROUNDING);
@@ -130,8 +130,7 @@ fn an_open_fan_leaves_the_boundary_term() {
     let mesh = DiskMesh::try_from(grid(4, 4)).unwrap();
     let flat: Vec<DVec2> = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
     let vertex = VertexId::new(2);
-    let settings = Settings::new(Method::Natural, Family::MeanValue);
-    let found = equation(&mesh, &settings, &step_with(&mesh, Family::MeanValue, flat), vertex);
+    let found = equation(&mesh, &step_with(&mesh, Family::MeanValue, flat), vertex);
     let offset = found.offset_vector.unwrap();
     assert!(found.terms.iter().all(|term| (term.offset - 1.0).abs() < f64::EPSILON && term.weight > 0.0));
     assert!((offset * found.weight_sum).distance(DVec2::new(0.0, -2.0)) < ROUNDING, "{offset}");
@@ -144,7 +143,7 @@ fn the_offset_along_an_edge_follows_the_family() {
     for (family, power) in [(Family::Conformal, 1), (Family::MeanValue, 0), (Family::Wachspress, -1)] {
         let settings = Settings::new(Method::Natural, family);
         let step = steps_of(&mesh, settings).swap_remove(0);
-        for term in equation(&mesh, &settings, &step, vertex).terms {
+        for term in equation(&mesh, &step, vertex).terms {
             let length: f64 = mesh.position(term.neighbour).distance(mesh.position(vertex));
             assert!((term.offset - length.powi(power)).abs() < ROUNDING * term.offset, "{family}");
         }
@@ -161,7 +160,7 @@ fn a_linear_solve_and_an_iteration_satisfy_theirs_but_at_pins() {
     let mut before: Option<&[DVec2]> = None;
     for step in &steps {
         for vertex in mesh.vertices().filter(|v| !step.solution.pins.contains_key(v)) {
-            let (found, _) = equation_of_step(&mesh, &settings, (step, before), vertex).unwrap();
+            let (found, _) = equation_of_step(&mesh, (step, before), vertex).unwrap();
             assert!(found.residual < SOLVED, "step {} at {vertex}: {}", step.index, found.residual);
         }
         before = Some(&step.solution.embedding);
@@ -173,7 +172,7 @@ fn assert_virtual_boundary_is_solved(mesh: &DiskMesh, step: &Step) {
     let stages = step.virtual_boundary.as_ref().unwrap();
     let mut closed = 0;
     for vertex in mesh.vertices() {
-        let found = equation_of_step(mesh, &Settings::default(), (step, None), vertex);
+        let found = equation_of_step(mesh, (step, None), vertex);
         if stages.hull.contains(&vertex) {
             assert_eq!(found, Err(NoEquation::Prescribed));
             continue;
@@ -200,7 +199,7 @@ fn virtual_vertices_are_neighbours_too() {
     let steps = steps_of(&mesh, Settings::new(Method::VirtualBoundary, Family::Conformal));
     let step = steps.iter().find(|step| step.virtual_boundary.is_some()).unwrap();
     let first_virtual = VertexId::from_index(mesh.vertex_count());
-    let of_vertex = |&v: &VertexId| equation_of_step(&mesh, &Settings::default(), (step, None), v).unwrap().0;
+    let of_vertex = |&v: &VertexId| equation_of_step(&mesh, (step, None), v).unwrap().0;
     let has_virtual = |equation: VertexEquation| equation.terms.iter().any(|term| term.neighbour >= first_virtual);
     assert!(mesh.boundary_loop().iter().map(of_vertex).any(has_virtual));
     assert_virtual_boundary_is_solved(&mesh, step);
@@ -214,7 +213,7 @@ fn what_has_no_equation_says_why() {
     let reason = |method, family, vertex| {
         let settings = Settings::new(method, family);
         let step = steps_of(&mesh, settings).pop().unwrap();
-        equation_of_step(&mesh, &settings, (&step, None), vertex)
+        equation_of_step(&mesh, (&step, None), vertex)
     };
     let convex = Method::Convex(BoundaryShape::Circle);
     assert_eq!(reason(convex, Family::MeanValue, boundary), Err(NoEquation::Prescribed));
@@ -224,6 +223,6 @@ fn what_has_no_equation_says_why() {
     }
     let mut step = steps_of(&mesh, Settings::default()).pop().unwrap();
     step.rung = Method::Iterate;
-    let missing = equation_of_step(&mesh, &Settings::default(), (&step, None), inside);
+    let missing = equation_of_step(&mesh, (&step, None), inside);
     assert_eq!(missing, Err(NoEquation::StepBeforeMissing));
 }
