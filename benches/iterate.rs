@@ -60,8 +60,7 @@ fn main() {
                     time(|| Iteration::new(&mesh, &pins, treatment, Control::unattended()).expect("analysable"));
                 analysis = taken;
                 let before = processor_seconds();
-                let step =
-                    times.run(|| iteration.step(&mesh, &solution.embedding, Control::unattended()).expect("solvable"));
+                let step = times.run(|| iteration.step(&mesh, &folded, Control::unattended()).expect("solvable"));
                 processor = processor_seconds() - before;
                 factor.add(step.seconds.factor);
                 moved = largest_move(&folded, &step.embedding);
