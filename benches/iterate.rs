@@ -8,7 +8,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use freebound::mesh::DiskMesh;
+use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::{Control, Family, Iteration, Method, Pins, Settings, Treatment, flatten, largest_move};
 
 use glam::DVec2;
@@ -53,11 +53,12 @@ fn main() {
         for _ in 0..ROUNDS {
             let solution =
                 first.run(|| flatten(&mesh, &settings, &Pins::new(), Control::unattended()).expect("solvable"));
-            let pins = solution.pins.clone();
+            let pinned: Vec<VertexId> = solution.pins.keys().copied().collect();
             let folded = folded(&mesh, &solution.embedding);
             for (times, treatment) in steps.iter_mut().zip([Treatment::Eliminate, Treatment::LeastSquares]) {
-                let (taken, iteration) =
-                    time(|| Iteration::new(&mesh, &pins, treatment, Control::unattended()).expect("analysable"));
+                let (taken, iteration) = time(|| {
+                    Iteration::new(&mesh, &folded, &pinned, treatment, Control::unattended()).expect("analysable")
+                });
                 analysis = taken;
                 let before = processor_seconds();
                 let step = times.run(|| iteration.step(&mesh, &folded, Control::unattended()).expect("solvable"));
@@ -99,9 +100,10 @@ fn cancelling() {
     for vertices in [20_000, 100_000] {
         let mesh = DiskMesh::try_from(sheet_of_faces(2 * vertices)).expect("the sheet is a disk");
         let first = flatten(&mesh, &Settings::default(), &Pins::new(), Control::unattended()).expect("solvable");
-        let iteration =
-            Iteration::new(&mesh, &first.pins, Treatment::LeastSquares, Control::unattended()).expect("analysable");
         let folded = folded(&mesh, &first.embedding);
+        let pinned: Vec<VertexId> = first.pins.keys().copied().collect();
+        let iteration = Iteration::new(&mesh, &folded, &pinned, Treatment::LeastSquares, Control::unattended())
+            .expect("analysable");
         let (whole, _) = time(|| iteration.step(&mesh, &folded, Control::unattended()).expect("solvable"));
         let mut waits = Times::default();
         let mut longest = 0.0_f64;

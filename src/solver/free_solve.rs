@@ -10,6 +10,7 @@ use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::equations::Equations;
+use super::gauge_rows::GaugeRows;
 use super::pinned_rows::{Factored, PinnedRows};
 use super::system::FreeSystem;
 use super::{Control, Phase, PhaseSeconds, Pins, SolveError, Treatment};
@@ -81,6 +82,45 @@ impl FreeSolve {
         pins: &Pins,
     ) -> Result<(Vec<DVec2>, f64), SolveError> {
         self.move_from(site, (from, left), pins, |rhs| self.factor.solve_correction(&self.matrix, rhs))
+    }
+
+    /// The embedding that leaves least of all equations with the pins where they are, found as a move from `from`, which
+    /// leaves `left`. The system is that of all vertices but the gauge. The residual is that of the conditions for a
+    /// minimum: what is left must be orthogonal to every move.
+    pub(super) fn least_squares_from(
+        &self,
+        site: Site<'_>,
+        (gauge, pinned): ([VertexId; 2], &[VertexId]),
+        (from, left): (&[DVec2], &[Complex<f64>]),
+        control: Control<'_>,
+    ) -> Result<(Vec<DVec2>, f64), SolveError> {
+        let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: control.cancel() };
+        let Site { mesh, system, .. } = site;
+        let rows = GaugeRows { mesh, system, gauge, pinned, equations: &self.equations, factored };
+        let moves = rows.moves(left).map_err(|error| in_vertices(error, system.free()))?;
+        let embedding: Vec<DVec2> = from.iter().zip(moves).map(|(z, by)| *z + DVec2::new(by.re, by.im)).collect();
+        let residual = self.gradient_residual(mesh, &embedding, pinned);
+        Ok((embedding, residual))
+    }
+
+    /// ‖Aᴴ A z‖ over the vertices that are free, relative to ‖|A|ᵀ |A z|‖.
+    fn gradient_residual(&self, mesh: &DiskMesh, embedding: &[DVec2], pinned: &[VertexId]) -> f64 {
+        let left = self.left_over(mesh, embedding);
+        let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
+        for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
+            let term = coefficient.conj() * left[mesh.tail(h).index()];
+            for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
+                let (sum, size) = &mut sums[vertex.index()];
+                *sum += term * sign;
+                *size += term.norm();
+            }
+        }
+        for v in pinned {
+            sums[v.index()] = (Complex::ZERO, 0.0);
+        }
+        let (left, whole) =
+            sums.iter().fold((0.0, 0.0), |(left, whole), (sum, size)| (left + sum.norm_sqr(), whole + size * size));
+        if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
     }
 
     /// Solves for the move from `start` that takes up what is left there.

@@ -7,6 +7,7 @@ mod distortion;
 pub mod equations;
 mod error;
 mod free_solve;
+mod gauge_rows;
 mod iterate;
 mod method;
 mod pinned_rows;

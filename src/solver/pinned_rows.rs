@@ -32,10 +32,13 @@ const GROUP: usize = 8;
 
 type C64 = Complex<f64>;
 
+/// Entries of a row, by column.
+pub(super) type Row = Vec<(usize, C64)>;
+
 /// What least squares needs beyond the factors of B: the pinned vertices' equations and I + G Gᴴ.
 pub(super) struct PinnedRows {
     /// For each pinned vertex its equation's coefficients, by row of the free neighbour.
-    rows: Vec<Vec<(usize, C64)>>,
+    rows: Vec<Row>,
     gram: Cholesky<C64, Dyn>,
 }
 
@@ -56,11 +59,11 @@ impl PinnedRows {
         pinned: &[VertexId],
         factored: &Factored<'_>,
     ) -> Result<Self, LinalgError> {
-        let row_of = |v: &VertexId| -> Vec<(usize, C64)> {
+        let row_of = |v: &VertexId| -> Row {
             let entry = |h| Some((system.row(mesh.head(h))?, -equations.coefficients[h.index()]));
             mesh.outgoing(*v).filter_map(entry).collect()
         };
-        let rows: Vec<Vec<(usize, C64)>> = pinned.iter().map(row_of).collect();
+        let rows: Vec<Row> = pinned.iter().map(row_of).collect();
         let gram = gram(&rows, factored)?;
         let gram = Cholesky::new(gram).ok_or(LinalgError::Singular { row: 0 })?;
         Ok(Self { rows, gram })
@@ -68,7 +71,7 @@ impl PinnedRows {
 
     /// d, what the pinned rows leave after the free vertices' moves, from what they left before.
     pub(super) fn discrepancy(&self, before: impl Iterator<Item = C64>, moves: &[C64]) -> Vec<C64> {
-        let taken = |row: &Vec<(usize, C64)>| row.iter().map(|&(at, value)| value * moves[at]).sum::<C64>();
+        let taken = |row: &Row| row.iter().map(|&(at, value)| value * moves[at]).sum::<C64>();
         before.zip(&self.rows).map(|(left, row)| left - taken(row)).collect()
     }
 
@@ -84,20 +87,20 @@ impl PinnedRows {
 }
 
 /// Adds `Cᴴ eⱼ` times a weight.
-fn add_adjoint(row: &[(usize, C64)], weight: C64, into: &mut [C64]) {
+pub(super) fn add_adjoint(row: &[(usize, C64)], weight: C64, into: &mut [C64]) {
     for &(column, value) in row {
         into[column] += value.conj() * weight;
     }
 }
 
-/// I + G Gᴴ, Hermitian to the last bit.
-fn gram(rows: &[Vec<(usize, C64)>], factored: &Factored<'_>) -> Result<DMatrix<C64>, LinalgError> {
+/// I + G Gᴴ of rows times the inverse of a matrix, Hermitian to the last bit.
+pub(super) fn gram(rows: &[Row], factored: &Factored<'_>) -> Result<DMatrix<C64>, LinalgError> {
     let (n, count) = (factored.matrix.nrows(), rows.len());
     let mut gram = DMatrix::identity(count, count);
     if n == 0 {
         return Ok(gram);
     }
-    let adjoint_columns = |group: &[Vec<(usize, C64)>]| {
+    let adjoint_columns = |group: &[Row]| {
         let mut columns = vec![C64::ZERO; n * group.len()];
         for (row, column) in group.iter().zip(columns.chunks_exact_mut(n)) {
             add_adjoint(row, C64::ONE, column);

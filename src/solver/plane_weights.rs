@@ -16,7 +16,8 @@
 //! # Degenerate faces
 //!
 //! A face without area has a corner of 0 or π, or an edge of length 0, whose weight would be infinite and would hold
-//! the face as it is. It counts as a thin face instead: see [`THIN`]. How many corners that concerned is told.
+//! the face as it is. It counts as a thin face instead, a thousandth of its longest edge high. How many corners
+//! that concerned is told.
 //!
 //! # Symbols
 //!

@@ -329,7 +329,13 @@ impl Run {
         let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
         if self.iteration.as_ref().is_none_or(|iteration| !iteration.serves(&pins)) {
             let treatment = self.settings.treatment_on(Method::Iterate, self.pins.len());
-            self.iteration = Some(Iteration::new(mesh, &pins, treatment, control)?);
+            self.iteration = Some(Iteration::new(
+                mesh,
+                &latest.embedding,
+                &pins.keys().copied().collect::<Vec<_>>(),
+                treatment,
+                control,
+            )?);
         }
         let iteration = self.iteration.as_ref().expect("made above");
         let mut solution = iteration.step(mesh, &latest.embedding, control)?;
