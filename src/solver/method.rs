@@ -178,7 +178,7 @@ pub struct Settings {
     pub family: Family,
     /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_of`] says.
     pub treatment: Option<Treatment>,
-    /// The most mean-value iterations of a run.
+    /// The most mean-value iterations after a linear solve; a ladder that starts again counts anew.
     pub max_steps: usize,
     /// How the virtual boundary goes on.
     pub growth: Growth,
@@ -197,7 +197,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The most mean-value iterations of a run, where nobody says.
+    /// The most mean-value iterations after a linear solve, where nobody says.
     pub const MAX_STEPS: usize = 60;
 
     /// A method and a family, everything else as it is by default.

@@ -11,7 +11,7 @@ use crate::mesh::VertexId;
 pub struct Solution {
     /// One position per vertex of the mesh, in the plane.
     pub embedding: Vec<DVec2>,
-    /// The pins in force: the user's, or the two gauge pins where there were none. Empty for a convex boundary.
+    /// The pins in force: the user's, the two gauge pins where those were fewer, or all of a convex boundary.
     pub pins: BTreeMap<VertexId, DVec2>,
     /// Whether the pins are gauge pins that the solver chose by itself.
     pub gauge_completed: bool,
