@@ -109,6 +109,7 @@ impl FlattenArguments {
         let treatment = self.treatment.map(|name| match name {
             TreatmentName::Eliminate => Treatment::Eliminate,
             TreatmentName::LeastSquares => Treatment::LeastSquares,
+            TreatmentName::Weighted => Treatment::Weighted,
         });
         let growth = match self.growth {
             Some(GrowthName::One) => Growth::One,
@@ -177,6 +178,8 @@ pub enum TreatmentName {
     Eliminate,
     /// Keep all, meet them as well as can be (paper §6)
     LeastSquares,
+    /// Keep all, and let pins pull by their weights (paper §6)
+    Weighted,
 }
 
 /// Names of the ways to pin more of the boundary.

@@ -6,10 +6,11 @@ use std::time::Instant;
 use super::args::{Fit, FlattenArguments};
 use super::progress::{Progress, interrupted, is_interrupted};
 use super::{Failure, Status};
+use crate::geom::PictureFrame;
 use crate::io::{OutputKind, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
 use crate::session::{Finished, Model, Outcome, OutputFit, Placement, Surface};
-use crate::solver::{Control, Ending, Method, Phase, Pins, Run, Settings, SolveError, Step};
+use crate::solver::{Control, Ending, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     if let Some((option, why)) = arguments.idle_option() {
@@ -103,7 +104,7 @@ impl HeadlessJob<'_> {
                 (Ok(step), _) => step,
                 // A rung that gives nothing leaves the steps before it, which are written.
                 (Err(error), Some(last)) if error != SolveError::Cancelled => {
-                    let outcome = Outcome::new(mesh, &run, last);
+                    let outcome = self.outcome(mesh, last);
                     return Ok(Solved { outcome, records, ending: Err(error) });
                 }
                 (Err(error), _) => return Err(error.into()),
@@ -115,10 +116,16 @@ impl HeadlessJob<'_> {
                 folder.add(mesh, &step)?;
             }
             if let Some(ending) = run.ending() {
-                return Ok(Solved { outcome: Outcome::new(mesh, &run, step), records, ending: Ok(ending) });
+                return Ok(Solved { outcome: self.outcome(mesh, step), records, ending: Ok(ending) });
             }
             last = Some(step);
         }
+    }
+}
+
+impl HeadlessJob<'_> {
+    fn outcome(&self, mesh: &DiskMesh, step: Step) -> Outcome {
+        Outcome::new(mesh, self.settings, (PictureFrame::default(), self.pins.clone()), step)
     }
 }
 
@@ -194,7 +201,7 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
 fn pins(arguments: &FlattenArguments) -> Result<Pins, Failure> {
     let mut pins = Pins::new();
     for &(vertex, target) in &arguments.pins {
-        if pins.insert(vertex, target).is_some() {
+        if pins.insert(vertex, Pin::hard(target)).is_some() {
             return Err(Failure::Usage(format!("vertex {vertex} is pinned twice: leave out one of the --pin")));
         }
     }

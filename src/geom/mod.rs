@@ -5,6 +5,7 @@ mod hull;
 mod orient;
 mod outside;
 mod picture;
+mod picture_frame;
 mod polygon;
 
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, segments_meet};
@@ -12,4 +13,5 @@ pub use hull::convex_hull;
 pub use orient::{Orientation, orientation};
 pub use outside::outside_triangles;
 pub use picture::Picture;
+pub use picture_frame::{PictureFrame, VAxis};
 pub use polygon::{turning_number, winding_number};

@@ -1,6 +1,7 @@
 //! Files in and out.
 
 mod atomic;
+mod constraints;
 mod error;
 pub mod figure;
 mod obj;
@@ -10,18 +11,21 @@ mod obj_read;
 mod obj_texture;
 mod obj_write;
 mod output;
+mod picture;
 pub mod raster;
 mod report;
 mod steps;
 mod svg;
 
 pub use atomic::write_atomically;
+pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError, WriteError};
 pub use obj::{NO_TEXTURE, ObjMesh, Statement, Texture};
 pub use obj_read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
 pub use obj_texture::TextureMesh;
 pub use obj_write::write_obj;
 pub use output::{Output, OutputKind, layout_picture};
+pub use picture::{PictureError, read_picture};
 pub use report::{MeshReport, PinsReport, Report, Seconds, StepReport, peak_memory_bytes, verdict_as_in_file};
 pub use steps::StepsFolder;
 pub use svg::{write_step_svg, write_svg};

@@ -12,11 +12,13 @@
 //! | `order.rs` | fill-reducing order (AMD), elimination tree, postorder |
 //! | `llt.rs` | Hermitian: faer's supernodal Cholesky |
 //! | `lu/` | unsymmetric: our multifrontal LU |
+//! | `gram.rs` | inner products of many columns |
 //! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
 
 mod analysis;
 mod error;
 mod gmres;
+mod gram;
 mod llt;
 mod lu;
 mod order;
@@ -26,5 +28,6 @@ mod sparse;
 
 pub use analysis::{Analysis, Factor, FactorStats, Kind};
 pub use error::LinalgError;
+pub use gram::gram;
 pub use refine::Solved;
 pub use scalar::Scalar;

@@ -6,13 +6,14 @@ use glam::DVec2;
 
 use super::{SaveRequest, StopConditions};
 use crate::examples::Example;
+use crate::geom::VAxis;
 use crate::mesh::VertexId;
-use crate::solver::Settings;
+use crate::solver::{Hold, Pin, Settings};
 
 /// One request.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// Opens a mesh file.
+    /// Opens a mesh file, or a project.
     Open(PathBuf),
     /// Opens a built-in mesh.
     OpenExample(Example),
@@ -20,13 +21,60 @@ pub enum Action {
     ClearRecent,
     /// Pins vertices where they lie.
     Fix(Vec<VertexId>),
+    /// Opens a picture to map on the mesh.
+    OpenPicture(PathBuf),
+    /// Goes without a picture.
+    RemovePicture,
+    /// Chooses where v = 0 is on the picture.
+    SetVAxis(VAxis),
+    /// Turns the mesh's faces around: the other side is the outside.
+    TurnFaces,
+    /// Places a constraint: pins a vertex, which may be pinned already.
+    Place {
+        /// The vertex.
+        vertex: VertexId,
+        /// Its target, in texture coordinates, and how it is held there.
+        pin: Pin,
+    },
     /// Moves a pin, as part of a drag. A gauge pin becomes the user's, with all others.
     MovePin {
         /// The pinned vertex.
         vertex: VertexId,
-        /// Where it is to go, in the plane of the embedding.
+        /// Where it is to go, in texture coordinates.
         target: DVec2,
     },
+    /// Moves several pins of the user's, as part of a drag.
+    MovePins(Vec<(VertexId, DVec2)>),
+    /// The pointer rests in the middle of a drag: the steps after the first are worth taking.
+    Rest,
+    /// Holds pins in another way.
+    SetHold {
+        /// The pinned vertices.
+        vertices: Vec<VertexId>,
+        /// How they are to be held.
+        hold: Hold,
+    },
+    /// The same as part of a drag of a slider.
+    SlideHold {
+        /// The pinned vertices.
+        vertices: Vec<VertexId>,
+        /// How they are to be held.
+        hold: Hold,
+    },
+    /// Mirrors all targets left to right, within the box around them.
+    MirrorTargets,
+    /// Turns, scales and moves all targets together to where they fit the undistorted embedding best, in the picture.
+    FitTargets,
+    /// Takes over the constraints of a file; those of other vertices stay.
+    ImportConstraints(PathBuf),
+    /// Writes the user's pins as a constraint file.
+    ExportConstraints(PathBuf),
+    /// Saves the project.
+    SaveProject(PathBuf),
+    /// Opens what was left of a session that ended without saving.
+    Recover(PathBuf),
+    /// Forgets it.
+    DiscardRecovery(PathBuf),
     /// Ends a drag.
     EndGesture,
     /// Gives a drag up: everything is as it was before it.

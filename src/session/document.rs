@@ -1,38 +1,73 @@
 //! What the user edits, and how an edit is taken back.
 
-use glam::DVec2;
+use std::sync::Arc;
 
+use super::PictureFile;
+use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::VertexId;
-use crate::solver::{Pins, Settings};
+use crate::solver::{GaugeSize, Pin, Pins, Settings};
 
-/// What the user edits. Small: the mesh itself is immutable and kept elsewhere.
+/// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
-    /// The user's pins, in the plane of the embedding.
+    /// The user's pins, in texture coordinates.
     pub pins: Pins,
     /// Method and weights.
     pub settings: Settings,
+    /// The picture that is mapped on the mesh.
+    pub picture: Option<Arc<PictureFile>>,
+    /// Where v = 0 is on the picture.
+    pub v_axis: VAxis,
+    /// Whether the mesh's faces are turned around.
+    pub faces_turned: bool,
 }
 
 impl Document {
-    /// Whether a run of these settings and pins is a run of this document: a convex boundary takes no pins.
+    /// How texture coordinates lie in the plane where the mesh is flattened.
+    pub fn frame(&self) -> PictureFrame {
+        let aspect = self.picture.as_ref().map_or(1.0, |picture| picture.aspect());
+        PictureFrame { aspect, v_axis: self.v_axis }
+    }
+
+    /// The settings of a run: where there is a picture, the embedding is made to lie on it.
+    pub fn run_settings(&self) -> Settings {
+        let [low, high] = self.frame().corners();
+        let size = if self.picture.is_some() { GaugeSize::Within { low, high } } else { GaugeSize::TrueArea };
+        Settings { size, ..self.settings }
+    }
+
+    /// The user's pins in that plane.
+    pub fn plane_pins(&self) -> Pins {
+        let frame = self.frame();
+        let placed = |pin: &Pin| Pin { target: frame.plane_from_uv(pin.target), ..*pin };
+        self.pins.iter().map(|(&vertex, pin)| (vertex, placed(pin))).collect()
+    }
+
+    /// Whether a run of these settings and pins (in the plane) is a run of this document: a convex boundary takes no
+    /// pins.
     pub(super) fn is_solved_by(&self, settings: &Settings, pins: &Pins) -> bool {
-        self.settings == *settings && (!settings.method.uses_pins() || self.pins == *pins)
+        self.run_settings() == *settings && (!settings.method.uses_pins() || self.plane_pins() == *pins)
     }
 }
 
 /// One undoable edit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Pins `vertex` at `target`, or frees it when `target` is `None`.
+    /// Pins `vertex`, or frees it when `pin` is `None`.
     SetPin {
         /// The vertex to pin or free.
         vertex: VertexId,
-        /// Its prescribed position in the plane of the embedding.
-        target: Option<DVec2>,
+        /// Its target, in texture coordinates, and how it is held there.
+        pin: Option<Pin>,
     },
     /// Chooses method and weights.
     SetSettings(Settings),
+    /// Chooses the picture.
+    SetPicture(Option<Arc<PictureFile>>),
+    /// Chooses where v = 0 is.
+    SetVAxis(VAxis),
+    /// Turns the mesh's faces around, or back.
+    SetFacesTurned(bool),
     /// Several edits that are one for the user.
     Together(Vec<Command>),
 }
@@ -42,14 +77,17 @@ impl Command {
     #[must_use = "dropping the inverse makes the edit impossible to undo"]
     pub fn apply(self, document: &mut Document) -> Self {
         match self {
-            Self::SetPin { vertex, target } => {
-                let before = match target {
-                    Some(position) => document.pins.insert(vertex, position),
+            Self::SetPin { vertex, pin } => {
+                let before = match pin {
+                    Some(pin) => document.pins.insert(vertex, pin),
                     None => document.pins.remove(&vertex),
                 };
-                Self::SetPin { vertex, target: before }
+                Self::SetPin { vertex, pin: before }
             }
             Self::SetSettings(settings) => Self::SetSettings(std::mem::replace(&mut document.settings, settings)),
+            Self::SetPicture(picture) => Self::SetPicture(std::mem::replace(&mut document.picture, picture)),
+            Self::SetVAxis(v_axis) => Self::SetVAxis(std::mem::replace(&mut document.v_axis, v_axis)),
+            Self::SetFacesTurned(turned) => Self::SetFacesTurned(std::mem::replace(&mut document.faces_turned, turned)),
             Self::Together(commands) => {
                 let mut inverses: Vec<Self> = commands.into_iter().map(|command| command.apply(document)).collect();
                 inverses.reverse();
@@ -148,18 +186,24 @@ impl History {
     }
 }
 
-/// Two inverses as one. What sets the same thing again is dropped: only the state before the gesture matters.
+/// Two inverses as one. What sets the same things again is dropped: only the state before the gesture matters.
 fn joined(later: Command, earlier: Command) -> Command {
-    match (&later, &earlier) {
-        (Command::SetPin { vertex: a, .. }, Command::SetPin { vertex: b, .. }) if a == b => earlier,
-        (Command::SetPin { vertex, .. }, Command::Together(commands))
-            if commands.iter().any(|c| matches!(c, Command::SetPin { vertex: v, .. } if v == vertex)) =>
-        {
-            earlier
+    let touched = |command: &Command| match command {
+        Command::SetPin { vertex, .. } => Some(*vertex),
+        _ => None,
+    };
+    let parts = |command: &Command| -> Vec<Option<VertexId>> {
+        match command {
+            Command::Together(commands) => commands.iter().map(touched).collect(),
+            single => vec![touched(single)],
         }
-        (Command::SetSettings(_), Command::SetSettings(_)) => earlier,
-        _ => Command::Together(vec![later, earlier]),
-    }
+    };
+    let before = parts(&earlier);
+    let is_covered = match &later {
+        Command::SetSettings(_) => matches!(earlier, Command::SetSettings(_)),
+        pins => parts(pins).iter().all(|vertex| vertex.is_some() && before.contains(vertex)),
+    };
+    if is_covered { earlier } else { Command::Together(vec![later, earlier]) }
 }
 
 fn replay(from: &mut Vec<Command>, to: &mut Vec<Command>, document: &mut Document) -> bool {
@@ -172,11 +216,13 @@ fn replay(from: &mut Vec<Command>, to: &mut Vec<Command>, document: &mut Documen
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+
     use super::*;
     use crate::solver::{Family, Method};
 
     fn pin(vertex: u32, x: f64) -> Command {
-        Command::SetPin { vertex: VertexId::new(vertex), target: Some(DVec2::new(x, 0.0)) }
+        Command::SetPin { vertex: VertexId::new(vertex), pin: Some(Pin::hard(DVec2::new(x, 0.0))) }
     }
 
     #[test]
@@ -191,7 +237,7 @@ mod tests {
         assert_eq!(document, Document::default());
         assert!(!history.can_undo());
         assert!(history.redo(&mut document));
-        assert_eq!(document.pins[&VertexId::new(7)], DVec2::X);
+        assert_eq!(document.pins[&VertexId::new(7)].target, DVec2::X);
     }
 
     #[test]
@@ -238,7 +284,7 @@ mod tests {
         history.end_gesture();
         history.apply_in_gesture(pin(7, 1.0), &mut document);
         history.undo(&mut document);
-        assert_eq!(document.pins[&VertexId::new(7)], DVec2::new(0.5, 0.0));
+        assert_eq!(document.pins[&VertexId::new(7)].target, DVec2::new(0.5, 0.0));
     }
 
     #[test]

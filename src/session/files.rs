@@ -9,7 +9,7 @@ use super::{
 };
 use crate::io::{ReadError, WriteError};
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
-use crate::solver::{Pins, Verdict};
+use crate::solver::Verdict;
 
 impl Session {
     pub(super) fn open(
@@ -68,7 +68,7 @@ impl Session {
         let is_example = model.is_example();
         self.model = Some(Arc::new(model));
         self.model_revision += 1;
-        self.document = Document { pins: Pins::new(), settings: self.document.settings };
+        self.document = Document { settings: self.document.settings, ..Document::default() };
         self.history = History::default();
         self.timeline = Timeline::default();
         self.ending = None;

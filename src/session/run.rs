@@ -17,8 +17,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::state::{REPORT_IT, lost};
 use super::stop::Goal;
 use super::{Document, Job, JobContext, Outcome, Place, Poll, Session, Severity, Stop, Timeline, Wake};
+use crate::geom::PictureFrame;
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Ending, Phase, Run, SolveError};
+use crate::solver::{Control, Ending, Phase, Pins, Run, SolveError, are_held_alike};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;
@@ -67,8 +68,10 @@ impl Running {
 
     /// Whether another document only needs the first step again, with other targets of the same pins.
     fn is_followed_by(&self, document: &Document) -> bool {
-        let same_vertices = self.document.pins.keys().eq(document.pins.keys());
-        self.paused.is_none() && !self.has_delivered && self.document.settings == document.settings && same_vertices
+        let only_targets_differ = self.document.run_settings() == document.run_settings()
+            && self.document.frame() == document.frame()
+            && are_held_alike(&self.document.pins, &document.pins);
+        self.paused.is_none() && !self.has_delivered && only_targets_differ
     }
 }
 
@@ -82,6 +85,10 @@ struct Courier {
     deliveries: SyncSender<Delivery>,
     goal: Arc<Mutex<Goal>>,
     wake: Wake,
+    /// How the run's pins came from texture coordinates.
+    frame: PictureFrame,
+    /// The run's pins in texture coordinates.
+    pins: Pins,
 }
 
 impl Courier {
@@ -91,7 +98,8 @@ impl Courier {
         let control = Control::new(context.cancel_flag(), &report);
         loop {
             let step = run.step(mesh, control)?;
-            let outcome = Arc::new(Outcome::new(mesh, run, step));
+            let placed = (self.frame, self.pins.clone());
+            let outcome = Arc::new(Outcome::new(mesh, *run.settings(), placed, step));
             let ending = run.ending();
             let is_reached = {
                 let mut goal = locked(&self.goal);
@@ -130,7 +138,7 @@ impl Session {
             running.set_goal(|_| goal);
             return;
         }
-        let Document { pins, settings } = self.document.clone();
+        let (settings, pins) = (self.document.run_settings(), self.document.plane_pins());
         self.spawn(Run::new(settings, pins).with_prepared(self.prepared.clone()), goal);
     }
 
@@ -139,11 +147,18 @@ impl Session {
         self.running = None;
         self.solve_again = false;
         let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
-        let document = Document { pins: run.pins().clone(), settings: *run.settings() };
+        // A run is only ever spawned for the document as it is.
+        let document = self.document.clone();
         let has_delivered = run.step_count() > 0;
         let (sender, deliveries) = sync_channel(STEPS_WAITING);
         let goal = Arc::new(Mutex::new(goal));
-        let courier = Courier { deliveries: sender, goal: Arc::clone(&goal), wake: Arc::clone(&self.wake) };
+        let courier = Courier {
+            deliveries: sender,
+            goal: Arc::clone(&goal),
+            wake: Arc::clone(&self.wake),
+            frame: document.frame(),
+            pins: document.pins.clone(),
+        };
         let work = move |context: &JobContext<Phase>| {
             let result = courier.take_steps(&mut run, &disk, context);
             (run, result)

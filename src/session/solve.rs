@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
+use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Distortion, Pins, Run, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
+    Distortion, GaugeSize, Pin, Pins, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
     to_unit_square_by_power_of_two, verdict,
 };
 
@@ -23,6 +24,8 @@ pub enum OutputFit {
 pub enum Placement {
     /// On the user's pins.
     Pins,
+    /// Within the picture.
+    Picture,
     /// In the unit square.
     UnitSquare,
     /// As large as the surface.
@@ -36,6 +39,7 @@ impl Placement {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Pins => "pins",
+            Self::Picture => "picture",
             Self::UnitSquare => "unit",
             Self::TrueArea => "true",
             Self::Unmoved => "unmoved",
@@ -48,7 +52,9 @@ impl Placement {
 pub struct Outcome {
     /// What was asked for.
     pub settings: Settings,
-    /// The user's pins that it was solved for.
+    /// How texture coordinates lie in the plane of the embedding.
+    pub frame: PictureFrame,
+    /// The user's pins that it was solved for, in texture coordinates.
     pub pins: Pins,
     /// The embedding, its verdict and its numbers.
     pub step: Step,
@@ -57,10 +63,10 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Measures the distortion of a run's step.
-    pub fn new(mesh: &DiskMesh, run: &Run, step: Step) -> Self {
+    /// Measures the distortion of a step. `pins` are the user's that its run was begun with, in texture coordinates.
+    pub fn new(mesh: &DiskMesh, settings: Settings, (frame, pins): (PictureFrame, Pins), step: Step) -> Self {
         let distortion = distortion(mesh, &step.solution.embedding);
-        Self { settings: *run.settings(), pins: run.pins().clone(), step, distortion }
+        Self { settings, frame, pins, step, distortion }
     }
 
     /// Bytes of memory that it takes, the factors of a linear solve excepted: they are kept once, for the next solve.
@@ -83,8 +89,8 @@ impl Outcome {
             + stages
     }
 
-    /// The coordinates that go into a file, where they lie, and the verdict on them. The user's pins keep their
-    /// places; without any, `fit` decides the size.
+    /// The texture coordinates that go into a file, where they lie, and the verdict on them. The user's pins keep their
+    /// places, exact ones to the last bit; without any, `fit` decides the size.
     ///
     /// Moving to the unit square rounds. Where that breaks what was planar, the scale is a power of two, so that less
     /// is rounded, and then nothing is moved, so that nothing is.
@@ -92,7 +98,10 @@ impl Outcome {
         type Way = (fn(&mut [DVec2]), Placement);
         let embedding = &self.step.solution.embedding;
         if self.pins_in_use().next().is_some() {
-            return (embedding.clone(), Placement::Pins, self.step.verdict.clone());
+            return self.as_it_lies(mesh, Placement::Pins);
+        }
+        if self.settings.size != GaugeSize::TrueArea {
+            return self.as_it_lies(mesh, Placement::Picture);
         }
         if fit == OutputFit::True {
             return (embedding.clone(), Placement::TrueArea, self.step.verdict.clone());
@@ -113,14 +122,42 @@ impl Outcome {
         rescued.unwrap_or(first)
     }
 
+    /// The texture coordinates of the embedding where it lies, the user's pins on their own numbers, and the verdict on
+    /// them in the plane.
+    fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Vec<DVec2>, Placement, Verdict) {
+        let embedding = &self.step.solution.embedding;
+        let mut coordinates: Vec<DVec2> = embedding.iter().map(|&z| self.frame.uv_from_plane(z)).collect();
+        for (vertex, pin) in self.pins_in_use().filter(|(_, pin)| self.settings.is_exact(pin.hold)) {
+            coordinates[vertex.index()] = pin.target;
+        }
+        let upright: Vec<DVec2> = match self.frame.v_axis {
+            VAxis::Up => coordinates.clone(),
+            VAxis::Down => coordinates.iter().map(|uv| DVec2::new(uv.x, -uv.y)).collect(),
+        };
+        let same = upright == *embedding;
+        let verdict = if same { self.step.verdict.clone() } else { verdict(mesh, &upright) };
+        (coordinates, placement, verdict)
+    }
+
+    /// Distance of each of the user's pinned vertices from its target, in texture coordinates; 0 for exact ones, whose
+    /// numbers are those given.
+    pub fn pin_errors(&self) -> impl Iterator<Item = (VertexId, &Pin, f64)> {
+        let embedding = &self.step.solution.embedding;
+        self.pins_in_use().map(|(&vertex, pin)| {
+            let z = embedding[vertex.index()];
+            let is_met = z == self.frame.plane_from_uv(pin.target);
+            let error = if is_met { 0.0 } else { self.frame.uv_from_plane(z).distance(pin.target) };
+            (vertex, pin, error)
+        })
+    }
+
     /// Largest distance of a pinned vertex from its target.
     pub fn pin_error(&self) -> f64 {
-        let distance = |(v, target): (&VertexId, &DVec2)| self.step.solution.embedding[v.index()].distance(*target);
-        self.pins_in_use().map(distance).fold(0.0, f64::max)
+        self.pin_errors().map(|(.., error)| error).fold(0.0, f64::max)
     }
 
     /// The user's pins, where the method takes any.
-    fn pins_in_use(&self) -> impl Iterator<Item = (&VertexId, &DVec2)> {
+    fn pins_in_use(&self) -> impl Iterator<Item = (&VertexId, &Pin)> {
         self.pins.iter().filter(|_| self.settings.method.uses_pins())
     }
 }

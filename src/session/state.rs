@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use super::run::Running;
 use super::{
-    Action, Command, Document, History, Job, Message, Model, Outcome, Place, RecentFiles, Severity, StopConditions,
-    Timeline,
+    Action, Command, Document, History, Job, Message, Model, Outcome, Place, Preview, RecentFiles, Severity,
+    StopConditions, Timeline,
 };
 use crate::io::{ReadError, WriteError};
-use crate::mesh::VertexId;
 use crate::solver::{Ending, Phase, Prepared, Run, Verdict};
 
 /// Asks the screen to look again; called from background threads.
@@ -44,6 +43,8 @@ pub struct Session {
     /// What the run says after the newest step.
     pub(super) ending: Option<Ending>,
     pub(super) stop: StopConditions,
+    /// What the screen shows while a pin is dragged.
+    pub(super) preview: Option<Preview>,
     /// Kept from solves that succeeded, to be used again while a pin is dragged.
     pub(super) prepared: Option<Arc<Prepared>>,
     pub(super) loading: Option<LoadJob>,
@@ -83,6 +84,7 @@ impl Session {
             outcome_revision: 0,
             ending: None,
             stop: StopConditions::default(),
+            preview: None,
             prepared: None,
             loading: None,
             loading_path: None,
@@ -195,7 +197,23 @@ impl Session {
             Action::OpenExample(example) => self.open(None, move || Ok(Model::example(example))),
             Action::ClearRecent => self.recent.clear(),
             Action::Fix(vertices) => self.fix(&vertices),
-            Action::MovePin { vertex, target } => self.move_pin(vertex, target),
+            Action::OpenPicture(_)
+            | Action::TurnFaces
+            | Action::MirrorTargets
+            | Action::FitTargets
+            | Action::ImportConstraints(_)
+            | Action::ExportConstraints(_)
+            | Action::SaveProject(_)
+            | Action::Recover(_)
+            | Action::DiscardRecovery(_)
+            | Action::Rest => {}
+            Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
+            Action::SetVAxis(v_axis) => self.edit(vec![Command::SetVAxis(v_axis)]),
+            Action::Place { vertex, pin } => self.place(vertex, pin),
+            Action::MovePin { vertex, target } => self.move_pins(&[(vertex, target)]),
+            Action::MovePins(moves) => self.move_pins(&moves),
+            Action::SetHold { vertices, hold } => self.set_hold(&vertices, hold),
+            Action::SlideHold { vertices, hold } => self.slide_hold(&vertices, hold),
             Action::EndGesture => self.end_gesture(),
             Action::GiveUpGesture => {
                 if self.history.give_up_gesture(&mut self.document) {
@@ -251,45 +269,6 @@ impl Session {
         self.poll_loading();
         self.poll_running();
         self.poll_saving();
-    }
-
-    fn fix(&mut self, vertices: &[VertexId]) {
-        let Some(outcome) = self.outcome().cloned() else { return };
-        if !self.document.settings.method.uses_pins() {
-            let text = "a convex boundary takes no pins: every boundary vertex has its place".to_owned();
-            return self.fail(Place::Embedding, text, Some("choose another method to pin vertices"));
-        }
-        let fresh = vertices.iter().filter(|v| !self.document.pins.contains_key(v));
-        let pin = |&vertex: &VertexId| Command::SetPin {
-            vertex,
-            target: outcome.step.solution.embedding.get(vertex.index()).copied(),
-        };
-        let commands: Vec<Command> = fresh.map(pin).collect();
-        if !commands.is_empty() {
-            self.history.apply(Command::Together(commands), &mut self.document);
-            self.solve();
-        }
-    }
-
-    fn move_pin(&mut self, vertex: VertexId, target: glam::DVec2) {
-        if !self.document.pins.contains_key(&vertex) {
-            // A gauge pin: from here on all of them are the user's, each where it lies.
-            let Some(outcome) = self.outcome() else { return };
-            let adopt = |(&vertex, &target)| Command::SetPin { vertex, target: Some(target) };
-            let adopted: Vec<Command> = outcome.step.solution.pins.iter().map(adopt).collect();
-            self.history.apply_in_gesture(Command::Together(adopted), &mut self.document);
-        }
-        self.history.apply_in_gesture(Command::SetPin { vertex, target: Some(target) }, &mut self.document);
-        self.solve();
-    }
-
-    fn unpin(&mut self, vertices: &[VertexId]) {
-        let pinned = vertices.iter().filter(|v| self.document.pins.contains_key(v));
-        let commands: Vec<Command> = pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect();
-        if !commands.is_empty() {
-            self.history.apply(Command::Together(commands), &mut self.document);
-            self.solve();
-        }
     }
 
     fn cancel(&mut self) {

@@ -199,3 +199,11 @@ pub(super) fn length_scale(mesh: &DiskMesh) -> f64 {
     let per_edge = extent / (mesh.face_count() as f64).sqrt();
     if per_edge > 0.0 { 1.0 / per_edge } else { 1.0 }
 }
+
+/// Mean length of the edges at the size that [`length_scale`] brings the mesh to.
+pub(super) fn mean_edge_length(mesh: &DiskMesh) -> f64 {
+    let scale = length_scale(mesh);
+    let place = |v: VertexId| mesh.position(v) * scale;
+    let total: f64 = mesh.halfedges().map(|h| place(mesh.tail(h)).distance(place(mesh.head(h)))).sum();
+    total / mesh.halfedge_count() as f64
+}

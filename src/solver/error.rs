@@ -42,6 +42,15 @@ pub enum SolveError {
         vertex: VertexId,
     },
 
+    /// A constraint's weight is zero, negative, infinite or not a number.
+    #[error("the weight {weight} of pinned vertex {vertex} is not a positive number")]
+    WeightNotPositive {
+        /// The pinned vertex.
+        vertex: VertexId,
+        /// Its weight.
+        weight: f64,
+    },
+
     /// A choice of method and family that has no meaning.
     #[error("{method} does not go with the family {family}: {remedy}")]
     FamilyNotApplicable {
@@ -63,7 +72,9 @@ pub enum SolveError {
     },
 
     /// More pins than the method can do with.
-    #[error("{count} vertices are pinned, but a virtual boundary goes with at most {most}: choose auto or iterate")]
+    #[error(
+        "{count} vertices are constrained, but a virtual boundary goes with at most {most} exact pins: choose auto or iterate"
+    )]
     TooManyPins {
         /// Pins of the user's.
         count: usize,

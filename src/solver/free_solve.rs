@@ -10,38 +10,78 @@ use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::equations::Equations;
-use super::gauge_rows::GaugeRows;
-use super::pinned_rows::{Factored, PinnedRows};
+use super::least_squares::{Factored, LeastSquares, PinRow};
 use super::system::FreeSystem;
-use super::{Control, Phase, PhaseSeconds, Pins, SolveError, Treatment};
-use crate::linalg::{Analysis, Factor, FactorStats, LinalgError, Solved};
+use super::{Control, Hold, Phase, PhaseSeconds, Pins, Places, SolveError, Treatment};
+use crate::linalg::{Analysis, Factor, FactorStats, LinalgError};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// One further solve is not worth an interruption.
 static NEVER: AtomicBool = AtomicBool::new(false);
 
-/// Equations, matrix and factors; for least squares also what the pinned vertices' equations add.
+/// A least-squares answer whose conditions for a minimum are off by more is wrong.
+const GRADIENT_LIMIT: f64 = 1e-8;
+
+/// Above this the answer is taken for a start, and solved for once more.
+const GRADIENT_GOAL: f64 = 1e-13;
+
+/// Equations, matrix and factors; for least squares also what the pins add.
 pub(super) struct FreeSolve {
     equations: Equations<Complex<f64>>,
     matrix: CscMatrix<Complex<f64>>,
     factor: Factor<Complex<f64>>,
-    pinned_rows: Option<PinnedRows>,
+    least_squares: Option<LeastSquares>,
 }
 
-/// Where a system stands: its mesh, its unknowns, and the vertices that are not among them.
+/// Where a system stands: its mesh and its unknowns.
 #[derive(Clone, Copy)]
 pub(super) struct Site<'a> {
     pub(super) mesh: &'a DiskMesh,
     pub(super) system: &'a FreeSystem,
-    pub(super) pinned: &'a [VertexId],
+}
+
+/// How pins enter a system: which vertices the factors leave out, and which pins least squares has to meet.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Layout {
+    /// The vertices without unknown and equation, ascending.
+    pub(super) left_out: Vec<VertexId>,
+    /// Whether those are a gauge that moves all the same; otherwise they are pins, eliminated.
+    pub(super) has_gauge: bool,
+    /// Pins that are rows of the least-squares problem, with their holds.
+    pub(super) rows: Vec<(VertexId, Hold)>,
+}
+
+impl Layout {
+    /// Lays out a system. `gauge` is asked for where all equations are kept.
+    pub(super) fn new(
+        pins: &Pins,
+        treatment: Treatment,
+        gauge: impl FnOnce() -> Result<[VertexId; 2], SolveError>,
+    ) -> Result<Self, SolveError> {
+        let of = |is_wanted: fn(Hold) -> bool| -> Vec<(VertexId, Hold)> {
+            pins.iter().filter(|(_, pin)| is_wanted(pin.hold)).map(|(&v, pin)| (v, pin.hold)).collect()
+        };
+        let exact = of(Hold::is_exact);
+        // One pin alone does not fix the similarity: what is left without its equation would still be singular.
+        if treatment == Treatment::Eliminate && exact.len() >= 2 {
+            let left_out = exact.into_iter().map(|(v, _)| v).collect();
+            return Ok(Self { left_out, has_gauge: false, rows: of(|hold| !hold.is_exact()) });
+        }
+        Ok(Self { left_out: gauge()?.to_vec(), has_gauge: true, rows: of(|_| true) })
+    }
+
+    pub(super) fn system(&self, mesh: &DiskMesh) -> FreeSystem {
+        FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok())
+    }
 }
 
 impl FreeSolve {
-    /// Factors the matrix of `equations`; adds the time that took to `seconds`.
+    /// Factors the matrix of `equations`; adds the time that took to `seconds`. `unit` is what the rows are to be
+    /// multiplied by so that they are those of a geometry whose edges have length 1 on average.
     pub(super) fn new(
         site: Site<'_>,
-        equations: Equations<Complex<f64>>,
-        (analysis, treatment): (&Analysis, Treatment),
+        (equations, unit): (Equations<Complex<f64>>, f64),
+        (analysis, layout): (&Analysis, &Layout),
         seconds: &mut PhaseSeconds,
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
@@ -52,60 +92,103 @@ impl FreeSolve {
         control.enter(Phase::Factor)?;
         let start = Instant::now();
         let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
-        let pinned_rows = match treatment {
-            Treatment::Eliminate => None,
-            Treatment::LeastSquares => {
-                let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
-                Some(PinnedRows::new(site.mesh, site.system, &equations, site.pinned, &factored).map_err(named)?)
-            }
+        let least_squares = if layout.has_gauge || !layout.rows.is_empty() {
+            let row =
+                |&(vertex, hold): &(VertexId, Hold)| PinRow { vertex, compliance: hold.compliance() / (unit * unit) };
+            let pins = layout.rows.iter().map(row).collect();
+            let gauge = if layout.has_gauge { layout.left_out.clone() } else { Vec::new() };
+            let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
+            Some(LeastSquares::new(site, &equations, (gauge, pins), &factored).map_err(named)?)
+        } else {
+            None
         };
         seconds.factor += start.elapsed().as_secs_f64();
-        Ok(Self { equations, matrix, factor, pinned_rows })
+        Ok(Self { equations, matrix, factor, least_squares })
     }
 
-    /// The embedding with the pins on their targets, and the relative residual of the linear solve.
-    pub(super) fn solve(&self, site: Site<'_>, pins: &Pins) -> Result<(Vec<DVec2>, f64), SolveError> {
+    /// The embedding with the pins on their targets, or as near as their weights bring them, and how well the system is
+    /// solved. It is linear in the targets.
+    pub(super) fn solve(&self, site: Site<'_>, targets: &Places) -> Result<(Vec<DVec2>, f64), SolveError> {
         let mut start = vec![DVec2::ZERO; site.mesh.vertex_count()];
-        for (vertex, target) in pins {
+        for (vertex, target) in targets {
             start[vertex.index()] = *target;
         }
-        let left = self.left_over(site.mesh, &start);
-        self.move_from(site, (&start, &left), pins, |rhs| self.factor.solve(&self.matrix, rhs))
-    }
-
-    /// The same, found as a move from an embedding that has the pins on their targets already; `left` is what it leaves
-    /// of every vertex's equation. Where it nearly solves the equations the move is small, and so is its rounding.
-    pub(super) fn solve_from(
-        &self,
-        site: Site<'_>,
-        (from, left): (&[DVec2], &[Complex<f64>]),
-        pins: &Pins,
-    ) -> Result<(Vec<DVec2>, f64), SolveError> {
-        self.move_from(site, (from, left), pins, |rhs| self.factor.solve_correction(&self.matrix, rhs))
-    }
-
-    /// The embedding that leaves least of all equations with the pins where they are, found as a move from `from`, which
-    /// leaves `left`. The system is that of all vertices but the gauge. The residual is that of the conditions for a
-    /// minimum: what is left must be orthogonal to every move.
-    pub(super) fn least_squares_from(
-        &self,
-        site: Site<'_>,
-        (gauge, pinned): ([VertexId; 2], &[VertexId]),
-        (from, left): (&[DVec2], &[Complex<f64>]),
-        control: Control<'_>,
-    ) -> Result<(Vec<DVec2>, f64), SolveError> {
-        let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: control.cancel() };
-        let Site { mesh, system, .. } = site;
-        let rows = GaugeRows { mesh, system, gauge, pinned, equations: &self.equations, factored };
-        let moves = rows.moves(left).map_err(|error| in_vertices(error, system.free()))?;
-        let embedding: Vec<DVec2> = from.iter().zip(moves).map(|(z, by)| *z + DVec2::new(by.re, by.im)).collect();
-        let residual = self.gradient_residual(mesh, &embedding, pinned);
+        if self.least_squares.is_none() {
+            return self.move_from(site, (&start, &self.left_over(site.mesh, &start)), targets, Begin::Nothing);
+        }
+        let (found, residual) =
+            self.move_from(site, (&start, &self.left_over(site.mesh, &start)), targets, Begin::Nothing)?;
+        if residual <= GRADIENT_GOAL {
+            return Ok((found, residual));
+        }
+        let again = self.move_from(site, (&found, &self.left_over(site.mesh, &found)), targets, Begin::Near)?;
+        let (embedding, residual) = if again.1 < residual { again } else { (found, residual) };
+        if residual > GRADIENT_LIMIT {
+            return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
+        }
         Ok((embedding, residual))
     }
 
-    /// ‖Aᴴ A z‖ over the vertices that are free, relative to ‖|A|ᵀ |A z|‖.
-    fn gradient_residual(&self, mesh: &DiskMesh, embedding: &[DVec2], pinned: &[VertexId]) -> f64 {
-        let left = self.left_over(mesh, embedding);
+    /// The same, found as a move from an embedding; `left` is what it leaves of every vertex's equation. Where it nearly
+    /// solves the equations the move is small, and so is its rounding.
+    pub(super) fn solve_from(
+        &self,
+        site: Site<'_>,
+        at: (&[DVec2], &[Complex<f64>]),
+        targets: &Places,
+    ) -> Result<(Vec<DVec2>, f64), SolveError> {
+        self.move_from(site, at, targets, Begin::Near)
+    }
+
+    /// Solves for the move from `start` that takes up what is left there.
+    fn move_from(
+        &self,
+        site: Site<'_>,
+        (start, left): (&[DVec2], &[Complex<f64>]),
+        targets: &Places,
+        begin: Begin,
+    ) -> Result<(Vec<DVec2>, f64), SolveError> {
+        let named = |error: LinalgError| in_vertices(error, site.system.free());
+        let mut embedding = start.to_vec();
+        let Some(least_squares) = &self.least_squares else {
+            let terms: Vec<_> = site.system.free().iter().map(|v| left[v.index()]).collect();
+            let solved = match begin {
+                Begin::Nothing => self.factor.solve(&self.matrix, &terms),
+                Begin::Near => self.factor.solve_correction(&self.matrix, &terms),
+            };
+            for (vertex, z) in site.system.free().iter().zip(solved.map_err(named)?.x) {
+                embedding[vertex.index()] += DVec2::new(z.re, z.im);
+            }
+            let residual = self.relative_residual(site, &embedding, targets);
+            return Ok((embedding, residual));
+        };
+        let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: &NEVER };
+        let way = |pin: &PinRow| {
+            let way = targets[&pin.vertex] - start[pin.vertex.index()];
+            Complex::new(way.x, way.y)
+        };
+        let ways: Vec<_> = least_squares.pins().iter().map(way).collect();
+        let moves = least_squares.moves(site, &factored, (left, &ways)).map_err(named)?;
+        for (z, by) in embedding.iter_mut().zip(moves) {
+            *z += DVec2::new(by.re, by.im);
+        }
+        for pin in least_squares.pins().iter().filter(|pin| pin.is_exact()) {
+            embedding[pin.vertex.index()] = targets[&pin.vertex];
+        }
+        let residual = self.gradient_residual(site, &embedding, (least_squares.pins(), targets));
+        Ok((embedding, residual))
+    }
+
+    /// The conditions for a minimum: what is left must be orthogonal to every move. ‖Aᴴ A z + W² (z − t)‖ over the
+    /// vertices that can move, relative to the sizes of its terms.
+    fn gradient_residual(&self, site: Site<'_>, embedding: &[DVec2], (pins, targets): (&[PinRow], &Places)) -> f64 {
+        let mesh = site.mesh;
+        let mut left = self.left_over(mesh, embedding);
+        let eliminated: Vec<VertexId> =
+            targets.keys().copied().filter(|v| pins.iter().all(|pin| pin.vertex != *v)).collect();
+        for vertex in &eliminated {
+            left[vertex.index()] = Complex::ZERO;
+        }
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
             let term = coefficient.conj() * left[mesh.tail(h).index()];
@@ -115,38 +198,22 @@ impl FreeSolve {
                 *size += term.norm();
             }
         }
-        for v in pinned {
-            sums[v.index()] = (Complex::ZERO, 0.0);
+        for vertex in eliminated {
+            sums[vertex.index()] = (Complex::ZERO, 0.0);
+        }
+        for pin in pins {
+            let at = &mut sums[pin.vertex.index()];
+            if pin.is_exact() {
+                *at = (Complex::ZERO, 0.0);
+                continue;
+            }
+            let way = (embedding[pin.vertex.index()] - targets[&pin.vertex]) / pin.compliance;
+            at.0 += Complex::new(way.x, way.y);
+            at.1 += way.length();
         }
         let (left, whole) =
             sums.iter().fold((0.0, 0.0), |(left, whole), (sum, size)| (left + sum.norm_sqr(), whole + size * size));
         if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
-    }
-
-    /// Solves for the move from `start` that takes up what is left there.
-    fn move_from(
-        &self,
-        site: Site<'_>,
-        (start, left): (&[DVec2], &[Complex<f64>]),
-        pins: &Pins,
-        solve: impl Fn(&[Complex<f64>]) -> Result<Solved<Complex<f64>>, LinalgError>,
-    ) -> Result<(Vec<DVec2>, f64), SolveError> {
-        let named = |error| in_vertices(error, site.system.free());
-        let mut terms: Vec<_> = site.system.free().iter().map(|v| left[v.index()]).collect();
-        let mut moves = solve(&terms).map_err(named)?.x;
-        let mut correction = vec![Complex::ZERO; terms.len()];
-        if let Some(rows) = &self.pinned_rows {
-            let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: &NEVER };
-            let discrepancy = rows.discrepancy(site.pinned.iter().map(|v| left[v.index()]), &moves);
-            correction = rows.correction(&factored, &discrepancy).map_err(named)?;
-            for (term, y) in terms.iter_mut().zip(&correction) {
-                *term += y;
-            }
-            moves = solve(&terms).map_err(named)?.x;
-        }
-        let embedding = moved(site, start, &moves);
-        let residual = self.relative_residual(site, &embedding, pins, &correction);
-        Ok((embedding, residual))
     }
 
     /// What all equations leave.
@@ -155,15 +222,14 @@ impl FreeSolve {
         (0..mesh.vertex_count()).into_par_iter().map(at).collect()
     }
 
-    /// ‖Ax − b‖ / ‖b‖ of the free vertices' equations, b being what the pins and the correction give.
-    fn relative_residual(&self, site: Site<'_>, embedding: &[DVec2], pins: &Pins, correction: &[Complex<f64>]) -> f64 {
+    /// ‖Ax − b‖ / ‖b‖ of the free vertices' equations, b being what the pins give.
+    fn relative_residual(&self, site: Site<'_>, embedding: &[DVec2], targets: &Places) -> f64 {
         let targets: BTreeMap<VertexId, Complex<f64>> =
-            pins.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
+            targets.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
         let rhs = site.system.pinned_terms(site.mesh, &self.equations, &targets);
-        let whole: f64 = rhs.iter().zip(correction).map(|(b, y)| (b + y).norm_sqr()).sum();
+        let whole: f64 = rhs.iter().map(Complex::norm_sqr).sum();
         let left = self.left_over(site.mesh, embedding);
-        let free = site.system.free().iter().map(|v| left[v.index()]);
-        let left: f64 = free.zip(correction).map(|(r, y)| (r + y).norm_sqr()).sum();
+        let left: f64 = site.system.free().iter().map(|v| left[v.index()].norm_sqr()).sum();
         if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
     }
 
@@ -181,13 +247,13 @@ impl FreeSolve {
     }
 }
 
-/// An embedding with its free vertices moved; the pinned ones stay to the last bit.
-fn moved(site: Site<'_>, start: &[DVec2], moves: &[Complex<f64>]) -> Vec<DVec2> {
-    let mut embedding = start.to_vec();
-    for (vertex, z) in site.system.free().iter().zip(moves) {
-        embedding[vertex.index()] += DVec2::new(z.re, z.im);
-    }
-    embedding
+/// What a solve starts from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Begin {
+    /// The pins alone.
+    Nothing,
+    /// An embedding that is near the answer.
+    Near,
 }
 
 /// Says a linear solver's error in terms of the mesh: its rows are the free vertices.

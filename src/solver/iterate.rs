@@ -9,27 +9,30 @@ use std::time::Instant;
 use glam::DVec2;
 use num_complex::Complex;
 
-use super::free_solve::{FreeSolve, Site};
-use super::gauge_rows::gauge_of;
-use super::plane_weights::{left_over_in_plane, natural_in_plane};
+use super::free_solve::{FreeSolve, Layout, Site};
+use super::left_kernel::gauge_or_farthest;
+use super::pins::targets_of;
+use super::plane_weights::{left_over_in_plane, mean_edge_length_in_plane, natural_in_plane};
 use super::system::FreeSystem;
-use super::{Control, Phase, PhaseSeconds, Pins, Solution, SolveError, Treatment, check_pins, farthest_pair};
+use super::{
+    Control, Phase, PhaseSeconds, Pin, Pins, Solution, SolveError, Treatment, are_held_alike, check_pins, farthest_pair,
+};
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// An iteration made ready: the layout of the system and its analysis, for a mesh and its pinned vertices.
 #[derive(Debug)]
 pub struct Iteration {
+    pins: Pins,
+    layout: Layout,
     system: FreeSystem,
     analysis: Analysis,
-    pinned: Vec<VertexId>,
-    /// With least squares the two vertices that are left out of the factors; with elimination the pins are.
-    gauge: Option<[VertexId; 2]>,
     analyze_seconds: f64,
 }
 
 impl Iteration {
-    /// Lays out and analyses the system, to go on from `embedding` with some of its vertices pinned where they lie.
+    /// Lays out and analyses the system, to go on from `embedding` with `pins`: exact ones hold their vertices where
+    /// they lie, weighted ones pull them to their targets.
     ///
     /// # Errors
     ///
@@ -37,23 +40,25 @@ impl Iteration {
     pub fn new(
         mesh: &DiskMesh,
         embedding: &[DVec2],
-        pinned: &[VertexId],
+        pins: &Pins,
         treatment: Treatment,
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
-        check_pins(mesh, &pins_at(pinned, embedding))?;
+        check_pins(mesh, &held_in(embedding, pins))?;
         control.enter(Phase::Analyze)?;
         let start = Instant::now();
-        let gauge = match treatment {
-            Treatment::LeastSquares if mesh.vertex_count() > 2 => Some(gauge_or_pins(mesh, embedding, control)?),
-            _ => None,
-        };
-        let left_out: &[VertexId] = gauge.as_ref().map_or(pinned, |gauge| gauge.as_slice());
-        let system = FreeSystem::new(mesh, |v| left_out.contains(&v));
+        let layout = Layout::new(pins, treatment, || {
+            if mesh.vertex_count() > 2 {
+                gauge_or_farthest(mesh, &natural_in_plane(mesh, embedding), control)
+            } else {
+                Ok(farthest_pair(mesh))
+            }
+        })?;
+        let system = layout.system(mesh);
         let analysis = Analysis::new(Kind::General, system.pattern())
             .map_err(|error| SolveError::Linear { reason: error.to_string() })?;
         let analyze_seconds = start.elapsed().as_secs_f64();
-        Ok(Self { system, analysis, pinned: pinned.to_vec(), gauge, analyze_seconds })
+        Ok(Self { pins: pins.clone(), layout, system, analysis, analyze_seconds })
     }
 
     /// One step: the embedding that solves the mean-value equations of `embedding`. Its pinned vertices stay where they
@@ -65,22 +70,21 @@ impl Iteration {
     pub fn step(&self, mesh: &DiskMesh, embedding: &[DVec2], control: Control<'_>) -> Result<Solution, SolveError> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
+        let pins = held_in(embedding, &self.pins);
+        let is_pulled = |(v, pin): (&VertexId, &Pin)| embedding[v.index()] != pin.target;
         let left = left_over_in_plane(mesh, embedding);
-        if left.iter().all(|left| *left == Complex::ZERO) {
-            return Ok(self.unmoved(embedding, start.elapsed().as_secs_f64()));
+        if left.iter().all(|left| *left == Complex::ZERO) && !pins.iter().any(is_pulled) {
+            return Ok(unmoved(embedding, pins, start.elapsed().as_secs_f64()));
         }
         let equations = natural_in_plane(mesh, embedding);
+        let unit = mean_edge_length_in_plane(mesh, embedding);
         let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
-        let pins = pins_at(&self.pinned, embedding);
-        let left_out: &[VertexId] = self.gauge.as_ref().map_or(&self.pinned, |gauge| gauge.as_slice());
-        let site = Site { mesh, system: &self.system, pinned: left_out };
-        let solve = FreeSolve::new(site, equations, (&self.analysis, Treatment::Eliminate), &mut seconds, control)?;
+        let site = Site { mesh, system: &self.system };
+        let ready = (&self.analysis, &self.layout);
+        let solve = FreeSolve::new(site, (equations, unit), ready, &mut seconds, control)?;
         control.enter(Phase::Solve)?;
         let start = Instant::now();
-        let (embedding, residual) = match self.gauge {
-            None => solve.solve_from(site, (embedding, &left), &pins)?,
-            Some(gauge) => solve.least_squares_from(site, (gauge, &self.pinned), (embedding, &left), control)?,
-        };
+        let (embedding, residual) = solve.solve_from(site, (embedding, &left), &targets_of(&pins))?;
         let stats = solve.stats();
         let equation_residual = solve.equation_residual(mesh, &embedding);
         seconds.solve = start.elapsed().as_secs_f64();
@@ -97,24 +101,11 @@ impl Iteration {
         })
     }
 
-    /// The answer to an embedding that leaves nothing of its equations: itself.
-    fn unmoved(&self, embedding: &[DVec2], seconds: f64) -> Solution {
-        Solution {
-            embedding: embedding.to_vec(),
-            pins: pins_at(&self.pinned, embedding),
-            gauge_completed: false,
-            residual: 0.0,
-            equation_residual: 0.0,
-            replaced_pivots: 0,
-            bounded_corners: 0,
-            factor_bytes: 0,
-            seconds: PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() },
-        }
-    }
-
-    /// Whether this iteration serves pins on these vertices.
+    /// Whether this iteration serves these pins: the same vertices, held in the same way, weighted ones with the same
+    /// targets.
     pub fn serves(&self, pins: &Pins) -> bool {
-        self.pinned.iter().eq(pins.keys())
+        let pulls_alike = |(a, b): (&Pin, &Pin)| a.hold.is_exact() || a.target == b.target;
+        are_held_alike(&self.pins, pins) && self.pins.values().zip(pins.values()).all(pulls_alike)
     }
 
     /// Seconds that the analysis took, once for all steps.
@@ -123,15 +114,24 @@ impl Iteration {
     }
 }
 
-fn pins_at(pinned: &[VertexId], embedding: &[DVec2]) -> Pins {
-    pinned.iter().map(|&v| (v, embedding[v.index()])).collect()
+/// Pins whose exact ones hold their vertices where an embedding has them.
+fn held_in(embedding: &[DVec2], pins: &Pins) -> Pins {
+    let place = |v: VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
+    let held = |pin: &Pin, v| if pin.hold.is_exact() { Pin { target: place(v), ..*pin } } else { *pin };
+    pins.iter().map(|(&v, pin)| (v, held(pin, v))).collect()
 }
 
-/// The two vertices to leave out of the factors: where the left kernel is largest; where it cannot be found, the
-/// farthest two of the boundary.
-fn gauge_or_pins(mesh: &DiskMesh, embedding: &[DVec2], control: Control<'_>) -> Result<[VertexId; 2], SolveError> {
-    match gauge_of(mesh, &natural_in_plane(mesh, embedding), control) {
-        Err(error) if error != SolveError::Cancelled => Ok(farthest_pair(mesh)),
-        other => other,
+/// The answer to an embedding that leaves nothing of its equations and that no pin pulls: itself.
+fn unmoved(embedding: &[DVec2], pins: Pins, seconds: f64) -> Solution {
+    Solution {
+        embedding: embedding.to_vec(),
+        pins,
+        gauge_completed: false,
+        residual: 0.0,
+        equation_residual: 0.0,
+        replaced_pivots: 0,
+        bounded_corners: 0,
+        factor_bytes: 0,
+        seconds: PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() },
     }
 }

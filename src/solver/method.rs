@@ -3,6 +3,10 @@
 use std::fmt;
 use std::str::FromStr;
 
+use glam::DVec2;
+
+use super::{Hold, Pin, Pins};
+
 /// A way to an embedding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Method {
@@ -147,6 +151,9 @@ pub enum Treatment {
     Eliminate,
     /// All equations are kept and met as well as can be, the pins exactly (paper §6).
     LeastSquares,
+    /// All equations are kept, and pins are further equations: those without a weight of their own have
+    /// [`Pin::DEFAULT_WEIGHT`] (paper §6).
+    Weighted,
 }
 
 impl Treatment {
@@ -155,6 +162,7 @@ impl Treatment {
         match self {
             Self::Eliminate => "eliminate",
             Self::LeastSquares => "least-squares",
+            Self::Weighted => "weighted",
         }
     }
 }
@@ -167,6 +175,21 @@ pub enum Growth {
     Double,
     /// One more, as the paper's §5 has it.
     One,
+}
+
+/// How large an embedding is that fewer than two pins of the user's do not fix.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum GaugeSize {
+    /// As large as the surface.
+    #[default]
+    TrueArea,
+    /// As large as fits into a box, in its middle: the picture that it is made for.
+    Within {
+        /// The box's lower left corner.
+        low: DVec2,
+        /// Its upper right corner.
+        high: DVec2,
+    },
 }
 
 /// Everything about a solve but the mesh and the pins.
@@ -182,6 +205,8 @@ pub struct Settings {
     pub max_steps: usize,
     /// How the virtual boundary goes on.
     pub growth: Growth,
+    /// How large the embedding is where the user's pins do not say.
+    pub size: GaugeSize,
 }
 
 impl Default for Settings {
@@ -192,6 +217,7 @@ impl Default for Settings {
             treatment: None,
             max_steps: Self::MAX_STEPS,
             growth: Growth::default(),
+            size: GaugeSize::default(),
         }
     }
 }
@@ -212,16 +238,30 @@ impl Settings {
         self.treatment.unwrap_or(by_count)
     }
 
-    /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. Gauge pins of the
-    /// solver's own, and a boundary that it places, are always eliminated from the linear solve.
+    /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the
+    /// solver places is always eliminated; its own gauge pins are, unless another treatment was asked for.
     pub fn treatment_on(&self, rung: Method, pin_count: usize) -> Treatment {
         match rung {
             // By hand after a convex boundary, all of which is pinned.
             Method::Iterate if matches!(self.method, Method::Convex(_)) => Treatment::Eliminate,
             Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
             Method::VirtualBoundary | Method::Convex(_) => Treatment::Eliminate,
-            _ if pin_count < 2 => Treatment::Eliminate,
+            _ if pin_count < 2 => self.treatment.unwrap_or(Treatment::Eliminate),
             _ => self.treatment_of(pin_count),
         }
+    }
+
+    /// Whether this treatment meets the targets of such pins to the last bit.
+    pub fn is_exact(&self, hold: Hold) -> bool {
+        hold.is_exact() && self.treatment != Some(Treatment::Weighted)
+    }
+
+    /// The user's pins as this treatment holds them.
+    pub fn held(&self, pins: &Pins) -> Pins {
+        let is_weighed = |hold: Hold| hold.is_exact() && !self.is_exact(hold);
+        let weigh = |pin: &Pin| {
+            if is_weighed(pin.hold) { Pin::weighted(pin.target, Pin::DEFAULT_WEIGHT) } else { *pin }
+        };
+        pins.iter().map(|(&vertex, pin)| (vertex, weigh(pin))).collect()
     }
 }

@@ -7,22 +7,109 @@ use glam::{DVec2, DVec3};
 use super::SolveError;
 use crate::mesh::{DiskMesh, VertexId};
 
-/// Positions prescribed to vertices. Ordered, so that solves are repeatable.
-pub type Pins = BTreeMap<VertexId, DVec2>;
+/// Positions of vertices. Ordered, so that solves are repeatable.
+pub type Places = BTreeMap<VertexId, DVec2>;
 
-/// Checks that every pin can be met and that no two claim one place.
+/// Pinned vertices with their targets.
+pub type Pins = BTreeMap<VertexId, Pin>;
+
+/// A vertex's prescribed position, and how it is held there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pin {
+    /// Where the vertex is to be.
+    pub target: DVec2,
+    /// How it is held.
+    pub hold: Hold,
+}
+
+/// How a pin holds its vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hold {
+    /// Exactly; it was fixed where it lay.
+    Fixed,
+    /// Exactly; it is a constraint.
+    Hard,
+    /// By a spring: `weight · (z − target)` is one more equation among those of the vertices (paper §6).
+    Weighted(f64),
+}
+
+impl Hold {
+    /// Whether the target is met to the last bit.
+    pub const fn is_exact(self) -> bool {
+        !matches!(self, Self::Weighted(_))
+    }
+
+    /// 1/weight²: how far a vertex gives way to a unit of force; 0 where it does not.
+    pub(super) fn compliance(self) -> f64 {
+        match self {
+            Self::Fixed | Self::Hard => 0.0,
+            Self::Weighted(weight) => (weight * weight).recip(),
+        }
+    }
+}
+
+impl Pin {
+    /// The weight of a constraint that nobody weighed: medium, between what the mesh wants and what the pins want.
+    pub const DEFAULT_WEIGHT: f64 = 1.0;
+
+    /// A constraint that is met exactly.
+    pub const fn hard(target: DVec2) -> Self {
+        Self { target, hold: Hold::Hard }
+    }
+
+    /// A vertex that stays where it is.
+    pub const fn fixed(target: DVec2) -> Self {
+        Self { target, hold: Hold::Fixed }
+    }
+
+    /// A constraint that pulls with a weight.
+    pub const fn weighted(target: DVec2, weight: f64) -> Self {
+        Self { target, hold: Hold::Weighted(weight) }
+    }
+}
+
+/// Whether two sets of pins differ in their targets alone: the same vertices, held in the same way.
+pub fn are_held_alike(a: &Pins, b: &Pins) -> bool {
+    let alike = |((v, p), (w, q)): ((&VertexId, &Pin), (&VertexId, &Pin))| {
+        v == w && (p.hold == q.hold || (p.hold.is_exact() && q.hold.is_exact()))
+    };
+    a.len() == b.len() && a.iter().zip(b).all(alike)
+}
+
+/// Where pins want their vertices.
+pub(super) fn targets_of(pins: &Pins) -> Places {
+    pins.iter().map(|(&vertex, pin)| (vertex, pin.target)).collect()
+}
+
+/// Pins that hold vertices exactly, as constraints do.
+pub fn hard_pins(places: impl IntoIterator<Item = (VertexId, DVec2)>) -> Pins {
+    places.into_iter().map(|(vertex, target)| (vertex, Pin::hard(target))).collect()
+}
+
+/// Pins that hold vertices where they lie.
+pub fn fixed_pins(places: impl IntoIterator<Item = (VertexId, DVec2)>) -> Pins {
+    places.into_iter().map(|(vertex, target)| (vertex, Pin::fixed(target))).collect()
+}
+
+/// Checks that every pin can be met and that no two exact ones claim one place.
 ///
 /// # Errors
 ///
 /// The first pin at fault, by vertex.
 pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
     let mut at: BTreeMap<[u64; 2], VertexId> = BTreeMap::new();
-    for (&vertex, target) in pins {
+    for (&vertex, Pin { target, hold }) in pins {
         if vertex.index() >= mesh.vertex_count() {
             return Err(SolveError::NoSuchVertex { vertex, count: mesh.vertex_count() });
         }
         if !target.is_finite() {
             return Err(SolveError::TargetNotFinite { vertex });
+        }
+        if let Hold::Weighted(weight) = *hold {
+            if !(weight.is_finite() && weight > 0.0) {
+                return Err(SolveError::WeightNotPositive { vertex, weight });
+            }
+            continue;
         }
         // Adding zero makes one bit pattern of the two zeros.
         let place = [(target.x + 0.0).to_bits(), (target.y + 0.0).to_bits()];
@@ -36,7 +123,7 @@ pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
 
 /// The default gauge: the farthest pair of boundary vertices on the x-axis, the lower id at the origin, at their
 /// distance in space.
-pub fn gauge_pins(mesh: &DiskMesh) -> Pins {
+pub fn gauge_pins(mesh: &DiskMesh) -> Places {
     let [a, b] = farthest_pair(mesh);
     let distance = mesh.position(a).distance(mesh.position(b));
     BTreeMap::from([(a.min(b), DVec2::ZERO), (a.max(b), DVec2::new(distance, 0.0))])

@@ -101,6 +101,14 @@ fn scale_of(embedding: &[DVec2], face_count: usize) -> f64 {
     if mean_length.is_normal() { mean_length.log2().round().exp2().recip() } else { 1.0 }
 }
 
+/// Mean length of the edges of an embedding at the size that its equations are those of.
+pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+    let scale = scale_of(embedding, mesh.face_count());
+    let place = |v: VertexId| embedding[v.index()] * scale;
+    let total: f64 = mesh.halfedges().map(|h| place(mesh.tail(h)).distance(place(mesh.head(h)))).sum();
+    total / mesh.halfedge_count() as f64
+}
+
 /// A(x) x: what every vertex's equation leaves, the natural boundary's i-terms included, found without rounding where
 /// faces are positive.
 pub fn left_over_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<Complex<f64>> {

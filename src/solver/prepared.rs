@@ -10,13 +10,15 @@ use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
 use super::convex::convex_boundary;
+use super::equations::mean_edge_length;
 use super::equations::{self, Equations};
-use super::free_solve::{FreeSolve, Site, in_vertices};
-use super::pins::{Pins, check_pins, gauge_pins};
+use super::free_solve::{FreeSolve, Layout, Site, in_vertices};
+use super::left_kernel::gauge_or_farthest;
+use super::pins::{Pins, Places, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of};
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
-use super::{BoundaryShape, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError, Treatment};
+use super::{BoundaryShape, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
 use crate::linalg::{Analysis, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -26,12 +28,10 @@ const PINS_NEEDED: usize = 2;
 /// Everything about a solve that does not depend on where the pins are to go.
 pub struct Prepared {
     settings: Settings,
-    /// The pinned vertices as the user gave them: whether this preparation fits is asked of these.
-    asked: Vec<VertexId>,
+    /// The user's pins that it was made for: whether it fits others is asked of these.
+    asked: Pins,
     /// Gauge pins or the convex boundary, where the solver places vertices by itself.
-    own_pins: Option<Pins>,
-    /// The vertices that have no unknown.
-    pinned: Vec<VertexId>,
+    own_places: Option<Places>,
     system: FreeSystem,
     values: Values,
     seconds: PhaseSeconds,
@@ -84,38 +84,70 @@ impl Prepared {
         check_pins(mesh, pins)?;
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
-        let own_pins = match settings.method {
+        let own_places = match settings.method {
             Method::Convex(shape) => Some(convex_boundary(mesh, shape)?),
             _ if pins.len() < PINS_NEEDED => Some(gauge_pins(mesh)),
             _ => None,
         };
-        let pinned: Vec<VertexId> = own_pins.as_ref().unwrap_or(pins).keys().copied().collect();
-        let system = FreeSystem::new(mesh, |v| pinned.binary_search(&v).is_ok());
-        let site = Site { mesh, system: &system, pinned: &pinned };
-        let treatment = if own_pins.is_some() { Treatment::Eliminate } else { settings.treatment_of(pins.len()) };
+        let asked = settings.held(pins);
+        let pins = own_places.clone().map_or_else(|| asked.clone(), fixed_pins);
         let mut seconds = PhaseSeconds::default();
-        let values = match settings.method {
+        let (system, values) = match settings.method {
             Method::Convex(_) => {
+                let system = FreeSystem::new(mesh, |v| pins.contains_key(&v));
                 let equations = convex_equations(mesh, settings.family)?;
                 let symmetric = matches!(settings.family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
-                Values::Prescribed(Prescribed::new(site, equations, symmetric, &mut seconds, control)?)
+                let site = Site { mesh, system: &system };
+                let prescribed = Prescribed::new(site, equations, symmetric, &mut seconds, control)?;
+                (system, Values::Prescribed(prescribed))
             }
             method => {
-                let (equations, hermitian) = free_equations(mesh, method, settings.family)?;
+                let (equations, power) = free_equations(mesh, method, settings.family)?;
+                let is_hermitian = method != Method::Levy && power == Family::CONFORMAL_POWER;
+                let treatment = settings.treatment_on(Method::Natural, asked.len());
+                let layout = Layout::new(&pins, treatment, || {
+                    // The conformal equations depend on each other all over the mesh.
+                    if is_hermitian { Ok(farthest_pair(mesh)) } else { gauge_or_farthest(mesh, &equations, control) }
+                })?;
+                let system = layout.system(mesh);
                 seconds.assemble = start.elapsed().as_secs_f64();
-                let analysis = analyze(&system, hermitian, &mut seconds, control)?;
-                Values::Free(FreeSolve::new(site, equations, (&analysis, treatment), &mut seconds, control)?)
+                let site = Site { mesh, system: &system };
+                let analysis = analyze(&system, is_hermitian, &mut seconds, control)?;
+                let unit = mean_edge_length(mesh).powf(1.0 - power);
+                let free = FreeSolve::new(site, (equations, unit), (&analysis, &layout), &mut seconds, control)?;
+                (system, Values::Free(free))
             }
         };
-        let asked = pins.keys().copied().collect();
-        Ok(Self { settings: *settings, asked, pinned, own_pins, system, values, seconds })
+        Ok(Self { settings: *settings, asked, own_places, system, values, seconds })
     }
 
-    /// Whether this preparation serves these settings and pinned vertices.
+    /// Whether this preparation serves these settings and pins: where they are to go does not matter.
     pub fn serves(&self, settings: &Settings, pins: &Pins) -> bool {
-        let same_vertices = || self.asked.iter().eq(pins.keys());
-        self.settings == *settings && (!settings.method.uses_pins() || same_vertices())
+        let alike = || are_held_alike(&self.asked, &settings.held(pins));
+        self.settings == *settings && (!settings.method.uses_pins() || alike())
+    }
+
+    /// How all vertices move when a pin's target moves by (1, 0): the embedding is complex-linear in the targets, so
+    /// that a move by δ adds δ times this, as complex numbers.
+    ///
+    /// # Errors
+    ///
+    /// A residual that refinement cannot bring down.
+    ///
+    /// # Panics
+    ///
+    /// If the vertex is not pinned.
+    pub fn column(&self, mesh: &DiskMesh, vertex: VertexId) -> Result<Vec<DVec2>, SolveError> {
+        assert!(self.asked.contains_key(&vertex), "only a pin has a column");
+        let Values::Free(free) = &self.values else { return Ok(vec![DVec2::ZERO; mesh.vertex_count()]) };
+        if self.own_places.is_some() {
+            // One pin alone moves everything.
+            return Ok(vec![DVec2::X; mesh.vertex_count()]);
+        }
+        let target = |v: VertexId| if v == vertex { DVec2::X } else { DVec2::ZERO };
+        let targets: Places = self.asked.keys().map(|&v| (v, target(v))).collect();
+        Ok(free.solve(Site { mesh, system: &self.system }, &targets)?.0)
     }
 
     /// Solves for the embedding that has the pins on their targets.
@@ -131,30 +163,30 @@ impl Prepared {
         check_pins(mesh, pins)?;
         control.enter(Phase::Solve)?;
         let start = Instant::now();
-        let in_force = self.own_pins.as_ref().unwrap_or(pins);
-        let site = Site { mesh, system: &self.system, pinned: &self.pinned };
+        let held = self.settings.held(pins);
+        let targets = self.own_places.clone().unwrap_or_else(|| targets_of(&held));
+        let site = Site { mesh, system: &self.system };
         let (mut embedding, residual) = match &self.values {
-            Values::Free(free) => free.solve(site, in_force)?,
-            Values::Prescribed(prescribed) => prescribed.solve(site, in_force)?,
+            Values::Free(free) => free.solve(site, &targets)?,
+            Values::Prescribed(prescribed) => prescribed.solve(site, &targets)?,
         };
-        let mut pins_in_force = in_force.clone();
-        if self.own_pins.is_some() {
-            complete_gauge(mesh, &mut embedding, pins);
-            for (vertex, place) in &mut pins_in_force {
-                *place = embedding[vertex.index()];
-            }
-        }
+        let in_force = if self.own_places.is_some() {
+            complete_gauge(mesh, &mut embedding, (&held, self.settings.size));
+            fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex.index()])))
+        } else {
+            held
+        };
         let (stats, bounded_corners, equation_residual) = match &self.values {
             Values::Free(free) => (free.stats(), free.bounded_corners(), free.equation_residual(mesh, &embedding)),
             Values::Prescribed(Prescribed { equations, factor, .. }) => {
-                let left = equations.to_complex().residual(mesh, &embedding, |v| !in_force.contains_key(&v));
+                let left = equations.to_complex().residual(mesh, &embedding, |v| !targets.contains_key(&v));
                 (factor.stats(), equations.bounded_corners, left)
             }
         };
         Ok(Solution {
             embedding,
-            pins: pins_in_force,
-            gauge_completed: self.own_pins.is_some(),
+            pins: in_force,
+            gauge_completed: self.own_places.is_some(),
             residual,
             equation_residual,
             replaced_pivots: stats.replaced_pivots,
@@ -184,9 +216,9 @@ impl Prescribed {
     }
 
     /// Solves for x and y, which share the matrix.
-    fn solve(&self, site: Site<'_>, pins: &Pins) -> Result<(Vec<DVec2>, f64), SolveError> {
+    fn solve(&self, site: Site<'_>, places: &Places) -> Result<(Vec<DVec2>, f64), SolveError> {
         let terms = |axis: usize| {
-            let targets: BTreeMap<VertexId, f64> = pins.iter().map(|(&v, t)| (v, t[axis])).collect();
+            let targets: BTreeMap<VertexId, f64> = places.iter().map(|(&v, t)| (v, t[axis])).collect();
             site.system.pinned_terms(site.mesh, &self.equations, &targets)
         };
         let both: Vec<f64> = terms(0).into_iter().chain(terms(1)).collect();
@@ -197,7 +229,7 @@ impl Prescribed {
         for (vertex, (&x, &y)) in site.system.free().iter().zip(x.iter().zip(y)) {
             embedding[vertex.index()] = DVec2::new(x, y);
         }
-        for (vertex, target) in pins {
+        for (vertex, target) in places {
             embedding[vertex.index()] = *target;
         }
         Ok((embedding, solved.residual))
@@ -224,17 +256,18 @@ fn convex_equations(mesh: &DiskMesh, family: Family) -> Result<Equations<f64>, S
     }
 }
 
-/// The equations of a free boundary, and whether their matrix is Hermitian.
+/// The equations of a free boundary, and the power p of their offsets d = rᵖ.
 fn free_equations(
     mesh: &DiskMesh,
     method: Method,
     family: Family,
-) -> Result<(Equations<Complex<f64>>, bool), SolveError> {
+) -> Result<(Equations<Complex<f64>>, f64), SolveError> {
     let power = family.power().unwrap_or(Family::CONFORMAL_POWER);
     Ok(match method {
-        Method::Levy => (equations::levy(mesh)?, false),
-        Method::Lscm => (equations::lscm(mesh)?, true),
-        _ => (equations::natural(mesh, power)?, power == Family::CONFORMAL_POWER),
+        // Both are free of scale, as conformal weights are.
+        Method::Levy => (equations::levy(mesh)?, Family::CONFORMAL_POWER),
+        Method::Lscm => (equations::lscm(mesh)?, Family::CONFORMAL_POWER),
+        _ => (equations::natural(mesh, power)?, power),
     })
 }
 

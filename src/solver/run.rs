@@ -25,7 +25,8 @@ use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
 use super::{
-    Control, Family, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, flatten, gauge_pins, verdict,
+    Control, Family, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, fixed_pins, flatten, gauge_pins,
+    verdict,
 };
 use crate::mesh::DiskMesh;
 
@@ -216,9 +217,10 @@ impl Run {
         }
     }
 
-    /// Whether the virtual boundary applies: up to two pins only fix the similarity, more are constraints.
+    /// Whether the virtual boundary applies: up to two exact pins only fix the similarity, others are constraints.
     fn may_bend_boundary(&self) -> bool {
-        self.pins.len() <= 2
+        let is_exact = || self.pins.values().all(|pin| self.settings.is_exact(pin.hold));
+        self.pins.len() < 2 || (self.pins.len() == 2 && is_exact())
     }
 
     fn next_raw(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
@@ -297,7 +299,7 @@ impl Run {
 
     /// The natural boundary with conformal weights and the default pins, moved to where the user's pins want it.
     fn start_again(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
-        let settings = Settings::new(Method::Natural, Family::default());
+        let settings = Settings { size: self.settings.size, ..Settings::new(Method::Natural, Family::default()) };
         let mut solution = flatten(mesh, &settings, &Pins::new(), control)?;
         self.may_start_again = false;
         (self.stall, self.iterations) = (Stall::default(), 0);
@@ -315,7 +317,7 @@ impl Run {
 
     /// Moves an embedding to where up to two pins of the user's want it.
     fn fit(&mut self, mesh: &DiskMesh, solution: &mut Solution) {
-        let is_fitted = fit_gauge(mesh, &mut solution.embedding, &self.pins);
+        let is_fitted = fit_gauge(mesh, &mut solution.embedding, (&self.pins, self.settings.size));
         if !is_fitted {
             self.say("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
         }
@@ -329,13 +331,7 @@ impl Run {
         let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
         if self.iteration.as_ref().is_none_or(|iteration| !iteration.serves(&pins)) {
             let treatment = self.settings.treatment_on(Method::Iterate, self.pins.len());
-            self.iteration = Some(Iteration::new(
-                mesh,
-                &latest.embedding,
-                &pins.keys().copied().collect::<Vec<_>>(),
-                treatment,
-                control,
-            )?);
+            self.iteration = Some(Iteration::new(mesh, &latest.embedding, &pins, treatment, control)?);
         }
         let iteration = self.iteration.as_ref().expect("made above");
         let mut solution = iteration.step(mesh, &latest.embedding, control)?;
@@ -343,10 +339,10 @@ impl Run {
             solution.seconds.analyze = iteration.analyze_seconds();
         }
         if self.pins.len() < 2 {
-            complete_gauge(mesh, &mut solution.embedding, &self.pins);
+            complete_gauge(mesh, &mut solution.embedding, (&self.pins, self.settings.size));
             solution.gauge_completed = true;
-            for (vertex, place) in &mut solution.pins {
-                *place = solution.embedding[vertex.index()];
+            for (vertex, pin) in &mut solution.pins {
+                pin.target = solution.embedding[vertex.index()];
             }
         }
         Ok(Raw {
@@ -381,5 +377,5 @@ impl Run {
 
 /// The default gauge pins where they lie in an embedding.
 fn gauge_in(mesh: &DiskMesh, embedding: &[DVec2]) -> Pins {
-    gauge_pins(mesh).into_keys().map(|v| (v, embedding[v.index()])).collect()
+    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v.index()])))
 }

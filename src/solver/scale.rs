@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::Pins;
 use super::equations::length_scale;
+use super::{GaugeSize, Pin, Pins};
 use crate::mesh::DiskMesh;
 
 /// Scales an embedding about the origin so that its faces have the total area of the surface.
@@ -34,11 +34,14 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut [DVec2]) {
     }
 }
 
-/// Brings an embedding to its place where fewer than two pins fix it: at true area; with its first pin, if there is
-/// one, on its target to the last bit.
-pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pins) {
-    to_true_area(mesh, embedding);
-    if let Some((vertex, target)) = pins.first_key_value() {
+/// Brings an embedding to its place where fewer than two pins fix it: at the size asked for; with its first pin, if
+/// there is one, on its target to the last bit.
+pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], (pins, size): (&Pins, GaugeSize)) {
+    match size {
+        GaugeSize::TrueArea => to_true_area(mesh, embedding),
+        GaugeSize::Within { low, high } => to_middle_of(low, high, embedding),
+    }
+    if let Some((vertex, Pin { target, .. })) = pins.first_key_value() {
         let shift = *target - embedding[vertex.index()];
         for z in &mut *embedding {
             *z += shift;
@@ -49,10 +52,11 @@ pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pi
 
 /// Moves an embedding by the similarity that takes up to two pins to their targets; without any, to true area. The
 /// pins then lie on their targets to the last bit. Returns whether there is such a similarity.
-pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pins) -> bool {
+pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], (pins, size): (&Pins, GaugeSize)) -> bool {
     let mut iter = pins.iter();
-    let (Some((first, a)), Some((second, b))) = (iter.next(), iter.next()) else {
-        complete_gauge(mesh, embedding, pins);
+    let (Some((first, Pin { target: a, .. })), Some((second, Pin { target: b, .. }))) = (iter.next(), iter.next())
+    else {
+        complete_gauge(mesh, embedding, (pins, size));
         return true;
     };
     let origin = embedding[first.index()];
@@ -68,6 +72,20 @@ pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], pins: &Pins) -
     embedding[first.index()] = *a;
     embedding[second.index()] = *b;
     true
+}
+
+/// Scales an embedding uniformly into a box and moves it to the box's middle. An embedding without extent, or with one
+/// that is not finite, is left as it is.
+fn to_middle_of(low: DVec2, high: DVec2, embedding: &mut [DVec2]) {
+    let least = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let most = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let factor = ((high - low) / (most - least)).min_element();
+    if factor.is_finite() && factor > 0.0 {
+        let (from, to) = (least.midpoint(most), low.midpoint(high));
+        for z in embedding {
+            *z = to + (*z - from) * factor;
+        }
+    }
 }
 
 /// Largest coordinate by amount.

@@ -1,18 +1,16 @@
 //! What a solve gives back.
 
-use std::collections::BTreeMap;
-
 use glam::DVec2;
 
-use crate::mesh::VertexId;
+use super::Pins;
 
 /// An embedding and the numbers of the solve that made it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// One position per vertex of the mesh, in the plane.
     pub embedding: Vec<DVec2>,
-    /// The pins in force: the user's, the two gauge pins where those were fewer, or all of a convex boundary.
-    pub pins: BTreeMap<VertexId, DVec2>,
+    /// The pins in force, as they were held: the user's, the two gauge pins where those were fewer, or all of a convex boundary.
+    pub pins: Pins,
     /// Whether the pins are gauge pins that the solver chose by itself.
     pub gauge_completed: bool,
     /// ‖Ax − b‖ / ‖b‖ of the linear solve, measured on the original system.

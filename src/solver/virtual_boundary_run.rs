@@ -18,7 +18,10 @@ use glam::DVec2;
 use super::equations::{barycentric, uniform};
 use super::plane_weights::{left_over_in_plane, mean_value_in_plane};
 use super::virtual_boundary::{Extended, Start, VirtualBoundary};
-use super::{Control, Family, Growth, Method, PhaseSeconds, Pins, Prepared, Settings, Solution, SolveError, Treatment};
+use super::{
+    Control, Family, Growth, Method, PhaseSeconds, Pins, Places, Prepared, Settings, Solution, SolveError, Treatment,
+    fixed_pins,
+};
 use crate::mesh::DiskMesh;
 
 /// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,
@@ -154,7 +157,7 @@ impl VirtualBoundaryRun {
             // At last only weights that cannot fail will do.
             let family = if is_last { Family::MeanValue } else { self.settings.family };
             let settings = Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Natural, family) };
-            let pins = on_circle(mesh, pinned);
+            let pins = fixed_pins(on_circle(mesh, pinned));
             let solved = Prepared::new(mesh, &settings, &pins, control).and_then(|p| p.solve(mesh, &pins, control));
             match solved {
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
@@ -216,24 +219,24 @@ fn bend(
 
 /// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, at distances that follow the
 /// lengths between them.
-fn on_circle(mesh: &DiskMesh, count: usize) -> Pins {
+fn on_circle(mesh: &DiskMesh, count: usize) -> Places {
     let boundary = mesh.boundary_loop();
-    let places: Vec<usize> = (0..count).map(|j| j * boundary.len() / count).collect();
+    let chosen: Vec<usize> = (0..count).map(|j| j * boundary.len() / count).collect();
     let edge = |place: usize| {
         let [a, b] = [place, place + 1].map(|p| mesh.position(boundary[p % boundary.len()]));
         a.distance(b)
     };
-    let end = |j: usize| places.get(j + 1).copied().unwrap_or(boundary.len());
-    let lengths: Vec<f64> = (0..count).map(|j| (places[j]..end(j)).map(edge).sum()).collect();
+    let end = |j: usize| chosen.get(j + 1).copied().unwrap_or(boundary.len());
+    let lengths: Vec<f64> = (0..count).map(|j| (chosen[j]..end(j)).map(edge).sum()).collect();
     let total: f64 = lengths.iter().sum();
     let floor = LEAST_SHARE * total / count as f64;
     let lengths: Vec<f64> = lengths.into_iter().map(|length| length.max(floor)).collect();
     let widened: f64 = lengths.iter().sum();
     let mut walked = 0.0;
-    let mut pins = Pins::new();
-    for (place, length) in places.into_iter().zip(lengths) {
-        pins.insert(boundary[place], DVec2::from_angle(walked / widened * TAU) * (total / TAU));
+    let mut places = Places::new();
+    for (place, length) in chosen.into_iter().zip(lengths) {
+        places.insert(boundary[place], DVec2::from_angle(walked / widened * TAU) * (total / TAU));
         walked += length;
     }
-    pins
+    places
 }

@@ -261,15 +261,15 @@ impl Editor {
     /// The pins as drawn: the user's, then the gauge pins that the solver chose.
     pub fn pins_shown(&self) -> impl Iterator<Item = (VertexId, DVec2, PinOwner)> {
         let document = self.session.document();
-        let users = if document.settings.method.uses_pins() { document.pins.clone() } else { BTreeMap::new() };
+        let users = if document.settings.method.uses_pins() { document.plane_pins() } else { BTreeMap::new() };
         let gauge = self.plane_scene.as_ref().filter(|scene| {
             scene.outcome.step.solution.gauge_completed && scene.outcome.settings.method.uses_pins() && users.len() < 2
         });
         let gauge = gauge.map(|scene| scene.outcome.step.solution.pins.clone()).unwrap_or_default();
         let own = users.clone();
         let solver = gauge.into_iter().filter(move |(vertex, _)| !own.contains_key(vertex));
-        let users = users.into_iter().map(|(vertex, at)| (vertex, at, PinOwner::User));
-        users.chain(solver.map(|(vertex, at)| (vertex, at, PinOwner::Solver)))
+        let users = users.into_iter().map(|(vertex, pin)| (vertex, pin.target, PinOwner::User));
+        users.chain(solver.map(|(vertex, pin)| (vertex, pin.target, PinOwner::Solver)))
     }
 
     /// Whether the panels at the right show.

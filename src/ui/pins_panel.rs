@@ -35,8 +35,8 @@ pub(super) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
                 ui.weak(words);
             }
             ui.end_row();
-            for (&vertex, &target) in &document.pins {
-                pin_row(ui, editor, (vertex, target), speed, requests);
+            for (&vertex, pin) in &document.pins {
+                pin_row(ui, editor, (vertex, pin.target), speed, requests);
                 ui.end_row();
             }
         });

@@ -209,7 +209,8 @@ fn drag_pins(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, camera: PlaneCa
         }
         if response.dragged() && editor.dragged_pin == Some(vertex) && response.drag_delta() != Vec2::ZERO {
             let pointer = response.interact_pointer_pos().map_or(at, |pointer| pointer + editor.grab_offset);
-            let target = camera.embedding_from_pane(pane::in_pane(rect, pointer), size);
+            let place = camera.embedding_from_pane(pane::in_pane(rect, pointer), size);
+            let target = editor.session.document().frame().uv_from_plane(place);
             requests.push(Request::Do(Action::MovePin { vertex, target }));
         }
         if response.drag_stopped() {

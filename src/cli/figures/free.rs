@@ -9,7 +9,7 @@ use super::{Figure, Numbers, Row};
 use crate::io::figure::{Panel, PlaneDrawing, Sheet, SpaceDrawing, Window, zones_of};
 use crate::io::raster::View;
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Pins, Run, SolveError, Step};
+use crate::solver::{Control, Pins, Run, SolveError, Step, fixed_pins};
 
 /// Insets that a panel has room for.
 const INSETS: usize = 2;
@@ -51,7 +51,7 @@ pub(super) fn embedding(
 pub(super) fn pins_of(mesh: &DiskMesh, pair: &PinPair) -> Pins {
     let [a, b] = pair.vertices;
     let distance = mesh.position(a).distance(mesh.position(b));
-    Pins::from([(a, DVec2::ZERO), (b, DVec2::new(distance, 0.0))])
+    fixed_pins([(a, DVec2::ZERO), (b, DVec2::new(distance, 0.0))])
 }
 
 /// An embedding with its flipped faces and pins.

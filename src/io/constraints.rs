@@ -1,0 +1,215 @@
+//! Constraint files: one pinned vertex a line, "vertex u v [weight]"; what follows a # is a comment.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use glam::DVec2;
+
+use crate::mesh::VertexId;
+use crate::solver::{Hold, Pin, Pins};
+
+/// What a constraint file says, with the line of each vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Constraints {
+    /// The pins: hard where no weight is given.
+    pub pins: Pins,
+    /// The line of each pin, counted from 1.
+    pub lines: BTreeMap<VertexId, u64>,
+}
+
+/// Why a constraint file is not used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConstraintsError {
+    /// The file cannot be read.
+    #[error("cannot read the constraints: {source}: {}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: io::Error,
+    },
+    /// A line that cannot be.
+    #[error("line {line}: {kind}: {}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The line, counted from 1.
+        line: u64,
+        /// What is wrong with it.
+        kind: ConstraintFault,
+    },
+}
+
+/// What is wrong with a line.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConstraintFault {
+    /// Not of the form that lines have.
+    #[error("write \"vertex u v\" or \"vertex u v weight\", not \"{text}\"")]
+    Form {
+        /// The line.
+        text: String,
+    },
+    /// Something that ought to be a number is none.
+    #[error("\"{text}\" is not a number")]
+    BadNumber {
+        /// The word.
+        text: String,
+    },
+    /// A vertex number that is negative, broken, or beyond 32 bits.
+    #[error("\"{text}\" is not the number of a vertex; vertices count from 0")]
+    BadVertex {
+        /// The word.
+        text: String,
+    },
+    /// A target that is infinite or not a number.
+    #[error("the target of vertex {vertex} is not finite")]
+    NotFinite {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// A weight that pulls nowhere.
+    #[error("the weight {weight} of vertex {vertex} is not a positive number")]
+    WeightNotPositive {
+        /// The vertex.
+        vertex: VertexId,
+        /// Its weight.
+        weight: f64,
+    },
+    /// A vertex that has a target already.
+    #[error("vertex {vertex} has a target already, on line {first}: leave one of them out")]
+    Twice {
+        /// The vertex.
+        vertex: VertexId,
+        /// The line before.
+        first: u64,
+    },
+    /// A target that another hard constraint has already.
+    #[error(
+        "vertex {vertex} has the same target as vertex {other} on line {first}: move one of them, or give a weight"
+    )]
+    OnePlace {
+        /// The vertex.
+        vertex: VertexId,
+        /// The vertex that has it already.
+        other: VertexId,
+        /// Its line.
+        first: u64,
+    },
+    /// A vertex that the mesh does not have.
+    #[error("there is no vertex {vertex}: the mesh has {count}, numbered from 0")]
+    NoSuchVertex {
+        /// The vertex.
+        vertex: VertexId,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+impl Constraints {
+    /// Reads a file for a mesh with so many vertices.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, or the first line at fault.
+    pub fn read(path: &Path, vertex_count: usize) -> Result<Self, ConstraintsError> {
+        let text =
+            std::fs::read_to_string(path).map_err(|source| ConstraintsError::File { path: path.to_owned(), source })?;
+        Self::parse(&text, vertex_count).map_err(|(line, kind)| ConstraintsError::Line {
+            path: path.to_owned(),
+            line,
+            kind,
+        })
+    }
+
+    /// Understands the text of a constraint file.
+    ///
+    /// # Errors
+    ///
+    /// The first line at fault, counted from 1.
+    pub fn parse(text: &str, vertex_count: usize) -> Result<Self, (u64, ConstraintFault)> {
+        let mut found = Self::default();
+        let mut taken: BTreeMap<[u64; 2], VertexId> = BTreeMap::new();
+        // Some editors begin a text with a byte-order mark.
+        for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
+            let text = text.split('#').next().unwrap_or_default().trim();
+            if text.is_empty() {
+                continue;
+            }
+            let (vertex, pin) = parse_line(text).map_err(|kind| (line, kind))?;
+            found.check(vertex, &pin, vertex_count, &mut taken).map_err(|kind| (line, kind))?;
+            found.pins.insert(vertex, pin);
+            found.lines.insert(vertex, line);
+        }
+        Ok(found)
+    }
+
+    fn check(
+        &self,
+        vertex: VertexId,
+        pin: &Pin,
+        vertex_count: usize,
+        taken: &mut BTreeMap<[u64; 2], VertexId>,
+    ) -> Result<(), ConstraintFault> {
+        if vertex.index() >= vertex_count {
+            return Err(ConstraintFault::NoSuchVertex { vertex, count: vertex_count });
+        }
+        if let Some(&first) = self.lines.get(&vertex) {
+            return Err(ConstraintFault::Twice { vertex, first });
+        }
+        if pin.hold.is_exact() {
+            // Adding zero makes one bit pattern of the two zeros.
+            let place = (pin.target + 0.0).to_array().map(f64::to_bits);
+            if let Some(&other) = taken.get(&place) {
+                return Err(ConstraintFault::OnePlace { vertex, other, first: self.lines[&other] });
+            }
+            taken.insert(place, vertex);
+        }
+        Ok(())
+    }
+}
+
+fn parse_line(text: &str) -> Result<(VertexId, Pin), ConstraintFault> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (&[vertex, u, v] | &[vertex, u, v, _]) = words.as_slice() else {
+        return Err(ConstraintFault::Form { text: text.to_owned() });
+    };
+    let vertex: u32 = vertex.parse().map_err(|_| ConstraintFault::BadVertex { text: vertex.to_owned() })?;
+    let vertex = VertexId::new(vertex);
+    let number = |word: &str| -> Result<f64, ConstraintFault> {
+        word.parse().map_err(|_| ConstraintFault::BadNumber { text: word.to_owned() })
+    };
+    let target = DVec2::new(number(u)?, number(v)?);
+    if !target.is_finite() {
+        return Err(ConstraintFault::NotFinite { vertex });
+    }
+    let hold = match words.get(3) {
+        None => Hold::Hard,
+        Some(word) => Hold::Weighted(number(word)?),
+    };
+    if let Hold::Weighted(weight) = hold
+        && !(weight.is_finite() && weight > 0.0)
+    {
+        return Err(ConstraintFault::WeightNotPositive { vertex, weight });
+    }
+    Ok((vertex, Pin { target, hold }))
+}
+
+/// Writes pins as a constraint file; numbers read back bit for bit.
+///
+/// # Errors
+///
+/// What `out` says.
+pub fn write_constraints(out: &mut impl Write, pins: &Pins) -> io::Result<()> {
+    writeln!(out, "# vertex u v [weight]; vertices count from 0, without a weight a target is met exactly")?;
+    for (vertex, Pin { target, hold }) in pins {
+        write!(out, "{} {:?} {:?}", vertex.number(), target.x, target.y)?;
+        match hold {
+            Hold::Weighted(weight) => writeln!(out, " {weight:?}")?,
+            Hold::Fixed | Hold::Hard => writeln!(out)?,
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,118 @@
+//! What is done to the user's pins.
+
+use glam::DVec2;
+
+use super::{Command, Document, Place, Session};
+use crate::geom::PictureFrame;
+use crate::mesh::VertexId;
+use crate::solver::{Hold, Pin, Pins};
+
+impl Session {
+    /// Pins vertices where they lie.
+    pub(super) fn fix(&mut self, vertices: &[VertexId]) {
+        let Some(outcome) = self.outcome().cloned().filter(|_| self.takes_pins()) else { return };
+        let frame = outcome.frame;
+        let fresh = vertices.iter().filter(|v| !self.document.pins.contains_key(v));
+        let place = |vertex: &VertexId| outcome.step.solution.embedding.get(vertex.index()).copied();
+        let pin = |&vertex: &VertexId| Command::SetPin {
+            vertex,
+            pin: place(&vertex).map(|z| Pin::fixed(frame.uv_from_plane(z))),
+        };
+        let commands: Vec<Command> = fresh.map(pin).collect();
+        self.edit(commands);
+    }
+
+    /// Pins a vertex, or places its pin anew.
+    pub(super) fn place(&mut self, vertex: VertexId, pin: Pin) {
+        let count = self.model.as_ref().map_or(0, |model| model.mesh().vertex_count());
+        if vertex.index() < count && pin.target.is_finite() && self.takes_pins() {
+            self.edit(vec![Command::SetPin { vertex, pin: Some(pin) }]);
+        }
+    }
+
+    /// Moves pins as part of a drag. Where one of them is a gauge pin, all of those become the user's first.
+    pub(super) fn move_pins(&mut self, moves: &[(VertexId, DVec2)]) {
+        let is_users = |(vertex, _): &(VertexId, DVec2)| self.document.pins.contains_key(vertex);
+        if !moves.iter().all(is_users) {
+            let Some(outcome) = self.outcome() else { return };
+            let adopted = adopted(&self.document, &outcome.step.solution.pins, outcome.frame);
+            if !moves.iter().all(|(vertex, _)| adopted.contains_key(vertex)) {
+                return;
+            }
+            let commands = adopted.into_iter().map(|(vertex, pin)| Command::SetPin { vertex, pin: Some(pin) });
+            self.history.apply_in_gesture(Command::Together(commands.collect()), &mut self.document);
+        }
+        let moved = |&(vertex, target): &(VertexId, DVec2)| {
+            let pin = self.document.pins.get(&vertex).filter(|pin| target.is_finite() && pin.target != target)?;
+            Some(Command::SetPin { vertex, pin: Some(Pin { target, ..*pin }) })
+        };
+        let commands: Vec<Command> = moves.iter().filter_map(moved).collect();
+        if commands.is_empty() {
+            return;
+        }
+        self.history.apply_in_gesture(Command::Together(commands), &mut self.document);
+        self.follow(moves);
+    }
+
+    /// Holds pins in another way, as an edit of its own.
+    pub(super) fn set_hold(&mut self, vertices: &[VertexId], hold: Hold) {
+        let commands = self.holds(vertices, hold);
+        self.edit(commands);
+    }
+
+    /// Holds pins in another way as part of a drag.
+    pub(super) fn slide_hold(&mut self, vertices: &[VertexId], hold: Hold) {
+        let commands = self.holds(vertices, hold);
+        if !commands.is_empty() {
+            self.history.apply_in_gesture(Command::Together(commands), &mut self.document);
+            self.solve();
+        }
+    }
+
+    fn holds(&self, vertices: &[VertexId], hold: Hold) -> Vec<Command> {
+        if let Hold::Weighted(weight) = hold
+            && !(weight.is_finite() && weight > 0.0)
+        {
+            return Vec::new();
+        }
+        let held = |&vertex: &VertexId| {
+            let pin = self.document.pins.get(&vertex).filter(|pin| pin.hold != hold)?;
+            Some(Command::SetPin { vertex, pin: Some(Pin { hold, ..*pin }) })
+        };
+        vertices.iter().filter_map(held).collect()
+    }
+
+    /// Frees vertices.
+    pub(super) fn unpin(&mut self, vertices: &[VertexId]) {
+        let pinned = vertices.iter().filter(|v| self.document.pins.contains_key(v));
+        let commands: Vec<Command> = pinned.map(|&vertex| Command::SetPin { vertex, pin: None }).collect();
+        self.edit(commands);
+    }
+
+    /// Carries out edits that are one for the user, and solves.
+    pub(super) fn edit(&mut self, mut commands: Vec<Command>) {
+        let command = match commands.len() {
+            0 => return,
+            1 => commands.remove(0),
+            _ => Command::Together(commands),
+        };
+        self.history.apply(command, &mut self.document);
+        self.solve();
+    }
+
+    /// Says why where the method takes no pins.
+    fn takes_pins(&mut self) -> bool {
+        if self.document.settings.method.uses_pins() {
+            return true;
+        }
+        let text = "a convex boundary takes no pins: every boundary vertex has its place".to_owned();
+        self.fail(Place::Embedding, text, Some("choose another method to pin vertices"));
+        false
+    }
+}
+
+/// The gauge pins as pins of the user's, each where it lies; the user's own stay what they are.
+fn adopted(document: &Document, in_force: &Pins, frame: PictureFrame) -> Pins {
+    let fresh = in_force.iter().filter(|(vertex, _)| !document.pins.contains_key(vertex));
+    fresh.map(|(&vertex, pin)| (vertex, Pin::fixed(frame.uv_from_plane(pin.target)))).collect()
+}
