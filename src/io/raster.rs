@@ -117,6 +117,13 @@ pub enum Paint<'a> {
         /// Width of a field.
         size: f64,
     },
+    /// A picture at texture coordinates given per vertex, v up; beyond its edges the nearest colour.
+    Picture {
+        /// One per vertex.
+        coordinates: &'a [DVec2],
+        /// What is at them.
+        picture: &'a Picture,
+    },
 }
 
 /// A picture of a mesh in space.
