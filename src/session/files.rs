@@ -75,6 +75,7 @@ impl Session {
         self.outcome_revision += 1;
         self.prepared = None;
         self.running = None;
+        self.end_preview();
         if is_example {
             // An example is there to be watched: it waits for the person to take the steps.
             self.solve_first_step();

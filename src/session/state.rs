@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::preview::{Follow, FollowJob, VerdictJob};
 use super::run::Running;
 use super::{
     Action, Command, Document, History, Job, Message, Model, Outcome, Place, Preview, RecentFiles, Severity,
     StopConditions, Timeline,
 };
 use crate::io::{ReadError, WriteError};
+use crate::mesh::VertexId;
 use crate::solver::{Ending, Phase, Prepared, Run, Verdict};
 
 /// Asks the screen to look again; called from background threads.
@@ -45,6 +47,13 @@ pub struct Session {
     pub(super) stop: StopConditions,
     /// What the screen shows while a pin is dragged.
     pub(super) preview: Option<Preview>,
+    /// Counts previews.
+    pub(super) preview_revision: u64,
+    /// What a drag was solved for, and what is being solved for it.
+    pub(super) follow: Option<Follow>,
+    pub(super) follow_job: Option<(Document, Vec<VertexId>, FollowJob)>,
+    /// The verdict on a preview that is under way, by its revision.
+    pub(super) verdict_job: Option<(u64, VerdictJob)>,
     /// Kept from solves that succeeded, to be used again while a pin is dragged.
     pub(super) prepared: Option<Arc<Prepared>>,
     pub(super) loading: Option<LoadJob>,
@@ -85,6 +94,10 @@ impl Session {
             ending: None,
             stop: StopConditions::default(),
             preview: None,
+            preview_revision: 0,
+            follow: None,
+            follow_job: None,
+            verdict_job: None,
             prepared: None,
             loading: None,
             loading_path: None,
@@ -149,9 +162,9 @@ impl Session {
         self.outcome().is_some_and(|outcome| self.document.is_solved_by(&outcome.settings, &outcome.pins))
     }
 
-    /// Whether the screen shows the first step of a run that others follow, because a gesture goes on.
+    /// Whether the screen shows the first solve alone, because a gesture goes on or its run has only begun.
     pub fn is_preview(&self) -> bool {
-        self.history.is_in_gesture() && self.is_at_first_step()
+        self.preview.is_some() || (self.history.is_in_gesture() && self.is_at_first_step())
     }
 
     /// Whether a run waits after its first step for a person to take the others.
@@ -171,6 +184,9 @@ impl Session {
         }
         if let Some(running) = &self.running {
             return Some(Busy::Solving(running.phase()));
+        }
+        if self.follow_job.is_some() || self.verdict_job.is_some() {
+            return Some(Busy::Solving(None));
         }
         self.saving.first().map(|_| Busy::Saving)
     }
@@ -205,8 +221,8 @@ impl Session {
             | Action::ExportConstraints(_)
             | Action::SaveProject(_)
             | Action::Recover(_)
-            | Action::DiscardRecovery(_)
-            | Action::Rest => {}
+            | Action::DiscardRecovery(_) => {}
+            Action::Rest => self.rest(),
             Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
             Action::SetVAxis(v_axis) => self.edit(vec![Command::SetVAxis(v_axis)]),
             Action::Place { vertex, pin } => self.place(vertex, pin),
@@ -268,6 +284,7 @@ impl Session {
     pub fn poll(&mut self) {
         self.poll_loading();
         self.poll_running();
+        self.poll_following();
         self.poll_saving();
     }
 
