@@ -27,24 +27,28 @@ fn write_quarters(path: &Path) {
     quarters(40, 20).write_png(fs::File::create(path).unwrap()).unwrap();
 }
 
-/// The colour that a program shows at a vertex of a file: read by tobj, which knows nothing of this project.
-fn colour_at(obj: &Path, vertex: usize) -> [u8; 3] {
+/// The colour that a program shows at a vertex of a mesh: read by tobj, which knows nothing of this project. It numbers
+/// vertices in its own way, so that this one is found by its place in space.
+fn colour_at(obj: &Path, position: glam::DVec3) -> [u8; 3] {
     let (models, materials) = tobj::load_obj(obj, &tobj::LoadOptions::default()).expect("tobj reads it");
-    let material = &materials.expect("tobj finds the library")[models[0].mesh.material_id.expect("a material in use")];
+    let mesh = &models[0].mesh;
+    let material = &materials.expect("tobj finds the library")[mesh.material_id.expect("a material in use")];
     let picture = obj.with_file_name(material.diffuse_texture.as_ref().expect("a picture"));
     let image = image::open(picture).expect("the picture is there").to_rgb8();
-    let corner = models[0].mesh.indices.iter().position(|&i| i as usize == vertex).expect("a corner");
-    let at = models[0].mesh.texcoord_indices[corner] as usize * 2;
-    let [u, v] = [models[0].mesh.texcoords[at], models[0].mesh.texcoords[at + 1]];
-    let x = (u * image.width() as f32) as u32;
-    let y = ((1.0 - v) * image.height() as f32) as u32;
-    image.get_pixel(x, y).0
+    let wanted = position.as_vec3().to_array();
+    let is_it = |&index: &u32| mesh.positions[3 * index as usize..][..3] == wanted;
+    let corner = mesh.indices.iter().position(is_it).expect("a corner at this place");
+    let at = mesh.texcoord_indices[corner] as usize * 2;
+    let [u, v] = [mesh.texcoords[at], mesh.texcoords[at + 1]].map(f64::from);
+    let share = DVec2::new(u, 1.0 - v) * DVec2::new(f64::from(image.width()), f64::from(image.height()));
+    let [column, row] = share.to_array().map(|x| (0_u32..).find(|&k| f64::from(k + 1) > x).expect("a pixel"));
+    image.get_pixel(column, row).0
 }
 
 #[test]
 fn another_reader_finds_the_picture_and_left_is_left() {
     let program = Program::new();
-    example_file(&program, Example::Dome);
+    let mesh = example_file(&program, Example::Dome);
     fs::create_dir(program.path("pictures")).unwrap();
     write_quarters(&program.path("pictures/four quarters.png"));
     let arguments = [
@@ -66,9 +70,12 @@ fn another_reader_finds_the_picture_and_left_is_left() {
     let bytes = |name: &str| fs::read(program.path(name)).unwrap();
     assert!(bytes("four_quarters.png") == bytes("pictures/four quarters.png"), "copied byte for byte");
     let obj = program.path("my out.obj");
-    assert_eq!([3, 40, 11].map(|v| colour_at(&obj, v)), [[255, 0, 0], [0, 255, 0], [0, 255, 255]]);
-    let mesh = read_mesh(&obj).unwrap();
-    assert_eq!(material_picture(&mesh, &obj), Some(program.path("four_quarters.png")), "and so does this program");
+    assert_eq!(
+        [3, 40, 11].map(|v| colour_at(&obj, mesh.mesh().positions[v])),
+        [[255, 0, 0], [0, 255, 0], [0, 255, 255]]
+    );
+    let written = read_mesh(&obj).unwrap();
+    assert_eq!(material_picture(&written, &obj), Some(program.path("four_quarters.png")), "and so does this program");
 }
 
 #[test]
@@ -95,7 +102,7 @@ fn the_picture_gives_the_aspect_and_a_second_run_changes_nothing() {
 #[test]
 fn files_of_others_are_not_written_over() {
     let program = Program::new();
-    example_file(&program, Example::Dome);
+    let mesh = example_file(&program, Example::Dome);
     fs::create_dir(program.path("pictures")).unwrap();
     write_quarters(&program.path("pictures/four.png"));
     program.write("four.png", "somebody's");
@@ -105,7 +112,7 @@ fn files_of_others_are_not_written_over() {
     assert_eq!(fs::read_to_string(program.path("out.mtl")).unwrap(), "newmtl somebody's\n");
     let names = ["four.png", "in.obj", "out-four.png", "out-picture.mtl", "out.mtl", "out.obj", "pictures"];
     assert_eq!(program.files(), names);
-    let [r, g, b] = colour_at(&program.path("out.obj"), 3);
+    let [r, g, b] = colour_at(&program.path("out.obj"), mesh.mesh().positions[3]);
     assert!(r + g == 255 && (b == 0 || b == 255), "the picture that was asked for");
 }
 

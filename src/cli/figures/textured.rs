@@ -17,7 +17,7 @@ use crate::solver::{Control, Method, Pin, Pins, Run, Settings, SolveError, Step}
 const PIXELS: u32 = 580;
 
 /// Weights of figure 9's rows, with their names: with the larger ones the constraints are met nearly exactly.
-const WEIGHTS: [(&str, f64); 2] = [("large", 30.0), ("medium", 1.0)];
+const WEIGHTS: [(&str, f64); 2] = [("large", 30.0), ("medium", 0.5)];
 
 /// The face with what belongs to it.
 pub(super) struct Subject {
