@@ -22,9 +22,6 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 /// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
 const GRADIENT_LIMIT: f64 = 1e-10;
 
-/// The most solves for what such an answer leaves.
-const REFINEMENTS: usize = 2;
-
 /// Equations, matrix and factors; for least squares also what the pins add.
 pub(super) struct FreeSolve {
     equations: Equations<Complex<f64>>,
@@ -125,16 +122,8 @@ impl FreeSolve {
         for (vertex, target) in targets {
             start[vertex.index()] = *target;
         }
-        let (mut embedding, mut residual) =
+        let (embedding, residual) =
             self.move_from(site, (&start, &self.left_over(site.mesh, &start)), targets, Begin::Nothing)?;
-        // Stiff springs lose digits in the first solve; solving for what is left brings them back.
-        for _ in 0..REFINEMENTS {
-            if self.least_squares.is_none() || residual <= GRADIENT_LIMIT {
-                break;
-            }
-            let left = self.left_over(site.mesh, &embedding);
-            (embedding, residual) = self.move_from(site, (&embedding, &left), targets, Begin::Near)?;
-        }
         if self.least_squares.is_some() && residual > GRADIENT_LIMIT {
             return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
         }

@@ -74,6 +74,7 @@ fn the_sets_of_the_maze_and_the_cow_are_met_to_the_last_bit_and_reported_as_they
 }
 
 #[test]
+#[ignore = "half a minute without optimization: cargo test --release --test core the_set_of_the_cortex -- --ignored"]
 fn the_set_of_the_cortex_is_met_to_the_last_bit_and_reported_as_it_is() {
     for (set, mesh) in SETS.iter().filter(|(set, _)| set.starts_with("cortex")) {
         flatten_set(set, mesh);
