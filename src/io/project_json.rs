@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::str::FromStr as _;
 
 use glam::DVec2;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::FileStamp;
 use super::project::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
@@ -171,25 +172,33 @@ struct RawPinFields {
     u: f64,
     v: f64,
     hold: RawHold,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "positive")]
     weight: Option<f64>,
 }
 
+/// The check is the field's own, so that a fault is told with the field's line.
+fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    let weight = Option::<f64>::deserialize(deserializer)?;
+    match weight {
+        Some(weight) if !(weight.is_finite() && weight > 0.0) => {
+            Err(D::Error::custom(format!("the weight {weight} is not a positive number")))
+        }
+        _ => Ok(weight),
+    }
+}
+
 #[derive(Clone, Serialize, Deserialize)]
-#[serde(try_from = "RawPinFields", into = "RawPinFields")]
+#[serde(from = "RawPinFields", into = "RawPinFields")]
 struct RawPin(VertexId, Pin);
 
-impl TryFrom<RawPinFields> for RawPin {
-    type Error = &'static str;
-
-    fn try_from(raw: RawPinFields) -> Result<Self, Self::Error> {
-        let hold = match (raw.hold, raw.weight) {
-            (RawHold::Fixed, _) => Hold::Fixed,
-            (RawHold::Hard, _) => Hold::Hard,
-            (RawHold::Weighted, Some(weight)) if weight.is_finite() && weight > 0.0 => Hold::Weighted(weight),
-            (RawHold::Weighted, _) => return Err("a weighted pin needs a positive \"weight\""),
+impl From<RawPinFields> for RawPin {
+    fn from(raw: RawPinFields) -> Self {
+        let hold = match raw.hold {
+            RawHold::Fixed => Hold::Fixed,
+            RawHold::Hard => Hold::Hard,
+            RawHold::Weighted => Hold::Weighted(raw.weight.unwrap_or(Pin::DEFAULT_WEIGHT)),
         };
-        Ok(Self(VertexId::new(raw.vertex), Pin { target: DVec2::new(raw.u, raw.v), hold }))
+        Self(VertexId::new(raw.vertex), Pin { target: DVec2::new(raw.u, raw.v), hold })
     }
 }
 
