@@ -2,17 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::str::FromStr as _;
 
 use glam::DVec2;
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::FileStamp;
 use super::project::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
+use super::project_fields::{RawFamily, RawWeight};
 use crate::geom::VAxis;
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
+use crate::solver::{BoundaryShape, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
 
 /// The fields of a project file, in their order.
 #[derive(Serialize, Deserialize)]
@@ -140,24 +139,6 @@ enum RawGrowth {
     One,
 }
 
-#[derive(Clone, Default, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-struct RawFamily(Family);
-
-impl TryFrom<String> for RawFamily {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        Family::from_str(&text).map(Self).map_err(|choice| format!("\"{text}\" is no family: {choice}"))
-    }
-}
-
-impl From<RawFamily> for String {
-    fn from(RawFamily(family): RawFamily) -> Self {
-        family.to_string()
-    }
-}
-
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum RawHold {
@@ -172,19 +153,8 @@ struct RawPinFields {
     u: f64,
     v: f64,
     hold: RawHold,
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "positive")]
-    weight: Option<f64>,
-}
-
-/// The check is the field's own, so that a fault is told with the field's line.
-fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-    let weight = Option::<f64>::deserialize(deserializer)?;
-    match weight {
-        Some(weight) if !(weight.is_finite() && weight > 0.0) => {
-            Err(D::Error::custom(format!("the weight {weight} is not a positive number")))
-        }
-        _ => Ok(weight),
-    }
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    weight: Option<RawWeight>,
 }
 
 #[derive(Clone, Serialize, Deserialize)]
@@ -196,7 +166,7 @@ impl From<RawPinFields> for RawPin {
         let hold = match raw.hold {
             RawHold::Fixed => Hold::Fixed,
             RawHold::Hard => Hold::Hard,
-            RawHold::Weighted => Hold::Weighted(raw.weight.unwrap_or(Pin::DEFAULT_WEIGHT)),
+            RawHold::Weighted => Hold::Weighted(raw.weight.map_or(Pin::DEFAULT_WEIGHT, |weight| weight.0)),
         };
         Self(VertexId::new(raw.vertex), Pin { target: DVec2::new(raw.u, raw.v), hold })
     }
@@ -207,7 +177,7 @@ impl From<RawPin> for RawPinFields {
         let (hold, weight) = match hold {
             Hold::Fixed => (RawHold::Fixed, None),
             Hold::Hard => (RawHold::Hard, None),
-            Hold::Weighted(weight) => (RawHold::Weighted, Some(weight)),
+            Hold::Weighted(weight) => (RawHold::Weighted, Some(RawWeight(weight))),
         };
         Self { vertex: vertex.number(), u: target.x, v: target.y, hold, weight }
     }

@@ -55,7 +55,8 @@ impl Fuzz {
 
     fn one_of(&mut self, names: &[&str]) -> PathBuf {
         let count = u32::try_from(names.len()).expect("few");
-        self.at(names[self.random.below(count) as usize])
+        let chosen = self.random.below(count) as usize;
+        self.at(names[chosen])
     }
 
     /// Mostly one of the mesh's.

@@ -250,7 +250,10 @@ fn faults_of_a_project_name_line_and_field() {
     let cases = [
         (pin("\"u\": \"x\", \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: invalid type"),
         (pin("\"u\": 0, \"v\": 0, \"hold\": \"soft\""), "line 3, pins[0].hold: unknown variant `soft`"),
-        (pin("\"u\": 0, \"v\": 0, \"weight\": 0, \"hold\": \"hard\""), "line 3, pins[0].weight: the weight 0 is not"),
+        (
+            pin("\"u\": 0, \"v\": 0, \"hold\": \"weighted\", \"weight\": -2"),
+            "line 3, pins[0].weight: the weight -2 is not",
+        ),
         (pin("\"u\": 0, \"hold\": \"hard\""), "line 3, pins[0]: missing field `v`"),
         (pin("\"u\": 1e999, \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: number out of range"),
         (

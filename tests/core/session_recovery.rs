@@ -22,13 +22,18 @@ const LONG: Duration = Duration::from_secs(60);
 /// How often a process is killed.
 const KILLS: u32 = 36;
 
-/// Polls until a copy is made, if one is due at that time.
-fn copied(session: &mut Session, now: Instant) {
-    session.poll_at(now);
-    settle(session);
-    // A copy is no work that a person waits for, so that nothing says that it is under way.
-    std::thread::sleep(Duration::from_millis(30));
-    session.poll_at(now);
+/// Polls at a time until the copies in a folder have so many pins each.
+fn until_copies(session: &mut Session, now: Instant, (store, pins): (&Path, &[usize])) {
+    let begun = Instant::now();
+    while pins_in_copies(store) != pins {
+        assert!(begun.elapsed() < LONG, "{:?} instead of {pins:?}", pins_in_copies(store));
+        session.poll_at(now);
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn pins_in_copies(store: &Path) -> Vec<usize> {
+    copies(store).iter().map(|copy| ProjectFile::read(copy).unwrap().pins.len()).collect()
 }
 
 fn with_recovery(folder: &Path) -> Session {
@@ -49,11 +54,11 @@ fn what_a_dead_session_leaves_can_be_recovered_and_a_living_one_s_cannot() {
     let store = folder.path().join("state").join("recovery");
     doomed.keep_copies_in(store.clone());
     let now = Instant::now();
-    copied(&mut doomed, now);
-    assert!(copies(&store).is_empty(), "there is nothing to lose yet");
+    doomed.poll_at(now);
+    assert!(!store.exists(), "there is nothing to lose yet");
     place(&mut doomed, 3, Pin::hard(DVec2::X));
     place(&mut doomed, 8, Pin::weighted(DVec2::Y, 0.5));
-    copied(&mut doomed, now + LONG);
+    until_copies(&mut doomed, now + LONG, (&store, &[2]));
     let document = doomed.document().clone();
     assert!(with_recovery(&store).recoverable().is_empty(), "it is alive");
     drop(doomed);
@@ -76,17 +81,13 @@ fn a_save_takes_the_copy_away_and_so_does_undoing_everything() {
     session.keep_copies_in(store.clone());
     let now = Instant::now();
     place(&mut session, 3, Pin::hard(DVec2::X));
-    copied(&mut session, now + LONG);
-    assert_eq!(copies(&store).len(), 1);
+    until_copies(&mut session, now + LONG, (&store, &[1]));
     settled(&mut session, Action::SaveProject(folder.path().join("work.freebound")));
-    copied(&mut session, now + LONG);
-    assert!(copies(&store).is_empty());
-    place(&mut session, 3, Pin::hard(DVec2::Y));
-    copied(&mut session, now + 2 * LONG);
-    assert_eq!(copies(&store).len(), 1);
+    until_copies(&mut session, now + LONG, (&store, &[]));
+    place(&mut session, 4, Pin::hard(DVec2::Y));
+    until_copies(&mut session, now + 2 * LONG, (&store, &[2]));
     settled(&mut session, Action::Undo);
-    copied(&mut session, now + 3 * LONG);
-    assert!(copies(&store).is_empty());
+    until_copies(&mut session, now + 3 * LONG, (&store, &[]));
 }
 
 #[test]
@@ -94,15 +95,16 @@ fn copies_are_made_no_oftener_than_every_few_seconds() {
     let (folder, mut session) = with_dome();
     let store = folder.path().join("recovery");
     session.keep_copies_in(store.clone());
-    let now = Instant::now() + LONG;
-    let pins_in_copy = || ProjectFile::read(&copies(&store)[0]).unwrap().pins.len();
     place(&mut session, 3, Pin::hard(DVec2::X));
-    copied(&mut session, now);
-    session.handle(Action::Place { vertex: id(4), pin: Pin::hard(DVec2::Y) });
-    copied(&mut session, now + Duration::from_secs(1));
-    assert_eq!(pins_in_copy(), 1);
-    copied(&mut session, now + LONG);
-    assert_eq!(pins_in_copy(), 2);
+    let now = Instant::now();
+    until_copies(&mut session, now, (&store, &[1]));
+    place(&mut session, 4, Pin::hard(DVec2::Y));
+    for _ in 0..50 {
+        session.poll_at(now + Duration::from_secs(1));
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert_eq!(pins_in_copies(&store), [1]);
+    until_copies(&mut session, now + LONG, (&store, &[2]));
     session.close();
 }
 
@@ -112,11 +114,11 @@ fn a_discarded_copy_is_gone_and_nothing_else_ever_is() {
     let store = folder.path().join("recovery");
     doomed.keep_copies_in(store.clone());
     place(&mut doomed, 3, Pin::hard(DVec2::X));
-    copied(&mut doomed, Instant::now() + LONG);
+    until_copies(&mut doomed, Instant::now() + LONG, (&store, &[1]));
     let own = folder.path().join("own.freebound");
     settled(&mut doomed, Action::SaveProject(own.clone()));
     place(&mut doomed, 4, Pin::hard(DVec2::X));
-    copied(&mut doomed, Instant::now() + 2 * LONG);
+    until_copies(&mut doomed, Instant::now() + 2 * LONG, (&store, &[2]));
     drop(doomed);
 
     let mut next = with_recovery(&store);
@@ -137,7 +139,7 @@ fn a_copy_that_cannot_be_opened_stays_for_another_day() {
     let store = folder.path().join("recovery");
     doomed.keep_copies_in(store.clone());
     place(&mut doomed, 3, Pin::hard(DVec2::X));
-    copied(&mut doomed, Instant::now() + LONG);
+    until_copies(&mut doomed, Instant::now() + LONG, (&store, &[1]));
     drop(doomed);
     fs::rename(folder.path().join("dome.obj"), folder.path().join("away.obj")).unwrap();
     let mut next = with_recovery(&store);
@@ -154,7 +156,8 @@ fn a_folder_that_takes_no_copies_is_said_once() {
     session.keep_copies_in(folder.path().join("dome.obj").join("recovery"));
     for round in 1..5 {
         place(&mut session, round, Pin::hard(DVec2::new(f64::from(round), 0.0)));
-        copied(&mut session, Instant::now() + round * LONG);
+        session.poll_at(Instant::now() + round * LONG);
+        session.poll();
     }
     assert_eq!(errors(&session).iter().filter(|text| text.contains("no copy is kept")).count(), 1);
 }
