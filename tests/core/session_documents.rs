@@ -197,6 +197,15 @@ fn fitting_moves_all_targets_by_one_similarity_of_the_picture() {
 }
 
 #[test]
+fn a_pin_that_nothing_can_hold_is_not_placed() {
+    let (_folder, mut session) = with_dome();
+    for weight in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        place(&mut session, 3, Pin::weighted(DVec2::X, weight));
+        assert!(session.document().pins.is_empty(), "{weight}");
+    }
+}
+
+#[test]
 fn fitting_one_target_is_refused() {
     let (_folder, mut session) = with_dome();
     place(&mut session, 3, Pin::hard(DVec2::X));
