@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::PictureFile;
+use super::{Outcome, PictureFile};
 use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::VertexId;
 use crate::solver::{GaugeSize, Pin, Pins, Settings};
@@ -41,6 +41,12 @@ impl Document {
         let frame = self.frame();
         let placed = |pin: &Pin| Pin { target: frame.plane_from_uv(pin.target), ..*pin };
         self.pins.iter().map(|(&vertex, pin)| (vertex, placed(pin))).collect()
+    }
+
+    /// Whether an outcome is one of this document: a convex boundary takes no pins.
+    pub(super) fn is_solved_in(&self, outcome: &Outcome) -> bool {
+        let has_pins = !outcome.settings.method.uses_pins() || outcome.pins == self.pins;
+        has_pins && outcome.frame == self.frame() && outcome.settings == self.run_settings()
     }
 
     /// Whether a run of these settings and pins (in the plane) is a run of this document: a convex boundary takes no
@@ -120,11 +126,17 @@ impl Gesture {
 }
 
 impl History {
-    /// Applies an edit as a step of its own.
-    pub fn apply(&mut self, command: Command, document: &mut Document) {
-        self.end_gesture();
-        self.undo.push(command.apply(document));
+    /// Applies an edit as a step of its own. Returns whether it changed anything; one that did not is no step.
+    pub fn apply(&mut self, command: Command, document: &mut Document) -> bool {
+        self.end_gesture(document);
+        let before = document.clone();
+        let inverse = command.apply(document);
+        if *document == before {
+            return false;
+        }
+        self.undo.push(inverse);
         self.redo.clear();
+        true
     }
 
     /// Applies an edit that belongs to a gesture: until the gesture ends, edits share one step.
@@ -147,9 +159,18 @@ impl History {
         self.gesture.is_some()
     }
 
-    /// Marks the end of a gesture: the next edit starts a new step.
-    pub fn end_gesture(&mut self) {
-        self.gesture = None;
+    /// Marks the end of a gesture: the next edit starts a new step. A gesture that ended where it began is none.
+    pub fn end_gesture(&mut self, document: &Document) {
+        if self.gesture.take().is_none() {
+            return;
+        }
+        if let Some(step) = self.undo.last() {
+            let mut before = document.clone();
+            drop(step.clone().apply(&mut before));
+            if before == *document {
+                self.undo.pop();
+            }
+        }
     }
 
     /// Takes back the gesture that has not ended, for good. Returns whether there was one.
@@ -175,13 +196,13 @@ impl History {
 
     /// Takes back the last step. Returns whether there was one.
     pub fn undo(&mut self, document: &mut Document) -> bool {
-        self.end_gesture();
+        self.end_gesture(document);
         replay(&mut self.undo, &mut self.redo, document)
     }
 
     /// Repeats the last step taken back. Returns whether there was one.
     pub fn redo(&mut self, document: &mut Document) -> bool {
-        self.end_gesture();
+        self.end_gesture(document);
         replay(&mut self.redo, &mut self.undo, document)
     }
 }
@@ -231,7 +252,7 @@ mod tests {
         for x in [0.0, 0.5, 1.0] {
             history.apply_in_gesture(pin(7, x), &mut document);
         }
-        history.end_gesture();
+        history.end_gesture(&document);
 
         assert!(history.undo(&mut document));
         assert_eq!(document, Document::default());
@@ -278,10 +299,23 @@ mod tests {
     }
 
     #[test]
+    fn what_changes_nothing_is_no_undo_step() {
+        let (mut history, mut document) = (History::default(), Document::default());
+        assert!(history.apply(pin(7, 0.5), &mut document));
+        assert!(!history.apply(pin(7, 0.5), &mut document));
+        for x in [1.0, 0.5] {
+            history.apply_in_gesture(pin(7, x), &mut document);
+        }
+        history.end_gesture(&document);
+        assert!(history.undo(&mut document));
+        assert!(!history.can_undo() && document == Document::default());
+    }
+
+    #[test]
     fn two_drags_are_two_undo_steps() {
         let (mut history, mut document) = (History::default(), Document::default());
         history.apply_in_gesture(pin(7, 0.5), &mut document);
-        history.end_gesture();
+        history.end_gesture(&document);
         history.apply_in_gesture(pin(7, 1.0), &mut document);
         history.undo(&mut document);
         assert_eq!(document.pins[&VertexId::new(7)].target, DVec2::new(0.5, 0.0));

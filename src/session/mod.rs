@@ -1,21 +1,29 @@
 //! One open document: what the user edits, its history, and the work that goes on in the background. No screen.
 
 mod action;
+mod autosave;
 mod document;
+mod errands;
 mod files;
 mod job;
 mod load;
 mod message;
+mod open;
+mod opened;
 mod picture;
 mod pins;
 mod preview;
+mod project;
 mod recent;
+mod recovery;
 mod run;
 mod save;
 mod solve;
 mod state;
 mod stop;
+mod targets;
 mod timeline;
+mod turn;
 
 pub use action::Action;
 pub use document::{Command, Document, History};
@@ -25,6 +33,7 @@ pub use message::{Message, Place, Severity};
 pub use picture::PictureFile;
 pub use preview::Preview;
 pub use recent::RecentFiles;
+pub use recovery::{Recoverable, recovery_folder};
 pub use save::{Finished, SaveRequest};
 pub use solve::{Outcome, OutputFit, Placement};
 pub use state::{Busy, Session, Wake};

@@ -138,6 +138,9 @@ impl Session {
     /// Begins a run, or lets the first step that is under way finish where only targets differ.
     fn begin(&mut self, goal: Goal) {
         self.resting = None;
+        if !self.bring_faces() {
+            return;
+        }
         if let Some(running) = &mut self.running
             && running.is_followed_by(&self.document)
         {
@@ -206,7 +209,7 @@ impl Session {
     /// The end of a gesture: where only the first step was taken, or none, the others follow.
     pub(super) fn end_gesture(&mut self) {
         let was_in_gesture = self.history.is_in_gesture();
-        self.history.end_gesture();
+        self.history.end_gesture(&self.document);
         self.follow_job = None;
         if !was_in_gesture {
             return;
