@@ -26,9 +26,7 @@ pub fn run_example() -> ExitCode {
 /// The face with its portrait, and its landmarks as constraints.
 fn document() -> Document {
     let pins: Pins = Example::Face.landmarks().iter().map(|l| (l.vertex, Pin::hard(l.target.into()))).collect();
-    let picture = Example::Face
-        .picture()
-        .map(|pixels| Arc::new(PictureFile { name: "portrait".to_owned(), path: None, pixels: Arc::new(pixels) }));
+    let picture = PictureFile::of_example(Example::Face).map(Arc::new);
     Document { pins, picture, ..Document::default() }
 }
 
@@ -46,6 +44,8 @@ fn flatten_example() -> Result<Status, Failure> {
     };
     let progress = Progress::default();
     let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;
-    println!("wrote face.obj with face.mtl and portrait.png, face.json and face.png (before and after) into {FOLDER}/");
+    println!(
+        "wrote face.obj with face.mtl and face-picture.png, face.json and face.png (before and after) into {FOLDER}/"
+    );
     Ok(status)
 }
