@@ -9,7 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move};
+use freebound::solver::{
+    Control, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move,
+};
 
 use glam::DVec2;
 
