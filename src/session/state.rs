@@ -58,6 +58,8 @@ pub struct Session {
     pub(super) solve_again: bool,
     /// Files being written, in the order they were asked for.
     pub(super) saving: Vec<SaveJob>,
+    /// Pictures of panes being written.
+    pub(super) saving_pictures: Vec<super::pane_picture::PictureJob>,
     pub(super) messages: Vec<Message>,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
     pub(super) solve_message: Option<u64>,
@@ -92,6 +94,7 @@ impl Session {
             resting: None,
             solve_again: false,
             saving: Vec::new(),
+            saving_pictures: Vec::new(),
             messages: Vec::new(),
             solve_message: None,
             next_message: 0,
@@ -172,7 +175,7 @@ impl Session {
         if let Some(running) = &self.running {
             return Some(Busy::Solving(running.phase()));
         }
-        self.saving.first().map(|_| Busy::Saving)
+        (self.is_saving() || !self.saving_pictures.is_empty()).then_some(Busy::Saving)
     }
 
     /// Whether a run takes steps in the background.
@@ -269,6 +272,7 @@ impl Session {
         self.poll_loading();
         self.poll_running();
         self.poll_saving();
+        self.poll_pictures();
     }
 
     fn cancel(&mut self) {

@@ -41,6 +41,8 @@ impl Editor {
         self.hovered = None;
         self.defect = None;
         self.dragged_pin = None;
+        self.pair = None;
+        self.preview = None;
         self.mesh_scene = Some(Arc::new(scene));
     }
 
@@ -52,7 +54,8 @@ impl Editor {
                 Poll::Done(scene) => {
                     self.plane_scene_job = None;
                     if self.plane_camera.is_none() {
-                        self.set_framed(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
+                        let bounds = self.with_picture(scene.arrays.bounds());
+                        self.set_framed(PlaneCamera::framing(bounds, self.plane_pane_size));
                     }
                     self.take_plane_scene(scene);
                 }
