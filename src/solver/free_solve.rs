@@ -10,7 +10,7 @@ use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::equations::Equations;
-use super::least_squares::{Factored, LeastSquares, PinRow};
+use super::least_squares::{Factored, LeastSquares, Rest, Spring};
 use super::system::FreeSystem;
 use super::{Control, Hold, Phase, PhaseSeconds, Pins, Places, SolveError, Treatment};
 use crate::linalg::{Analysis, Factor, FactorStats, LinalgError};
@@ -19,11 +19,8 @@ use crate::mesh::{DiskMesh, VertexId};
 /// One further solve is not worth an interruption.
 static NEVER: AtomicBool = AtomicBool::new(false);
 
-/// A least-squares answer whose conditions for a minimum are off by more is wrong.
-const GRADIENT_LIMIT: f64 = 1e-8;
-
-/// Above this the answer is taken for a start, and solved for once more.
-const GRADIENT_GOAL: f64 = 1e-13;
+/// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
+const GRADIENT_LIMIT: f64 = 1e-10;
 
 /// Equations, matrix and factors; for least squares also what the pins add.
 pub(super) struct FreeSolve {
@@ -31,6 +28,8 @@ pub(super) struct FreeSolve {
     matrix: CscMatrix<Complex<f64>>,
     factor: Factor<Complex<f64>>,
     least_squares: Option<LeastSquares>,
+    /// Pins whose equations are not kept.
+    eliminated: Vec<VertexId>,
 }
 
 /// Where a system stands: its mesh and its unknowns.
@@ -40,38 +39,54 @@ pub(super) struct Site<'a> {
     pub(super) system: &'a FreeSystem,
 }
 
-/// How pins enter a system: which vertices the factors leave out, and which pins least squares has to meet.
+/// How pins enter a system.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
-    /// The vertices without unknown and equation, ascending.
+    /// The vertices without unknown and equation in the factors, ascending: the exact pins, and where all equations are
+    /// kept a gauge.
     pub(super) left_out: Vec<VertexId>,
-    /// Whether those are a gauge that moves all the same; otherwise they are pins, eliminated.
-    pub(super) has_gauge: bool,
-    /// Pins that are rows of the least-squares problem, with their holds.
-    pub(super) rows: Vec<(VertexId, Hold)>,
+    /// Whether the equations of those are kept beside the factors; otherwise they are pins, eliminated.
+    pub(super) keeps_equations: bool,
+    /// The pins.
+    pub(super) holds: BTreeMap<VertexId, Hold>,
 }
 
 impl Layout {
-    /// Lays out a system. `gauge` is asked for where all equations are kept.
+    /// Lays out a system. `gauge` is asked for further vertices to leave out where all equations are kept.
     pub(super) fn new(
         pins: &Pins,
         treatment: Treatment,
-        gauge: impl FnOnce() -> Result<[VertexId; 2], SolveError>,
+        gauge: impl FnOnce(&[VertexId]) -> Result<Vec<VertexId>, SolveError>,
     ) -> Result<Self, SolveError> {
-        let of = |is_wanted: fn(Hold) -> bool| -> Vec<(VertexId, Hold)> {
-            pins.iter().filter(|(_, pin)| is_wanted(pin.hold)).map(|(&v, pin)| (v, pin.hold)).collect()
-        };
-        let exact = of(Hold::is_exact);
+        let holds: BTreeMap<VertexId, Hold> = pins.iter().map(|(&v, pin)| (v, pin.hold)).collect();
+        let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
+        let mut left_out: Vec<VertexId> = exact.map(|(&v, _)| v).collect();
         // One pin alone does not fix the similarity: what is left without its equation would still be singular.
-        if treatment == Treatment::Eliminate && exact.len() >= 2 {
-            let left_out = exact.into_iter().map(|(v, _)| v).collect();
-            return Ok(Self { left_out, has_gauge: false, rows: of(|hold| !hold.is_exact()) });
+        let keeps_equations = treatment != Treatment::Eliminate || left_out.len() < 2;
+        if keeps_equations {
+            left_out.extend(gauge(&left_out)?);
+            left_out.sort_unstable();
+            left_out.dedup();
         }
-        Ok(Self { left_out: gauge()?.to_vec(), has_gauge: true, rows: of(|_| true) })
+        Ok(Self { left_out, keeps_equations, holds })
     }
 
     pub(super) fn system(&self, mesh: &DiskMesh) -> FreeSystem {
         FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok())
+    }
+
+    /// What is left for least squares, where anything is. `unit` is what the rows are to be multiplied by so that they
+    /// are those of a geometry whose edges have length 1 on average.
+    fn rest(&self, unit: f64) -> Option<Rest> {
+        let spring = |(&vertex, hold): (&VertexId, &Hold)| match hold {
+            Hold::Fixed | Hold::Hard => None,
+            Hold::Weighted(weight) => Some(Spring { vertex, compliance: (weight * unit).powi(-2) }),
+        };
+        let springs: Vec<Spring> = self.holds.iter().filter_map(spring).collect();
+        let left_out = if self.keeps_equations { self.left_out.clone() } else { Vec::new() };
+        let can_move = |v: &VertexId| !self.holds.get(v).is_some_and(|hold| hold.is_exact());
+        let movers = left_out.iter().copied().filter(can_move).collect();
+        (self.keeps_equations || !springs.is_empty()).then_some(Rest { left_out, movers, springs })
     }
 }
 
@@ -92,18 +107,12 @@ impl FreeSolve {
         control.enter(Phase::Factor)?;
         let start = Instant::now();
         let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
-        let least_squares = if layout.has_gauge || !layout.rows.is_empty() {
-            let row =
-                |&(vertex, hold): &(VertexId, Hold)| PinRow { vertex, compliance: hold.compliance() / (unit * unit) };
-            let pins = layout.rows.iter().map(row).collect();
-            let gauge = if layout.has_gauge { layout.left_out.clone() } else { Vec::new() };
-            let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
-            Some(LeastSquares::new(site, &equations, (gauge, pins), &factored).map_err(named)?)
-        } else {
-            None
-        };
+        let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
+        let ready = |rest| LeastSquares::new(site, &equations, rest, &factored).map_err(named);
+        let least_squares = layout.rest(unit).map(ready).transpose()?;
         seconds.factor += start.elapsed().as_secs_f64();
-        Ok(Self { equations, matrix, factor, least_squares })
+        let eliminated = if layout.keeps_equations { Vec::new() } else { layout.left_out.clone() };
+        Ok(Self { equations, matrix, factor, least_squares, eliminated })
     }
 
     /// The embedding with the pins on their targets, or as near as their weights bring them, and how well the system is
@@ -113,24 +122,16 @@ impl FreeSolve {
         for (vertex, target) in targets {
             start[vertex.index()] = *target;
         }
-        if self.least_squares.is_none() {
-            return self.move_from(site, (&start, &self.left_over(site.mesh, &start)), targets, Begin::Nothing);
-        }
-        let (found, residual) =
+        let (embedding, residual) =
             self.move_from(site, (&start, &self.left_over(site.mesh, &start)), targets, Begin::Nothing)?;
-        if residual <= GRADIENT_GOAL {
-            return Ok((found, residual));
-        }
-        let again = self.move_from(site, (&found, &self.left_over(site.mesh, &found)), targets, Begin::Near)?;
-        let (embedding, residual) = if again.1 < residual { again } else { (found, residual) };
-        if residual > GRADIENT_LIMIT {
+        if self.least_squares.is_some() && residual > GRADIENT_LIMIT {
             return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
         }
         Ok((embedding, residual))
     }
 
-    /// The same, found as a move from an embedding; `left` is what it leaves of every vertex's equation. Where it nearly
-    /// solves the equations the move is small, and so is its rounding.
+    /// The same, found as a move from an embedding that has the exact pins on their targets; the second is what it leaves of
+    /// every vertex's equation. Where it nearly solves the equations the move is small, and so is its rounding.
     pub(super) fn solve_from(
         &self,
         site: Site<'_>,
@@ -163,50 +164,49 @@ impl FreeSolve {
             return Ok((embedding, residual));
         };
         let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: &NEVER };
-        let way = |pin: &PinRow| {
+        let way = |pin: &Spring| {
             let way = targets[&pin.vertex] - start[pin.vertex.index()];
             Complex::new(way.x, way.y)
         };
-        let ways: Vec<_> = least_squares.pins().iter().map(way).collect();
+        let ways: Vec<_> = least_squares.springs().iter().map(way).collect();
         let moves = least_squares.moves(site, &factored, (left, &ways)).map_err(named)?;
-        for (z, by) in embedding.iter_mut().zip(moves) {
+        // Adding nothing would still make a zero of a negative zero.
+        for (z, by) in embedding.iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO) {
             *z += DVec2::new(by.re, by.im);
         }
-        for pin in least_squares.pins().iter().filter(|pin| pin.is_exact()) {
-            embedding[pin.vertex.index()] = targets[&pin.vertex];
-        }
-        let residual = self.gradient_residual(site, &embedding, (least_squares.pins(), targets));
+        let residual = self.gradient_residual(site, &embedding, (least_squares.springs(), targets));
         Ok((embedding, residual))
     }
 
     /// The conditions for a minimum: what is left must be orthogonal to every move. ‖Aᴴ A z + W² (z − t)‖ over the
-    /// vertices that can move, relative to the sizes of its terms.
-    fn gradient_residual(&self, site: Site<'_>, embedding: &[DVec2], (pins, targets): (&[PinRow], &Places)) -> f64 {
+    /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² |z − t|‖, the sizes of the terms that should cancel.
+    fn gradient_residual(&self, site: Site<'_>, embedding: &[DVec2], (springs, targets): (&[Spring], &Places)) -> f64 {
         let mesh = site.mesh;
         let mut left = self.left_over(mesh, embedding);
-        let eliminated: Vec<VertexId> =
-            targets.keys().copied().filter(|v| pins.iter().all(|pin| pin.vertex != *v)).collect();
-        for vertex in &eliminated {
+        let mut sizes = vec![0.0; mesh.vertex_count()];
+        for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
+            let along = embedding[mesh.head(h).index()].distance(embedding[mesh.tail(h).index()]);
+            sizes[mesh.tail(h).index()] += coefficient.norm() * along;
+        }
+        for vertex in &self.eliminated {
             left[vertex.index()] = Complex::ZERO;
+            sizes[vertex.index()] = 0.0;
         }
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
-            let term = coefficient.conj() * left[mesh.tail(h).index()];
+            let tail = mesh.tail(h).index();
+            let (term, term_size) = (coefficient.conj() * left[tail], coefficient.norm() * sizes[tail]);
             for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
                 let (sum, size) = &mut sums[vertex.index()];
                 *sum += term * sign;
-                *size += term.norm();
+                *size += term_size;
             }
         }
-        for vertex in eliminated {
+        for vertex in targets.keys().filter(|v| springs.iter().all(|pin| pin.vertex != **v)) {
             sums[vertex.index()] = (Complex::ZERO, 0.0);
         }
-        for pin in pins {
+        for pin in springs {
             let at = &mut sums[pin.vertex.index()];
-            if pin.is_exact() {
-                *at = (Complex::ZERO, 0.0);
-                continue;
-            }
             let way = (embedding[pin.vertex.index()] - targets[&pin.vertex]) / pin.compliance;
             at.0 += Complex::new(way.x, way.y);
             at.1 += way.length();

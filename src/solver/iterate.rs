@@ -47,11 +47,11 @@ impl Iteration {
         check_pins(mesh, &held_in(embedding, pins))?;
         control.enter(Phase::Analyze)?;
         let start = Instant::now();
-        let layout = Layout::new(pins, treatment, || {
+        let layout = Layout::new(pins, treatment, |_| {
             if mesh.vertex_count() > 2 {
                 gauge_or_farthest(mesh, &natural_in_plane(mesh, embedding), control)
             } else {
-                Ok(farthest_pair(mesh))
+                Ok(farthest_pair(mesh).to_vec())
             }
         })?;
         let system = layout.system(mesh);

@@ -2,28 +2,29 @@
 //!
 //! # Problem
 //!
-//! A move δ from positions that leave D of the equations minimises
+//! A move δ from positions that leave D of the equations, with the exact pins on their targets already, minimises
 //!
 //! ```text
-//! ‖A δ + D‖² + Σ w_j² |δ_j − τ_j|²      over the weighted pins j,   with δ_j = τ_j for the exact ones
+//! ‖A δ + D‖² + Σ w_j² |δ_j − τ_j|²      over the weighted pins j,   with δ = 0 on the exact ones
 //! ```
 //!
 //! where τ is the way from a pin to its target.
 //!
 //! # Method
 //!
-//! The factors leave out the unknowns *and* the equations of a few vertices: either two vertices g where the equations
-//! depend on each other (`left_kernel.rs`), whatever is pinned; or the pins that are eliminated, and then g is empty.
-//! With N = −A without these rows and columns, s = δ on g, and e the (negated) residual of the other rows:
+//! The factors leave out the unknowns *and* the equations of a few vertices g, and these equations are kept apart: g are
+//! the exact pins, and two vertices where the equations depend on each other (`left_kernel.rs`). Of g those that are
+//! not pinned exactly can move: m. With N = −A without the rows and columns of g, s = δ on m, and e the (negated)
+//! residual of the other rows:
 //!
 //! ```text
-//! δ   = u + U s + N⁻¹ e        u = N⁻¹ D,  U = N⁻¹ A_{·g}
-//! r_g = ρ + S s + A_{g·} N⁻¹ e  ρ = A_{g·} u + D_g,  S = A_{g·} U + A_gg
+//! δ   = u + U s + N⁻¹ e        u = N⁻¹ D,  U = N⁻¹ A_{·m}
+//! r_g = ρ + S s + A_{g·} N⁻¹ e  ρ = A_{g·} u + D_g,  S = A_{g·} U + A_gm
 //! ```
 //!
-//! Stationarity gives `e = −W (r_g, λ)` and `w_j² (δ_j − τ_j) = λ_j`, where W has the columns `N⁻ᴴ A_{g·}ᴴ` and `N⁻ᴴ E_Pᵀ`.
-//! With K = Wᴴ W, the compliances C = diag(1/w_j²), zero for exact pins, and M = U on the pins (the identity on pins in
-//! g) that is a dense system of k + 4 unknowns:
+//! Stationarity gives `e = −W (r_g, λ)` and `w_j² (δ_j − τ_j) = λ_j`, where W has the columns `N⁻ᴴ A_{g·}ᴴ` and `N⁻ᴴ E_Pᵀ`,
+//! P being the weighted pins. With K = Wᴴ W, the compliances C = diag(1/w_j²), and M = U on P (the identity where P and
+//! m meet) that is a small dense system:
 //!
 //! ```text
 //! ⎡ I + K_gg  K_gP      −S ⎤ ⎡ r_g ⎤   ⎡ ρ       ⎤
@@ -31,7 +32,8 @@
 //! ⎣ Sᴴ        Mᴴ         0 ⎦ ⎣ s   ⎦   ⎣ 0       ⎦
 //! ```
 //!
-//! It depends on the pinned vertices and their weights alone: other targets cost three solves.
+//! It depends on the pinned vertices and their weights alone: other targets cost three solves. Where pins are eliminated,
+//! their equations are not kept, and g is empty.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -63,30 +65,32 @@ pub(super) struct Factored<'a> {
     pub(super) cancel: &'a AtomicBool,
 }
 
-/// A pinned vertex as least squares sees it.
+/// A weighted pin as least squares sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PinRow {
+pub(super) struct Spring {
     pub(super) vertex: VertexId,
-    /// 1/weight², in units of the equations; 0 where the pin is exact.
+    /// 1/weight², in units of the equations.
     pub(super) compliance: f64,
 }
 
-impl PinRow {
-    /// Whether the target is met to the last bit.
-    pub(super) fn is_exact(&self) -> bool {
-        self.compliance == 0.0
-    }
+/// What the factors leave out, and what pulls.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Rest {
+    /// g: the vertices whose equations are kept apart.
+    pub(super) left_out: Vec<VertexId>,
+    /// m: those of them that can move.
+    pub(super) movers: Vec<VertexId>,
+    /// P: the weighted pins.
+    pub(super) springs: Vec<Spring>,
 }
 
 /// A problem made ready: everything that does not depend on where the pins are to go.
 pub(super) struct LeastSquares {
-    /// The vertices that the factors leave out and that move all the same: two or none.
-    gauge: Vec<VertexId>,
-    pins: Vec<PinRow>,
-    /// The gauge's equations and the pins' unit rows, over the unknowns of the factors.
+    rest: Rest,
+    /// The equations of g and the unit rows of P, over the unknowns of the factors.
     rows: Vec<Row>,
-    /// What the gauge's vertices give to the other equations.
-    from_gauge: Vec<Vec<C64>>,
+    /// What the movers give to the other equations.
+    from_movers: Vec<Vec<C64>>,
     dense: LU<C64, Dyn, Dyn>,
 }
 
@@ -95,25 +99,26 @@ impl LeastSquares {
     pub(super) fn new(
         site: Site<'_>,
         equations: &Equations<C64>,
-        (gauge, pins): (Vec<VertexId>, Vec<PinRow>),
+        rest: Rest,
         factored: &Factored<'_>,
     ) -> Result<Self, LinalgError> {
-        let unit = |pin: &PinRow| site.system.row(pin.vertex).map(|row| vec![(row, C64::ONE)]).unwrap_or_default();
-        let rows: Vec<Row> =
-            gauge.iter().map(|&v| equation_of(site, equations, v)).chain(pins.iter().map(unit)).collect();
-        let from_gauge: Vec<Vec<C64>> = gauge.iter().map(|&v| column_of(site, equations, v)).collect();
-        let by_gauge = factored.factor.solve_many(factored.matrix, &from_gauge.concat())?.x;
+        let Rest { left_out, movers, springs } = &rest;
+        let unit = |pin: &Spring| site.system.row(pin.vertex).map(|row| vec![(row, C64::ONE)]).unwrap_or_default();
+        let equation = |&v: &VertexId| equation_of(site, equations, v);
+        let rows: Vec<Row> = left_out.iter().map(equation).chain(springs.iter().map(unit)).collect();
+        let from_movers: Vec<Vec<C64>> = movers.iter().map(|&v| column_of(site, equations, v)).collect();
+        let by_movers = factored.factor.solve_many(factored.matrix, &from_movers.concat())?.x;
         let n = site.system.free().len();
-        let (k, g) = (rows.len(), gauge.len());
-        let mut matrix: DMatrix<C64> = DMatrix::zeros(k + g, k + g);
+        let (k, g, m) = (rows.len(), left_out.len(), movers.len());
+        let mut matrix: DMatrix<C64> = DMatrix::zeros(k + m, k + m);
         matrix.view_mut((0, 0), (k, k)).copy_from(&gram_of(&rows, n, factored)?);
         for (i, row) in rows.iter().enumerate() {
-            matrix[(i, i)] += if i < g { 1.0 } else { pins[i - g].compliance };
-            for j in 0..g {
-                let mut entry = along(row, &by_gauge[j * n..(j + 1) * n]);
+            matrix[(i, i)] += if i < g { 1.0 } else { springs[i - g].compliance };
+            for (j, &mover) in movers.iter().enumerate() {
+                let mut entry = along(row, &by_movers[j * n..(j + 1) * n]);
                 if i < g {
-                    entry += between(site, equations, [gauge[i], gauge[j]]);
-                } else if pins[i - g].vertex == gauge[j] {
+                    entry += between(site, equations, [left_out[i], mover]);
+                } else if springs[i - g].vertex == mover {
                     entry += C64::ONE;
                 }
                 matrix[(i, k + j)] = -entry;
@@ -124,11 +129,11 @@ impl LeastSquares {
         if !dense.is_invertible() {
             return Err(LinalgError::Singular { row: 0 });
         }
-        Ok(Self { gauge, pins, rows, from_gauge, dense })
+        Ok(Self { rest, rows, from_movers, dense })
     }
 
     /// The moves of all vertices that leave least of the equations, of which `left` is left before. `ways` are those
-    /// from the pins to their targets.
+    /// from the weighted pins to their targets.
     pub(super) fn moves(
         &self,
         site: Site<'_>,
@@ -138,10 +143,10 @@ impl LeastSquares {
         let free = site.system.free();
         let mut terms: Vec<C64> = free.iter().map(|v| left[v.index()]).collect();
         let still = factored.factor.solve_correction(factored.matrix, &terms)?.x;
-        let (k, g) = (self.rows.len(), self.gauge.len());
-        let mut rhs = DVector::zeros(k + g);
+        let (k, g) = (self.rows.len(), self.rest.left_out.len());
+        let mut rhs = DVector::zeros(k + self.rest.movers.len());
         for (i, row) in self.rows.iter().enumerate() {
-            rhs[i] = along(row, &still) + if i < g { left[self.gauge[i].index()] } else { -ways[i - g] };
+            rhs[i] = along(row, &still) + if i < g { left[self.rest.left_out[i].index()] } else { -ways[i - g] };
         }
         let answer = self.dense.solve(&rhs).ok_or(LinalgError::Singular { row: 0 })?;
         let mut forces = vec![C64::ZERO; free.len()];
@@ -150,26 +155,23 @@ impl LeastSquares {
         }
         let residual = factored.factor.solve_adjoint(factored.matrix, &forces)?.x;
         for (i, term) in terms.iter_mut().enumerate() {
-            for (column, &moved) in self.from_gauge.iter().zip(answer.iter().skip(k)) {
+            for (column, &moved) in self.from_movers.iter().zip(answer.iter().skip(k)) {
                 *term += column[i] * moved;
             }
             *term -= residual[i];
         }
         let moves = factored.factor.solve_correction(factored.matrix, &terms)?.x;
         let mut all = vec![C64::ZERO; site.mesh.vertex_count()];
-        let by_gauge = self.gauge.iter().zip(answer.iter().skip(k));
-        for (vertex, &z) in free.iter().zip(&moves).chain(by_gauge) {
+        let by_movers = self.rest.movers.iter().zip(answer.iter().skip(k));
+        for (vertex, &z) in free.iter().zip(&moves).chain(by_movers) {
             all[vertex.index()] = z;
-        }
-        for (pin, way) in self.pins.iter().zip(ways).filter(|(pin, _)| pin.is_exact()) {
-            all[pin.vertex.index()] = *way;
         }
         Ok(all)
     }
 
-    /// The pins, in the order of the ways.
-    pub(super) fn pins(&self) -> &[PinRow] {
-        &self.pins
+    /// The weighted pins, in the order of the ways.
+    pub(super) fn springs(&self) -> &[Spring] {
+        &self.rest.springs
     }
 }
 

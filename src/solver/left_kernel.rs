@@ -78,9 +78,9 @@ pub(super) fn gauge_or_farthest(
     mesh: &DiskMesh,
     equations: &Equations<C64>,
     control: Control<'_>,
-) -> Result<[VertexId; 2], SolveError> {
+) -> Result<Vec<VertexId>, SolveError> {
     match gauge_of(mesh, equations, control) {
-        Err(error) if error != SolveError::Cancelled => Ok(farthest_pair(mesh)),
-        other => other,
+        Err(error) if error != SolveError::Cancelled => Ok(farthest_pair(mesh).to_vec()),
+        other => other.map(Vec::from),
     }
 }

@@ -38,14 +38,6 @@ impl Hold {
     pub const fn is_exact(self) -> bool {
         !matches!(self, Self::Weighted(_))
     }
-
-    /// 1/weight²: how far a vertex gives way to a unit of force; 0 where it does not.
-    pub(super) fn compliance(self) -> f64 {
-        match self {
-            Self::Fixed | Self::Hard => 0.0,
-            Self::Weighted(weight) => (weight * weight).recip(),
-        }
-    }
 }
 
 impl Pin {

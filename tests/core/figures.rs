@@ -7,7 +7,7 @@ use freebound::examples::Example;
 use freebound::io::figure::{has_glyph, zones_of};
 use freebound::io::raster::Colour;
 use freebound::mesh::{DiskMesh, FaceId};
-use freebound::solver::{Control, Ending, Method, Pins, Run, Settings, Step};
+use freebound::solver::{Control, Ending, Method, Run, Settings, Step, fixed_pins};
 use glam::DVec2;
 
 use crate::common::{csv_rows, grid};
@@ -133,7 +133,7 @@ fn the_pairs_fold_as_measured_and_both_methods_repair_what_they_fold() {
     for pair in PAIRS {
         let [a, b] = pair.vertices;
         let distance = mesh.position(a).distance(mesh.position(b));
-        let pins = Pins::from([(a, DVec2::ZERO), (b, DVec2::new(distance, 0.0))]);
+        let pins = fixed_pins([(a, DVec2::ZERO), (b, DVec2::new(distance, 0.0))]);
         for (weights, (name, ..)) in WEIGHTS.iter().enumerate() {
             let folded = Run::new(settings(weights), pins.clone()).step(&mesh, Control::unattended()).unwrap();
             assert_eq!(folded.verdict.flipped_faces.len(), pair.flipped_faces[weights], "{a}, {b}, {name}");

@@ -6,7 +6,8 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, HalfedgeId, VertexId};
 use freebound::solver::plane_weights::{left_over_in_plane, natural_in_plane};
 use freebound::solver::{
-    Control, Family, Iteration, Method, Pins, Run, Settings, Step, Treatment, diameter, flatten, largest_move, verdict,
+    Control, Family, Iteration, Method, Pins, Run, Settings, Step, Treatment, diameter, flatten, hard_pins,
+    largest_move, verdict,
 };
 use glam::DVec2;
 use num_complex::Complex;
@@ -30,9 +31,15 @@ fn steps_of(mesh: &DiskMesh, settings: Settings, pins: Pins) -> Vec<Step> {
     steps
 }
 
+/// Pins that hold vertices where an embedding has them.
+fn at_place(pinned: &[VertexId], embedding: &[DVec2]) -> Pins {
+    hard_pins(pinned.iter().map(|&v| (v, embedding[v.index()])))
+}
+
 /// One step from an embedding, with some of its vertices pinned where they lie.
 fn step(mesh: &DiskMesh, embedding: &[DVec2], pinned: &[VertexId], treatment: Treatment) -> Vec<DVec2> {
-    let iteration = Iteration::new(mesh, embedding, pinned, treatment, Control::unattended()).unwrap();
+    let iteration =
+        Iteration::new(mesh, embedding, &at_place(pinned, embedding), treatment, Control::unattended()).unwrap();
     iteration.step(mesh, embedding, Control::unattended()).unwrap().embedding
 }
 
@@ -58,7 +65,9 @@ fn dense_least_squares(mesh: &DiskMesh, embedding: &[DVec2], pins: &Pins) -> Vec
         for (v, sign) in [(head, 1.0), (tail, -1.0)] {
             match column(v) {
                 Some(column) => matrix[(tail.index(), column)] += coefficient * sign,
-                None => rhs[(tail.index(), 0)] -= coefficient * sign * Complex::new(pins[&v].x, pins[&v].y),
+                None => {
+                    rhs[(tail.index(), 0)] -= coefficient * sign * Complex::new(pins[&v].target.x, pins[&v].target.y)
+                }
             }
         }
     }
@@ -80,7 +89,7 @@ fn least_squares_agrees_with_a_dense_solution_however_many_pins_there_are() {
             pinned.swap_remove(random.below(u32::try_from(pinned.len()).unwrap()) as usize);
         }
         pinned.sort_unstable();
-        let pins: Pins = pinned.iter().map(|&v| (v, embedding[v.index()])).collect();
+        let pins = at_place(&pinned, &embedding);
         let ours = step(&mesh, &embedding, &pinned, Treatment::LeastSquares);
         let dense = dense_least_squares(&mesh, &embedding, &pins);
         let apart = largest_move(&dense, &ours) / diameter(&embedding);
@@ -149,7 +158,7 @@ fn on_cubes(count: u32, treatment: Treatment) -> (u32, usize) {
         let mesh = irregular_cube(4 + case % 9, &mut random);
         let [a, b] = interior_pair(&mesh, &mut random);
         let distance = mesh.position(a).distance(mesh.position(b));
-        let pins = Pins::from([(a, DVec2::ZERO), (b, DVec2::new(distance, 0.0))]);
+        let pins = hard_pins([(a, DVec2::ZERO), (b, DVec2::new(distance, 0.0))]);
         let settings = Settings { treatment: Some(treatment), ..Settings::new(Method::Iterate, Family::Conformal) };
         let steps = steps_of(&mesh, settings, pins);
         let last = steps.last().unwrap();
@@ -292,8 +301,14 @@ fn a_degenerate_embedding_says_that_weights_were_bounded_and_goes_on() {
     embedding[c] = embedding[a];
     embedding[d] = embedding[7].midpoint(embedding[9]);
     let corners = [0, 5].map(VertexId::new);
-    let iteration =
-        Iteration::new(&mesh, &embedding, &corners, Treatment::LeastSquares, Control::unattended()).unwrap();
+    let iteration = Iteration::new(
+        &mesh,
+        &embedding,
+        &at_place(&corners, &embedding),
+        Treatment::LeastSquares,
+        Control::unattended(),
+    )
+    .unwrap();
     let solution = iteration.step(&mesh, &embedding, Control::unattended()).unwrap();
     assert!(solution.bounded_corners > 0);
     assert!(solution.embedding.iter().all(|z| z.is_finite()));
@@ -304,7 +319,7 @@ fn a_degenerate_embedding_says_that_weights_were_bounded_and_goes_on() {
 #[test]
 fn the_iteration_stops_at_the_limit_and_can_be_taken_on_by_hand() {
     let mesh = disk(Example::Cube);
-    let pins = Pins::from([(VertexId::new(0), DVec2::ZERO), (VertexId::new(1), DVec2::X)]);
+    let pins = hard_pins([(VertexId::new(0), DVec2::ZERO), (VertexId::new(1), DVec2::X)]);
     let settings = Settings { max_steps: 2, ..Settings::new(Method::Iterate, Family::Wachspress) };
     let mut run = Run::new(settings, pins);
     let mut taken = 0;

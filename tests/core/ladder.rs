@@ -4,7 +4,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::{Control, Ending, Family, Method, Phase, Pins, Run, Settings, SolveError, Step, verdict};
+use freebound::solver::{
+    Control, Ending, Family, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step, hard_pins, verdict,
+};
 use glam::DVec2;
 
 use crate::common::{Random, corpus_disks};
@@ -24,7 +26,7 @@ fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Vec<Step> {
 
 /// Pins on two vertices, at their distance in space.
 fn pins_on(mesh: &DiskMesh, [a, b]: [VertexId; 2]) -> Pins {
-    Pins::from([(a, DVec2::ZERO), (b, DVec2::new(mesh.position(a).distance(mesh.position(b)), 0.0))])
+    hard_pins([(a, DVec2::ZERO), (b, DVec2::new(mesh.position(a).distance(mesh.position(b)), 0.0))])
 }
 
 fn boundary_pair(mesh: &DiskMesh, random: &mut Random) -> [VertexId; 2] {
@@ -62,7 +64,11 @@ fn auto_ends_planar_from_any_two_pins_and_any_family() {
                 assert!(last.verdict.planar, "{name}, {family}, pins {pair:?}: {}", last.verdict.summary());
                 assert!(verdict(&mesh, &last.solution.embedding).planar);
                 for (v, target) in &pins {
-                    assert_eq!(last.solution.embedding[v.index()], *target, "{name}: pins are met to the last bit");
+                    assert_eq!(
+                        last.solution.embedding[v.index()],
+                        target.target,
+                        "{name}: pins are met to the last bit"
+                    );
                 }
             }
         }
@@ -120,7 +126,7 @@ fn a_singular_first_rung_is_noted_and_stepped_over() {
 #[test]
 fn what_the_user_got_wrong_is_an_error_and_no_rung_hides_it() {
     let mesh = disk(Example::Dome);
-    let twice = Pins::from([(VertexId::new(1), DVec2::ONE), (VertexId::new(2), DVec2::ONE)]);
+    let twice = hard_pins([(VertexId::new(1), DVec2::ONE), (VertexId::new(2), DVec2::ONE)]);
     let outcome = Run::new(Settings::default(), twice).step(&mesh, Control::unattended());
     assert!(matches!(outcome, Err(SolveError::CoincidentPins { .. })));
     let uniform =
@@ -135,14 +141,14 @@ fn constraints_are_iterated_on_but_no_boundary_is_bent_for_them() {
     let boundary = mesh.boundary_loop();
     for (k, &v) in boundary.iter().step_by(boundary.len() / 5).enumerate() {
         // Five places of a pentagram: the boundary has to cross itself.
-        pins.insert(v, DVec2::from_angle(2.0 * std::f64::consts::TAU * k as f64 / 5.0) * 10.0);
+        pins.insert(v, Pin::hard(DVec2::from_angle(2.0 * std::f64::consts::TAU * k as f64 / 5.0) * 10.0));
     }
     let mut run = Run::new(Settings { max_steps: 4, ..Settings::default() }, pins.clone());
     let mut steps = Vec::new();
     let ending = run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     assert!(matches!(ending, Ending::Limit | Ending::Stalled), "{ending:?}");
     assert!(steps[1..].iter().all(|step| step.rung == Method::Iterate));
-    assert!(steps.iter().all(|step| pins.iter().all(|(v, at)| step.solution.embedding[v.index()] == *at)));
+    assert!(steps.iter().all(|step| pins.iter().all(|(v, at)| step.solution.embedding[v.index()] == at.target)));
 }
 
 /// A run whose every step is first cancelled at each of its phases in turn, then let through.
@@ -206,7 +212,7 @@ fn the_same_run_gives_the_same_bits() {
 fn a_virtual_boundary_refuses_constraints_and_says_what_to_choose() {
     let mesh = disk(Example::Face);
     let boundary = mesh.boundary_loop();
-    let pins: Pins = (0..3).map(|k| (boundary[7 * k], DVec2::from_angle(k as f64))).collect();
+    let pins = hard_pins((0..3).map(|k| (boundary[7 * k], DVec2::from_angle(k as f64))));
     let outcome =
         Run::new(Settings::new(Method::VirtualBoundary, Family::Conformal), pins).step(&mesh, Control::unattended());
     assert_eq!(outcome.err(), Some(SolveError::TooManyPins { count: 3, most: 2 }));
@@ -217,7 +223,7 @@ fn every_ladder_ends_however_far_apart_the_numbers_are() {
     // Faces squeezed far beyond what 64 bits can tell apart, and a similarity that takes them farther still.
     let mesh = finger(120, 8, &mut Random(2));
     let boundary = mesh.boundary_loop();
-    let far = Pins::from([(boundary[0], DVec2::ZERO), (boundary[4], DVec2::new(1e61, 0.0))]);
+    let far = hard_pins([(boundary[0], DVec2::ZERO), (boundary[4], DVec2::new(1e61, 0.0))]);
     for (pins, limit) in [(Pins::new(), 200), (far, 200)] {
         let mut run = Run::new(Settings { max_steps: 5, ..Settings::default() }, pins);
         let mut taken = 0;

@@ -9,7 +9,8 @@ use freebound::linalg::{Analysis, Kind, LinalgError};
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::{
-    Control, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, flatten, gauge_pins, verdict,
+    Control, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, fixed_pins, flatten, gauge_pins,
+    hard_pins, verdict,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
@@ -100,7 +101,7 @@ fn the_conformal_matrix_is_hermitian_bit_for_bit() {
     let corpus = corpus_disks().into_iter().map(|entry| (entry.file.clone(), entry.disk()));
     for (name, mesh) in built_in.into_iter().chain(corpus) {
         let equations = equations::natural(&mesh, Family::CONFORMAL_POWER).unwrap();
-        let pins = gauge_pins(&mesh);
+        let pins = fixed_pins(gauge_pins(&mesh));
         let matrix = FreeSystem::new(&mesh, |v| pins.contains_key(&v)).negated_matrix(&mesh, &equations);
         for (row, column, value) in matrix.triplet_iter() {
             let mirror = matrix.get_entry(column, row).expect("the pattern is symmetric").into_value();
@@ -143,11 +144,11 @@ fn dense_solution(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Vec<DVec
         }
     }
     let mut right = Mat::<Complex<f64>>::zeros(n, 1);
-    for (vertex, target) in pins {
+    for (vertex, pin) in pins {
         let row = vertex.index();
         matrix.row_mut(row).fill(Complex::ZERO);
         matrix[(row, row)] = Complex::ONE;
-        right[(row, 0)] = Complex::new(target.x, target.y);
+        right[(row, 0)] = Complex::new(pin.target.x, pin.target.y);
     }
     for row in 0..n {
         let largest = (0..n).map(|column| matrix[(row, column)].norm()).fold(0.0, f64::max);
@@ -165,7 +166,7 @@ fn a_dense_solve_written_corner_by_corner_agrees() {
     let corpus = corpus_disks().into_iter().map(|entry| (entry.file.clone(), entry.disk()));
     let built_in = [Example::Dome, Example::Ell].map(|e| (e.name().to_owned(), DiskMesh::try_from(e.mesh()).unwrap()));
     for (name, mesh) in corpus.chain(built_in).filter(|(_, mesh)| mesh.vertex_count() <= DENSE_LIMIT) {
-        let pins = gauge_pins(&mesh);
+        let pins = fixed_pins(gauge_pins(&mesh));
         for settings in free_methods() {
             let found = flatten(&mesh, &settings, &pins, Control::unattended()).unwrap().embedding;
             let error = distance(&found, &dense_solution(&mesh, &settings, &pins));
@@ -187,7 +188,7 @@ fn unsymmetric(mesh: &DiskMesh) -> [(&'static str, Equations<Complex<f64>>); 3] 
 fn the_lu_finds_manufactured_solutions_on_the_disks_of_the_corpus() {
     for entry in corpus_disks() {
         let mesh = entry.disk();
-        let pins = gauge_pins(&mesh);
+        let pins = fixed_pins(gauge_pins(&mesh));
         let system = FreeSystem::new(&mesh, |v| pins.contains_key(&v));
         let analysis = Analysis::new(Kind::General, system.pattern()).unwrap();
         let mut random = Random(11);
@@ -244,7 +245,7 @@ fn face() -> DiskMesh {
 fn a_preparation_used_again_gives_the_bits_of_a_fresh_solve() {
     let mesh = face();
     let at = |targets: [[f64; 2]; 3]| -> Pins {
-        [3, 500, 999].map(VertexId::new).into_iter().zip(targets.map(DVec2::from)).collect()
+        hard_pins([3, 500, 999].map(VertexId::new).into_iter().zip(targets.map(DVec2::from)))
     };
     let first = at([[0.0, 0.0], [1.0, 0.0], [0.3, 0.8]]);
     let second = at([[0.1, 0.0], [-1.0, 5.0], [0.3, -0.8]]);
@@ -264,7 +265,7 @@ fn a_preparation_used_again_gives_the_bits_of_a_fresh_solve() {
 fn a_preparation_serves_only_its_own_settings_and_vertices() {
     let mesh = face();
     let pins =
-        |list: &[u32]| -> Pins { list.iter().map(|&v| (VertexId::new(v), DVec2::new(f64::from(v), 1.0))).collect() };
+        |list: &[u32]| -> Pins { hard_pins(list.iter().map(|&v| (VertexId::new(v), DVec2::new(f64::from(v), 1.0)))) };
     let settings = natural(Family::Conformal);
     let prepared = Prepared::new(&mesh, &settings, &pins(&[1, 5]), Control::unattended()).unwrap();
     assert!(prepared.serves(&settings, &pins(&[1, 5])));

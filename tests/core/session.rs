@@ -10,7 +10,7 @@ use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::{
     Action, Document, OutputFit, Place, RecentFiles, SaveRequest, Session, Severity, StopConditions,
 };
-use freebound::solver::{BoundaryShape, Control, Family, Method, Settings, flatten};
+use freebound::solver::{BoundaryShape, Control, Family, Method, Pin, Settings, flatten};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -92,7 +92,7 @@ fn one_fixed_vertex_leaves_the_embedding_where_it_is() {
     let mut session = opened(Example::Dome);
     let before = session.outcome().expect("solved").step.solution.embedding.clone();
     settled(&mut session, Action::Fix(vec![id(100)]));
-    assert_eq!(session.document().pins[&id(100)], before[100]);
+    assert_eq!(session.document().pins[&id(100)], Pin::fixed(before[100]));
     let after = &session.outcome().expect("solved").step.solution.embedding;
     assert!(before.iter().zip(after).all(|(a, b)| a.distance(*b) < 1e-9));
 }
@@ -112,7 +112,7 @@ fn settings_stay_when_another_mesh_opens_and_pins_go() {
 fn a_drag_ends_where_a_fresh_solve_would() {
     let mut session = opened(Example::Dome);
     settled(&mut session, Action::Fix(vec![id(3), id(100), id(200)]));
-    let from = session.document().pins[&id(100)];
+    let from = session.document().pins[&id(100)].target;
     for i in 1..=40 {
         let target = from + DVec2::new(0.002, 0.001) * f64::from(i);
         session.handle(Action::MovePin { vertex: id(100), target });
@@ -122,7 +122,7 @@ fn a_drag_ends_where_a_fresh_solve_would() {
     settle(&mut session);
     assert!(session.is_current());
     let disk = session.model().expect("open").disk().expect("a disk");
-    let Document { pins, settings } = session.document();
+    let Document { pins, settings, .. } = session.document();
     let fresh = flatten(disk, settings, pins, Control::unattended()).expect("solvable");
     assert_eq!(fresh.embedding, session.outcome().expect("solved").step.solution.embedding);
 }
@@ -326,8 +326,8 @@ impl Walk {
         assert_eq!(outcome.step.solution.embedding.len(), model.mesh().vertex_count());
         assert!(outcome.step.solution.embedding.iter().all(|z| z.is_finite()));
         if outcome.settings.method.uses_pins() {
-            for (vertex, target) in &outcome.pins {
-                assert_eq!(outcome.step.solution.embedding[vertex.index()], *target);
+            for (vertex, pin) in &outcome.pins {
+                assert_eq!(outcome.step.solution.embedding[vertex.index()], pin.target);
             }
         }
     }

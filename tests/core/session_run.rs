@@ -8,7 +8,7 @@ use freebound::examples::Example;
 use freebound::io::OutputKind;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop, StopConditions};
-use freebound::solver::{Control, Family, Method, Pins, Run, Settings, Step};
+use freebound::solver::{Control, Family, Method, Pin, Pins, Run, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::common::grid;
@@ -208,7 +208,7 @@ fn a_run_stops_where_the_boundary_crosses_itself() {
     let pins = crossing_pins(&session);
     let crossing = StopConditions { crossing: true, ..ON_AND_ON };
     settled(&mut session, Action::SetStop(crossing));
-    for (vertex, target) in pins {
+    for (vertex, Pin { target, .. }) in pins {
         settled(&mut session, Action::Fix(vec![vertex]));
         settled(&mut session, Action::MovePin { vertex, target });
         settled(&mut session, Action::EndGesture);
@@ -228,13 +228,11 @@ fn crossing_pins(session: &Session) -> Pins {
     let at = |v: VertexId| embedding[v.index()];
     let centre = embedding.iter().sum::<DVec2>() / embedding.len() as f64;
     let through = opposite + (opposite - centre);
-    [
+    hard_pins([
         (boundary[0], through),
         (boundary[8], at(boundary[8])),
         (boundary[boundary.len() - 8], at(boundary[boundary.len() - 8])),
-    ]
-    .into_iter()
-    .collect()
+    ])
 }
 
 #[test]
@@ -294,7 +292,8 @@ fn two_steps_are_compared_until_another_run_begins() {
 fn a_drag_shows_first_steps_only_and_its_end_the_whole_run() {
     let mut session = opened(Example::Face);
     settled(&mut session, Action::Run);
-    let (&vertex, &from) = session.outcome().expect("solved").step.solution.pins.iter().next().expect("a gauge pin");
+    let (&vertex, &Pin { target: from, .. }) =
+        session.outcome().expect("solved").step.solution.pins.iter().next().expect("a gauge pin");
     assert!(!session.is_preview());
     for i in 1..=5 {
         let target = from + DVec2::new(0.01, 0.02) * f64::from(i);
@@ -312,7 +311,8 @@ fn a_drag_that_is_given_up_ends_with_the_whole_run_too() {
     let mut session = opened(Example::Face);
     settled(&mut session, Action::Run);
     let before = embedding(&session);
-    let (&vertex, &from) = session.outcome().expect("solved").step.solution.pins.iter().next().expect("a gauge pin");
+    let (&vertex, &Pin { target: from, .. }) =
+        session.outcome().expect("solved").step.solution.pins.iter().next().expect("a gauge pin");
     settled(&mut session, Action::MovePin { vertex, target: from * 1.1 });
     settled(&mut session, Action::GiveUpGesture);
     assert_eq!(embedding(&session), before);

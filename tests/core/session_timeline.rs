@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use freebound::geom::PictureFrame;
 use freebound::mesh::{DiskMesh, FaceId};
 use freebound::session::{Outcome, Timeline};
 use freebound::solver::{Control, Family, Method, Pins, Run, Settings};
@@ -13,7 +14,7 @@ fn first() -> Outcome {
     let disk = DiskMesh::try_from(grid(4, 4)).expect("a disk");
     let mut run = Run::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let step = run.step(&disk, Control::unattended()).expect("solvable");
-    Outcome::new(&disk, &run, step)
+    Outcome::new(&disk, *run.settings(), (PictureFrame::default(), Pins::new()), step)
 }
 
 /// The same as another step with so many flipped faces.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use freebound::examples::Example;
+use freebound::geom::PictureFrame;
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::session::{Finished, Model, Outcome, OutputFit};
@@ -227,7 +228,7 @@ fn outcome_with(mesh: &DiskMesh, places: Vec<DVec2>) -> Outcome {
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
     step.verdict = verdict(mesh, &places);
     step.solution.embedding = places;
-    Outcome::new(mesh, &run, step)
+    Outcome::new(mesh, *run.settings(), (PictureFrame::default(), Pins::new()), step)
 }
 
 fn finish(mesh: &TriMesh, places: Vec<DVec2>) -> (bool, String, bool) {

@@ -5,6 +5,7 @@ use egui::{Key, Modifiers, Pos2, Rect, Vec2};
 use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
+use freebound::solver::Pin;
 use freebound::ui::{Pane, Tool};
 use glam::DVec2;
 
@@ -42,7 +43,10 @@ fn a_click_of_the_fix_tool_on_the_mesh_pins_the_vertex_where_it_lies() {
         let vertex = window.vertex_in_the_middle();
         window.key(Key::P);
         window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
-        assert_eq!(document(&window).pins.into_iter().collect::<Vec<_>>(), [(vertex, before[vertex.index()])]);
+        assert_eq!(
+            document(&window).pins.into_iter().collect::<Vec<_>>(),
+            [(vertex, Pin::fixed(before[vertex.index()]))]
+        );
         assert!(distance(&before, &window.embedding()) < 1e-9, "{}", example.name());
     }
 }
@@ -137,12 +141,12 @@ fn a_dragged_pin_goes_where_it_is_dropped_and_no_other_moves() {
     let mut window = window();
     pin(&mut window, &[0, 40, 80]);
     let before = document(&window);
-    let from = window.place_in_plane(before.pins[&VertexId::new(40)]);
+    let from = window.place_in_plane(before.pins[&VertexId::new(40)].target);
     let to = from + Vec2::new(60.0, -35.0);
     window.drag(from, to, Modifiers::NONE);
     let target = in_embedding(&window, to);
     let mut expected = before.pins.clone();
-    expected.insert(VertexId::new(40), target);
+    expected.insert(VertexId::new(40), Pin::fixed(target));
     assert_eq!(document(&window).pins, expected);
     assert_eq!(window.embedding()[40], target, "and the embedding follows");
     assert!(window.editor().session.is_current());
@@ -214,14 +218,14 @@ fn dragging_a_gauge_pin_makes_both_the_user_s() {
     let mut window = window();
     let before = window.embedding();
     let gauge = window.outcome().step.solution.pins.clone();
-    let [(first, _), (second, at)] = gauge.iter().map(|(&v, &z)| (v, z)).collect::<Vec<_>>()[..] else {
+    let [(first, _), (second, at)] = gauge.iter().map(|(&v, &pin)| (v, pin)).collect::<Vec<_>>()[..] else {
         panic!("two gauge pins: {gauge:?}")
     };
     assert!(window.has_button(&format!("Gauge pin {first}")));
-    let from = window.place_in_plane(gauge[&first]);
+    let from = window.place_in_plane(gauge[&first].target);
     let to = from + Vec2::new(30.0, 40.0);
     window.drag(from, to, Modifiers::NONE);
-    let expected = [(first, in_embedding(&window, to)), (second, at)];
+    let expected = [(first, Pin::fixed(in_embedding(&window, to))), (second, at)];
     assert_eq!(document(&window).pins.into_iter().collect::<Vec<_>>(), expected);
     assert!(window.has_button(&format!("Pin {first}")) && window.has_button(&format!("Pin {second}")));
     assert!(!window.has_button(&format!("Gauge pin {first}")));
@@ -248,7 +252,7 @@ fn a_pin_grabbed_beside_its_middle_does_not_jump() {
     let at = window.place_in_plane(window.embedding()[40]);
     let grabbed = at + Vec2::new(5.0, 5.0);
     window.drag(grabbed, grabbed + Vec2::new(40.0, 0.0), Modifiers::NONE);
-    let moved = window.place_in_plane(document(&window).pins[&VertexId::new(40)]);
+    let moved = window.place_in_plane(document(&window).pins[&VertexId::new(40)].target);
     assert!((moved - at - Vec2::new(40.0, 0.0)).length() < 0.01, "{:?}", moved - at);
 }
 

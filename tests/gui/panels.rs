@@ -150,9 +150,9 @@ fn typed_coordinates_move_a_pin_and_only_it() {
     window.fill_in(Role::SpinButton, "u of pin v24", "0.625");
     window.key(Key::Enter);
     let mut expected = before.pins.clone();
-    expected.get_mut(&VertexId::new(24)).expect("pinned").x = 0.625;
+    expected.get_mut(&VertexId::new(24)).expect("pinned").target.x = 0.625;
     assert_eq!(window.editor().session.document().pins, expected);
-    assert_eq!(window.embedding()[24], expected[&VertexId::new(24)]);
+    assert_eq!(window.embedding()[24], expected[&VertexId::new(24)].target);
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(*window.editor().session.document(), before, "one undo step");
 }
@@ -215,7 +215,7 @@ fn delete_frees_the_selected_pins() {
 fn two_pins_on_one_place_are_refused_with_both_named() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     pin(&mut window, &[0, 48]);
-    let place = window.editor().session.document().pins[&VertexId::new(0)];
+    let place = window.editor().session.document().pins[&VertexId::new(0)].target;
     window.editor_mut().session.handle(Action::MovePin { vertex: VertexId::new(48), target: place });
     window.editor_mut().session.handle(Action::EndGesture);
     window.settle();
