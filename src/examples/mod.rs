@@ -22,10 +22,14 @@ mod random;
 mod relief;
 mod sculpt;
 
+use crate::geom::Picture;
 use crate::mesh::TriMesh;
 
 pub use landmarks::{Landmark, face_landmarks};
 pub use portrait::portrait;
+
+/// Width and height of the face's portrait, pixels.
+const PORTRAIT_SIZE: u32 = 768;
 
 /// A built-in mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -95,6 +99,22 @@ impl Example {
             Self::Dome => caps::dome(),
             Self::BumpyCap => caps::bumpy_cap(),
             Self::Spiral => flat::spiral(),
+        }
+    }
+
+    /// Which of its vertices belong to which places of [`Self::picture`].
+    pub fn landmarks(self) -> Vec<Landmark> {
+        match self {
+            Self::Face => face_landmarks(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The picture that is made for it.
+    pub fn picture(self) -> Option<Picture> {
+        match self {
+            Self::Face => Some(portrait(PORTRAIT_SIZE)),
+            _ => None,
         }
     }
 }

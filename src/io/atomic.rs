@@ -22,10 +22,32 @@ pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    write_inner(path, write).map_err(|source| WriteError { path: path.to_owned(), source })
+    write_inner(path, write, Care::Order).map_err(|source| WriteError { path: path.to_owned(), source })
 }
 
-fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+/// As [`write_atomically`], and when it returns the file is on the disk: a loss of power leaves the old file or the new
+/// one. For what a person has made by hand; files that can be made again are not worth the wait.
+///
+/// # Errors
+///
+/// [`WriteError`] names the path and says what went wrong.
+pub fn write_durably(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    write_inner(path, write, Care::Disk).map_err(|source| WriteError { path: path.to_owned(), source })
+}
+
+/// What a file is to survive.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Care {
+    /// The end of this program.
+    Order,
+    /// The end of the system.
+    Disk,
+}
+
+fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>, care: Care) -> io::Result<()> {
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let present = fs::metadata(&target).ok();
     if present.as_ref().is_some_and(|data| !data.is_file()) {
@@ -49,8 +71,17 @@ fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     }
     let mut out = BufWriter::with_capacity(BUFFER, file);
     write(&mut out)?;
-    out.into_inner().map_err(io::IntoInnerError::into_error)?;
-    aside.persist(&target).map_err(|error| error.error)
+    let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+    if care == Care::Disk {
+        file.sync_all()?;
+    }
+    drop(file);
+    aside.persist(&target).map_err(|error| error.error)?;
+    if care == Care::Disk {
+        // The name is written too. Where a folder cannot be opened, as on some systems, the file itself is safe.
+        File::open(folder_of(&target)).and_then(|folder| folder.sync_all()).ok();
+    }
+    Ok(())
 }
 
 fn folder_of(path: &Path) -> PathBuf {

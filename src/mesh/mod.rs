@@ -12,6 +12,7 @@ mod topology;
 mod triangles;
 mod triangulate;
 mod union;
+mod volume;
 
 pub use diagnosis::{Diagnosis, diagnose};
 pub use disk::DiskMesh;
@@ -20,3 +21,4 @@ pub use fault::{Elements, FaceList, Fault};
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use polygon::PolygonMesh;
 pub use triangles::TriMesh;
+pub use volume::relative_volume;

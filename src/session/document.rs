@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::PictureFile;
+use super::{Outcome, PictureFile};
 use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::VertexId;
 use crate::solver::{GaugeSize, Pin, Pins, Settings};
@@ -41,6 +41,12 @@ impl Document {
         let frame = self.frame();
         let placed = |pin: &Pin| Pin { target: frame.plane_from_uv(pin.target), ..*pin };
         self.pins.iter().map(|(&vertex, pin)| (vertex, placed(pin))).collect()
+    }
+
+    /// Whether an outcome is one of this document: a convex boundary takes no pins.
+    pub(super) fn is_solved_in(&self, outcome: &Outcome) -> bool {
+        let has_pins = !outcome.settings.method.uses_pins() || outcome.pins == self.pins;
+        has_pins && outcome.frame == self.frame() && outcome.settings == self.run_settings()
     }
 
     /// Whether a run of these settings and pins (in the plane) is a run of this document: a convex boundary takes no

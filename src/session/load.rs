@@ -5,8 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{ObjMesh, ReadError, read_mesh_with};
-use crate::mesh::{Diagnosis, DiskMesh, PolygonMesh, TriMesh};
+use crate::io::{FileStamp, ObjMesh, ReadError, read_mesh_with};
+use crate::mesh::{Diagnosis, DiskMesh, PolygonMesh, TriMesh, relative_volume};
+
+/// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
+/// it is high.
+const LEAST_VOLUME: f64 = 0.01;
 
 /// A mesh that was opened, whether or not it can be flattened.
 #[derive(Clone, Debug)]
@@ -15,6 +19,12 @@ pub struct Model {
     pub name: String,
     /// The file it came from.
     pub path: Option<PathBuf>,
+    /// The state of that file when it was read, where a project is to know it again.
+    pub stamp: Option<FileStamp>,
+    /// The built-in mesh that it is.
+    pub example: Option<Example>,
+    /// Whether its faces are turned around, against its file.
+    pub faces_turned: bool,
     /// The file's contents, to be written back with the result.
     pub source: Arc<ObjMesh>,
     /// Its triangles and what is known of them.
@@ -28,6 +38,15 @@ pub enum Surface {
     Disk(Arc<DiskMesh>),
     /// It has faults.
     Faulty(Arc<TriMesh>, Arc<Diagnosis>),
+}
+
+impl Surface {
+    fn of(source: &ObjMesh) -> Self {
+        match DiskMesh::try_from(source.polygons.triangulate()) {
+            Ok(disk) => Self::Disk(Arc::new(disk)),
+            Err(diagnosis) => Self::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
+        }
+    }
 }
 
 impl Model {
@@ -56,15 +75,26 @@ impl Model {
     /// A built-in mesh.
     pub fn example(example: Example) -> Self {
         let source = ObjMesh::from(PolygonMesh::from(&example.mesh()));
-        Self::new(example.title().to_owned(), None, source)
+        Self { example: Some(example), ..Self::new(example.title().to_owned(), None, source) }
     }
 
     fn new(name: String, path: Option<PathBuf>, source: ObjMesh) -> Self {
-        let surface = match DiskMesh::try_from(source.polygons.triangulate()) {
-            Ok(disk) => Surface::Disk(Arc::new(disk)),
-            Err(diagnosis) => Surface::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
-        };
-        Self { name, path, source: Arc::new(source), surface }
+        let surface = Surface::of(&source);
+        Self { name, path, stamp: None, example: None, faces_turned: false, source: Arc::new(source), surface }
+    }
+
+    /// The same mesh with its faces turned around: positions and vertices stay, and so does the order of the polygons.
+    #[must_use = "the mesh itself stays as it is"]
+    pub fn turned(&self) -> Self {
+        let source = self.source.turned();
+        let surface = Surface::of(&source);
+        Self { faces_turned: !self.faces_turned, source: Arc::new(source), surface, ..self.clone() }
+    }
+
+    /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
+    /// is too flat to tell.
+    pub fn faces_point_inward(&self) -> bool {
+        self.disk().is_some_and(|disk| relative_volume(disk) < -LEAST_VOLUME)
     }
 
     /// Where it came from, in words.

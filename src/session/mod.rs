@@ -1,23 +1,29 @@
 //! One open document: what the user edits, its history, and the work that goes on in the background. No screen.
 
 mod action;
+mod autosave;
 mod document;
+mod errands;
 mod files;
 mod job;
 mod load;
 mod message;
-mod pane_picture;
+mod open;
+mod opened;
 mod picture;
 mod pins;
 mod preview;
+mod project;
 mod recent;
+mod recovery;
 mod run;
 mod save;
 mod solve;
 mod state;
 mod stop;
-mod stubs;
+mod targets;
 mod timeline;
+mod turn;
 
 pub use action::Action;
 pub use document::{Command, Document, History};
@@ -27,9 +33,9 @@ pub use message::{Message, Place, Severity};
 pub use picture::PictureFile;
 pub use preview::Preview;
 pub use recent::RecentFiles;
+pub use recovery::{Recoverable, recovery_folder};
 pub use save::{Finished, SaveRequest};
 pub use solve::{Outcome, OutputFit, Placement};
 pub use state::{Busy, Session, Wake};
 pub use stop::{Stop, StopConditions};
-pub use stubs::Recoverable;
 pub use timeline::{TIMELINE_BUDGET, Timeline};

@@ -101,7 +101,7 @@ impl Session {
     }
 
     /// Says why where the method takes no pins.
-    fn takes_pins(&mut self) -> bool {
+    pub(super) fn takes_pins(&mut self) -> bool {
         if self.document.settings.method.uses_pins() {
             return true;
         }

@@ -131,6 +131,9 @@ impl Session {
     /// Begins a run, or lets the first step that is under way finish where only targets differ.
     fn begin(&mut self, goal: Goal) {
         self.resting = None;
+        if !self.bring_faces() {
+            return;
+        }
         if let Some(running) = &mut self.running
             && running.is_followed_by(&self.document)
         {

@@ -2,25 +2,31 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Instant;
 
+use super::autosave::Autosave;
+use super::errands::Errands;
+use super::files::SaveJob;
+use super::open::OnTable;
+use super::opened::{OpenError, Opened};
+use super::project::ProjectSaves;
 use super::run::Running;
 use super::{
     Action, Command, Document, History, Job, Message, Model, Outcome, Place, Preview, RecentFiles, Severity,
     StopConditions, Timeline,
 };
-use crate::io::{ReadError, WriteError};
-use crate::solver::{Ending, Phase, Prepared, Run, Verdict};
+use crate::io::ProjectView;
+use crate::solver::{Ending, Phase, Prepared, Run};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-pub(super) type LoadJob = Job<(), Result<Model, ReadError>>;
-pub(super) type SaveJob = Job<(), Result<(PathBuf, Verdict), WriteError>>;
+pub(super) type LoadJob = Job<(), Result<Opened, OpenError>>;
 
 /// What goes on in the background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Busy {
-    /// Reading and diagnosing a mesh.
+    /// Reading and diagnosing a mesh, or reading something for it.
     Loading,
     /// Solving; the phase where it is known.
     Solving(Option<Phase>),
@@ -32,7 +38,13 @@ pub enum Busy {
 pub struct Session {
     pub(super) wake: Wake,
     pub(super) model: Option<Arc<Model>>,
-    /// Counts the meshes opened, so that a screen can tell when to draw anew.
+    /// The mesh with its faces the other way around, once somebody turned them.
+    pub(super) other_side: Option<Arc<Model>>,
+    /// What is open, and what is saved of it.
+    pub(super) on_table: OnTable,
+    /// How the person looks at it, to be saved with it.
+    pub(super) view: ProjectView,
+    /// Counts the meshes opened and turned around, so that a screen can tell when to draw anew.
     pub(super) model_revision: u64,
     pub(super) document: Document,
     pub(super) history: History,
@@ -56,10 +68,11 @@ pub struct Session {
     pub(super) resting: Option<Run>,
     /// Whether the document changed since the step under way began.
     pub(super) solve_again: bool,
+    pub(super) errands: Errands,
     /// Files being written, in the order they were asked for.
     pub(super) saving: Vec<SaveJob>,
-    /// Pictures of panes being written.
-    pub(super) saving_pictures: Vec<super::pane_picture::PictureJob>,
+    pub(super) project_saves: ProjectSaves,
+    pub(super) autosave: Autosave,
     pub(super) messages: Vec<Message>,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
     pub(super) solve_message: Option<u64>,
@@ -79,6 +92,9 @@ impl Session {
         Self {
             wake,
             model: None,
+            other_side: None,
+            on_table: OnTable::default(),
+            view: ProjectView::default(),
             model_revision: 0,
             document: Document::default(),
             history: History::default(),
@@ -93,8 +109,10 @@ impl Session {
             running: None,
             resting: None,
             solve_again: false,
+            errands: Errands::default(),
             saving: Vec::new(),
-            saving_pictures: Vec::new(),
+            project_saves: ProjectSaves::default(),
+            autosave: Autosave::default(),
             messages: Vec::new(),
             solve_message: None,
             next_message: 0,
@@ -107,9 +125,15 @@ impl Session {
         self.model.as_ref()
     }
 
-    /// Changes whenever another mesh is open.
+    /// Changes whenever another mesh is open, or the same one with its faces turned around.
     pub fn model_revision(&self) -> u64 {
         self.model_revision
+    }
+
+    /// Changes whenever something was opened. Unlike [`model_revision`](Self::model_revision) it stays where the same
+    /// mesh is turned around, when no camera is to move.
+    pub fn opening_revision(&self) -> u64 {
+        self.on_table.opening
     }
 
     /// What the user edits.
@@ -149,7 +173,7 @@ impl Session {
 
     /// Whether the outcome on the screen belongs to the document as it is now.
     pub fn is_current(&self) -> bool {
-        self.outcome().is_some_and(|outcome| self.document.is_solved_by(&outcome.settings, &outcome.pins))
+        self.has_faces_as_wanted() && self.outcome().is_some_and(|outcome| self.document.is_solved_in(outcome))
     }
 
     /// Whether the screen shows the first step of a run that others follow, because a gesture goes on.
@@ -169,13 +193,13 @@ impl Session {
 
     /// What goes on in the background.
     pub fn busy(&self) -> Option<Busy> {
-        if self.loading.is_some() {
+        if self.loading.is_some() || self.errands.is_busy() {
             return Some(Busy::Loading);
         }
         if let Some(running) = &self.running {
             return Some(Busy::Solving(running.phase()));
         }
-        (self.is_saving() || !self.saving_pictures.is_empty()).then_some(Busy::Saving)
+        (!self.saving.is_empty() || self.project_saves.is_busy()).then_some(Busy::Saving)
     }
 
     /// Whether a run takes steps in the background.
@@ -196,22 +220,30 @@ impl Session {
     /// Carries out a request. Work that takes time goes on in the background.
     pub fn handle(&mut self, action: Action) {
         match action {
-            Action::Open(path) => self.open(Some(path.clone()), move || Model::read(&path)),
-            Action::OpenExample(example) => self.open(None, move || Ok(Model::example(example))),
+            Action::Open(path) => self.open(path),
+            Action::OpenExample(example) => self.open_example(example),
             Action::ClearRecent => self.recent.clear(),
             Action::Fix(vertices) => self.fix(&vertices),
-            Action::OpenPicture(_)
-            | Action::TurnFaces
-            | Action::MirrorTargets
-            | Action::FitTargets
-            | Action::ImportConstraints(_)
-            | Action::ExportConstraints(_)
-            | Action::SaveProject(_)
-            | Action::Recover(_)
-            | Action::DiscardRecovery(_)
-            | Action::Rest => {}
-            Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
-            Action::SetVAxis(v_axis) => self.edit(vec![Command::SetVAxis(v_axis)]),
+            Action::OpenPicture(path) => self.open_picture(path),
+            Action::TurnFaces => self.turn_faces(),
+            Action::MirrorTargets => self.mirror_targets(),
+            Action::FitTargets => self.fit_targets(),
+            Action::ImportConstraints(path) => self.import_constraints(path),
+            Action::ExportConstraints(path) => self.export_constraints(path),
+            Action::SaveProject(path) => self.save_project(path),
+            Action::Recover(path) => self.recover(path),
+            Action::DiscardRecovery(path) => self.discard_recovery(&path),
+            Action::Rest => {}
+            Action::RemovePicture => {
+                if self.document.picture.is_some() {
+                    self.edit(vec![Command::SetPicture(None)]);
+                }
+            }
+            Action::SetVAxis(v_axis) => {
+                if v_axis != self.document.v_axis {
+                    self.edit(vec![Command::SetVAxis(v_axis)]);
+                }
+            }
             Action::Place { vertex, pin } => self.place(vertex, pin),
             Action::MovePin { vertex, target } => self.move_pins(&[(vertex, target)]),
             Action::MovePins(moves) => self.move_pins(&moves),
@@ -269,15 +301,24 @@ impl Session {
 
     /// Takes in what the background has finished. Call once per frame.
     pub fn poll(&mut self) {
+        self.poll_at(Instant::now());
+    }
+
+    /// As [`poll`](Self::poll), at a time of the caller's: copies for recovery are made every few seconds.
+    pub fn poll_at(&mut self, now: Instant) {
         self.poll_loading();
+        self.poll_errands();
         self.poll_running();
         self.poll_saving();
-        self.poll_pictures();
+        self.poll_project_saves();
+        self.poll_autosave(now);
     }
 
     fn cancel(&mut self) {
         // Dropping the job raises its flag; whatever it still computes is not looked at.
         self.loading = None;
+        self.autosave.give_up_claim();
+        self.forget_errands();
         self.pause();
     }
 

@@ -23,6 +23,9 @@ use crate::view::{OrbitCamera, PlaneCamera};
 /// A solve shorter than this shows no progress: it would only flicker.
 const PATIENCE: Duration = Duration::from_millis(250);
 
+/// How often the session is asked whether a copy for recovery is due.
+const COPY_INTERVAL: Duration = Duration::from_secs(5);
+
 /// Everything the window knows.
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the window")]
 pub struct Editor {
@@ -119,6 +122,8 @@ pub struct Editor {
     pub(super) preview: Option<PreviewScene>,
     pub(super) shot: Option<PaneShot>,
     pub(super) window_title: String,
+    /// What was opened last, by the session's count.
+    pub(super) opening: Option<u64>,
     pub(super) ghost: Option<Ghost>,
     pub(super) busy_since: Option<Instant>,
 }
@@ -185,6 +190,7 @@ impl Editor {
             preview: None,
             shot: None,
             window_title: String::new(),
+            opening: None,
             ghost: None,
             busy_since: None,
         }
@@ -242,6 +248,10 @@ impl Editor {
         let scenes_pending = self.mesh_scene_job.is_some() || self.plane_scene_job.is_some() || self.is_making_hull();
         if self.session.busy().is_some() || scenes_pending || self.dialogs.is_open() {
             self.context.request_repaint_after(Duration::from_millis(100));
+        }
+        if self.session.has_unsaved_work() {
+            // Copies for recovery are made while nobody moves the mouse as well.
+            self.context.request_repaint_after(COPY_INTERVAL);
         }
         if let Some(choice) = self.dialogs.poll() {
             self.take_choice(choice);

@@ -72,7 +72,9 @@ impl Editor {
     pub(super) fn ask(&mut self, purpose: Purpose) {
         self.exports_shown = false;
         let suggestion = match purpose {
-            Purpose::SaveProject => self.session.project_path().unwrap_or_else(|| self.suggested_name(purpose)),
+            Purpose::SaveProject => {
+                self.session.project_path().cloned().unwrap_or_else(|| self.suggested_name(purpose))
+            }
             _ => self.suggested_name(purpose),
         };
         self.dialogs.ask(&self.context, purpose, suggestion);
@@ -89,7 +91,10 @@ impl Editor {
             Purpose::OpenPicture => self.act(Action::OpenPicture(path)),
             Purpose::ImportConstraints => self.act(Action::ImportConstraints(path)),
             Purpose::ExportConstraints => self.act(Action::ExportConstraints(path)),
-            Purpose::SaveProject => self.act(Action::SaveProject(path)),
+            Purpose::SaveProject => {
+                self.session.set_view(self.view());
+                self.act(Action::SaveProject(path));
+            }
             Purpose::PanePicture(pane) => self.shoot_pane(pane, path),
             Purpose::Save | Purpose::Drawing(_) | Purpose::Overview | Purpose::Report => {
                 let fit = if let Purpose::Drawing(fit) = purpose { fit } else { self.fit };

@@ -35,6 +35,7 @@ mod pins;
 mod pins_panel;
 mod plane_pane;
 mod preview;
+mod project_view;
 mod purpose;
 mod request;
 mod scene;

@@ -45,10 +45,7 @@ impl Unsaved {
 impl Editor {
     /// What the open document is called.
     pub(super) fn document_name(&self) -> String {
-        let file_name = |path: &std::path::Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
-        let project = self.session.project_path().and_then(|path| file_name(&path));
-        let model = || self.session.model().map(|model| model.name.clone());
-        project.or_else(model).unwrap_or_else(|| "Freebound".to_owned())
+        self.session.project_name().unwrap_or_else(|| "Freebound".to_owned())
     }
 
     /// Does what would lose the open document: at once where nothing is lost, else once the person has answered.
@@ -82,8 +79,11 @@ impl Editor {
 
     /// Saves where the project was saved before, or asks where.
     pub(super) fn save_project(&mut self) {
-        match self.session.project_path() {
-            Some(path) => self.session.handle(Action::SaveProject(path)),
+        match self.session.project_path().cloned() {
+            Some(path) => {
+                self.session.set_view(self.view());
+                self.session.handle(Action::SaveProject(path));
+            }
             None => self.ask(Purpose::SaveProject),
         }
     }
@@ -91,7 +91,7 @@ impl Editor {
     /// Goes on with what waited for the project to be saved. Where it was not saved, that is given up. Call once per
     /// frame.
     pub(super) fn go_on_after_saving(&mut self) {
-        if self.unsaved.after_saving.is_none() || self.dialogs.is_open() || self.session.is_saving() {
+        if self.unsaved.after_saving.is_none() || self.dialogs.is_open() || self.session.is_saving_project() {
             return;
         }
         let wish = self.unsaved.after_saving.take();

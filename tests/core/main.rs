@@ -21,6 +21,7 @@ mod linalg;
 mod linalg_faults;
 mod linalg_matrices;
 mod linalg_mean_value;
+mod materials;
 mod mesh;
 mod natural;
 mod obj;

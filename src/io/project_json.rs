@@ -1,0 +1,324 @@
+//! How a project stands in its file: names, defaults, and where a fault is.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::str::FromStr as _;
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use super::FileStamp;
+use super::project::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
+use crate::geom::VAxis;
+use crate::mesh::VertexId;
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
+
+/// The fields of a project file, in their order.
+#[derive(Serialize, Deserialize)]
+pub(super) struct RawProject {
+    freebound_project: u64,
+    mesh: RawSource,
+    #[serde(default)]
+    faces_turned: bool,
+    #[serde(default)]
+    picture: Option<RawSource>,
+    #[serde(default)]
+    v_axis: RawVAxis,
+    #[serde(default)]
+    method: RawMethod,
+    #[serde(default)]
+    boundary: RawBoundary,
+    #[serde(default)]
+    family: RawFamily,
+    #[serde(default)]
+    treatment: Option<RawTreatment>,
+    #[serde(default)]
+    growth: RawGrowth,
+    #[serde(default = "usual_max_steps")]
+    max_steps: usize,
+    #[serde(default)]
+    pins: RawPins,
+    #[serde(default)]
+    view: ProjectView,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    recovery: Option<RecoveryNote>,
+}
+
+fn usual_max_steps() -> usize {
+    Settings::MAX_STEPS
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(try_from = "RawSourceFields", into = "RawSourceFields")]
+#[derive(Clone)]
+struct RawSource(ProjectSource);
+
+#[derive(Serialize, Deserialize)]
+struct RawSourceFields {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    example: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    file: Option<PathBuf>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bytes: Option<u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    sha256: Option<String>,
+}
+
+impl TryFrom<RawSourceFields> for RawSource {
+    type Error = &'static str;
+
+    fn try_from(raw: RawSourceFields) -> Result<Self, Self::Error> {
+        let stamp = match (raw.bytes, raw.sha256) {
+            (Some(bytes), Some(sha256)) => Some(FileStamp { bytes, sha256 }),
+            _ => None,
+        };
+        match (raw.example, raw.file) {
+            (Some(name), None) => Ok(Self(ProjectSource::Example(name))),
+            (None, Some(path)) => Ok(Self(ProjectSource::File { path, stamp })),
+            _ => Err("name either a \"file\" or an \"example\""),
+        }
+    }
+}
+
+impl From<RawSource> for RawSourceFields {
+    fn from(RawSource(source): RawSource) -> Self {
+        let nothing = Self { example: None, file: None, bytes: None, sha256: None };
+        match source {
+            ProjectSource::Example(name) => Self { example: Some(name), ..nothing },
+            ProjectSource::File { path, stamp } => {
+                let (bytes, sha256) = stamp.map(|stamp| (stamp.bytes, stamp.sha256)).unzip();
+                Self { file: Some(path), bytes, sha256, ..nothing }
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum RawVAxis {
+    #[default]
+    Up,
+    Down,
+}
+
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum RawMethod {
+    #[default]
+    Auto,
+    Natural,
+    Iterate,
+    VirtualBoundary,
+    Convex,
+    Lscm,
+    Levy,
+}
+
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum RawBoundary {
+    #[default]
+    Circle,
+    Square,
+}
+
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum RawTreatment {
+    Eliminate,
+    LeastSquares,
+    Weighted,
+}
+
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum RawGrowth {
+    #[default]
+    Double,
+    One,
+}
+
+#[derive(Clone, Default, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+struct RawFamily(Family);
+
+impl TryFrom<String> for RawFamily {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        Family::from_str(&text).map(Self).map_err(|choice| format!("\"{text}\" is no family: {choice}"))
+    }
+}
+
+impl From<RawFamily> for String {
+    fn from(RawFamily(family): RawFamily) -> Self {
+        family.to_string()
+    }
+}
+
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum RawHold {
+    Fixed,
+    Hard,
+    Weighted,
+}
+
+#[derive(Serialize, Deserialize)]
+struct RawPinFields {
+    vertex: u32,
+    u: f64,
+    v: f64,
+    hold: RawHold,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    weight: Option<f64>,
+}
+
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "RawPinFields", into = "RawPinFields")]
+struct RawPin(VertexId, Pin);
+
+impl TryFrom<RawPinFields> for RawPin {
+    type Error = &'static str;
+
+    fn try_from(raw: RawPinFields) -> Result<Self, Self::Error> {
+        let hold = match (raw.hold, raw.weight) {
+            (RawHold::Fixed, _) => Hold::Fixed,
+            (RawHold::Hard, _) => Hold::Hard,
+            (RawHold::Weighted, Some(weight)) if weight.is_finite() && weight > 0.0 => Hold::Weighted(weight),
+            (RawHold::Weighted, _) => return Err("a weighted pin needs a positive \"weight\""),
+        };
+        Ok(Self(VertexId::new(raw.vertex), Pin { target: DVec2::new(raw.u, raw.v), hold }))
+    }
+}
+
+impl From<RawPin> for RawPinFields {
+    fn from(RawPin(vertex, Pin { target, hold }): RawPin) -> Self {
+        let (hold, weight) = match hold {
+            Hold::Fixed => (RawHold::Fixed, None),
+            Hold::Hard => (RawHold::Hard, None),
+            Hold::Weighted(weight) => (RawHold::Weighted, Some(weight)),
+        };
+        Self { vertex: vertex.number(), u: target.x, v: target.y, hold, weight }
+    }
+}
+
+#[derive(Clone, Default, Serialize, Deserialize)]
+#[serde(try_from = "Vec<RawPin>", into = "Vec<RawPin>")]
+struct RawPins(Pins);
+
+impl TryFrom<Vec<RawPin>> for RawPins {
+    type Error = String;
+
+    fn try_from(list: Vec<RawPin>) -> Result<Self, Self::Error> {
+        let mut pins = BTreeMap::new();
+        for RawPin(vertex, pin) in list {
+            if pins.insert(vertex, pin).is_some() {
+                return Err(format!("vertex {vertex} is pinned twice"));
+            }
+        }
+        Ok(Self(pins))
+    }
+}
+
+impl From<RawPins> for Vec<RawPin> {
+    fn from(RawPins(pins): RawPins) -> Self {
+        pins.into_iter().map(|(vertex, pin)| RawPin(vertex, pin)).collect()
+    }
+}
+
+impl From<RawProject> for ProjectFile {
+    fn from(raw: RawProject) -> Self {
+        let settings = Settings {
+            method: method(raw.method, raw.boundary),
+            family: raw.family.0,
+            treatment: raw.treatment.map(|treatment| match treatment {
+                RawTreatment::Eliminate => Treatment::Eliminate,
+                RawTreatment::LeastSquares => Treatment::LeastSquares,
+                RawTreatment::Weighted => Treatment::Weighted,
+            }),
+            max_steps: raw.max_steps,
+            growth: match raw.growth {
+                RawGrowth::Double => Growth::Double,
+                RawGrowth::One => Growth::One,
+            },
+            size: GaugeSize::default(),
+        };
+        Self {
+            mesh: raw.mesh.0,
+            faces_turned: raw.faces_turned,
+            picture: raw.picture.map(|picture| picture.0),
+            v_axis: match raw.v_axis {
+                RawVAxis::Up => VAxis::Up,
+                RawVAxis::Down => VAxis::Down,
+            },
+            settings,
+            pins: raw.pins.0,
+            view: raw.view,
+            recovery: raw.recovery,
+        }
+    }
+}
+
+fn method(name: RawMethod, boundary: RawBoundary) -> Method {
+    match name {
+        RawMethod::Auto => Method::Auto,
+        RawMethod::Natural => Method::Natural,
+        RawMethod::Iterate => Method::Iterate,
+        RawMethod::VirtualBoundary => Method::VirtualBoundary,
+        RawMethod::Convex => Method::Convex(match boundary {
+            RawBoundary::Circle => BoundaryShape::Circle,
+            RawBoundary::Square => BoundaryShape::Square,
+        }),
+        RawMethod::Lscm => Method::Lscm,
+        RawMethod::Levy => Method::Levy,
+    }
+}
+
+impl From<ProjectFile> for RawProject {
+    fn from(project: ProjectFile) -> Self {
+        let settings = project.settings;
+        let (method, boundary) = names_of(settings.method);
+        Self {
+            freebound_project: PROJECT_VERSION,
+            mesh: RawSource(project.mesh),
+            faces_turned: project.faces_turned,
+            picture: project.picture.map(RawSource),
+            v_axis: match project.v_axis {
+                VAxis::Up => RawVAxis::Up,
+                VAxis::Down => RawVAxis::Down,
+            },
+            method,
+            boundary,
+            family: RawFamily(settings.family),
+            treatment: settings.treatment.map(|treatment| match treatment {
+                Treatment::Eliminate => RawTreatment::Eliminate,
+                Treatment::LeastSquares => RawTreatment::LeastSquares,
+                Treatment::Weighted => RawTreatment::Weighted,
+            }),
+            growth: match settings.growth {
+                Growth::Double => RawGrowth::Double,
+                Growth::One => RawGrowth::One,
+            },
+            max_steps: settings.max_steps,
+            pins: RawPins(project.pins),
+            view: project.view,
+            recovery: project.recovery,
+        }
+    }
+}
+
+fn names_of(method: Method) -> (RawMethod, RawBoundary) {
+    let name = match method {
+        Method::Auto => RawMethod::Auto,
+        Method::Natural => RawMethod::Natural,
+        Method::Iterate => RawMethod::Iterate,
+        Method::VirtualBoundary => RawMethod::VirtualBoundary,
+        Method::Convex(BoundaryShape::Circle) => RawMethod::Convex,
+        Method::Convex(BoundaryShape::Square) => return (RawMethod::Convex, RawBoundary::Square),
+        Method::Lscm => RawMethod::Lscm,
+        Method::Levy => RawMethod::Levy,
+    };
+    (name, RawBoundary::Circle)
+}

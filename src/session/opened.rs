@@ -1,0 +1,203 @@
+//! What opening brings: mesh, picture, pins and view, with what there is to say about them.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::{Document, Model, PictureFile, Place};
+use crate::examples::Example;
+use crate::io::{
+    FileStamp, PROJECT_EXTENSION, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError, RecoveryNote,
+    material_picture,
+};
+use crate::solver::{Pins, hard_pins};
+
+/// Something that was opened, ready to be put on the table.
+#[derive(Debug)]
+pub(super) struct Opened {
+    pub(super) model: Model,
+    pub(super) document: Document,
+    pub(super) view: ProjectView,
+    pub(super) origin: Origin,
+    /// What is not as it ought to be.
+    pub(super) remarks: Vec<Remark>,
+}
+
+/// Where it came from.
+#[derive(Debug)]
+pub(super) enum Origin {
+    /// A mesh file or an example: method and weights stay what they are.
+    Mesh,
+    /// A project.
+    Project(PathBuf),
+    /// A copy for recovery.
+    Recovery(RecoveryNote),
+}
+
+/// Something to say once it is open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Remark {
+    pub(super) place: Place,
+    pub(super) text: String,
+    pub(super) remedy: String,
+}
+
+/// Why something was not opened.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum OpenError {
+    #[error(transparent)]
+    Mesh(#[from] ReadError),
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+    #[error("the mesh of the project is not there: {}", mesh.display())]
+    NoMesh { mesh: PathBuf },
+    #[error("the project is of a built-in mesh that there is not: \"{name}\"")]
+    NoExample { name: String },
+}
+
+impl OpenError {
+    /// What to do about it.
+    pub(super) const fn remedy(&self) -> &'static str {
+        match self {
+            Self::Mesh(error) => error.remedy(),
+            Self::Project(error) => error.remedy(),
+            Self::NoMesh { .. } => "put it back, or write where it is now into the project, which is a text file",
+            Self::NoExample { .. } => "open it with a newer version of Freebound",
+        }
+    }
+}
+
+impl Opened {
+    /// Opens a project or a mesh file, by the extension of its name.
+    pub(super) fn read(path: &Path) -> Result<Self, OpenError> {
+        let is_project = path.extension().is_some_and(|found| found.eq_ignore_ascii_case(PROJECT_EXTENSION));
+        if is_project {
+            return Self::project(ProjectFile::read(path)?, Origin::Project(path.to_owned()));
+        }
+        let model = stamped(path)?;
+        let mut remarks = Vec::new();
+        let picture = material_picture(&model.source, path).and_then(|picture| {
+            let found = PictureFile::read(&picture);
+            found.map_err(|error| remarks.push(picture_remark(error.to_string(), "open another picture"))).ok()
+        });
+        let document = Document { picture: picture.map(Arc::new), ..Document::default() };
+        Ok(Self { model, document, view: ProjectView::default(), origin: Origin::Mesh, remarks })
+    }
+
+    /// Opens what a session before has left.
+    pub(super) fn recovered(path: &Path) -> Result<Self, OpenError> {
+        let mut project = ProjectFile::read(path)?;
+        let note = project.recovery.take().unwrap_or_default();
+        Self::project(project, Origin::Recovery(note))
+    }
+
+    /// A built-in mesh, with the picture and the constraints that belong to it.
+    pub(super) fn example(example: Example) -> Self {
+        let model = Model::example(example);
+        let landmarks = example.landmarks().into_iter();
+        let document = Document {
+            pins: hard_pins(landmarks.map(|landmark| (landmark.vertex, DVec2::from(landmark.target)))),
+            picture: PictureFile::of_example(example).map(Arc::new),
+            ..Document::default()
+        };
+        Self { model, document, view: ProjectView::default(), origin: Origin::Mesh, remarks: Vec::new() }
+    }
+
+    fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
+        let mut remarks = Vec::new();
+        let mut model = project_mesh(&project.mesh, &mut remarks)?;
+        if project.faces_turned {
+            model = model.turned();
+        }
+        let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
+        let document = Document {
+            pins: pins_there_are(project.pins, &model, &mut remarks),
+            settings: project.settings,
+            picture: picture.map(Arc::new),
+            v_axis: project.v_axis,
+            faces_turned: project.faces_turned,
+        };
+        let mut view = project.view;
+        view.selection.retain(|&vertex| (vertex as usize) < model.mesh().vertex_count());
+        Ok(Self { model, document, view, origin, remarks })
+    }
+}
+
+/// A mesh file, with its stamp.
+fn stamped(path: &Path) -> Result<Model, ReadError> {
+    Ok(Model { stamp: FileStamp::read(path).ok(), ..Model::read(path)? })
+}
+
+fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Remark>) -> Result<Model, OpenError> {
+    match source {
+        ProjectSource::Example(name) => {
+            let example = example_called(name).ok_or_else(|| OpenError::NoExample { name: name.clone() })?;
+            Ok(Model::example(example))
+        }
+        ProjectSource::File { path, stamp } => {
+            if !path.exists() {
+                return Err(OpenError::NoMesh { mesh: path.clone() });
+            }
+            let model = stamped(path)?;
+            if has_changed(stamp.as_ref(), model.stamp.as_ref()) {
+                remarks.push(Remark {
+                    place: Place::Mesh,
+                    text: format!("the mesh has changed since the project was saved: {}", path.display()),
+                    remedy: "check that the pins are on the right vertices, then save the project".to_owned(),
+                });
+            }
+            Ok(model)
+        }
+    }
+}
+
+fn project_picture(source: &ProjectSource, remarks: &mut Vec<Remark>) -> Option<PictureFile> {
+    match source {
+        ProjectSource::Example(name) => example_called(name).and_then(PictureFile::of_example),
+        ProjectSource::File { path, stamp } => {
+            let remedy = "the embedding has no picture now: open one, or mend this and open the project again";
+            let picture = if path.exists() {
+                PictureFile::read(path).map_err(|error| error.to_string())
+            } else {
+                Err(format!("the picture of the project is not there: {}", path.display()))
+            };
+            let picture = picture.map_err(|text| remarks.push(picture_remark(text, remedy))).ok()?;
+            if has_changed(stamp.as_ref(), picture.stamp.as_ref()) {
+                let text = format!("the picture has changed since the project was saved: {}", path.display());
+                remarks.push(picture_remark(
+                    text,
+                    "check that the targets are in the right places, then save the project",
+                ));
+            }
+            Some(picture)
+        }
+    }
+}
+
+fn picture_remark(text: String, remedy: &str) -> Remark {
+    Remark { place: Place::Embedding, text, remedy: remedy.to_owned() }
+}
+
+/// Whether a file is in another state than it was. Where one of the two is not known there is nothing to say.
+fn has_changed(before: Option<&FileStamp>, now: Option<&FileStamp>) -> bool {
+    before.zip(now).is_some_and(|(before, now)| before != now)
+}
+
+fn example_called(name: &str) -> Option<Example> {
+    Example::ALL.into_iter().find(|example| example.name() == name)
+}
+
+/// The pins on vertices that the mesh has, with a remark about the others.
+fn pins_there_are(mut pins: Pins, model: &Model, remarks: &mut Vec<Remark>) -> Pins {
+    let count = model.mesh().vertex_count();
+    let before = pins.len();
+    pins.retain(|vertex, pin| vertex.index() < count && pin.target.is_finite());
+    let lost = before - pins.len();
+    if lost > 0 {
+        let text = format!("{lost} of the project's {before} pins are left out: the mesh has only {count} vertices");
+        let remedy = "place them again, or put the mesh back as it was and open the project again".to_owned();
+        remarks.push(Remark { place: Place::Embedding, text, remedy });
+    }
+    pins
+}

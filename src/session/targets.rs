@@ -1,0 +1,132 @@
+//! What is done to all targets together: mirroring, and fitting them to the undistorted embedding.
+
+use glam::DVec2;
+
+use super::errands::{Errand, Purpose};
+use super::{Command, Place, Session};
+use crate::geom::PictureFrame;
+use crate::solver::{Control, Family, GaugeSize, Method, Pin, Pins, Settings, SolveError, flatten};
+
+/// The mesh flattened without pins, in the middle of the picture.
+pub(super) struct Flat {
+    /// The picture's frame.
+    frame: PictureFrame,
+    /// Whether the mesh's faces were turned around.
+    faces_turned: bool,
+    /// Where vertices lie, in the plane.
+    embedding: Result<Vec<DVec2>, SolveError>,
+}
+
+impl Session {
+    /// Mirrors all targets left to right, within the box around them.
+    pub(super) fn mirror_targets(&mut self) {
+        let across = self.document.pins.values().map(|pin| pin.target.x);
+        let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (low.min(u), high.max(u)));
+        let mirrored = |pin: &Pin| DVec2::new(low + (high - pin.target.x), pin.target.y);
+        let targets: Vec<DVec2> = self.document.pins.values().map(mirrored).collect();
+        self.move_targets(&targets);
+    }
+
+    /// Flattens the mesh, to fit the targets to it.
+    pub(super) fn fit_targets(&mut self) {
+        if self.document.pins.len() < 2 {
+            let text = "one target can be anywhere: fitting needs two pins or more".to_owned();
+            return self.fail(Place::Embedding, text, Some("place another constraint"));
+        }
+        let model = self.model.as_ref();
+        let Some((disk, faces_turned)) = model.and_then(|model| Some((model.disk()?.clone(), model.faces_turned)))
+        else {
+            return self.fail(Place::Embedding, "a mesh with faults has nothing to fit to".to_owned(), None);
+        };
+        let frame = self.document.frame();
+        let [low, high] = frame.corners();
+        let size = GaugeSize::Within { low, high };
+        let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
+        self.send(Purpose::Fit, move |context| {
+            let control = Control::new(context.cancel_flag(), &|_| {});
+            let solution = flatten(&disk, &settings, &Pins::new(), control);
+            Errand::Flat(Flat { frame, faces_turned, embedding: solution.map(|solution| solution.embedding) })
+        });
+    }
+
+    /// Fits the targets to the flattened mesh.
+    pub(super) fn take_flat(&mut self, flat: &Flat) {
+        let embedding = match &flat.embedding {
+            Ok(embedding) => embedding,
+            Err(error) => return self.fail(Place::Embedding, format!("there is nothing to fit to: {error}"), None),
+        };
+        if flat.frame != self.document.frame() || flat.faces_turned != self.document.faces_turned {
+            let text = "picture or faces changed while the targets were being fitted".to_owned();
+            return self.fail(Place::Embedding, text, Some("fit them again"));
+        }
+        let pairs: Vec<[DVec2; 2]> = (self.document.plane_pins().into_iter())
+            .map(|(vertex, pin)| [pin.target, embedding[vertex.index()]])
+            .collect();
+        let fitted = best_similarity(&pairs).map(|similarity| {
+            let targets = pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target)));
+            targets.collect::<Vec<_>>()
+        });
+        match fitted.filter(|targets| targets.iter().all(|target| target.is_finite())) {
+            Some(targets) => self.move_targets(&targets),
+            None => self.fail(Place::Embedding, "no turn and no size fits these targets".to_owned(), None),
+        }
+    }
+
+    /// Gives the pins other targets, in their order, as one edit.
+    fn move_targets(&mut self, targets: &[DVec2]) {
+        let moved = self.document.pins.iter().zip(targets).filter(|((_, pin), target)| pin.target != **target);
+        let commands =
+            moved.map(|((&vertex, pin), &target)| Command::SetPin { vertex, pin: Some(Pin { target, ..*pin }) });
+        let commands = commands.collect();
+        self.edit(commands);
+    }
+}
+
+/// z ↦ turn · (z − from) + to, in complex numbers.
+struct Similarity {
+    turn: DVec2,
+    from: DVec2,
+    to: DVec2,
+}
+
+impl Similarity {
+    fn apply(&self, z: DVec2) -> DVec2 {
+        self.turn.rotate(z - self.from) + self.to
+    }
+}
+
+/// The similarity without reflection that takes the first of each pair nearest to the second, in the sum of squares;
+/// `None` where there is none, or where it would take all to one place.
+fn best_similarity(pairs: &[[DVec2; 2]]) -> Option<Similarity> {
+    let count = pairs.len() as f64;
+    let from = pairs.iter().map(|[a, _]| *a).sum::<DVec2>() / count;
+    let to = pairs.iter().map(|[_, b]| *b).sum::<DVec2>() / count;
+    let (mut product, mut square) = (DVec2::ZERO, 0.0);
+    for [a, b] in pairs.iter().map(|[a, b]| [*a - from, *b - to]) {
+        // The conjugate of a, times b.
+        product += DVec2::new(a.dot(b), a.perp_dot(b));
+        square += a.length_squared();
+    }
+    let turn = product / square;
+    (turn.is_finite() && turn != DVec2::ZERO).then_some(Similarity { turn, from, to })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_similarity_gives_an_exact_one_back() {
+        let points = [DVec2::new(0.0, 0.0), DVec2::new(2.0, 1.0), DVec2::new(-1.0, 3.0)];
+        let moved = |z: DVec2| DVec2::new(0.3, -0.4).rotate(z) + DVec2::new(5.0, 6.0);
+        let found = best_similarity(&points.map(|z| [z, moved(z)])).expect("there is one");
+        for z in points {
+            assert!(found.apply(z).distance(moved(z)) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn no_similarity_spreads_what_lies_in_one_place() {
+        assert!(best_similarity(&[[DVec2::ONE, DVec2::ZERO], [DVec2::ONE, DVec2::X]]).is_none());
+    }
+}
