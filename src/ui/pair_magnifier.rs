@@ -45,7 +45,8 @@ impl Editor {
 
     /// Whether a pair is magnified in the embedding's pane.
     pub(super) fn magnifies_pair(&self) -> bool {
-        self.magnifier && self.target_in_hand().is_some()
+        let places_pair = self.tool == Tool::Constrain && self.pair.is_some();
+        self.magnifier && (places_pair || self.target_in_hand().is_some())
     }
 }
 

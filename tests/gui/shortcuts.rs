@@ -65,7 +65,9 @@ fn shortcuts_do_what_the_table_says() {
             Request::RunOrPause => steps(&window).0 == 3 && !editor.session.is_running(),
             Request::GoToStep(StepTarget::First | StepTarget::Previous) => steps(&window) == (3, Some(0)),
             Request::GoToStep(StepTarget::Next | StepTarget::Last) => steps(&window) == (3, Some(2)),
-            Request::AskOpen | Request::AskSave | Request::AskExport => editor.dialogs.is_open(),
+            // Never saved before: it asks where.
+            Request::Ask(_) | Request::SaveProject => editor.dialogs.is_open(),
+            Request::ToggleExports => editor.exports_shown,
             Request::Quit => editor.quit,
             // Nothing is wrong here to go to.
             Request::StepDefect(_) => editor.defect.is_none(),
