@@ -116,7 +116,7 @@ impl Session {
         self.timeline = Timeline::default();
         self.ending = None;
         self.outcome_revision += 1;
-        self.preview = None;
+        self.end_preview();
         self.prepared = None;
         self.running = None;
         self.resting = None;

@@ -120,7 +120,14 @@ impl Session {
     /// linear: then a pin that is dragged is followed at the pace of the solver.
     pub(super) fn solve(&mut self) {
         let goal = if self.history.is_in_gesture() { Goal::Steps(1) } else { Goal::Until(self.stop) };
+        self.end_preview();
         self.begin(goal);
+    }
+
+    /// Begins a run of the document as it is now. What a drag shows stays until its first step is there.
+    pub(super) fn run_document(&mut self) {
+        self.timeline.follow_newest();
+        self.begin(Goal::Until(self.stop));
     }
 
     /// Begins a run that shows its first step and waits.
@@ -199,12 +206,18 @@ impl Session {
         }
     }
 
-    /// The end of a gesture: where only the first step was taken, the others follow.
+    /// The end of a gesture: where only the first step was taken, or none, the others follow.
     pub(super) fn end_gesture(&mut self) {
         let was_in_gesture = self.history.is_in_gesture();
         self.history.end_gesture();
-        let has_preview = self.running.is_some() || self.is_current();
-        if was_in_gesture && has_preview && !self.solve_again {
+        self.follow_job = None;
+        if !was_in_gesture {
+            return;
+        }
+        let is_solved = self.running.is_some() || self.is_current();
+        if !is_solved {
+            self.run_document();
+        } else if !self.solve_again {
             self.run_on();
         }
     }
@@ -282,6 +295,7 @@ impl Session {
             // What was written no longer shows what is on the screen.
             self.messages.retain(|message| message.severity != Severity::Note);
             self.prepared.clone_from(&outcome.step.prepared);
+            (self.preview, self.verdict_job) = (None, None);
             self.timeline = Timeline::default();
         }
         self.ending = ending;

@@ -10,12 +10,14 @@ use super::files::SaveJob;
 use super::open::OnTable;
 use super::opened::{OpenError, Opened};
 use super::project::ProjectSaves;
+use super::preview::{Follow, FollowJob, VerdictJob};
 use super::run::Running;
 use super::{
     Action, Command, Document, History, Job, Message, Model, Outcome, Place, Preview, RecentFiles, Severity,
     StopConditions, Timeline,
 };
 use crate::io::ProjectView;
+use crate::mesh::VertexId;
 use crate::solver::{Ending, Phase, Prepared, Run};
 
 /// Asks the screen to look again; called from background threads.
@@ -57,6 +59,13 @@ pub struct Session {
     pub(super) stop: StopConditions,
     /// What the screen shows while a pin is dragged.
     pub(super) preview: Option<Preview>,
+    /// Counts previews.
+    pub(super) preview_revision: u64,
+    /// What a drag was solved for, and what is being solved for it.
+    pub(super) follow: Option<Follow>,
+    pub(super) follow_job: Option<(Document, Vec<VertexId>, FollowJob)>,
+    /// The verdict on a preview that is under way, by its revision.
+    pub(super) verdict_job: Option<(u64, VerdictJob)>,
     /// Kept from solves that succeeded, to be used again while a pin is dragged.
     pub(super) prepared: Option<Arc<Prepared>>,
     pub(super) loading: Option<LoadJob>,
@@ -103,6 +112,10 @@ impl Session {
             ending: None,
             stop: StopConditions::default(),
             preview: None,
+            preview_revision: 0,
+            follow: None,
+            follow_job: None,
+            verdict_job: None,
             prepared: None,
             loading: None,
             loading_path: None,
@@ -176,9 +189,9 @@ impl Session {
         self.has_faces_as_wanted() && self.outcome().is_some_and(|outcome| self.document.is_solved_in(outcome))
     }
 
-    /// Whether the screen shows the first step of a run that others follow, because a gesture goes on.
+    /// Whether the screen shows the first solve alone, because a gesture goes on or its run has only begun.
     pub fn is_preview(&self) -> bool {
-        self.history.is_in_gesture() && self.is_at_first_step()
+        self.preview.is_some() || (self.history.is_in_gesture() && self.is_at_first_step())
     }
 
     /// Whether a run waits after its first step for a person to take the others.
@@ -198,6 +211,9 @@ impl Session {
         }
         if let Some(running) = &self.running {
             return Some(Busy::Solving(running.phase()));
+        }
+        if self.follow_job.is_some() || self.verdict_job.is_some() {
+            return Some(Busy::Solving(None));
         }
         (!self.saving.is_empty() || self.project_saves.is_busy()).then_some(Busy::Saving)
     }
@@ -233,7 +249,7 @@ impl Session {
             Action::SaveProject(path) => self.save_project(path),
             Action::Recover(path) => self.recover(path),
             Action::DiscardRecovery(path) => self.discard_recovery(&path),
-            Action::Rest => {}
+            Action::Rest => self.rest(),
             Action::RemovePicture => {
                 if self.document.picture.is_some() {
                     self.edit(vec![Command::SetPicture(None)]);
@@ -309,6 +325,7 @@ impl Session {
         self.poll_loading();
         self.poll_errands();
         self.poll_running();
+        self.poll_following();
         self.poll_saving();
         self.poll_project_saves();
         self.poll_autosave(now);

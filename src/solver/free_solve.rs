@@ -80,7 +80,7 @@ impl Layout {
     fn rest(&self, unit: f64) -> Option<Rest> {
         let spring = |(&vertex, hold): (&VertexId, &Hold)| match hold {
             Hold::Fixed | Hold::Hard => None,
-            Hold::Weighted(weight) => Some(Spring { vertex, compliance: (weight * unit).powi(-2) }),
+            Hold::Weighted(weight) => Some(Spring { vertex, compliance: (unit / weight).powi(2) }),
         };
         let springs: Vec<Spring> = self.holds.iter().filter_map(spring).collect();
         let left_out = if self.keeps_equations { self.left_out.clone() } else { Vec::new() };
@@ -179,7 +179,7 @@ impl FreeSolve {
     }
 
     /// The conditions for a minimum: what is left must be orthogonal to every move. ‖Aᴴ A z + W² (z − t)‖ over the
-    /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² |z − t|‖, the sizes of the terms that should cancel.
+    /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² (|z| + |t|)‖, the sizes of the terms that should cancel.
     fn gradient_residual(&self, site: Site<'_>, embedding: &[DVec2], (springs, targets): (&[Spring], &Places)) -> f64 {
         let mesh = site.mesh;
         let mut left = self.left_over(mesh, embedding);
@@ -207,9 +207,10 @@ impl FreeSolve {
         }
         for pin in springs {
             let at = &mut sums[pin.vertex.index()];
-            let way = (embedding[pin.vertex.index()] - targets[&pin.vertex]) / pin.compliance;
+            let (place, target) = (embedding[pin.vertex.index()], targets[&pin.vertex]);
+            let way = (place - target) / pin.compliance;
             at.0 += Complex::new(way.x, way.y);
-            at.1 += way.length();
+            at.1 += (place.length() + target.length()) / pin.compliance;
         }
         let (left, whole) =
             sums.iter().fold((0.0, 0.0), |(left, whole), (sum, size)| (left + sum.norm_sqr(), whole + size * size));

@@ -131,8 +131,8 @@ impl Prepared {
         self.settings == *settings && (!settings.method.uses_pins() || alike())
     }
 
-    /// How all vertices move when a pin's target moves by (1, 0): the embedding is complex-linear in the targets, so
-    /// that a move by δ adds δ times this, as complex numbers.
+    /// How all vertices move when the targets of some pins move by (1, 0): the embedding is complex-linear in the
+    /// targets, so that a move by δ adds δ times this, as complex numbers.
     ///
     /// # Errors
     ///
@@ -140,15 +140,15 @@ impl Prepared {
     ///
     /// # Panics
     ///
-    /// If the vertex is not pinned.
-    pub fn column(&self, mesh: &DiskMesh, vertex: VertexId) -> Result<Vec<DVec2>, SolveError> {
-        assert!(self.asked.contains_key(&vertex), "only a pin has a column");
+    /// If one of the vertices is not pinned.
+    pub fn column(&self, mesh: &DiskMesh, moved: &[VertexId]) -> Result<Vec<DVec2>, SolveError> {
+        assert!(moved.iter().all(|vertex| self.asked.contains_key(vertex)), "only pins have columns");
         let Values::Free(free) = &self.values else { return Ok(vec![DVec2::ZERO; mesh.vertex_count()]) };
         if self.own_places.is_some() {
             // One pin alone moves everything.
             return Ok(vec![DVec2::X; mesh.vertex_count()]);
         }
-        let target = |v: VertexId| if v == vertex { DVec2::X } else { DVec2::ZERO };
+        let target = |v: VertexId| if moved.contains(&v) { DVec2::X } else { DVec2::ZERO };
         let targets: Places = self.asked.keys().map(|&v| (v, target(v))).collect();
         Ok(free.solve(Site { mesh, system: &self.system }, &targets)?.0)
     }

@@ -114,7 +114,7 @@ fn the_conformal_matrix_is_hermitian_bit_for_bit() {
 }
 
 /// The family's part of the identity of one corner (DESIGN §1), term by term, from the angle itself: factors of z₀, z₁, z₂.
-fn corner_terms(x: [DVec3; 3], settings: &Settings) -> [Complex<f64>; 3] {
+pub(crate) fn corner_terms(x: [DVec3; 3], settings: &Settings) -> [Complex<f64>; 3] {
     let (u, w) = (x[1] - x[0], x[2] - x[0]);
     let (r1, r2, angle) = (u.length(), w.length(), u.angle_between(w));
     if settings.method == Method::Levy {

@@ -191,6 +191,7 @@ fn pins_in_a_saved_file_are_the_user_s_own_numbers() {
     settled(&mut session, Action::Fix(vec![id(0), id(200)]));
     let target = DVec2::new(0.1, 0.7);
     settled(&mut session, Action::MovePin { vertex: id(0), target });
+    settled(&mut session, Action::EndGesture);
     let folder = tempfile::tempdir().unwrap();
     settled(&mut session, save(&folder, "a.obj", OutputKind::Obj));
     let text = std::fs::read_to_string(folder.path().join("a.obj")).unwrap();

@@ -1,0 +1,101 @@
+//! Dragging pins: what follows the pointer, its proof, rest and end.
+
+use std::sync::Arc;
+
+use freebound::examples::Example;
+use freebound::mesh::VertexId;
+use freebound::session::{Action, Session};
+use freebound::solver::{Control, Hold, Pin, flatten, verdict};
+use glam::DVec2;
+
+use crate::session::{opened, settle, settled};
+
+/// The pins of a drag on a mesh with three constraints and one that pulls.
+fn with_constraints() -> Session {
+    let mut session = opened(Example::Dome);
+    for (number, place, hold) in [
+        (0, DVec2::ZERO, Hold::Hard),
+        (60, DVec2::new(0.2, 0.9), Hold::Weighted(2.0)),
+        (100, DVec2::X, Hold::Hard),
+        (200, DVec2::new(0.8, 0.9), Hold::Hard),
+    ] {
+        settled(&mut session, Action::Place { vertex: VertexId::new(number), pin: Pin { target: place, hold } });
+    }
+    session
+}
+
+/// The embedding that the document's first solve gives.
+fn first_solve(session: &Session) -> Vec<DVec2> {
+    let document = session.document();
+    let disk = session.model().expect("open").disk().expect("a disk");
+    flatten(disk, &document.run_settings(), &document.plane_pins(), Control::unattended()).unwrap().embedding
+}
+
+#[test]
+fn what_follows_the_pointer_is_the_first_solve_and_is_proved_in_its_own_time() {
+    let mut session = with_constraints();
+    let disk = Arc::clone(session.model().expect("open").disk().expect("a disk"));
+    for (i, number) in (0..).zip([100, 100, 60, 60, 0]) {
+        let vertex = VertexId::new(number);
+        let target = DVec2::new(0.1 * f64::from(i), 0.5);
+        settled(&mut session, Action::MovePin { vertex, target });
+        let preview = session.preview().expect("a drag shows one");
+        let fresh = first_solve(&session);
+        let apart = fresh.iter().zip(&*preview.embedding).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        assert!(apart < 1e-10, "{apart:.1e} apart");
+        if number != 60 {
+            assert_eq!(preview.embedding[vertex.index()], target, "to the last bit");
+        }
+        assert_eq!(**preview.verdict().expect("proved by now"), verdict(&disk, &preview.embedding));
+    }
+    settled(&mut session, Action::EndGesture);
+    assert!(session.preview().is_none() && session.is_current());
+}
+
+#[test]
+fn pins_that_are_dragged_together_keep_their_distance_and_are_one_undo_step() {
+    let mut session = with_constraints();
+    let before = session.document().clone();
+    for i in 1..=10 {
+        let by = DVec2::new(0.01, -0.02) * f64::from(i);
+        let moves = [0, 100].map(VertexId::new).map(|v| (v, before.pins[&v].target + by));
+        settled(&mut session, Action::MovePins(moves.to_vec()));
+        let apart = {
+            let preview = session.preview().expect("a drag shows one");
+            first_solve(&session).iter().zip(&*preview.embedding).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+        };
+        assert!(apart < 1e-10, "{apart:.1e} apart");
+    }
+    settled(&mut session, Action::EndGesture);
+    settled(&mut session, Action::Undo);
+    assert_eq!(*session.document(), before);
+}
+
+#[test]
+fn a_pointer_that_rests_has_the_embedding_repaired_and_the_drag_goes_on() {
+    let mut session = with_constraints();
+    let vertex = VertexId::new(100);
+    settled(&mut session, Action::MovePin { vertex, target: DVec2::new(0.9, 0.1) });
+    settled(&mut session, Action::Rest);
+    assert!(session.preview().is_none() && session.is_current(), "the run has taken its place");
+    assert!(session.history().is_in_gesture());
+    settled(&mut session, Action::MovePin { vertex, target: DVec2::new(0.8, 0.1) });
+    assert!(session.preview().is_some());
+    settled(&mut session, Action::EndGesture);
+    assert!(session.is_current());
+    settled(&mut session, Action::Undo);
+    assert_eq!(session.document().pins[&vertex].target, DVec2::X, "one undo step, rest and all");
+}
+
+#[test]
+fn a_slower_column_catches_up_with_the_pointer() {
+    let mut session = with_constraints();
+    let vertex = VertexId::new(200);
+    // No poll between the moves: the column is still being solved for.
+    for i in 0..20 {
+        session.handle(Action::MovePin { vertex, target: DVec2::new(0.8 - 0.01 * f64::from(i), 0.9) });
+    }
+    settle(&mut session);
+    let target = session.document().pins[&vertex].target;
+    assert_eq!(session.preview().expect("it caught up").embedding[vertex.index()], target);
+}
