@@ -15,6 +15,7 @@ mod obj_write;
 mod output;
 mod picture;
 mod project;
+mod project_fields;
 mod project_json;
 pub mod raster;
 mod report;

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::str::FromStr as _;
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::FileStamp;
 use super::project::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
+use super::project_fields::{RawFamily, RawWeight};
 use crate::geom::VAxis;
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
+use crate::solver::{BoundaryShape, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
 
 /// The fields of a project file, in their order.
 #[derive(Serialize, Deserialize)]
@@ -139,24 +139,6 @@ enum RawGrowth {
     One,
 }
 
-#[derive(Clone, Default, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-struct RawFamily(Family);
-
-impl TryFrom<String> for RawFamily {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, Self::Error> {
-        Family::from_str(&text).map(Self).map_err(|choice| format!("\"{text}\" is no family: {choice}"))
-    }
-}
-
-impl From<RawFamily> for String {
-    fn from(RawFamily(family): RawFamily) -> Self {
-        family.to_string()
-    }
-}
-
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum RawHold {
@@ -172,24 +154,21 @@ struct RawPinFields {
     v: f64,
     hold: RawHold,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    weight: Option<f64>,
+    weight: Option<RawWeight>,
 }
 
 #[derive(Clone, Serialize, Deserialize)]
-#[serde(try_from = "RawPinFields", into = "RawPinFields")]
+#[serde(from = "RawPinFields", into = "RawPinFields")]
 struct RawPin(VertexId, Pin);
 
-impl TryFrom<RawPinFields> for RawPin {
-    type Error = &'static str;
-
-    fn try_from(raw: RawPinFields) -> Result<Self, Self::Error> {
-        let hold = match (raw.hold, raw.weight) {
-            (RawHold::Fixed, _) => Hold::Fixed,
-            (RawHold::Hard, _) => Hold::Hard,
-            (RawHold::Weighted, Some(weight)) if weight.is_finite() && weight > 0.0 => Hold::Weighted(weight),
-            (RawHold::Weighted, _) => return Err("a weighted pin needs a positive \"weight\""),
+impl From<RawPinFields> for RawPin {
+    fn from(raw: RawPinFields) -> Self {
+        let hold = match raw.hold {
+            RawHold::Fixed => Hold::Fixed,
+            RawHold::Hard => Hold::Hard,
+            RawHold::Weighted => Hold::Weighted(raw.weight.map_or(Pin::DEFAULT_WEIGHT, |weight| weight.0)),
         };
-        Ok(Self(VertexId::new(raw.vertex), Pin { target: DVec2::new(raw.u, raw.v), hold }))
+        Self(VertexId::new(raw.vertex), Pin { target: DVec2::new(raw.u, raw.v), hold })
     }
 }
 
@@ -198,7 +177,7 @@ impl From<RawPin> for RawPinFields {
         let (hold, weight) = match hold {
             Hold::Fixed => (RawHold::Fixed, None),
             Hold::Hard => (RawHold::Hard, None),
-            Hold::Weighted(weight) => (RawHold::Weighted, Some(weight)),
+            Hold::Weighted(weight) => (RawHold::Weighted, Some(RawWeight(weight))),
         };
         Self { vertex: vertex.number(), u: target.x, v: target.y, hold, weight }
     }

@@ -9,8 +9,8 @@ use super::errands::Errands;
 use super::files::SaveJob;
 use super::open::OnTable;
 use super::opened::{OpenError, Opened};
-use super::project::ProjectSaves;
 use super::preview::{Follow, FollowJob, VerdictJob};
+use super::project::ProjectSaves;
 use super::run::Running;
 use super::{
     Action, Command, Document, History, Job, Message, Model, Outcome, Place, Preview, RecentFiles, Severity,

@@ -15,7 +15,7 @@ use crate::solver::{Hold, Pin};
 const BELOW: f32 = 250.0;
 
 /// Widths of a coordinate's and a weight's field, points.
-const FIELDS: [f32; 2] = [58.0, 46.0];
+const FIELDS: [f32; 2] = [56.0, 44.0];
 
 /// Shows the panel.
 pub(super) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -57,7 +57,7 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let height = (ui.available_height() - BELOW).max(80.0);
     egui::ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
         ui.spacing_mut().button_padding.x = 4.0;
-        egui::Grid::new("pins").num_columns(6).spacing([4.0, 4.0]).striped(true).show(ui, |ui| {
+        egui::Grid::new("pins").num_columns(6).min_col_width(0.0).spacing([4.0, 4.0]).striped(true).show(ui, |ui| {
             for words in ["", "Vertex", "u", "v", "Weight", ""] {
                 ui.weak(words);
             }
@@ -74,7 +74,10 @@ fn row(ui: &mut egui::Ui, editor: &Editor, (vertex, pin, speed): (VertexId, Pin,
     hold_button(ui, (vertex, pin.hold), requests);
     let selected = editor.selection.contains(&vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
-    if label.on_hover_text("Select and show it; Shift selects all up to it, Ctrl adds it").clicked() {
+    let label = label.on_hover_text("Select; Shift selects all up to it, Ctrl adds it, a double click shows it");
+    if label.double_clicked() {
+        requests.push(Request::GoTo(vec![vertex]));
+    } else if label.clicked() {
         requests.push(chosen(ui, editor, vertex));
     }
     coordinates(ui, (vertex, pin.target, speed), requests);
@@ -122,7 +125,7 @@ fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
             Request::Select(pins.map(|(&vertex, _)| vertex).collect())
         }
         None if modifiers.command => Request::ToggleSelected(vertex),
-        None => Request::GoTo(vec![vertex]),
+        None => Request::Select(vec![vertex]),
     }
 }
 

@@ -1,0 +1,80 @@
+//! Fields of a project file that not every text or number fits. They are checked while they are read, so that a fault is
+//! told with the line of its field.
+
+use std::fmt;
+use std::str::FromStr as _;
+
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::solver::Family;
+
+/// A family by its name.
+#[derive(Clone, Default)]
+pub(super) struct RawFamily(pub(super) Family);
+
+impl Serialize for RawFamily {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&self.0)
+    }
+}
+
+impl<'de> Deserialize<'de> for RawFamily {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_str(FamilyVisitor)
+    }
+}
+
+struct FamilyVisitor;
+
+impl Visitor<'_> for FamilyVisitor {
+    type Value = RawFamily;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the name of a family")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<RawFamily, E> {
+        let family = Family::from_str(text);
+        family.map(RawFamily).map_err(|choice| E::custom(format!("\"{text}\" is no family: {choice}")))
+    }
+}
+
+/// A weight: a positive number.
+#[derive(Clone, Copy)]
+pub(super) struct RawWeight(pub(super) f64);
+
+impl Serialize for RawWeight {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(self.0)
+    }
+}
+
+impl<'de> Deserialize<'de> for RawWeight {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_f64(WeightVisitor)
+    }
+}
+
+struct WeightVisitor;
+
+impl Visitor<'_> for WeightVisitor {
+    type Value = RawWeight;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a weight")
+    }
+
+    fn visit_f64<E: Error>(self, weight: f64) -> Result<RawWeight, E> {
+        let is_weight = weight.is_finite() && weight > 0.0;
+        is_weight.then_some(RawWeight(weight)).ok_or_else(|| E::custom(format!("the weight {weight} is not positive")))
+    }
+
+    fn visit_u64<E: Error>(self, weight: u64) -> Result<RawWeight, E> {
+        self.visit_f64(weight as f64)
+    }
+
+    fn visit_i64<E: Error>(self, weight: i64) -> Result<RawWeight, E> {
+        self.visit_f64(weight as f64)
+    }
+}

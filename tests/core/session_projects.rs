@@ -1,0 +1,293 @@
+//! Projects: everything comes back, what has changed is said, and the session knows what is saved.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use freebound::examples::Example;
+use freebound::geom::VAxis;
+use freebound::io::{PathStyle, ProjectFile, ProjectSource, ProjectView};
+use freebound::session::{Action, Session, Severity};
+use freebound::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Pin, Settings, Treatment};
+use glam::DVec2;
+use tempfile::TempDir;
+
+use crate::session::{opened, session, settle, settled};
+use crate::session_documents::{errors, id, place, with_dome, write_dome, write_picture};
+
+fn project_in(folder: &TempDir) -> PathBuf {
+    folder.path().join("work.freebound")
+}
+
+fn reopened(path: &Path) -> Session {
+    let mut session = session();
+    settled(&mut session, Action::Open(path.to_owned()));
+    session
+}
+
+/// A dome with everything that a project holds.
+fn with_everything() -> (TempDir, Session) {
+    let (folder, mut session) = with_dome();
+    fs::create_dir(folder.path().join("pictures")).unwrap();
+    let picture = folder.path().join("pictures").join("ä b.png");
+    write_picture(&picture, 5, 3);
+    settled(&mut session, Action::OpenPicture(picture));
+    settled(&mut session, Action::SetVAxis(VAxis::Down));
+    settled(&mut session, Action::TurnFaces);
+    let settings = Settings {
+        method: Method::Iterate,
+        family: Family::Power(0.1 + 0.2),
+        treatment: Some(Treatment::LeastSquares),
+        max_steps: 7,
+        growth: Growth::One,
+        size: GaugeSize::default(),
+    };
+    settled(&mut session, Action::SetSettings(settings));
+    place(&mut session, 0, Pin::hard(DVec2::new(0.1 + 0.7, -0.0)));
+    place(&mut session, 6, Pin::fixed(DVec2::new(1.0 / 3.0, 1e-310)));
+    place(&mut session, 30, Pin::weighted(DVec2::new(0.4, 0.9), f64::MIN_POSITIVE.sqrt()));
+    session.set_view(ProjectView {
+        mesh_shading: Some("checker".to_owned()),
+        plane_shading: Some("angle".to_owned()),
+        mesh_camera: Some(vec![0.1, 1.0 / 3.0]),
+        plane_camera: Some(vec![2.5]),
+        selection: vec![3, 4],
+        tool: Some("constrain".to_owned()),
+    });
+    (folder, session)
+}
+
+#[test]
+fn everything_in_a_project_comes_back_bit_for_bit() {
+    let (folder, mut before) = with_everything();
+    settled(&mut before, Action::SaveProject(project_in(&folder)));
+    assert!(errors(&before).is_empty(), "{:?}", before.messages());
+    let after = reopened(&project_in(&folder));
+    assert!(after.messages().is_empty(), "{:?}", after.messages());
+    let (a, b) = (before.document(), after.document());
+    assert_eq!(a.settings, b.settings);
+    assert_eq!((a.v_axis, a.faces_turned), (b.v_axis, b.faces_turned));
+    assert_eq!(a.picture.as_ref().map(|p| (&p.name, &p.pixels)), b.picture.as_ref().map(|p| (&p.name, &p.pixels)));
+    let bits = |session: &Session| -> Vec<_> {
+        let pins = session.document().pins.iter();
+        pins.map(|(v, pin)| (*v, pin.target.to_array().map(f64::to_bits), format!("{:?}", pin.hold))).collect()
+    };
+    assert_eq!(bits(&before), bits(&after));
+    assert_eq!(before.view(), after.view());
+    assert!(after.model().expect("open").faces_turned && after.is_current());
+    let embedding = |session: &Session| session.outcome().expect("solved").step.solution.embedding.clone();
+    assert_eq!(embedding(&before), embedding(&after));
+}
+
+#[test]
+fn every_choice_of_method_comes_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = project_in(&folder);
+    let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(-0.1), Family::Uniform];
+    let methods = [
+        Method::Auto,
+        Method::Natural,
+        Method::Iterate,
+        Method::VirtualBoundary,
+        Method::Convex(BoundaryShape::Circle),
+        Method::Convex(BoundaryShape::Square),
+        Method::Lscm,
+        Method::Levy,
+    ];
+    let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
+    for (index, method) in methods.into_iter().enumerate() {
+        let mut project = ProjectFile::of_mesh(ProjectSource::Example("dome".to_owned()));
+        let family = families[index % families.len()];
+        project.settings = Settings { treatment: treatments[index % 4], ..Settings::new(method, family) };
+        project.write(&path, PathStyle::Relative).unwrap();
+        assert_eq!(ProjectFile::read(&path).unwrap(), project);
+    }
+}
+
+#[test]
+fn a_folder_moves_as_a_whole() {
+    let (folder, mut session) = with_everything();
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    let text = fs::read_to_string(project_in(&folder)).unwrap();
+    assert!(text.contains("\"file\": \"dome.obj\"") && text.contains("\"pictures/ä b.png\""), "{text}");
+    let elsewhere = tempfile::tempdir().unwrap();
+    let moved = elsewhere.path().join("moved");
+    fs::rename(folder.path(), &moved).unwrap();
+    let after = reopened(&moved.join("work.freebound"));
+    assert!(after.messages().is_empty() && after.document().pins.len() == 3, "{:?}", after.messages());
+}
+
+#[test]
+fn a_project_beside_its_mesh_s_folder_finds_it() {
+    let (folder, mut session) = with_dome();
+    let other = folder.path().join("projects");
+    fs::create_dir(&other).unwrap();
+    settled(&mut session, Action::SaveProject(other.join("work.freebound")));
+    let text = fs::read_to_string(other.join("work.freebound")).unwrap();
+    assert!(text.contains("\"../dome.obj\""), "{text}");
+    assert!(reopened(&other.join("work.freebound")).messages().is_empty());
+}
+
+#[test]
+fn an_example_s_project_names_the_example() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = opened(Example::Face);
+    place(&mut session, 5, Pin::hard(DVec2::new(0.5, 0.25)));
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    let after = reopened(&project_in(&folder));
+    assert_eq!(after.model().expect("open").example, Some(Example::Face));
+    assert_eq!(after.document(), session.document());
+    assert!(after.document().picture.is_some(), "the portrait belongs to it");
+}
+
+#[test]
+fn the_session_knows_what_is_saved() {
+    let (folder, mut session) = with_dome();
+    assert!(!session.has_unsaved_work(), "a mesh as it was opened");
+    assert_eq!((session.project_path(), session.project_name().as_deref()), (None, Some("dome.obj")));
+    place(&mut session, 5, Pin::hard(DVec2::X));
+    assert!(session.has_unsaved_work());
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    assert!(!session.has_unsaved_work());
+    assert_eq!(session.project_path(), Some(&project_in(&folder)));
+    assert_eq!(session.project_name().as_deref(), Some("work"));
+    place(&mut session, 6, Pin::hard(DVec2::Y));
+    assert!(session.has_unsaved_work());
+    settled(&mut session, Action::Undo);
+    assert!(!session.has_unsaved_work(), "back at what was saved");
+    settled(&mut session, Action::Undo);
+    assert!(session.has_unsaved_work(), "before what was saved");
+    settled(&mut session, Action::OpenExample(Example::Face));
+    assert!(!session.has_unsaved_work() && session.project_path().is_none());
+}
+
+#[test]
+fn an_edit_while_a_save_is_under_way_is_unsaved() {
+    let (folder, mut session) = with_dome();
+    session.handle(Action::Place { vertex: id(1), pin: Pin::hard(DVec2::X) });
+    session.handle(Action::SaveProject(project_in(&folder)));
+    session.handle(Action::Place { vertex: id(2), pin: Pin::hard(DVec2::Y) });
+    settle(&mut session);
+    assert!(session.has_unsaved_work());
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().pins.len(), 1);
+}
+
+#[test]
+fn of_many_saves_the_last_one_is_in_the_file() {
+    let (folder, mut session) = with_dome();
+    for vertex in 0..20 {
+        session.handle(Action::Place { vertex: id(vertex), pin: Pin::hard(DVec2::new(f64::from(vertex), 0.0)) });
+        session.handle(Action::SaveProject(project_in(&folder)));
+    }
+    settle(&mut session);
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().pins, session.document().pins);
+    assert!(!session.has_unsaved_work());
+}
+
+#[test]
+fn a_save_that_fails_is_said_and_nothing_counts_as_saved() {
+    let (folder, mut session) = with_dome();
+    place(&mut session, 1, Pin::hard(DVec2::X));
+    settled(&mut session, Action::SaveProject(folder.path().join("no such folder").join("a.freebound")));
+    assert!(session.has_unsaved_work() && session.project_path().is_none());
+    assert_eq!(errors(&session).len(), 1);
+}
+
+#[test]
+fn a_missing_mesh_is_named_and_what_was_open_stays() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    fs::remove_file(folder.path().join("dome.obj")).unwrap();
+    let mut session = opened(Example::Ell);
+    settled(&mut session, Action::Open(project_in(&folder)));
+    assert_eq!(session.model().expect("still open").example, Some(Example::Ell));
+    let message = session.messages().last().expect("said");
+    assert!(message.text.contains("dome.obj") && message.remedy.is_some(), "{message:?}");
+}
+
+#[test]
+fn a_changed_mesh_is_said_and_pins_that_it_has_no_vertices_for_are_counted() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    write_dome(&folder.path().join("dome.obj"), 6, 3);
+    let session = reopened(&project_in(&folder));
+    assert_eq!(session.document().pins.len(), 2, "vertex 30 is gone");
+    let said = errors(&session);
+    assert!(said[0].contains("mesh has changed") && said[0].contains("dome.obj"), "{said:?}");
+    assert!(said[1].starts_with("1 of the project's 3 pins"), "{said:?}");
+}
+
+#[test]
+fn a_missing_and_a_changed_picture_are_said() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    let picture = folder.path().join("pictures").join("ä b.png");
+    write_picture(&picture, 5, 4);
+    let session = reopened(&project_in(&folder));
+    assert!(session.document().picture.is_some());
+    assert!(errors(&session)[0].contains("picture has changed") && errors(&session)[0].contains("ä b.png"));
+    fs::remove_file(&picture).unwrap();
+    let session = reopened(&project_in(&folder));
+    assert!(session.document().picture.is_none() && session.document().pins.len() == 3);
+    assert!(errors(&session)[0].contains("is not there") && errors(&session)[0].contains("ä b.png"));
+}
+
+/// What is said of a project file with this text.
+fn said_of(text: &str) -> (String, Option<String>) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(project_in(&folder), text).unwrap();
+    let session = reopened(&project_in(&folder));
+    assert!(session.model().is_none(), "nothing is guessed: {text}");
+    let message = &session.messages()[0];
+    assert_eq!(message.severity, Severity::Error);
+    (message.text.clone(), message.remedy.clone())
+}
+
+#[test]
+fn faults_of_a_project_name_line_and_field() {
+    let mesh = "\"mesh\": {\"example\": \"dome\"}";
+    let pin =
+        |fields: &str| format!("{{\"freebound_project\": 1, {mesh},\n\"pins\": [\n{{\"vertex\": 1, {fields}}}\n]}}");
+    let cases = [
+        (pin("\"u\": \"x\", \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: invalid type"),
+        (pin("\"u\": 0, \"v\": 0, \"hold\": \"soft\""), "line 3, pins[0].hold: unknown variant `soft`"),
+        (
+            pin("\"u\": 0, \"v\": 0, \"hold\": \"weighted\", \"weight\": -2"),
+            "line 3, pins[0].weight: the weight -2 is not",
+        ),
+        (pin("\"u\": 0, \"hold\": \"hard\""), "line 3, pins[0]: missing field `v`"),
+        (pin("\"u\": 1e999, \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: number out of range"),
+        (
+            format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"family\": \"nonsense\"\n}}"),
+            "line 4, family: \"nonsense\"",
+        ),
+        ("{\n\"freebound_project\": 1,\n\"mesh\": {},\n\"pins\": []\n}".to_owned(), "line 3, mesh: name either"),
+        ("{\n\"freebound_project\": 1\n}".to_owned(), "line 2, the project: missing field `mesh`"),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"max_steps\": -3}}"), "line 4, max_steps: "),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"pins\": ["), "line 4, pins[0]: EOF"),
+    ];
+    for (text, expected) in cases {
+        let (found, remedy) = said_of(&text);
+        assert!(found.starts_with(expected), "{found}\nand not\n{expected}\nof\n{text}");
+        assert!(found.contains("work.freebound") && remedy.is_some());
+    }
+}
+
+#[test]
+fn a_newer_project_is_refused_by_name_and_other_files_are_no_projects() {
+    let (text, remedy) = said_of("{\"freebound_project\": 2, \"mesh\": 7}");
+    assert!(text.contains("newer Freebound") && text.contains("its format is 2"), "{text}");
+    assert!(remedy.is_some_and(|remedy| remedy.contains("newer version")));
+    for other in ["", "v 1 2 3\n", "{}", "[1, 2]", "{\"freebound_project\": 0}"] {
+        assert!(said_of(other).0.contains("no Freebound project"), "{other}");
+    }
+}
+
+#[test]
+fn fields_that_nobody_knows_yet_are_ignored_and_few_are_needed() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "{\"future\": {\"a\": [1]}, \"freebound_project\": 1, \"mesh\": {\"example\": \"dome\", \"x\": 1}}";
+    fs::write(project_in(&folder), text).unwrap();
+    let session = reopened(&project_in(&folder));
+    assert!(session.messages().is_empty() && session.is_current());
+    assert_eq!(session.document().settings, Settings::default());
+}
