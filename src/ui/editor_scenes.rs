@@ -61,7 +61,7 @@ impl Editor {
                 Poll::Done(scene) => {
                     self.plane_scene_job = None;
                     if self.plane_camera.is_none() {
-                        let bounds = self.with_picture(scene.arrays.bounds());
+                        let bounds = self.framed_box(scene.arrays.bounds());
                         self.set_framed(PlaneCamera::framing(bounds, self.plane_pane_size));
                     }
                     self.take_plane_scene(scene);

@@ -39,7 +39,13 @@ impl Editor {
         PlaneBox { min, max }
     }
 
-    /// What is to be seen of the plane: the embedding, and the picture where there is one.
+    /// What the window shows of the plane by itself: the picture where there is one, so that it stays where it is while
+    /// the embedding changes; else the embedding.
+    pub(super) fn framed_box(&self, embedding: PlaneBox) -> PlaneBox {
+        if self.has_picture() { self.picture_box() } else { embedding }
+    }
+
+    /// All that there is in the plane: the embedding, and the picture where there is one.
     pub(super) fn with_picture(&self, embedding: PlaneBox) -> PlaneBox {
         if self.has_picture() { embedding.union(self.picture_box()) } else { embedding }
     }

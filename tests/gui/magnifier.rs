@@ -71,9 +71,9 @@ fn a_click_goes_to_its_defect() {
 #[test]
 fn it_can_be_switched_off() {
     let mut window = folded();
-    window.menu(&["View", "Magnifier over a defect"]);
+    window.menu(&["View", "Magnifier"]);
     assert_eq!(inset(&window), None);
-    window.menu(&["View", "Magnifier over a defect"]);
+    window.menu(&["View", "Magnifier"]);
     assert!(inset(&window).is_some());
 }
 
