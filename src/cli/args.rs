@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Family, Growth, Method, Settings, Treatment};
+use crate::solver::{BoundaryShape, Family, Growth, Hold, Method, Pin, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -21,7 +21,7 @@ pub struct Arguments {
 }
 
 const EXIT_HELP: &str = "Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input, \
-                         4 finished but not planar, 130 interrupted.";
+                         4 finished but not planar or a constraint not met, 130 interrupted.";
 
 /// The commands that need no screen.
 #[derive(Debug, Subcommand)]
@@ -57,9 +57,18 @@ pub struct FlattenArguments {
     /// conformal without it.
     #[arg(long, value_parser = Family::from_str)]
     pub family: Option<Family>,
-    /// Pin a vertex, numbered from 0, at u,v. Repeatable.
-    #[arg(long = "pin", value_name = "V:U,V", value_parser = parse_pin, allow_hyphen_values = true)]
-    pub pins: Vec<(VertexId, DVec2)>,
+    /// Pin a vertex, numbered from 0, at u,v: exactly, or pulled there by a weight. Repeatable.
+    #[arg(long = "pin", value_name = "V:U,V[:WEIGHT]", value_parser = parse_pin, allow_hyphen_values = true)]
+    pub pins: Vec<(VertexId, Pin)>,
+    /// Pin vertices as a file says: lines "vertex u v [weight]", vertices numbered from 0, comments behind a #.
+    #[arg(long, value_name = "FILE")]
+    pub constraints: Option<PathBuf>,
+    /// The picture that u and v are for, width to height: angles are kept on it. 1:1 without it.
+    #[arg(long, value_name = "W:H", value_parser = parse_aspect, conflicts_with = "picture")]
+    pub aspect: Option<f64>,
+    /// Map this picture (PNG or JPEG) on the mesh: its aspect counts, and it goes beside the OBJ file, with a material.
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
     /// What becomes of the pinned vertices' equations. Without it: of two pins eliminated, of more kept, and kept in
     /// the iteration.
     #[arg(long, value_enum)]
@@ -79,6 +88,10 @@ pub struct FlattenArguments {
     /// Draw the layout here (SVG).
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// Size of the drawing: the unit square (the picture, where there is one) is the page, or lengths are as on the
+    /// surface, a unit of the drawing for a unit of the mesh. As `--fit` without it.
+    #[arg(long, value_enum, requires = "svg")]
+    pub svg_scale: Option<Fit>,
     /// Draw the mesh and the layout side by side here (PNG).
     #[arg(long, value_name = "FILE")]
     pub png: Option<PathBuf>,
@@ -127,6 +140,7 @@ impl FlattenArguments {
             (self.boundary.is_some(), is_convex, "--boundary", "only convex lays the boundary on a shape"),
             (self.family.is_some(), method.uses_family(), "--family", "its weights are its own"),
             (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary by itself"),
+            (self.constraints.is_some(), method.uses_pins(), "--constraints", "it places the whole boundary by itself"),
             (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
             (self.max_steps.is_some(), method.iterates(), "--max-steps", "only auto and iterate do iterate"),
             (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary pin more"),
@@ -209,13 +223,35 @@ pub enum Fit {
     True,
 }
 
-fn parse_pin(text: &str) -> Result<(VertexId, DVec2), String> {
+fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
     let parsed = || {
         let (vertex, place) = text.split_once(':')?;
+        let (place, weight) = place.split_once(':').map_or((place, None), |(place, weight)| (place, Some(weight)));
         let (u, v) = place.split_once(',')?;
-        Some((VertexId::new(vertex.trim().parse().ok()?), DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?)))
+        let hold = match weight {
+            None => Hold::Hard,
+            Some(weight) => Hold::Weighted(weight.trim().parse().ok()?),
+        };
+        let target = DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?);
+        Some((VertexId::new(vertex.trim().parse().ok()?), Pin { target, hold }))
     };
-    parsed().ok_or_else(|| "write VERTEX:U,V, for example 12:0.25,0.75".to_owned())
+    let (vertex, pin) = parsed().ok_or_else(|| "write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
+    match pin.hold {
+        Hold::Weighted(weight) if !(weight.is_finite() && weight > 0.0) => {
+            Err(format!("the weight {weight} of vertex {vertex} is not a positive number"))
+        }
+        _ => Ok((vertex, pin)),
+    }
+}
+
+/// Width over height of "width:height".
+fn parse_aspect(text: &str) -> Result<f64, String> {
+    let parsed = || {
+        let (width, height) = text.split_once(':')?;
+        let aspect = width.trim().parse::<f64>().ok()? / height.trim().parse::<f64>().ok()?;
+        (aspect.is_normal() && aspect > 0.0).then_some(aspect)
+    };
+    parsed().ok_or_else(|| "write WIDTH:HEIGHT, for example 16:9".to_owned())
 }
 
 #[cfg(test)]
@@ -229,10 +265,22 @@ mod tests {
     }
 
     #[test]
-    fn a_pin_is_a_vertex_and_two_numbers() {
-        assert_eq!(parse_pin("7:0.5,-2").unwrap(), (VertexId::new(7), DVec2::new(0.5, -2.0)));
-        for wrong in ["", "7", "7:1", "7:1,x", "-1:0,0", "7:1,2,3"] {
+    fn a_pin_is_a_vertex_and_two_numbers_and_perhaps_a_weight() {
+        let target = DVec2::new(0.5, -2.0);
+        assert_eq!(parse_pin("7:0.5,-2").unwrap(), (VertexId::new(7), Pin::hard(target)));
+        assert_eq!(parse_pin("7:0.5,-2:3e2").unwrap(), (VertexId::new(7), Pin::weighted(target, 300.0)));
+        for wrong in
+            ["", "7", "7:1", "7:1,x", "-1:0,0", "7:1,2,3", "7:1,2:", "7:1,2:x", "7:1,2:0", "7:1,2:-1", "7:1,2:inf"]
+        {
             assert!(parse_pin(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn an_aspect_is_a_width_and_a_height() {
+        assert_eq!(parse_aspect("3:2").unwrap().to_bits(), 1.5_f64.to_bits());
+        for wrong in ["", "3", "3:0", "0:3", "-3:2", "nan:1", "inf:1", "3x2", "1e300:1e-300"] {
+            assert!(parse_aspect(wrong).is_err(), "{wrong}");
         }
     }
 }

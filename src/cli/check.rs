@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         ..report(MeshReport::new(path, &mesh), start, read)
     };
     conclude(arguments, &report, &words)?;
-    Ok(if verdict.planar { Status::Fine } else { Status::NotPlanar })
+    Ok(if verdict.planar { Status::Fine } else { Status::FallsShort })
 }
 
 /// A report on the mesh alone.

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use crate::io::{ReadError, TextureError, WriteError};
+use crate::io::{ConstraintsError, PictureError, ReadError, TextureError, WriteError};
 use crate::mesh::Diagnosis;
 use crate::solver::SolveError;
 
@@ -11,8 +11,8 @@ use crate::solver::SolveError;
 pub enum Status {
     /// Planar and proved, or nothing to object to.
     Fine,
-    /// Finished and written, but not planar.
-    NotPlanar,
+    /// Finished and written, but not planar, or a constraint is not met.
+    FallsShort,
 }
 
 /// A command that could not do its work.
@@ -22,6 +22,12 @@ pub enum Failure {
     /// The file cannot be read.
     #[error("{0}")]
     Read(#[from] ReadError),
+    /// The constraint file cannot be used.
+    #[error("{0}")]
+    Constraints(#[from] ConstraintsError),
+    /// The picture cannot be read.
+    #[error("{0}")]
+    Picture(#[from] PictureError),
     /// The texture coordinates make no mesh.
     #[error("{0}: give every corner texture coordinates, or none")]
     Texture(#[from] TextureError),
@@ -49,7 +55,12 @@ impl Failure {
     pub fn code(&self) -> u8 {
         match self {
             Self::Read(ReadError::Cancelled) | Self::Solve(SolveError::Cancelled) => 130,
-            Self::Read(_) | Self::Texture(_) | Self::NotADisk { .. } | Self::Solve(SolveError::NotFinite { .. }) => 3,
+            Self::Read(_)
+            | Self::Constraints(_)
+            | Self::Picture(_)
+            | Self::Texture(_)
+            | Self::NotADisk { .. }
+            | Self::Solve(SolveError::NotFinite { .. }) => 3,
             Self::Solve(
                 SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
             )
@@ -63,7 +74,7 @@ impl Failure {
 pub(super) fn conclude(outcome: Result<Status, Failure>) -> ExitCode {
     match outcome {
         Ok(Status::Fine) => ExitCode::SUCCESS,
-        Ok(Status::NotPlanar) => ExitCode::from(4),
+        Ok(Status::FallsShort) => ExitCode::from(4),
         Err(failure) => {
             eprintln!("freebound: {failure}");
             ExitCode::from(failure.code())

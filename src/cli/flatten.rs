@@ -1,55 +1,78 @@
 //! `freebound flatten`: read, solve, prove, write.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::args::{Fit, FlattenArguments};
+use super::constraints::gather;
 use super::progress::{Progress, interrupted, is_interrupted};
 use super::{Failure, Status};
 use crate::geom::PictureFrame;
-use crate::io::{OutputKind, Report, StepReport, StepsFolder};
+use crate::io::{OutputKind, PinsReport, Report, StepReport, StepsFolder, read_picture};
 use crate::mesh::DiskMesh;
-use crate::session::{Finished, Model, Outcome, OutputFit, Placement, Surface};
-use crate::solver::{Control, Ending, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step};
+use crate::session::{Document, Finished, Model, Outcome, OutputFit, PictureFile, Placement, Surface};
+use crate::solver::{Control, Ending, GaugeSize, Method, Phase, Pin, Run, Settings, SolveError, Step};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     if let Some((option, why)) = arguments.idle_option() {
         let name = arguments.settings().method.name();
         return Err(Failure::Usage(format!("--method {name} takes no {option}: {why}")));
     }
+    if arguments.fit == Fit::True && (arguments.aspect.is_some() || arguments.picture.is_some()) {
+        return Err(Failure::Usage(
+            "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
+        ));
+    }
     set_threads(arguments.threads)?;
-    let job = HeadlessJob {
-        settings: arguments.settings(),
-        pins: pins(arguments)?,
-        fit: match arguments.fit {
-            Fit::Unit => OutputFit::Unit,
-            Fit::True => OutputFit::True,
-        },
-        outputs: [
-            (OutputKind::Obj, arguments.output.as_deref()),
-            (OutputKind::Svg, arguments.svg.as_deref()),
-            (OutputKind::Png, arguments.png.as_deref()),
-        ]
-        .into_iter()
-        .filter_map(|(kind, path)| Some((kind, path?)))
-        .collect(),
-        report: arguments.report.as_deref(),
-        steps: arguments.steps.as_deref(),
-    };
+    let picture = arguments.picture.as_deref().map(open_picture).transpose()?;
+    let fit = output_fit(arguments.fit);
     let progress = Progress::default();
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
         let model = Model::read_until(&arguments.mesh, &is_interrupted)?;
+        let pins = gather(arguments, disk_of(&model)?.vertex_count())?;
+        let settings = arguments.settings();
+        let document = Document { pins, settings, picture: picture.map(Arc::new), ..Document::default() };
+        let job = HeadlessJob {
+            document,
+            aspect: arguments.aspect,
+            sizes: [fit, arguments.svg_scale.map_or(fit, output_fit)],
+            outputs: [
+                (OutputKind::Obj, arguments.output.as_deref()),
+                (OutputKind::Svg, arguments.svg.as_deref()),
+                (OutputKind::Png, arguments.png.as_deref()),
+            ]
+            .into_iter()
+            .filter_map(|(kind, path)| Some((kind, path?)))
+            .collect(),
+            report: arguments.report.as_deref(),
+            steps: arguments.steps.as_deref(),
+        };
         job.run(&model, start, &progress)
     })
 }
 
+fn output_fit(fit: Fit) -> OutputFit {
+    match fit {
+        Fit::Unit => OutputFit::Unit,
+        Fit::True => OutputFit::True,
+    }
+}
+
+fn open_picture(path: &Path) -> Result<PictureFile, Failure> {
+    let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+    Ok(PictureFile { name, path: Some(path.to_owned()), pixels: Arc::new(read_picture(path)?) })
+}
+
 /// A flattening without a screen, the mesh already read.
 pub(super) struct HeadlessJob<'a> {
-    pub(super) settings: Settings,
-    pub(super) pins: Pins,
-    pub(super) fit: OutputFit,
+    pub(super) document: Document,
+    /// Width over height of a picture that is not at hand.
+    pub(super) aspect: Option<f64>,
+    /// Size of the texture coordinates and of the drawing.
+    pub(super) sizes: [OutputFit; 2],
     pub(super) outputs: Vec<(OutputKind, &'a Path)>,
     pub(super) report: Option<&'a Path>,
     pub(super) steps: Option<&'a Path>,
@@ -62,7 +85,10 @@ impl HeadlessJob<'_> {
         let read_seconds = start.elapsed().as_secs_f64();
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
         let Solved { outcome, records, ending } = self.solve(mesh, folder.as_mut(), progress)?;
-        let mut finished = Finished::new((model, mesh), &outcome, records, self.fit, read_seconds);
+        let [fit, svg_fit] = self.sizes;
+        let mut finished = Finished::new((model, mesh), &outcome, records, fit, read_seconds)
+            .with_picture(self.document.picture.clone())
+            .with_svg_fit(svg_fit);
         progress.enter("writing");
         let before_writing = Instant::now();
         go_on()?;
@@ -84,7 +110,7 @@ impl HeadlessJob<'_> {
             let end = ending_words(&outcome, &finished, &ending);
             print_summary(&finished.report, &end);
         }
-        Ok(if finished.verdict().planar { Status::Fine } else { Status::NotPlanar })
+        Ok(if finished.verdict().planar && are_met(&finished.report) { Status::Fine } else { Status::FallsShort })
     }
 
     /// Takes all steps of the method.
@@ -96,7 +122,8 @@ impl HeadlessJob<'_> {
     ) -> Result<Solved, Failure> {
         let report_phase = |phase: Phase| progress.enter(phase.words());
         let control = Control::new(interrupted(), &report_phase);
-        let mut run = Run::new(self.settings, self.pins.clone());
+        let Document { settings, pins, .. } = self.in_plane();
+        let mut run = Run::new(settings, pins);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;
         loop {
@@ -124,8 +151,28 @@ impl HeadlessJob<'_> {
 }
 
 impl HeadlessJob<'_> {
+    /// How texture coordinates lie in the plane.
+    fn frame(&self) -> PictureFrame {
+        let frame = self.document.frame();
+        PictureFrame { aspect: self.aspect.unwrap_or(frame.aspect), ..frame }
+    }
+
+    /// Settings and pins as they are solved for.
+    fn in_plane(&self) -> Document {
+        let frame = self.frame();
+        let placed = |pin: &Pin| Pin { target: frame.plane_from_uv(pin.target), ..*pin };
+        let pins = self.document.pins.iter().map(|(&vertex, pin)| (vertex, placed(pin))).collect();
+        let [low, high] = frame.corners();
+        let settings = match self.aspect {
+            Some(_) => Settings { size: GaugeSize::Within { low, high }, ..self.document.settings },
+            None => self.document.run_settings(),
+        };
+        Document { pins, settings, ..Document::default() }
+    }
+
     fn outcome(&self, mesh: &DiskMesh, step: Step) -> Outcome {
-        Outcome::new(mesh, self.settings, (PictureFrame::default(), self.pins.clone()), step)
+        let settings = self.in_plane().settings;
+        Outcome::new(mesh, settings, (self.frame(), self.document.pins.clone()), step)
     }
 }
 
@@ -198,14 +245,25 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
     }
 }
 
-fn pins(arguments: &FlattenArguments) -> Result<Pins, Failure> {
-    let mut pins = Pins::new();
-    for &(vertex, target) in &arguments.pins {
-        if pins.insert(vertex, Pin::hard(target)).is_some() {
-            return Err(Failure::Usage(format!("vertex {vertex} is pinned twice: leave out one of the --pin")));
-        }
-    }
-    Ok(pins)
+/// Whether every constraint that is to be met exactly is.
+fn are_met(report: &Report) -> bool {
+    report.pins.as_ref().and_then(|pins| pins.max_hard_error).is_none_or(|error| error == 0.0)
+}
+
+/// What became of the user's pins.
+fn pins_words(pins: &PinsReport) -> Option<String> {
+    let hard = pins.max_hard_error.map(|error| {
+        let count = pins.count - pins.weighted.len();
+        let how = if error == 0.0 { "met exactly".to_owned() } else { format!("missed by up to {error:.1e}") };
+        format!("{count} hard {how}")
+    });
+    let worst = pins.weighted.iter().max_by(|a, b| a.error.total_cmp(&b.error));
+    let weighted = worst.map(|worst| {
+        let count = pins.weighted.len();
+        format!("{count} weighted met within {:.3} (the farthest is vertex {})", worst.error, worst.vertex)
+    });
+    let parts: Vec<String> = hard.into_iter().chain(weighted).collect();
+    (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
 }
 
 fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
@@ -225,6 +283,9 @@ fn print_summary(report: &Report, verdict: &str) {
     let family = report.family.as_deref().map(|family| format!(", {family} weights")).unwrap_or_default();
     let residual = report.steps.last().map_or(0.0, |step| step.residual);
     println!("{}{family}: {verdict}; residual {residual:.1e}", report.method.unwrap_or("check"));
+    if let Some(words) = report.pins.as_ref().and_then(pins_words) {
+        println!("{words}");
+    }
     if let Some(distortion) = &report.distortion {
         println!(
             "angle distortion {:.3} mean, {:.3} p99; area {:.3} mean; stretch L² {:.3}, L∞ {:.3}",

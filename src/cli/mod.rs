@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod constraints;
 mod example;
 mod exit;
 mod figures;

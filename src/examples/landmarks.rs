@@ -19,17 +19,22 @@ pub struct Landmark {
 }
 
 /// Names and places on the sculpture, seen from the front. The person looks along +z, so their left is at +x.
-const PLACES: [(&str, f64, f64); 10] = [
+///
+/// All lie in the middle of the face: pins at its sides would crowd the rim, which reaches behind the ears, and it would
+/// cross itself.
+const PLACES: [(&str, f64, f64); 12] = [
     ("left eye, outer corner", EYE.x + EYE_HALF_WIDTH, EYE.y + EYE_TILT),
     ("left eye, inner corner", EYE.x - EYE_HALF_WIDTH, EYE.y - EYE_TILT),
     ("right eye, inner corner", EYE_HALF_WIDTH - EYE.x, EYE.y - EYE_TILT),
     ("right eye, outer corner", -EYE.x - EYE_HALF_WIDTH, EYE.y + EYE_TILT),
+    ("bridge of the nose", 0.0, 0.10),
     ("tip of the nose", 0.0, -0.22),
     ("left wing of the nose", 0.172, -0.265),
     ("right wing of the nose", -0.172, -0.265),
+    ("upper lip", 0.0, -0.52),
     ("left corner of the mouth", MOUTH_HALF_WIDTH, -0.570),
     ("right corner of the mouth", -MOUTH_HALF_WIDTH, -0.570),
-    ("chin", 0.0, -0.88),
+    ("lower lip", 0.0, -0.62),
 ];
 
 /// The sculpture's foremost point at an x and y.

@@ -17,14 +17,17 @@ pub(super) const REACH: f64 = 1.5;
 pub(super) const MIDDLE: f64 = 0.01;
 
 /// Heights in the picture and in the sculpture: crown, hairline, brow, eye, nose, mouth, chin and neck.
+///
+/// The nose is long and ends close above the mouth: that is what no conformal map of the mesh can follow, and where the
+/// first solve folds.
 const HEIGHTS: [[f64; 2]; 9] = [
     [1.60, 1.50],
     [1.20, 1.13],
-    [0.42, 0.34],
-    [0.22, 0.125],
-    [-0.24, -0.26],
-    [-0.50, -0.56],
-    [-0.93, -0.92],
+    [0.40, 0.34],
+    [0.18, 0.125],
+    [-0.44, -0.26],
+    [-0.56, -0.56],
+    [-0.87, -0.92],
     [-1.30, -1.30],
     [-1.60, -1.60],
 ];
@@ -48,11 +51,11 @@ fn sculpture_height(y: f64) -> f64 {
 
 /// From the picture's plane (x right, y up, in the sculpture's units) to x and y of the sculpture.
 ///
-/// Across, the eyes lie farther apart, nose and mouth are narrower; cheeks, ears and hair stay.
+/// Across, eyes, nose and mouth are narrower; cheeks, ears and hair stay.
 pub(super) fn sculpture_from_plane(p: DVec2) -> DVec2 {
     let x = p.x.abs();
-    let eyes = -0.13 * bump(p.y - 0.24, 0.22) * (1.0 - ramp(x, 0.40, 0.90));
-    let nose_and_mouth = (0.14 * bump(p.y + 0.17, 0.17) + 0.06 * bump(p.y + 0.52, 0.15)) * (1.0 - ramp(x, 0.24, 0.58));
+    let eyes = 0.10 * bump(p.y - 0.24, 0.22) * (1.0 - ramp(x, 0.40, 0.90));
+    let nose_and_mouth = (0.14 * bump(p.y + 0.17, 0.17) + 0.08 * bump(p.y + 0.52, 0.15)) * (1.0 - ramp(x, 0.24, 0.58));
     DVec2::new(p.x * (1.0 + eyes + nose_and_mouth), sculpture_height(p.y))
 }
 

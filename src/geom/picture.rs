@@ -1,5 +1,13 @@
 //! A picture in memory.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "pixel numbers and colours come from floats that were cut to their range before"
+)]
+
+use glam::DVec2;
+
 /// A picture of 8-bit sRGB colours with opacity, row by row from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
@@ -26,6 +34,18 @@ impl Picture {
         Some([self.pixels[at], self.pixels[at + 1], self.pixels[at + 2], self.pixels[at + 3]])
     }
 
+    /// Colour at texture coordinates, v up, between the centres of pixels in proportion; beyond the edges the nearest.
+    pub fn sample(&self, uv: DVec2) -> [u8; 3] {
+        let size = DVec2::new(f64::from(self.width), f64::from(self.height));
+        let at = (DVec2::new(uv.x, 1.0 - uv.y) * size - 0.5).clamp(DVec2::ZERO, size - 1.0);
+        let (low, share) = (at.floor(), at - at.floor());
+        let colour = |x: f64, y: f64| self.pixel(x as u32, y as u32).unwrap_or([0; 4]).map(f64::from);
+        let far = (low + 1.0).min(size - 1.0);
+        let rows = [low.y, far.y].map(|y| mix(colour(low.x, y), colour(far.x, y), share.x));
+        let [r, g, b, _] = mix(rows[0], rows[1], share.y).map(|channel| channel.round() as u8);
+        [r, g, b]
+    }
+
     /// This picture on the left, another on the right, top aligned; white where one is less high.
     #[must_use]
     pub fn beside(&self, right: &Self) -> Self {
@@ -42,4 +62,9 @@ impl Picture {
         }
         both
     }
+}
+
+/// The mean of two colours by the share of the second.
+fn mix(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
+    std::array::from_fn(|k| a[k] + (b[k] - a[k]) * share)
 }

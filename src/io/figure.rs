@@ -3,10 +3,12 @@
 //! Both come from one list of fills, strokes and words on a [`Page`], so that they show the same. Lengths on a page are
 //! points; x runs right, y down.
 
+mod base64;
 mod clip;
 mod font;
 mod ink;
 mod panel;
+mod photo;
 mod sheet;
 mod space;
 mod svg;
@@ -15,9 +17,11 @@ use glam::DVec2;
 
 use self::clip::{clip_polygon, clip_segment};
 use super::raster::Colour;
+use crate::geom::Picture;
 
 pub use font::has_glyph;
 pub use panel::{Outside, PlaneDrawing, Pockets, Window, zones_of};
+pub use photo::PhotoDrawing;
 pub use sheet::{Panel, Sheet};
 pub use space::SpaceDrawing;
 
@@ -47,6 +51,8 @@ pub mod colours {
     pub const POCKET_EDGE: Colour = [0x2e, 0x86, 0x3c];
     /// A pinned vertex.
     pub const PIN: Colour = [0x2f, 0x5b, 0xd8];
+    /// A constraint.
+    pub const CONSTRAINT: Colour = [0x00, 0x8f, 0xa3];
     /// The frame around what an inset shows.
     pub const FRAME: Colour = [0x2f, 0x5b, 0xd8];
 }
@@ -139,9 +145,10 @@ struct Words {
 enum Item {
     Path(Path),
     Words(Words),
+    Picture(Area, Picture),
 }
 
-/// A page of paths and words, later ones over earlier ones.
+/// A page of paths, pictures and words, later ones over earlier ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Page {
     size: DVec2,
@@ -179,6 +186,11 @@ impl Page {
         if !lines.is_empty() && ink != Ink::default() {
             self.items.push(Item::Path(Path { lines, is_closed, ink }));
         }
+    }
+
+    /// Draws a picture into an area.
+    pub fn picture_at(&mut self, area: Area, picture: Picture) {
+        self.items.push(Item::Picture(area, picture));
     }
 
     /// Writes words on their baseline.

@@ -8,6 +8,7 @@ mod json_fault;
 mod material;
 mod obj;
 mod obj_line;
+mod obj_material;
 mod obj_parse;
 mod obj_read;
 mod obj_texture;
@@ -31,12 +32,14 @@ pub use obj::{NO_TEXTURE, ObjMesh, Statement, Texture};
 pub use obj_read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
 pub use obj_texture::TextureMesh;
 pub use obj_write::write_obj;
-pub use output::{Output, OutputKind, layout_picture};
+pub use output::{Output, OutputKind, TexturePicture, layout_picture};
 pub use picture::{PictureError, read_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
-pub use report::{MeshReport, PinsReport, Report, Seconds, StepReport, peak_memory_bytes, verdict_as_in_file};
+pub use report::{
+    MeshReport, PinsReport, Report, Seconds, StepReport, WeightedPinReport, peak_memory_bytes, verdict_as_in_file,
+};
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;
-pub use svg::{write_step_svg, write_svg};
+pub use svg::{SvgPage, write_step_svg, write_svg};

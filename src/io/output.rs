@@ -5,9 +5,10 @@ use std::path::Path;
 
 use glam::{DVec2, DVec3};
 
+use super::obj_material::write_obj_with_picture;
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::Report;
-use super::svg::write_svg;
+use super::svg::{SvgPage, write_svg};
 use super::{ObjMesh, WriteError, write_atomically, write_obj};
 use crate::geom::Picture;
 use crate::mesh::DiskMesh;
@@ -62,6 +63,17 @@ pub fn layout_picture(mesh: &DiskMesh, embedding: &[DVec2], verdict: &Verdict, c
     plane_picture(embedding, &mesh.mesh().triangles, canvas, Paint::Faces(&paint))
 }
 
+/// The picture that texture coordinates are for.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturePicture<'a> {
+    /// What it is called.
+    pub name: &'a str,
+    /// The file that it came from.
+    pub path: Option<&'a Path>,
+    /// Its pixels.
+    pub pixels: &'a Picture,
+}
+
 /// A flattening with everything that files say about it.
 #[derive(Clone, Copy, Debug)]
 pub struct Output<'a> {
@@ -75,33 +87,44 @@ pub struct Output<'a> {
     pub verdict: &'a Verdict,
     /// What the run has to say.
     pub report: &'a Report,
+    /// The picture on the mesh, where there is one.
+    pub picture: Option<TexturePicture<'a>>,
+    /// What the page of a drawing is.
+    pub svg_page: SvgPage,
 }
 
 impl Output<'_> {
-    /// The mesh under a checker of its texture coordinates, seen from the side that most faces look to; beside it the
-    /// layout.
+    /// The mesh under its picture, or under a checker of its texture coordinates, seen from the side that most faces
+    /// look to; beside it the layout.
     fn picture(&self) -> Picture {
         let mesh = self.mesh.mesh();
         let eye = self.mesh.faces().map(|face| mesh.double_area_vector(face)).sum();
         let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
         let extent =
             self.coordinates.iter().fold(0.0_f64, |m, z| m.max((*z - self.coordinates[0]).abs().max_element()));
-        let checker = Paint::Checker { coordinates: self.coordinates, size: extent / CHECKER_FIELDS };
+        let paint = match self.picture {
+            Some(picture) => Paint::Picture { coordinates: self.coordinates, picture: picture.pixels },
+            None => Paint::Checker { coordinates: self.coordinates, size: extent / CHECKER_FIELDS },
+        };
         let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
-        let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, checker);
+        let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, paint);
         let drawing = Canvas::drawing(PICTURE_SIZE, PICTURE_SIZE);
         before.beside(&layout_picture(self.mesh, self.coordinates, self.verdict, &drawing))
     }
 
-    /// Writes one file: aside first, then renamed, so that it is never half-written.
+    /// Writes one file: aside first, then renamed, so that it is never half-written. An OBJ file with a picture comes
+    /// with two more, its material and the picture, which are there before it is.
     ///
     /// # Errors
     ///
     /// Where the file cannot be written; the error names it.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
+        if let (OutputKind::Obj, Some(picture)) = (kind, &self.picture) {
+            return write_obj_with_picture(path, (self.source, self.coordinates), picture);
+        }
         write_atomically(path, |out| match kind {
             OutputKind::Obj => write_obj(out, self.source, self.coordinates),
-            OutputKind::Svg => write_svg(out, self.mesh, self.coordinates, self.verdict),
+            OutputKind::Svg => write_svg(out, self.mesh, (self.coordinates, self.verdict), self.svg_page),
             OutputKind::Png => self.picture().write_png(out).map_err(io::Error::other),
             OutputKind::Json => {
                 serde_json::to_writer_pretty(&mut *out, self.report)?;

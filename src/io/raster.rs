@@ -117,6 +117,13 @@ pub enum Paint<'a> {
         /// Width of a field.
         size: f64,
     },
+    /// A picture at texture coordinates given per vertex, v up; beyond its edges the nearest colour.
+    Picture {
+        /// One per vertex.
+        coordinates: &'a [DVec2],
+        /// What is at them.
+        picture: &'a Picture,
+    },
 }
 
 /// A picture of a mesh in space.
@@ -127,11 +134,29 @@ pub fn mesh_picture(
     canvas: &Canvas,
     paint: Paint,
 ) -> Picture {
-    let [right, up, towards] = view.axes();
-    let seen: Vec<DVec3> = positions.par_iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect();
+    let seen = seen_from(positions, view);
     let normals = vertex_normals(&seen, triangles);
     let scene = Scene::new(&seen, triangles, canvas, paint, &normals);
     scene.picture(&[])
+}
+
+/// Where points of a mesh lie in [`mesh_picture`]: shares of its width and height, from its lower left corner.
+pub fn mesh_places(positions: &[DVec3], view: &View, canvas: &Canvas) -> Vec<DVec2> {
+    let seen = seen_from(positions, view);
+    let samples = f64::from(canvas.samples.max(1));
+    let size = DVec2::new(f64::from(canvas.width), f64::from(canvas.height)) * samples;
+    let scene = Scene::new(&seen, &[], canvas, Paint::Clay, &[]);
+    let place = |point: &glam::Vec3| {
+        let share = point.as_dvec3().truncate() / size;
+        DVec2::new(share.x, 1.0 - share.y)
+    };
+    scene.points.iter().map(place).collect()
+}
+
+/// Points in the axes of a view.
+fn seen_from(positions: &[DVec3], view: &View) -> Vec<DVec3> {
+    let [right, up, towards] = view.axes();
+    positions.par_iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect()
 }
 
 /// A picture of an embedding: thin edges, the boundary as a darker line. Which faces are flipped is for the verdict to

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::mesh::{DiskMesh, FaceId, TriMesh};
+use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
 use crate::solver::{DistortionSummary, Step, Verdict};
 
 /// Everything that a run has to say. Field names are part of the interface.
@@ -82,8 +82,27 @@ pub struct PinsReport {
     pub treatment: &'static str,
     /// Pins of the user's.
     pub count: usize,
-    /// Largest distance of a pinned vertex from its target.
+    /// Largest distance of a pinned vertex from its target, in texture coordinates, as all errors here.
     pub max_error: f64,
+    /// The same of those that are to be met exactly; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_hard_error: Option<f64>,
+    /// The same of those that pull by a weight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_weighted_error: Option<f64>,
+    /// Each of these.
+    pub weighted: Vec<WeightedPinReport>,
+}
+
+/// A pin that pulls by a weight.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WeightedPinReport {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// How strongly it is pulled.
+    pub weight: f64,
+    /// Its distance from its target.
+    pub error: f64,
 }
 
 /// One step of one rung.

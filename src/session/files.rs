@@ -33,9 +33,10 @@ impl Session {
             return self.fail(Place::Embedding, text, Some("save again when it is solved"));
         }
         let records = self.timeline.records()[..=outcome.step.index].to_vec();
+        let picture = self.document.picture.clone();
         self.write(move || {
             let disk = model.disk().expect("only a disk has an outcome");
-            let finished = Finished::new((&model, disk), &outcome, records, request.fit, 0.0);
+            let finished = Finished::new((&model, disk), &outcome, records, request.fit, 0.0).with_picture(picture);
             finished.write(request.kind, &request.path)?;
             Ok(Saved::Output(request.path, finished.verdict().clone()))
         });

@@ -1,17 +1,19 @@
 //! Writing a finished flattening to files.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec2;
 
-use super::{Model, Outcome, OutputFit};
+use super::{Model, Outcome, OutputFit, PictureFile, Placement};
+use crate::geom::VAxis;
 use crate::io::{
-    MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, WriteError, peak_memory_bytes,
-    verdict_as_in_file,
+    MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, SvgPage, TexturePicture,
+    WeightedPinReport, WriteError, peak_memory_bytes, verdict_as_in_file,
 };
 use crate::mesh::DiskMesh;
-use crate::solver::{Verdict, distortion};
+use crate::solver::{Hold, Pin, Verdict, distortion, verdict};
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,8 +31,13 @@ pub struct SaveRequest {
 pub struct Finished<'a> {
     model: &'a Model,
     mesh: &'a DiskMesh,
+    /// As files have them, v up.
     coordinates: Vec<DVec2>,
     verdict: Verdict,
+    /// Width over height of the picture that they are for.
+    aspect: f64,
+    picture: Option<Arc<PictureFile>>,
+    svg_fit: OutputFit,
     /// What there is to say about it.
     pub report: Report,
 }
@@ -47,9 +54,20 @@ impl<'a> Finished<'a> {
         read_seconds: f64,
     ) -> Self {
         let start = Instant::now();
-        let (coordinates, placement, verdict) = outcome.output(mesh, fit);
-        let unchanged = coordinates == outcome.step.solution.embedding;
-        let summary = if unchanged { outcome.distortion.summary } else { distortion(mesh, &coordinates).summary };
+        let (coordinates, placement, of_coordinates) = outcome.output(mesh, fit);
+        let is_on_picture = matches!(placement, Placement::Pins | Placement::Picture);
+        let is_as_solved = is_on_picture || coordinates == outcome.step.solution.embedding;
+        let summary = if is_as_solved { outcome.distortion.summary } else { distortion(mesh, &coordinates).summary };
+        let pins = pins_report(outcome, &coordinates);
+        let (coordinates, verdict) = if is_on_picture && outcome.frame.v_axis == VAxis::Down {
+            // Where v runs down in the document, it runs up in the file, which rounds.
+            let upright: Vec<DVec2> = coordinates.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
+            let of_file = verdict(mesh, &upright);
+            (upright, of_file)
+        } else {
+            (coordinates, of_coordinates)
+        };
+        let aspect = if is_on_picture { outcome.frame.aspect } else { 1.0 };
         let solve = steps.iter().map(|step| step.seconds).sum();
         let verify = outcome.step.verify_seconds + start.elapsed().as_secs_f64();
         let settings = &outcome.settings;
@@ -58,11 +76,7 @@ impl<'a> Finished<'a> {
             mesh: MeshReport::new(model.path_words(), mesh),
             method: Some(settings.method.name()),
             family: settings.method.uses_family().then(|| settings.family.to_string()),
-            pins: Some(PinsReport {
-                treatment: settings.treatment_on(outcome.step.rung, outcome.pins.len()).name(),
-                count: outcome.pins.len(),
-                max_error: outcome.pin_error(),
-            }),
+            pins: Some(pins),
             boundary: Some(if outcome.step.has_convex_boundary() { "convex" } else { "free" }),
             placement: Some(placement.name()),
             steps,
@@ -72,7 +86,19 @@ impl<'a> Finished<'a> {
             seconds: Seconds { read: read_seconds, solve, verify, write: 0.0, total: read_seconds + solve + verify },
             peak_memory_bytes: peak_memory_bytes(),
         };
-        Self { model, mesh, coordinates, verdict, report }
+        Self { model, mesh, coordinates, verdict, aspect, picture: None, svg_fit: fit, report }
+    }
+
+    /// With a picture, which goes beside an OBJ file and on the mesh in a PNG file.
+    #[must_use]
+    pub fn with_picture(self, picture: Option<Arc<PictureFile>>) -> Self {
+        Self { picture, ..self }
+    }
+
+    /// With a size of drawings of its own.
+    #[must_use]
+    pub fn with_svg_fit(self, svg_fit: OutputFit) -> Self {
+        Self { svg_fit, ..self }
     }
 
     /// Writes one file.
@@ -81,12 +107,22 @@ impl<'a> Finished<'a> {
     ///
     /// Where it cannot be written.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
+        let picture = self.picture.as_deref().map(|picture| TexturePicture {
+            name: &picture.name,
+            path: picture.path.as_deref(),
+            pixels: &picture.pixels,
+        });
         let output = Output {
             source: &self.model.source,
             mesh: self.mesh,
             coordinates: &self.coordinates,
             verdict: &self.verdict,
             report: &self.report,
+            picture,
+            svg_page: match self.svg_fit {
+                OutputFit::Unit => SvgPage::Picture { aspect: self.aspect },
+                OutputFit::True => SvgPage::TrueArea { aspect: self.aspect },
+            },
         };
         output.write(kind, path)
     }
@@ -94,5 +130,33 @@ impl<'a> Finished<'a> {
     /// The verdict on the coordinates as written.
     pub fn verdict(&self) -> &Verdict {
         &self.verdict
+    }
+}
+
+/// What the coordinates make of the user's pins.
+fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
+    let settings = &outcome.settings;
+    let held = settings.held(&outcome.pins);
+    let error = |vertex: usize, pin: &Pin| coordinates[vertex].distance(pin.target);
+    let (mut max_hard_error, mut max_weighted_error) = (None::<f64>, None::<f64>);
+    let mut weighted = Vec::new();
+    for (&vertex, pin) in held.iter().filter(|_| settings.method.uses_pins()) {
+        let error = error(vertex.index(), pin);
+        let largest = match pin.hold {
+            Hold::Weighted(weight) => {
+                weighted.push(WeightedPinReport { vertex, weight, error });
+                &mut max_weighted_error
+            }
+            Hold::Fixed | Hold::Hard => &mut max_hard_error,
+        };
+        *largest = Some(largest.unwrap_or(0.0).max(error));
+    }
+    PinsReport {
+        treatment: settings.treatment_on(outcome.step.rung, outcome.pins.len()).name(),
+        count: outcome.pins.len(),
+        max_error: max_hard_error.unwrap_or(0.0).max(max_weighted_error.unwrap_or(0.0)),
+        max_hard_error,
+        max_weighted_error,
+        weighted,
     }
 }

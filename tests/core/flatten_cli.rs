@@ -72,7 +72,7 @@ fn a_mesh_that_comes_out_planar_ends_with_0_and_a_folded_one_with_4() {
 fn wrong_use_ends_with_2_and_says_what_to_do() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str); 25] = [
+    let cases: [(&[&str], &str); 31] = [
         (&["--family", "uniform"], "convex"),
         (&["--family", "power:x"], "power:P"),
         (&["--method", "best"], "natural"),
@@ -81,6 +81,12 @@ fn wrong_use_ends_with_2_and_says_what_to_do() {
         (&["--pin", "0:nan,0"], "not finite"),
         (&["--pin", "99999:0,0"], "99999"),
         (&["--pin", "0"], "VERTEX:U,V"),
+        (&["--pin", "0:1,1:0"], "weight"),
+        (&["--aspect", "wide"], "WIDTH:HEIGHT"),
+        (&["--aspect", "1:1", "--picture", "x.png"], "--picture"),
+        (&["--aspect", "2:1", "--fit", "true"], "--fit"),
+        (&["--method", "convex", "--constraints", "x.txt"], "--constraints"),
+        (&["--svg-scale", "large"], "unit"),
         (&["--threads", "0"], "threads"),
         (&["--threads", "many"], "threads"),
         (&["--fit", "tight"], "unit"),
@@ -164,7 +170,7 @@ fn the_report_is_one_json_object_with_the_fields_of_the_design() {
         ],
     );
     assert_keys(&report["mesh"], &["path", "vertices", "faces", "boundary_vertices", "dividing_edges", "ears"]);
-    assert_keys(&report["pins"], &["treatment", "count", "max_error"]);
+    assert_keys(&report["pins"], &["treatment", "count", "max_error", "weighted"]);
     // The last five are not in the design.
     assert_keys(
         &report["steps"][0],
@@ -312,9 +318,11 @@ fn without_a_screen_the_example_is_flattened_into_a_folder_that_is_named() {
     let folder = program.path("freebound-example");
     let names: BTreeSet<String> =
         fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-    assert_eq!(names, ["face.json", "face.obj", "face.png", "portrait.png"].map(str::to_owned).into());
+    assert_eq!(names, ["face.json", "face.mtl", "face.obj", "face.png", "portrait.png"].map(str::to_owned).into());
     let report: Value = serde_json::from_slice(&fs::read(folder.join("face.json")).unwrap()).unwrap();
-    let status = if report["verdict"]["planar"] == true { 0 } else { 4 };
-    assert_eq!(run.status, Some(status));
-    program.run(&["check", "freebound-example/face.obj"]).expect(status);
+    assert_eq!(run.status, Some(0));
+    assert_eq!(report["verdict"]["planar"], true);
+    assert_eq!(report["pins"]["count"], Example::Face.landmarks().len());
+    assert_eq!([&report["pins"]["max_hard_error"], &report["steps"][0]["planar"]], [&0.0.into(), &Value::Bool(false)]);
+    program.run(&["check", "freebound-example/face.obj"]).expect(0);
 }

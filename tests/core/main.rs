@@ -5,6 +5,7 @@
 mod bad_input;
 mod check_cli;
 mod common;
+mod constrained;
 mod convex;
 mod diagnosis;
 mod disk_oracle;
@@ -25,6 +26,7 @@ mod materials;
 mod mesh;
 mod natural;
 mod obj;
+mod obj_picture;
 mod obj_texture;
 mod obj_write;
 mod pins;

@@ -1,4 +1,4 @@
-//! `freebound figures`: the paper's figures 1, 3, 4, 5 and 6, computed again on the built-in meshes.
+//! `freebound figures`: the paper's figures 1, 3, 4, 5, 6, 8 and 9, computed again on the built-in meshes.
 //!
 //! Each is written as a drawing and as a picture with all its panels; their numbers stand in one table, on standard
 //! output and in `figures.csv`. The same bytes come out every time.
@@ -7,6 +7,7 @@ mod flat;
 mod free;
 pub mod pairs;
 mod repaired;
+mod textured;
 
 use std::fs;
 use std::io::Write as _;
@@ -124,6 +125,11 @@ fn compute(progress: &Progress) -> Result<Vec<Figure>, SolveError> {
     figures.push(repaired::figure_5(&cube, control)?);
     progress.enter("figure 6");
     figures.push(repaired::figure_6(&cube, control)?);
+    progress.enter("figure 8");
+    let face = textured::Subject::face();
+    figures.push(textured::figure_8(&face, control)?);
+    progress.enter("figure 9");
+    figures.push(textured::figure_9(&face, control)?);
     Ok(figures)
 }
 

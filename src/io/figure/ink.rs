@@ -9,7 +9,7 @@
 use glam::DVec2;
 
 use super::font::{strokes_of, width_of};
-use super::{Anchor, Ink, Item, Page, Path, Words, colours};
+use super::{Anchor, Area, Ink, Item, Page, Path, Words, colours};
 use crate::geom::Picture;
 use crate::io::raster::Colour;
 
@@ -29,9 +29,24 @@ impl Page {
             match item {
                 Item::Path(path) => draw(&mut picture, path, scale),
                 Item::Words(words) => draw(&mut picture, &strokes(words), scale),
+                Item::Picture(area, source) => paste(&mut picture, *area, source, scale),
             }
         }
         picture
+    }
+}
+
+/// Copies a picture into an area, each pixel as it is at its centre.
+fn paste(page: &mut Picture, area: Area, source: &Picture, scale: f64) {
+    let (low, size) = (area.low * scale, area.size() * scale);
+    let end = |high: f64, limit: u32| (high.round().max(0.0) as u32).min(limit);
+    for y in low.y.round().max(0.0) as u32..end(low.y + size.y, page.height) {
+        for x in low.x.round().max(0.0) as u32..end(low.x + size.x, page.width) {
+            let share = (DVec2::new(f64::from(x), f64::from(y)) + 0.5 - low) / size;
+            let [r, g, b] = source.sample(DVec2::new(share.x, 1.0 - share.y));
+            let at = 4 * (y as usize * page.width as usize + x as usize);
+            page.pixels[at..at + 4].copy_from_slice(&[r, g, b, 255]);
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::font::width_of;
-use super::{Anchor, Area, Page, PlaneDrawing, SpaceDrawing};
+use super::{Anchor, Area, Page, PhotoDrawing, PlaneDrawing, SpaceDrawing};
 
 /// Free space around everything, points.
 const MARGIN: f64 = 16.0;
@@ -30,6 +30,8 @@ enum Drawing {
     Plane(PlaneDrawing),
     /// A mesh in space.
     Space(SpaceDrawing),
+    /// A picture.
+    Photo(PhotoDrawing),
 }
 
 /// One drawing of a figure with its words.
@@ -51,10 +53,15 @@ impl Panel {
         Self { words, drawing: Drawing::Space(drawing) }
     }
 
+    /// A panel that shows a picture.
+    pub fn photo(words: Vec<String>, drawing: PhotoDrawing) -> Self {
+        Self { words, drawing: Drawing::Photo(drawing) }
+    }
+
     fn inset_count(&self) -> usize {
         match &self.drawing {
             Drawing::Plane(plane) => plane.insets.len(),
-            Drawing::Space(_) => 0,
+            Drawing::Space(_) | Drawing::Photo(_) => 0,
         }
     }
 }
@@ -104,6 +111,7 @@ impl Panel {
         let area = Area::new(cell.low + DVec2::new(shift, 0.0), DVec2::splat(PANEL));
         match &self.drawing {
             Drawing::Space(drawing) => drawing.draw(page, area),
+            Drawing::Photo(drawing) => drawing.draw(page, area),
             Drawing::Plane(drawing) => {
                 drawing.draw(page, area);
                 for number in 0..count {

@@ -4,7 +4,9 @@ use std::io::{self, Write};
 
 use glam::DVec2;
 
-use super::{Anchor, Item, Page, Path, Words, colours};
+use super::base64::base64;
+use super::{Anchor, Area, Item, Page, Path, Words, colours};
+use crate::geom::Picture;
 use crate::io::raster::Colour;
 
 impl Page {
@@ -23,6 +25,7 @@ impl Page {
             match item {
                 Item::Path(path) => write_path(out, path)?,
                 Item::Words(words) => write_words(out, words)?,
+                Item::Picture(area, picture) => write_picture(out, area, picture)?,
             }
         }
         writeln!(out, "</svg>")
@@ -49,6 +52,14 @@ fn write_path(out: &mut impl Write, path: &Path) -> io::Result<()> {
         }
     }
     writeln!(out, r#""/>"#)
+}
+
+fn write_picture(out: &mut impl Write, area: &Area, picture: &Picture) -> io::Result<()> {
+    let mut png = Vec::new();
+    picture.write_png(&mut png).map_err(io::Error::other)?;
+    let (DVec2 { x, y }, size) = (area.low, area.size());
+    write!(out, r#"<image x="{x:.2}" y="{y:.2}" width="{:.2}" height="{:.2}" "#, size.x, size.y)?;
+    writeln!(out, r#"href="data:image/png;base64,{}"/>"#, base64(&png))
 }
 
 fn write_words(out: &mut impl Write, words: &Words) -> io::Result<()> {

@@ -3,7 +3,7 @@
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "colours are cut to bytes before")]
 #![allow(clippy::many_single_char_names, reason = "corners of a triangle are a, b, c")]
 
-use glam::Vec3;
+use glam::{DVec2, Vec3};
 
 use super::scene::Scene;
 use super::{Colour, Paint, Shading, colours};
@@ -33,7 +33,7 @@ impl Brush {
             Paint::Faces(colours) => colours[f],
             Paint::Clay if is_front => colours::CLAY,
             Paint::Clay => colours::CLAY_BACK,
-            Paint::Checker { .. } => colours::BACKGROUND,
+            Paint::Checker { .. } | Paint::Picture { .. } => colours::BACKGROUND,
         };
         let own = (b - a).cross(c - a) * Vec3::new(1.0, -1.0, 1.0);
         let own = (-own).try_normalize().unwrap_or(Vec3::Z);
@@ -55,13 +55,15 @@ impl Brush {
 
     /// The colour of a place, given by its shares of the corners.
     pub(super) fn colour(&self, scene: &Scene, shares: Vec3) -> Colour {
-        let mut colour = self.base;
-        if let Paint::Checker { coordinates, size } = scene.paint {
-            let [a, b, c] = self.corners.map(|v| coordinates[v.index()]);
-            let at = (a * f64::from(shares.x) + b * f64::from(shares.y) + c * f64::from(shares.z)) / size;
-            let odd = (at.x.floor() + at.y.floor()).rem_euclid(2.0) >= 1.0;
-            colour = if odd { colours::CHECKER } else { colours::BACKGROUND };
-        }
+        let mut colour = match scene.paint {
+            Paint::Clay | Paint::Faces(_) => self.base,
+            Paint::Checker { coordinates, size } => {
+                let at = self.mean(coordinates, shares) / size;
+                let odd = (at.x.floor() + at.y.floor()).rem_euclid(2.0) >= 1.0;
+                if odd { colours::CHECKER } else { colours::BACKGROUND }
+            }
+            Paint::Picture { coordinates, picture } => picture.sample(self.mean(coordinates, shares)),
+        };
         if scene.canvas.shading != Shading::Unlit {
             let [a, b, c] = self.normals;
             let normal = (a * shares.x + b * shares.y + c * shares.z).try_normalize().unwrap_or(Vec3::Z);
@@ -73,6 +75,14 @@ impl Brush {
             colour = mix(colour, colours::WIRE, cover);
         }
         colour
+    }
+}
+
+impl Brush {
+    /// The mean of what the corners have, by shares.
+    fn mean(&self, coordinates: &[DVec2], shares: Vec3) -> DVec2 {
+        let [a, b, c] = self.corners.map(|v| coordinates[v.index()]);
+        a * f64::from(shares.x) + b * f64::from(shares.y) + c * f64::from(shares.z)
     }
 }
 
