@@ -36,5 +36,7 @@ fn flatten_example() -> Result<Status, Failure> {
     let progress = Progress::default();
     let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;
     println!(
+        "wrote face.obj with face.mtl and face-picture.png, face.json and face.png (before and after) into {FOLDER}/"
+    );
     Ok(status)
 }
