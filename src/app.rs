@@ -6,7 +6,7 @@ use eframe::egui;
 
 use crate::examples::Example;
 use crate::render;
-use crate::session::{Action, RecentFiles};
+use crate::session::{Action, RecentFiles, recovery_folder};
 use crate::ui::{Dialogs, Editor, theme, window_ui};
 
 /// Size of the window at the start, points.
@@ -28,6 +28,8 @@ pub struct Start {
     pub file: Option<PathBuf>,
     /// Where the list of recent files is kept; nowhere in tests.
     pub recent_store: Option<PathBuf>,
+    /// Where copies for recovery are kept; nowhere in tests.
+    pub recovery_folder: Option<PathBuf>,
     /// Whether to leave the system's file dialogs alone.
     pub dialogs_inside: bool,
 }
@@ -44,6 +46,9 @@ impl App {
         }
         if start.dialogs_inside {
             editor.dialogs = Dialogs::inside_the_window();
+        }
+        if let Some(folder) = start.recovery_folder {
+            editor.session.keep_copies_in(folder);
         }
         editor.session.handle(start.file.map_or(Action::OpenExample(Example::Face), Action::Open));
         Self { editor }
@@ -64,6 +69,13 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         window_ui(ui, &mut self.editor);
     }
+
+    fn on_exit(&mut self) {
+        // Where the person was not asked, such as at the end of a session of the system's, the copy stays.
+        if self.editor.quit || !self.editor.session.has_unsaved_work() {
+            self.editor.session.close();
+        }
+    }
 }
 
 /// Opens the window and runs until it is closed.
@@ -82,7 +94,12 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         renderer: eframe::Renderer::Wgpu,
         ..eframe::NativeOptions::default()
     };
-    let start = Start { file, recent_store: RecentFiles::default_store(), dialogs_inside: false };
+    let start = Start {
+        file,
+        recent_store: RecentFiles::default_store(),
+        recovery_folder: recovery_folder(),
+        dialogs_inside: false,
+    };
     eframe::run_native("freebound", options, Box::new(|context| Ok(Box::new(App::new(context, start)))))
         .map_err(|error| reason(&error))
 }

@@ -94,6 +94,16 @@ pub struct GhostLayer {
     pub line: LineLayer,
 }
 
+/// How a picture's pixels show where they are larger than the screen's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sampling {
+    /// Each fades into the next.
+    #[default]
+    Smooth,
+    /// Each is a square of one colour.
+    Sharp,
+}
+
 /// A picture in the plane.
 #[derive(Clone, Debug)]
 pub struct PictureLayer {
@@ -103,6 +113,8 @@ pub struct PictureLayer {
     pub bounds: PlaneBox,
     /// Opacity behind the embedding, 0 to 1. On faces it is opaque.
     pub opacity: f32,
+    /// How its pixels show.
+    pub sampling: Sampling,
 }
 
 /// The 3D pane.
@@ -143,6 +155,8 @@ pub struct PlaneFrame {
     pub ghost: Option<GhostLayer>,
     /// The picture behind the embedding.
     pub picture: Option<PictureLayer>,
+    /// What is outlined: the unit square of texture coordinates, as it lies in the plane.
+    pub outlined: PlaneBox,
     /// What part of the plane is seen.
     pub camera: PlaneCamera,
     /// How it looks.

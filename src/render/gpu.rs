@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use eframe::wgpu;
 
 use super::cache::{Cache, Key};
-use super::frame::{PaneId, PictureLayer};
+use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::Pipelines;
 use super::plan::{Draw, Kind, LAYER_LIMIT, Plan, Planner};
 use super::target::Target;
@@ -35,7 +35,8 @@ pub(super) struct Gpu {
     pipelines: Pipelines,
     cache: Cache,
     pictures: BTreeMap<Option<Revision>, wgpu::TextureView>,
-    sampler: wgpu::Sampler,
+    smooth: wgpu::Sampler,
+    sharp: wgpu::Sampler,
     panes: BTreeMap<PaneId, PaneState>,
     tick: u64,
     stats: Stats,
@@ -56,19 +57,22 @@ struct PaneState {
 impl Gpu {
     /// Compiles the pipelines.
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, window_format: wgpu::TextureFormat) -> Self {
-        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("picture"),
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            ..Default::default()
-        });
+        let sampler = |magnified| {
+            device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("picture"),
+                mag_filter: magnified,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            })
+        };
         // Stands for the picture where there is none.
         let clear = picture_view(device, queue, [1, 1], &[0; 4]);
         Self {
             pipelines: Pipelines::new(device, window_format),
             cache: Cache::default(),
             pictures: BTreeMap::from([(None, clear)]),
-            sampler,
+            smooth: sampler(wgpu::FilterMode::Linear),
+            sharp: sampler(wgpu::FilterMode::Nearest),
             panes: BTreeMap::new(),
             tick: 0,
             stats: Stats::default(),
@@ -111,7 +115,11 @@ impl Gpu {
             state.upload_uniforms(io.queue, &plan);
             let picture = self.pictures.get(&plan.picture).or_else(|| self.pictures.get(&None));
             let picture = picture.expect("the clear picture stays");
-            let group = pane_group(io.device, &self.pipelines, &state.uniforms, (picture, &self.sampler));
+            let sampler = match plan.sampling {
+                Sampling::Smooth => &self.smooth,
+                Sampling::Sharp => &self.sharp,
+            };
+            let group = pane_group(io.device, &self.pipelines, &state.uniforms, (picture, sampler));
             let scene = Scene { pipelines: &self.pipelines, cache: &self.cache, group: &group };
             self.stats.drawn_panes += 1;
             self.stats.draw_calls += scene.draw(io.encoder, state, &plan);

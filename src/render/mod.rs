@@ -25,7 +25,7 @@ mod uniforms;
 
 pub use callback::{install, mesh_pane, plane_pane, stats};
 pub use frame::{
-    FillLayer, GhostLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Shading, Style,
+    FillLayer, GhostLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Shading, Style,
 };
 pub use gpu::Stats;
 pub use pipelines::{SHADERS, ShaderFile};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use eframe::wgpu;
 
 use super::cache::{Cache, Key};
-use super::frame::{FillLayer, LineLayer, MeshFrame, PictureLayer, PlaneFrame, Style};
+use super::frame::{FillLayer, LineLayer, MeshFrame, PictureLayer, PlaneFrame, Sampling, Style};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::mesh::VertexId;
 use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PlaneArrays};
@@ -52,6 +52,7 @@ pub(super) struct Plan {
     /// The bytes of a [`LineUniforms`] per layer: first the fills, then the lines.
     pub(super) layer_uniforms: Vec<Vec<u8>>,
     pub(super) picture: Option<crate::view::Revision>,
+    pub(super) sampling: Sampling,
     pub(super) clear: [f64; 4],
 }
 
@@ -72,9 +73,15 @@ impl Plan {
             lines: Vec::new(),
             layer_uniforms: Vec::new(),
             picture: None,
+            sampling: Sampling::default(),
             // Alpha counts faces; there are none yet.
             clear: [r, g, b, 0.0],
         }
+    }
+
+    fn set_picture(&mut self, layer: Option<&PictureLayer>) {
+        self.picture = layer.map(|layer| layer.picture.revision());
+        self.sampling = layer.map_or(Sampling::default(), |layer| layer.sampling);
     }
 
     /// Call before [`Self::push_line`]: the uniforms of fills come first.
@@ -105,7 +112,7 @@ impl Planner<'_> {
     pub(super) fn mesh(&mut self, frame: &MeshFrame) -> Plan {
         let uniforms = PaneUniforms::of_mesh(frame, self.size);
         let mut plan = Plan::new(Kind::Mesh, self.size, &uniforms, &frame.palette);
-        plan.picture = picture_revision(frame.picture.as_ref());
+        plan.set_picture(frame.picture.as_ref());
         let mesh = &frame.mesh;
         let count = corner_count(mesh);
         let positions = Key::Positions(mesh.revision());
@@ -133,7 +140,7 @@ impl Planner<'_> {
     pub(super) fn plane(&mut self, frame: &PlaneFrame) -> Plan {
         let uniforms = PaneUniforms::of_plane(frame, self.size);
         let mut plan = Plan::new(Kind::Plane, self.size, &uniforms, &frame.palette);
-        plan.picture = picture_revision(frame.picture.as_ref());
+        plan.set_picture(frame.picture.as_ref());
         let Some(plane) = frame.plane.as_ref() else {
             return plan;
         };
@@ -232,10 +239,6 @@ impl Planner<'_> {
         let paint = paint.filter(|paint| width > 0.0 && !paint.flipped().is_empty())?;
         Some((paint, LineUniforms::new(palette.flipped, width, self.size.pixels_per_point, lift)))
     }
-}
-
-fn picture_revision(layer: Option<&PictureLayer>) -> Option<crate::view::Revision> {
-    layer.map(|layer| layer.picture.revision())
 }
 
 fn corner_count(mesh: &MeshArrays) -> u32 {

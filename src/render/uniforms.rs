@@ -96,7 +96,7 @@ impl PaneUniforms {
         uniforms.plane_scale[..2].copy_from_slice(&scale.as_vec2().to_array());
         uniforms.set_checker(unit, center, frame.style.check_size);
         uniforms.set_grid(&frame.camera, size);
-        uniforms.unit_square = pixel_box(PlaneBox::UNIT, &frame.camera, size);
+        uniforms.unit_square = pixel_box(frame.outlined, &frame.camera, size);
         if let Some(layer) = &frame.picture {
             uniforms.set_picture(unit, center, layer);
             uniforms.picture_box = pixel_box(layer.bounds, &frame.camera, size);

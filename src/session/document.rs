@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::{Outcome, PictureFile};
+use crate::examples::Example;
 use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::VertexId;
-use crate::solver::{GaugeSize, Pin, Pins, Settings};
+use crate::solver::{GaugeSize, Pin, Pins, Settings, hard_pins};
 
 /// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,6 +24,16 @@ pub struct Document {
 }
 
 impl Document {
+    /// A built-in mesh's landmarks as constraints, on the picture that belongs to it.
+    pub fn of_example(example: Example) -> Self {
+        let landmarks = example.landmarks().into_iter();
+        Self {
+            pins: hard_pins(landmarks.map(|landmark| (landmark.vertex, landmark.target.into()))),
+            picture: PictureFile::of_example(example).map(Arc::new),
+            ..Self::default()
+        }
+    }
+
     /// How texture coordinates lie in the plane where the mesh is flattened.
     pub fn frame(&self) -> PictureFrame {
         let aspect = self.picture.as_ref().map_or(1.0, |picture| picture.aspect());

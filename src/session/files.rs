@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use super::state::{REPORT_IT, lost};
 use super::{Finished, Job, Message, Place, Poll, SaveRequest, Session, Severity};
-use crate::io::{WriteError, write_constraints, write_durably};
+use crate::geom::Picture;
+use crate::io::{WriteError, write_atomically, write_constraints, write_durably};
 use crate::solver::Verdict;
 
 /// A file being written.
@@ -17,6 +18,8 @@ pub(super) enum Saved {
     Output(PathBuf, Verdict),
     /// So many constraints.
     Constraints(PathBuf, usize),
+    /// A picture of what the screen shows.
+    Picture(PathBuf),
 }
 
 impl Session {
@@ -55,6 +58,14 @@ impl Session {
         });
     }
 
+    /// Writes a picture of what the screen shows, as a PNG.
+    pub fn save_picture(&mut self, path: PathBuf, picture: Picture) {
+        self.write(move || {
+            write_atomically(&path, |out| picture.write_png(out).map_err(std::io::Error::other))?;
+            Ok(Saved::Picture(path))
+        });
+    }
+
     fn write(&mut self, work: impl FnOnce() -> Result<Saved, WriteError> + Send + 'static) {
         match Job::spawn("save", self.waker(), move |_| work()) {
             Ok(job) => self.saving.push(job),
@@ -73,6 +84,7 @@ impl Session {
                     let noun = if count == 1 { "constraint" } else { "constraints" };
                     self.note(format!("wrote {} ({count} {noun})", path.display()));
                 }
+                Poll::Done(Ok(Saved::Picture(path))) => self.note(format!("wrote {}", path.display())),
                 Poll::Done(Err(error)) => self.fail(Place::Embedding, error.to_string(), None),
                 Poll::Lost => self.fail(Place::Embedding, lost("saving"), Some(REPORT_IT)),
             }

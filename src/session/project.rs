@@ -49,6 +49,11 @@ impl Session {
         self.model.is_some() && self.on_table.saved.as_ref() != Some(&self.document)
     }
 
+    /// Whether a project is being written.
+    pub fn is_saving_project(&self) -> bool {
+        self.project_saves.is_busy()
+    }
+
     /// How the person looked at it when it was saved: for the screen to take over when
     /// [`opening_revision`](Self::opening_revision) changes.
     pub fn view(&self) -> &ProjectView {

@@ -7,47 +7,11 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
-use crate::io::OutputKind;
+use super::purpose::{Purpose, has_extension};
 use crate::session::{Job, Poll};
 
 /// A dialog that answers faster than this was not seen by a person: the system has none.
 const TOO_QUICK: Duration = Duration::from_millis(1200);
-
-/// What a file is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
-    /// A mesh to open.
-    Open,
-    /// Where to save the mesh with texture coordinates.
-    Save,
-    /// Where to export a drawing or a report.
-    Export,
-}
-
-impl Purpose {
-    const fn title(self) -> &'static str {
-        match self {
-            Self::Open => "Open a mesh",
-            Self::Save => "Save the mesh with texture coordinates",
-            Self::Export => "Export a drawing, a picture or a report",
-        }
-    }
-
-    const fn button(self) -> &'static str {
-        match self {
-            Self::Open => "Open",
-            Self::Save => "Save",
-            Self::Export => "Export",
-        }
-    }
-
-    const fn extensions(self) -> &'static [&'static str] {
-        match self {
-            Self::Open | Self::Save => &["obj"],
-            Self::Export => &["svg", "png", "json"],
-        }
-    }
-}
 
 /// A file that a person chose.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -160,20 +124,10 @@ fn native_dialog(purpose: Purpose, suggestion: &Path) -> impl Future<Output = Op
         dialog = dialog.set_directory(folder);
     }
     let name = suggestion.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let dialog = match purpose {
-        Purpose::Open => dialog.add_filter("Meshes", purpose.extensions()).add_filter("All files", &["*"]),
-        Purpose::Save => dialog.add_filter("OBJ mesh", &["obj"]).set_file_name(name),
-        Purpose::Export => dialog
-            .add_filter("SVG drawing", &["svg"])
-            .add_filter("PNG picture", &["png"])
-            .add_filter("JSON report", &["json"])
-            .set_file_name(name),
-    };
+    let dialog = dialog.add_filter(purpose.files(), purpose.extensions());
+    let dialog = if purpose.is_reading() { dialog.add_filter("All files", &["*"]) } else { dialog.set_file_name(name) };
     async move {
-        let file = match purpose {
-            Purpose::Open => dialog.pick_file().await,
-            Purpose::Save | Purpose::Export => dialog.save_file().await,
-        };
+        let file = if purpose.is_reading() { dialog.pick_file().await } else { dialog.save_file().await };
         file.map(|file| file.path().to_owned())
     }
 }
@@ -208,9 +162,10 @@ impl Browser {
         let folder = suggestion.parent().filter(|f| f.is_dir()).map_or(here, Path::to_owned);
         // Without the dots of a relative path, so that going up always works.
         let folder = folder.canonicalize().unwrap_or(folder);
-        let name = match purpose {
-            Purpose::Open => String::new(),
-            _ => suggestion.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        let name = if purpose.is_reading() {
+            String::new()
+        } else {
+            suggestion.file_name().unwrap_or_default().to_string_lossy().into_owned()
         };
         let mut browser = Self { purpose, folder, name, entries: Vec::new(), problem: None, is_fresh: true };
         browser.list();
@@ -242,8 +197,7 @@ impl Browser {
     }
 
     fn fits(&self, name: &str) -> bool {
-        let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        self.purpose.extensions().contains(&extension.as_str())
+        has_extension(Path::new(name), self.purpose.extensions())
     }
 
     fn enter(&mut self, folder: PathBuf) {
@@ -301,7 +255,7 @@ impl Browser {
         });
         ui.horizontal(|ui| {
             let path = self.path();
-            let exists = self.purpose != Purpose::Open && path.as_ref().is_some_and(|path| path.is_file());
+            let exists = !self.purpose.is_reading() && path.as_ref().is_some_and(|path| path.is_file());
             let words = if exists { "Replace" } else { self.purpose.button() };
             let go = ui.add_enabled(path.is_some(), egui::Button::new(words)).clicked();
             if go || (entered && !exists) {
@@ -330,7 +284,7 @@ impl Browser {
                 }
                 Entry::File(name) => {
                     let response = ui.selectable_label(self.name == *name, name);
-                    if response.double_clicked() && self.purpose == Purpose::Open {
+                    if response.double_clicked() && self.purpose.is_reading() {
                         answer = Some(Answer::Chosen(self.folder.join(name)));
                     }
                     if response.clicked() {
@@ -354,16 +308,7 @@ impl Browser {
             return None;
         }
         let path = self.folder.join(name);
-        let bare = self.purpose != Purpose::Open && path.extension().is_none();
+        let bare = !self.purpose.is_reading() && path.extension().is_none();
         Some(if bare { path.with_extension(self.purpose.extensions()[0]) } else { path })
-    }
-}
-
-/// The kind of file that a chosen name asks for.
-pub(super) fn kind_of(choice: &Choice) -> Option<OutputKind> {
-    match choice.purpose {
-        Purpose::Open => None,
-        Purpose::Save => Some(OutputKind::Obj),
-        Purpose::Export => OutputKind::of(&choice.path),
     }
 }

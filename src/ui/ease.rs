@@ -61,7 +61,8 @@ impl Editor {
 
     /// The embedding on the screen, or where vertices are on their way to it.
     pub fn result_plane(&self) -> Option<&Arc<PlaneScene>> {
-        self.ease.under_way.as_ref().map(|way| &way.drawn).or(self.plane_scene.as_ref())
+        let easing = self.ease.under_way.as_ref().map(|way| &way.drawn);
+        self.preview_plane().or(easing).or(self.plane_scene.as_ref())
     }
 
     /// Puts another step on the screen: from where vertices are drawn now, if it is one of the same run.
@@ -94,7 +95,7 @@ impl Editor {
     /// Keeps the whole embedding in a pane whose size changes, where nobody chose another camera.
     pub(super) fn keep_framed(&mut self) {
         let Some(plane) = self.drawn_plane().filter(|_| self.is_framed()) else { return };
-        let bounds = plane.arrays.bounds();
+        let bounds = self.framed_box(plane.arrays.bounds());
         if let Some(mut camera) = self.plane_camera {
             camera.frame(bounds, self.plane_pane_size);
             self.set_framed(camera);
@@ -108,8 +109,8 @@ impl Editor {
 
     /// The camera now, and the one that shows all of an embedding: where that is wanted.
     fn camera_along(&self, target: &PlaneScene) -> Option<[PlaneCamera; 2]> {
-        let now = self.plane_camera.filter(|_| self.is_framed() && !self.hull.shown)?;
-        let (bounds, seen) = (target.arrays.bounds(), now.visible(self.plane_pane_size));
+        let now = self.plane_camera.filter(|_| self.is_framed() && !self.hull.shown && self.dragged_pin.is_none())?;
+        let (bounds, seen) = (self.framed_box(target.arrays.bounds()), now.visible(self.plane_pane_size));
         let is_seen = seen.min.cmple(bounds.min).all() && seen.max.cmpge(bounds.max).all();
         let mut goal = now;
         goal.frame(bounds, self.plane_pane_size);

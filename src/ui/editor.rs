@@ -1,25 +1,30 @@
 //! The editor's state: the session, and everything about the window that is not part of the document.
 
 use eframe::egui;
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
 use super::compare::Ghost;
-use super::dialogs::{Choice, Dialogs, Purpose, kind_of};
-use super::framing::{grown, grown_box, positions_of};
-use super::pane::PinOwner;
-use super::scene::{MeshScene, Paint, PlaneScene, vertices_of};
-use super::{Defect, Ease, HullView, Pane, Request, Shading, Tab, TimelineView, Tool};
+use super::dialogs::Dialogs;
+use super::exports::PaneShot;
+use super::preview::PreviewScene;
+use super::scene::{MeshScene, Paint, PlaneScene};
+use super::{
+    Defect, Ease, Half, HullView, Intent, Pane, PictureView, PinDrag, Shading, Tab, TimelineView, Tool, Unsaved,
+};
 use crate::mesh::VertexId;
-use crate::session::{Action, Busy, Job, OutputFit, RecentFiles, SaveRequest, Session};
+use crate::session::{Busy, Job, OutputFit, RecentFiles, Session};
+use crate::solver::Hold;
 use crate::view::{OrbitCamera, PlaneCamera};
 
 /// A solve shorter than this shows no progress: it would only flicker.
 const PATIENCE: Duration = Duration::from_millis(250);
+
+/// How often the session is asked whether a copy for recovery is due.
+const COPY_INTERVAL: Duration = Duration::from_secs(5);
 
 /// Everything the window knows.
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the window")]
@@ -60,6 +65,18 @@ pub struct Editor {
     pub dragged_pin: Option<VertexId>,
     /// From where the pointer grabbed it to its middle, points.
     pub grab_offset: egui::Vec2,
+    /// What else is known of that drag.
+    pub drag: PinDrag,
+    /// The half of a pair that the constrain tool has placed.
+    pub pair: Option<Half>,
+    /// What a click of that tool would do.
+    pub intent: Intent,
+    /// How the next constraint is held.
+    pub hold: Hold,
+    /// Whether arrow keys are moving pins.
+    pub nudging: bool,
+    /// The picture.
+    pub picture: PictureView,
     /// The box being drawn with Ctrl, from its first corner, in window points.
     pub selection_box: Option<(Pane, egui::Pos2)>,
     /// Camera of the mesh's pane.
@@ -70,10 +87,18 @@ pub struct Editor {
     pub mesh_pane_size: DVec2,
     /// Size of the embedding's pane, points.
     pub plane_pane_size: DVec2,
+    /// Where the panes of mesh and embedding lie, points; `None` where one does not show.
+    pub pane_rects: [Option<egui::Rect>; 2],
     /// The defect shown last, by place in [`Editor::defects`].
     pub defect: Option<usize>,
     /// Whether the list of keys shows.
     pub keys_shown: bool,
+    /// Whether the list of what can be exported shows.
+    pub exports_shown: bool,
+    /// The mesh, by its revision, whose faces may point inward.
+    pub faces_left: Option<u64>,
+    /// The question about unsaved work.
+    pub unsaved: Unsaved,
     /// What is typed into "go to", where it shows.
     pub go_to: Option<String>,
     /// The timeline under the panes.
@@ -94,6 +119,11 @@ pub struct Editor {
     pub(super) plane_scene: Option<Arc<PlaneScene>>,
     pub(super) plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
     pub(super) paint: Option<Paint>,
+    pub(super) preview: Option<PreviewScene>,
+    pub(super) shot: Option<PaneShot>,
+    pub(super) window_title: String,
+    /// What was opened last, by the session's count.
+    pub(super) opening: Option<u64>,
     pub(super) ghost: Option<Ghost>,
     pub(super) busy_since: Option<Instant>,
 }
@@ -127,13 +157,23 @@ impl Editor {
             pointer_in_embedding: None,
             dragged_pin: None,
             grab_offset: egui::Vec2::ZERO,
+            drag: PinDrag::default(),
+            pair: None,
+            intent: Intent::default(),
+            hold: Hold::Hard,
+            nudging: false,
+            picture: PictureView::default(),
             selection_box: None,
             orbit: None,
             plane_camera: None,
             mesh_pane_size: DVec2::new(400.0, 400.0),
             plane_pane_size: DVec2::new(400.0, 400.0),
+            pane_rects: [None; 2],
             defect: None,
             keys_shown: false,
+            exports_shown: false,
+            faces_left: None,
+            unsaved: Unsaved::default(),
             go_to: None,
             timeline: TimelineView::default(),
             fit: OutputFit::default(),
@@ -147,6 +187,10 @@ impl Editor {
             plane_scene: None,
             plane_scene_job: None,
             paint: None,
+            preview: None,
+            shot: None,
+            window_title: String::new(),
+            opening: None,
             ghost: None,
             busy_since: None,
         }
@@ -185,9 +229,13 @@ impl Editor {
     /// Takes in what the background has finished. Call at the start of each frame.
     pub fn poll(&mut self) {
         self.session.poll();
+        self.go_on_after_saving();
         self.go_on_playing();
         self.poll_mesh_scene();
         self.poll_plane_scene();
+        self.refresh_picture();
+        self.refresh_preview();
+        self.poll_shot();
         self.go_on_easing();
         self.poll_hull_scene();
         self.refresh_ghost();
@@ -201,75 +249,13 @@ impl Editor {
         if self.session.busy().is_some() || scenes_pending || self.dialogs.is_open() {
             self.context.request_repaint_after(Duration::from_millis(100));
         }
+        if self.session.has_unsaved_work() {
+            // Copies for recovery are made while nobody moves the mouse as well.
+            self.context.request_repaint_after(COPY_INTERVAL);
+        }
         if let Some(choice) = self.dialogs.poll() {
             self.take_choice(choice);
         }
-    }
-
-    /// Carries out a request.
-    pub fn handle(&mut self, request: Request) {
-        match request {
-            Request::Do(action) => self.act(action),
-            Request::RunOrPause => self.run_or_pause(),
-            Request::GoToStep(target) => self.go_to_step(target),
-            Request::TogglePlay => self.toggle_play(),
-            Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
-            Request::SetTool(tool) => self.tool = tool,
-            Request::SetShading(shading) => self.shading = shading,
-            Request::ToggleWireframe => self.wireframe = !self.wireframe,
-            Request::ToggleEase => self.ease.wanted = !self.ease.wanted,
-            Request::ToggleMagnifier => self.magnifier = !self.magnifier,
-            Request::ToggleHull => self.toggle_hull(),
-            Request::SetStage(stage) => self.hull.stage = stage,
-            Request::ShowTab(tab) => (self.tab, self.panels_wanted) = (tab, Some(true)),
-            Request::TogglePanels => self.panels_wanted = Some(!self.panels_shown()),
-            Request::Frame => self.frame(),
-            Request::GoTo(vertices) => self.go_to_vertices(vertices),
-            Request::GoToDefect(place) => self.go_to_defect(place),
-            Request::StepDefect(by) => self.step_defect(by),
-            Request::Select(vertices) => self.selection = vertices.into_iter().collect(),
-            Request::AddToSelection(vertices) => self.selection.extend(vertices),
-            Request::UnpinSelected => self.act(Action::Unpin(self.selection.iter().copied().collect())),
-            Request::Escape => self.escape(),
-            Request::ToggleFull(pane) => self.full = if self.full.is_some() { None } else { Some(pane) },
-            Request::TogglePane => {
-                let pane = self.pane_under_pointer.unwrap_or(Pane::Plane);
-                self.handle(Request::ToggleFull(pane));
-            }
-            Request::AskOpen => self.dialogs.ask(&self.context, Purpose::Open, self.suggested_name("obj")),
-            Request::AskSave => self.dialogs.ask(&self.context, Purpose::Save, self.suggested_name("obj")),
-            Request::AskExport => self.dialogs.ask(&self.context, Purpose::Export, self.suggested_name("svg")),
-            Request::AskGoTo => self.go_to = Some(String::new()),
-            Request::ToggleKeys => self.keys_shown = !self.keys_shown,
-            Request::SetTheme(theme) => self.theme_wanted = Some(theme),
-            Request::SetFit(fit) => self.fit = fit,
-            Request::Quit => self.quit = true,
-        }
-    }
-
-    /// Opens, saves or exports as a dialog was answered.
-    pub fn take_choice(&mut self, choice: Choice) {
-        if choice.purpose == Purpose::Open {
-            return self.act(Action::Open(choice.path));
-        }
-        match kind_of(&choice) {
-            Some(kind) => self.act(Action::Save(SaveRequest { path: choice.path, kind, fit: self.fit })),
-            None => self.act(Action::RefuseName(choice.path)),
-        }
-    }
-
-    /// The pins as drawn: the user's, then the gauge pins that the solver chose.
-    pub fn pins_shown(&self) -> impl Iterator<Item = (VertexId, DVec2, PinOwner)> {
-        let document = self.session.document();
-        let users = if document.settings.method.uses_pins() { document.plane_pins() } else { BTreeMap::new() };
-        let gauge = self.plane_scene.as_ref().filter(|scene| {
-            scene.outcome.step.solution.gauge_completed && scene.outcome.settings.method.uses_pins() && users.len() < 2
-        });
-        let gauge = gauge.map(|scene| scene.outcome.step.solution.pins.clone()).unwrap_or_default();
-        let own = users.clone();
-        let solver = gauge.into_iter().filter(move |(vertex, _)| !own.contains_key(vertex));
-        let users = users.into_iter().map(|(vertex, pin)| (vertex, pin.target, PinOwner::User));
-        users.chain(solver.map(|(vertex, pin)| (vertex, pin.target, PinOwner::Solver)))
     }
 
     /// Whether the panels at the right show.
@@ -284,8 +270,7 @@ impl Editor {
 
     /// How many selected vertices are pins of the user's.
     pub fn selected_pins(&self) -> usize {
-        let pins = &self.session.document().pins;
-        self.selection.iter().filter(|vertex| pins.contains_key(vertex)).count()
+        self.pins_selected().count()
     }
 
     /// How many defects are listed.
@@ -299,81 +284,5 @@ impl Editor {
     /// Whether there is a defect to go to.
     pub fn has_defects(&self) -> bool {
         self.defect_count() > 0
-    }
-
-    fn act(&mut self, action: Action) {
-        if matches!(action, Action::Step | Action::Run | Action::ShowStep(_)) {
-            self.timeline.playing_since = None;
-        }
-        self.session.handle(action);
-    }
-
-    /// A name for a file made from the mesh on the screen.
-    fn suggested_name(&self, extension: &str) -> PathBuf {
-        let Some(model) = self.session.model() else { return PathBuf::from(format!("layout.{extension}")) };
-        let stem = std::path::Path::new(&model.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let folder = model.path.as_ref().and_then(|path| path.parent()).map(PathBuf::from).unwrap_or_default();
-        folder.join(format!("{stem}-flat.{extension}"))
-    }
-
-    fn frame(&mut self) {
-        let (Some(scene), Some(orbit)) = (&self.mesh_scene, &mut self.orbit) else { return };
-        let positions = &scene.model.mesh().positions;
-        let selected: Vec<VertexId> = self.selection.iter().copied().collect();
-        let ball =
-            if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
-        orbit.frame(ball, self.mesh_pane_size);
-        let (Some(plane), Some(camera)) = (self.drawn_plane().cloned(), &mut self.plane_camera) else { return };
-        let bounds = plane.arrays.bounds();
-        let wanted = if selected.is_empty() { bounds } else { grown_box(plane.positions(), &selected, bounds) };
-        camera.frame(wanted, self.plane_pane_size);
-        if let Some(camera) = self.plane_camera.filter(|_| selected.is_empty() && !plane.is_stage()) {
-            self.set_framed(camera);
-        }
-    }
-
-    fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {
-        if !vertices.is_empty() {
-            self.selection = vertices.into_iter().collect();
-            self.frame();
-        }
-    }
-
-    fn step_defect(&mut self, by: isize) {
-        let defects = self.defects();
-        if defects.is_empty() {
-            return;
-        }
-        let count = defects.len().cast_signed();
-        let next = match self.defect {
-            Some(at) => (at.cast_signed() + by).rem_euclid(count),
-            None if by < 0 => count - 1,
-            None => 0,
-        };
-        self.defect = Some(next.cast_unsigned());
-        self.go_to_defect(next.cast_unsigned());
-    }
-
-    fn go_to_defect(&mut self, place: usize) {
-        self.defect = Some(place);
-        let (Some(scene), Some(defect)) = (self.mesh_scene.clone(), self.defects().get(place).copied()) else { return };
-        let vertices = defect.elements().into_iter().flatten().flat_map(|element| vertices_of(&scene.model, element));
-        self.go_to_vertices(vertices.collect());
-    }
-
-    fn escape(&mut self) {
-        if self.dialogs.close() {
-        } else if self.keys_shown {
-            self.keys_shown = false;
-        } else if self.go_to.is_some() {
-            self.go_to = None;
-        } else if self.dragged_pin.take().is_some() {
-            self.act(Action::GiveUpGesture);
-        } else if self.selection_box.take().is_some() {
-        } else if self.tool != Tool::Select {
-            self.tool = Tool::Select;
-        } else {
-            self.selection.clear();
-        }
     }
 }

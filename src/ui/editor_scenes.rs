@@ -29,6 +29,7 @@ impl Editor {
     }
 
     fn take_mesh_scene(&mut self, scene: MeshScene) {
+        // Also where the same mesh is turned around: it is then shown from its new outside.
         self.orbit = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal()));
         if let Some(orbit) = &mut self.orbit {
             orbit.frame(scene.sphere, self.mesh_pane_size);
@@ -37,10 +38,18 @@ impl Editor {
         self.plane_scene = None;
         self.plane_scene_job = None;
         self.paint = None;
-        self.selection.clear();
+        let opening = self.session.opening_revision();
+        let is_other = self.opening != Some(opening);
+        self.opening = Some(opening);
+        if is_other {
+            self.selection.clear();
+            self.put_on_view();
+        }
         self.hovered = None;
         self.defect = None;
         self.dragged_pin = None;
+        self.pair = None;
+        self.preview = None;
         self.mesh_scene = Some(Arc::new(scene));
     }
 
@@ -52,7 +61,8 @@ impl Editor {
                 Poll::Done(scene) => {
                     self.plane_scene_job = None;
                     if self.plane_camera.is_none() {
-                        self.set_framed(PlaneCamera::framing(scene.arrays.bounds(), self.plane_pane_size));
+                        let bounds = self.framed_box(scene.arrays.bounds());
+                        self.set_framed(PlaneCamera::framing(bounds, self.plane_pane_size));
                     }
                     self.take_plane_scene(scene);
                 }

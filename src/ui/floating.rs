@@ -15,6 +15,10 @@ pub(super) fn floating_windows(context: &egui::Context, editor: &mut Editor, req
     if editor.go_to.is_some() {
         go_to_window(context, editor, requests);
     }
+    if editor.exports_shown {
+        super::exports::exports_window(context, editor, requests);
+    }
+    super::unsaved::question(context, editor, requests);
     if let Some(choice) = editor.dialogs.show(context) {
         editor.take_choice(choice);
     }

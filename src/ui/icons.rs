@@ -23,6 +23,16 @@ pub(super) fn pin(painter: &egui::Painter, rect: Rect, colour: Color32) {
     painter.add(Shape::line(on_grid(rect, &[(12.0, 13.6), (12.0, 19.5)]), stroke));
 }
 
+/// A dot, and a diamond that it is joined with.
+pub(super) fn pair(painter: &egui::Painter, rect: Rect, colour: Color32) {
+    let stroke = Stroke::new(1.6, colour);
+    let diamond = [(16.5, 4.5), (20.0, 8.0), (16.5, 11.5), (13.0, 8.0)];
+    painter.add(Shape::closed_line(on_grid(rect, &diamond), stroke));
+    let ends = on_grid(rect, &[(7.5, 16.5), (14.2, 10.0)]);
+    painter.add(Shape::line(ends.clone(), stroke));
+    painter.circle_filled(ends[0], 2.8 * rect.width() / 24.0, colour);
+}
+
 /// What a sign says at a glance. Each has a form of its own, so that colour is never the only difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sign {

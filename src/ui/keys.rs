@@ -3,8 +3,8 @@
 use eframe::egui;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::{Request, Shading, StepTarget, Tool};
-use crate::session::{Action, Session};
+use super::{Editor, Purpose, Request, Shading, StepTarget, Tool, nudge};
+use crate::session::Action;
 
 /// One shortcut.
 pub struct Binding {
@@ -30,9 +30,10 @@ pub const BINDINGS: &[Binding] = &[
     bind(CTRL_SHIFT, Key::Z, "Redo", || Request::Do(Action::Redo)),
     bind(CTRL, Key::Y, "Redo", || Request::Do(Action::Redo)),
     bind(CTRL, Key::Z, "Undo", || Request::Do(Action::Undo)),
-    bind(CTRL, Key::O, "Open a mesh", || Request::AskOpen),
-    bind(CTRL, Key::S, "Save the mesh with texture coordinates", || Request::AskSave),
-    bind(CTRL, Key::E, "Export a drawing or a report", || Request::AskExport),
+    bind(CTRL, Key::O, "Open a mesh or a project", || Request::Ask(Purpose::Open)),
+    bind(CTRL_SHIFT, Key::S, "Save the project under another name", || Request::Ask(Purpose::SaveProject)),
+    bind(CTRL, Key::S, "Save the project", || Request::SaveProject),
+    bind(CTRL, Key::E, "Export: mesh, layout, pictures, report", || Request::ToggleExports),
     bind(CTRL, Key::Q, "Quit", || Request::Quit),
     bind(CTRL, Key::Enter, "Solve again", || Request::Do(Action::Solve)),
     bind(SHIFT, Key::D, "Previous defect", || Request::StepDefect(-1)),
@@ -45,12 +46,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::End, "Last step", || Request::GoToStep(StepTarget::Last)),
     bind(NONE, Key::V, "Select vertices", || Request::SetTool(Tool::Select)),
     bind(NONE, Key::P, "Fix: pin a vertex where it lies", || Request::SetTool(Tool::Fix)),
+    bind(NONE, Key::C, "Constrain: join a vertex with its place", || Request::SetTool(Tool::Constrain)),
     bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::Backspace, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::F, "Frame the selection, or all", || Request::Frame),
     bind(NONE, Key::G, "Go to a vertex, edge or face by number", || Request::AskGoTo),
     bind(NONE, Key::Num1, "Plain shading", || Request::SetShading(Shading::Plain)),
     bind(NONE, Key::Num2, "Checker", || Request::SetShading(Shading::Checker)),
+    bind(NONE, Key::Num3, "Picture", || Request::SetShading(Shading::Picture)),
     bind(NONE, Key::Num4, "Angle distortion", || Request::SetShading(Shading::Angle)),
     bind(NONE, Key::Num5, "Area distortion", || Request::SetShading(Shading::Area)),
     bind(NONE, Key::Num6, "Stretch", || Request::SetShading(Shading::Stretch)),
@@ -67,7 +70,13 @@ pub const BINDINGS: &[Binding] = &[
 /// Ctrl are the window's; Ctrl+Z stays the field's. While a menu or a list is open, Esc, Space and the arrows are the
 /// menu's; otherwise what has the keyboard's focus keeps those of them that it needs. Shift+Tab moves the focus, as it
 /// does everywhere.
-pub(super) fn requests(context: &egui::Context, session: &Session) -> Vec<Request> {
+pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
+    if editor.unsaved.is_asked() {
+        let is_left = context.input_mut(|input| input.consume_key(NONE, Key::Escape));
+        return if is_left { vec![Request::Escape] } else { Vec::new() };
+    }
+    // Before the others: with pins selected the arrows are not the timeline's.
+    let nudges = nudge::requests(context, editor);
     let typing = context.text_edit_focused();
     let menu_open = egui::Popup::is_any_open(context);
     let focused = context.memory(egui::Memory::focused);
@@ -96,10 +105,11 @@ pub(super) fn requests(context: &egui::Context, session: &Session) -> Vec<Reques
     if repeats_space {
         // A key that is held down takes step after step, but none that nobody waits for any more when it is let go.
         let is_too_many = |request: &Request| {
-            *request == Request::RunOrPause || (session.is_running() && *request == Request::Do(Action::Step))
+            *request == Request::RunOrPause || (editor.session.is_running() && *request == Request::Do(Action::Step))
         };
         requests.retain(|request| !is_too_many(request));
     }
+    requests.extend(nudges);
     requests
 }
 
@@ -120,7 +130,9 @@ pub fn keys_of(context: &egui::Context, request: &Request) -> String {
 pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Left drag on the mesh", "Orbit"),
     ("Left drag on the embedding", "Pan; on a pin: move it"),
-    ("Ctrl + left drag", "Select the vertices in a box"),
+    ("Ctrl + left drag", "Select the vertices and pins in a box"),
+    ("Arrows, with pins selected", "Nudge them by a pixel of the picture; Shift by ten"),
+    ("Alt, while a place is chosen", "Between the pixels of the picture"),
     ("Middle, right or Shift + left drag", "Pan"),
     ("Wheel or pinch", "Zoom to the pointer"),
     ("Double click on the mesh", "Set the point to orbit about"),

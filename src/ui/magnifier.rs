@@ -44,7 +44,7 @@ pub(super) struct Magnifier {
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
     pub(super) fn over(editor: &Editor, pane: Rect, scene: &PlaneScene) -> Option<Self> {
-        if !editor.magnifier || scene.is_stage() {
+        if !editor.magnifier || scene.is_stage() || editor.preview_plane().is_some() {
             return None;
         }
         let verdict = &scene.outcome.step.verdict;
@@ -135,6 +135,7 @@ impl Magnifier {
             lines: vec![mesh_pane::boundary_line(mesh, theme)],
             ghost: editor.ghost.as_ref().map(|ghost| ghost.layer(theme)),
             picture: None,
+            outlined: editor.picture_box(),
             style: render::Style { shading: Shading::Plain, wire_in_points: 1.0, ..mesh_pane::style(editor) },
             palette: theme.palette,
             camera: self.camera,

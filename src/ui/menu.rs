@@ -3,9 +3,10 @@
 use eframe::egui;
 use egui::{Button, RichText, Role, WidgetInfo};
 
+use super::exports::EXPORTS;
 use super::icons::{self, Sign};
 use super::theme::{Theme, theme_of};
-use super::{Editor, Request, Shading, StepTarget, Tab, Tool, keys_of};
+use super::{Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of};
 use crate::examples::Example;
 use crate::session::{Action, Busy, OutputFit, Surface};
 use crate::solver::Verdict;
@@ -72,7 +73,7 @@ fn choice(ui: &mut egui::Ui, on: bool, words: &str, request: Request, requests: 
 }
 
 fn file_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    item(ui, true, "Open…", Request::AskOpen, requests);
+    item(ui, true, "Open…", Request::Ask(Purpose::Open), requests);
     ui.menu_button("Recent", |ui| {
         let paths = editor.session.recent().paths();
         for path in paths {
@@ -96,9 +97,22 @@ fn file_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         }
     });
     ui.separator();
+    let has_model = editor.session.model().is_some();
+    item(ui, has_model, "Save project", Request::SaveProject, requests);
+    item(ui, has_model, "Save project as…", Request::Ask(Purpose::SaveProject), requests);
+    ui.separator();
+    picture_entries(ui, editor, requests);
+    ui.separator();
     let solved = editor.session.outcome().is_some();
-    item(ui, solved, "Save with texture coordinates…", Request::AskSave, requests);
-    item(ui, solved, "Export drawing or report…", Request::AskExport, requests);
+    ui.menu_button("Export", |ui| {
+        for (purpose, words, about) in EXPORTS {
+            let button = ui.add_enabled(solved, Button::new(words)).on_hover_text(about);
+            if button.clicked() {
+                requests.push(Request::Ask(purpose));
+                ui.close();
+            }
+        }
+    });
     ui.menu_button("Size in files", |ui| {
         let fits =
             [(OutputFit::Unit, "Fit into the unit square"), (OutputFit::True, "True scale: the mesh's own area")];
@@ -112,6 +126,16 @@ fn file_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     item(ui, true, "Quit", Request::Quit, requests);
 }
 
+/// Picture and constraints come from files and go to files.
+fn picture_entries(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let has_disk = editor.session.model().is_some_and(|model| model.disk().is_some());
+    let has_pins = !editor.session.document().pins.is_empty();
+    item(ui, has_disk, "Open picture…", Request::Ask(Purpose::OpenPicture), requests);
+    item(ui, editor.has_picture(), "Remove picture", Request::Do(Action::RemovePicture), requests);
+    item(ui, has_disk, "Import constraints…", Request::Ask(Purpose::ImportConstraints), requests);
+    item(ui, has_pins, "Export constraints…", Request::Ask(Purpose::ExportConstraints), requests);
+}
+
 fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let history = editor.session.history();
     item(ui, history.can_undo(), "Undo", Request::Do(Action::Undo), requests);
@@ -119,6 +143,8 @@ fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.separator();
     choice(ui, editor.tool == Tool::Select, "Select vertices", Request::SetTool(Tool::Select), requests);
     choice(ui, editor.tool == Tool::Fix, "Fix vertices", Request::SetTool(Tool::Fix), requests);
+    let constrains = editor.tool == Tool::Constrain;
+    choice(ui, constrains, "Constrain vertices", Request::SetTool(Tool::Constrain), requests);
     ui.separator();
     let fixable = !editor.selection.is_empty() && editor.session.outcome().is_some();
     let fix = Request::Do(Action::Fix(editor.selection.iter().copied().collect()));
@@ -126,6 +152,12 @@ fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     item(ui, editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected, requests);
     let pinned = !editor.session.document().pins.is_empty();
     item(ui, pinned, "Free all pins", Request::Do(Action::UnpinAll), requests);
+    ui.separator();
+    item(ui, pinned, "Mirror the targets", Request::Do(Action::MirrorTargets), requests);
+    let several = editor.session.document().pins.len() > 1;
+    item(ui, several, "Fit the targets to the mesh", Request::Do(Action::FitTargets), requests);
+    let has_model = editor.session.model().is_some();
+    item(ui, has_model, "Turn the faces around", Request::Do(Action::TurnFaces), requests);
 }
 
 fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -135,8 +167,10 @@ fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         }
     });
     choice(ui, editor.wireframe, "Wireframe", Request::ToggleWireframe, requests);
+    let is_sharp = editor.picture.sampling == crate::render::Sampling::Sharp;
+    choice(ui, is_sharp, "Sharp pixels", Request::ToggleSharp, requests);
     choice(ui, editor.hull.shown, "Hull and pockets", Request::ToggleHull, requests);
-    choice(ui, editor.magnifier, "Magnifier over a defect", Request::ToggleMagnifier, requests);
+    choice(ui, editor.magnifier, "Magnifier", Request::ToggleMagnifier, requests);
     choice(ui, editor.ease.wanted, "Glide from step to step", Request::ToggleEase, requests);
     choice(ui, editor.panels_shown(), "Panels", Request::TogglePanels, requests);
     choice(ui, editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves, requests);
@@ -188,7 +222,8 @@ fn solve_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 fn title(editor: &Editor) -> String {
     let Some(model) = editor.session.model() else { return "Freebound".to_owned() };
     let mesh = model.mesh();
-    format!("{} · {} v · {} f", model.name, grouped(mesh.vertex_count()), grouped(mesh.face_count()))
+    let mark = if editor.session.has_unsaved_work() { "• " } else { "" };
+    format!("{mark}{} · {} v · {} f", editor.document_name(), grouped(mesh.vertex_count()), grouped(mesh.face_count()))
 }
 
 /// A count with its thousands set apart by spaces.
@@ -242,9 +277,9 @@ fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
         let tip = "The bars over the mesh say what is wrong and what to do";
         return Some(Pill { sign: Sign::Bad, colour: theme.flipped, words, tip });
     }
-    if session.is_preview() {
-        let tip = "The first, linear step. What repairs it follows when the gesture ends";
-        let words = "preview, not repaired".to_owned();
+    if session.is_preview() || session.preview().is_some() {
+        let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
+        let words = preview_words(editor);
         return Some(Pill { sign: Sign::Warning, colour: theme.stale, words, tip });
     }
     let more_to_come = session.is_running() && session.timeline().records().len() <= 1;
@@ -264,6 +299,17 @@ fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
         let tip = "Not planar. Click for the next defect (D)";
         Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&outcome.step.verdict), tip }
     })
+}
+
+/// What follows a drag, and what is known of it.
+fn preview_words(editor: &Editor) -> String {
+    let known = match editor.session.preview().map(crate::session::Preview::verdict) {
+        None => return "preview, not repaired".to_owned(),
+        Some(None) => "checking…".to_owned(),
+        Some(Some(verdict)) if verdict.planar => "planar".to_owned(),
+        Some(Some(verdict)) => short_verdict(verdict),
+    };
+    format!("preview, not repaired · {known}")
 }
 
 /// The verdict in the fewest words.

@@ -6,7 +6,8 @@ use eframe::egui;
 use egui::{CursorIcon, Pos2, Rect, Response};
 use glam::DVec2;
 
-use super::pane::{self, PinOwner};
+use super::pane;
+use super::pins::{self, Emphasis, PinKind};
 use super::scene::MeshScene;
 use super::theme::{Theme, theme_of};
 use super::{Editor, Pane, Request, Shading, Tool};
@@ -21,16 +22,18 @@ const MARKS_SHOWN: usize = 2000;
 /// Shows the pane and takes its gestures.
 pub(super) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Mesh, requests);
+    super::bars::bars(ui, editor, Pane::Mesh, requests);
     pane::message_bars(ui, editor, Place::Mesh, requests);
     let (rect, response) = pane::surface(ui, "3D view of the mesh");
     editor.mesh_pane_size = pane::size_of(rect);
+    editor.pane_rects[0] = Some(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
     let (Some(scene), Some(mut camera)) = (editor.mesh_scene().map(Arc::clone), editor.orbit) else {
         let lines: &[&str] = if editor.session.busy().is_some() {
             &["Opening…"]
         } else {
-            &["No mesh open", "Drop an OBJ file here, or take one of the examples in the File menu"]
+            &["No mesh open", "Drop an OBJ file or a project here, or take one of the examples in the File menu"]
         };
         return pane::empty_state(ui, rect, lines);
     };
@@ -43,6 +46,7 @@ pub(super) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mu
         editor.pane_under_pointer = Some(Pane::Mesh);
         let pick = scene.picker.nearest_vertex(&camera, editor.mesh_pane_size, pointer, Visibility::Visible);
         editor.hovered = pick.map(|pick| pick.vertex);
+        editor.aim(ui, Pane::Mesh);
     }
     select(ui, &response, editor, &scene, requests);
     if editor.has_gpu {
@@ -53,6 +57,7 @@ pub(super) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mu
         pane::legend(ui, rect, legend, &editor.shading_title());
     }
     super::compare::no_move_note(ui, rect, editor);
+    super::pair_magnifier::over_mesh(ui, rect, editor, &scene);
 }
 
 /// Camera moves: turntable, pan, zoom to the pointer, pivot.
@@ -105,12 +110,15 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, scene: &MeshS
 }
 
 /// What a click of the tool in hand asks for.
-pub(super) fn clicked(ui: &egui::Ui, editor: &Editor) -> Vec<Request> {
+pub(super) fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
+    if editor.tool == Tool::Constrain {
+        return editor.constrain();
+    }
     let Some(vertex) = editor.hovered else { return vec![Request::Select(Vec::new())] };
     let adds = ui.input(|input| input.modifiers.shift);
     let select = if adds { Request::AddToSelection(vec![vertex]) } else { Request::Select(vec![vertex]) };
     match editor.tool {
-        Tool::Select => vec![select],
+        Tool::Select | Tool::Constrain => vec![select],
         Tool::Fix => vec![Request::Do(Action::Fix(vec![vertex])), select],
     }
 }
@@ -118,19 +126,20 @@ pub(super) fn clicked(ui: &egui::Ui, editor: &Editor) -> Vec<Request> {
 /// The cursor says what a click would do.
 pub(super) fn cursor(editor: &Editor) -> CursorIcon {
     match (editor.tool, editor.hovered) {
+        (Tool::Constrain, _) => CursorIcon::Crosshair,
         (_, None) => CursorIcon::Default,
         (Tool::Select, Some(_)) => CursorIcon::PointingHand,
         (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
     }
 }
 
-fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, theme: &Theme) -> MeshFrame {
+pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, theme: &Theme) -> MeshFrame {
     let plane = editor.result_plane().map(|plane| Arc::clone(&plane.arrays));
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         lines: vec![boundary_line(scene, theme)],
-        picture: None,
-        paint: editor.paint().map(|paint| Arc::clone(&paint.faces)),
+        picture: editor.picture_layer(),
+        paint: editor.preview_paint().or(editor.paint().map(|paint| &paint.faces)).map(Arc::clone),
         style: style(editor),
         palette: theme.palette,
         camera,
@@ -147,7 +156,10 @@ pub(super) fn boundary_line(scene: &MeshScene, theme: &Theme) -> LineLayer {
 pub(super) fn style(editor: &Editor) -> Style {
     let shading = match editor.shading {
         Shading::Plain => render::Shading::Plain,
-        Shading::Checker => render::Shading::Checker,
+        Shading::Picture if editor.has_picture() => render::Shading::Picture,
+        Shading::Checker | Shading::Picture => render::Shading::Checker,
+        // What was measured belongs to another embedding than the one that follows a drag.
+        _ if editor.preview_plane().is_some() => render::Shading::Plain,
         Shading::Move if editor.moved_from().is_none() => render::Shading::Plain,
         Shading::Angle | Shading::Area | Shading::Stretch | Shading::Move => render::Shading::Paint,
     };
@@ -183,9 +195,11 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
             super::defect_marks::overwound_mark(&painter, at, theme);
         }
     }
-    for (vertex, owner) in editor.pins_shown().map(|(vertex, _, owner)| (vertex, owner)) {
-        if let Some((at, true)) = place(vertex) {
-            pane::pin_mark(&painter, at, theme, owner, editor.selection.contains(&vertex));
+    for pin in editor.pins_shown() {
+        if let Some((at, true)) = place(pin.vertex) {
+            let is_strong = editor.selection.contains(&pin.vertex);
+            let emphasis = if is_strong { Emphasis::Strong } else { Emphasis::Plain };
+            pins::mark(&painter, at, theme, (pin.kind, emphasis));
         }
     }
     for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
@@ -195,8 +209,10 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
     }
     if let Some((at, true)) = editor.hovered.and_then(place) {
         pane::halo(&painter, at, theme.selection, if editor.tool == Tool::Fix { 7.0 } else { 5.0 });
-        if editor.tool == Tool::Fix {
-            pane::pin_mark(&painter, at, theme, PinOwner::Solver, false);
+        match editor.tool {
+            Tool::Select => {}
+            Tool::Fix => pins::mark(&painter, at, theme, (PinKind::Gauge, Emphasis::Plain)),
+            Tool::Constrain => pins::ghost(&painter, at, theme),
         }
     }
 }

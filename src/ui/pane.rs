@@ -7,12 +7,9 @@ use glam::DVec2;
 use super::icons::{self, Sign};
 use super::method_panel::sentence;
 use super::scene::Legend;
-use super::theme::{Theme, theme_of};
+use super::theme::theme_of;
 use super::{Editor, Pane, Request, Shading, keys_of};
 use crate::session::{Action, Message, Place, Severity};
-
-/// Side of a pin's square, points.
-const PIN_SIZE: f32 = 9.0;
 
 /// A point of the screen as the camera takes it, relative to the pane.
 pub(super) fn in_pane(rect: Rect, position: Pos2) -> DVec2 {
@@ -106,6 +103,17 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
         Severity::Note => (theme.planar, Sign::Good),
         Severity::Error => (theme.flipped, Sign::Bad),
     };
+    bar(ui, (colour, sign), |ui| {
+        ui.add(egui::Label::new(sentence(&message.text)).wrap());
+        if let Some(remedy) = &message.remedy {
+            ui.add(egui::Label::new(egui::RichText::new(sentence(remedy)).color(theme.weak_text)).wrap());
+        }
+        ui.horizontal_wrapped(|ui| message_buttons(ui, message, requests));
+    });
+}
+
+/// A bar over a pane, with its sign at the left.
+pub(super) fn bar(ui: &mut egui::Ui, (colour, sign): (Color32, Sign), add: impl FnOnce(&mut egui::Ui)) {
     let frame = egui::Frame::new()
         .fill(colour.gamma_multiply(0.14))
         .inner_margin(8)
@@ -115,13 +123,7 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
         ui.horizontal_top(|ui| {
             let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
             icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), sign, colour);
-            ui.vertical(|ui| {
-                ui.add(egui::Label::new(sentence(&message.text)).wrap());
-                if let Some(remedy) = &message.remedy {
-                    ui.add(egui::Label::new(egui::RichText::new(sentence(remedy)).color(theme.weak_text)).wrap());
-                }
-                ui.horizontal_wrapped(|ui| message_buttons(ui, message, requests));
-            });
+            ui.vertical(add);
         });
     });
 }
@@ -156,31 +158,6 @@ pub(super) fn empty_state(ui: &egui::Ui, rect: Rect, lines: &[&str]) {
         ui.painter_at(rect).galley(at, galley, theme.text);
         at.y += step;
     }
-}
-
-/// A pin: a filled square for the user's, a hollow one for the solver's own.
-pub(super) fn pin_mark(painter: &egui::Painter, at: Pos2, theme: &Theme, own: PinOwner, strong: bool) {
-    let square = Rect::from_center_size(at, Vec2::splat(if strong { PIN_SIZE + 3.0 } else { PIN_SIZE }));
-    let edge = Stroke::new(if strong { 2.5 } else { 1.5 }, theme.pin);
-    match own {
-        PinOwner::User => {
-            painter.rect_filled(square, 1.0, theme.pin);
-            painter.rect_stroke(square, 1.0, Stroke::new(1.0, Color32::WHITE), egui::StrokeKind::Outside);
-        }
-        PinOwner::Solver => {
-            painter.rect_filled(square, 1.0, theme.background.gamma_multiply(0.7));
-            painter.rect_stroke(square, 1.0, edge, egui::StrokeKind::Inside);
-        }
-    }
-}
-
-/// Whose a pin is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PinOwner {
-    /// The user's.
-    User,
-    /// A gauge pin that the solver chose.
-    Solver,
 }
 
 /// A ring around a vertex.

@@ -3,24 +3,21 @@
 use std::sync::Arc;
 
 use eframe::egui;
-use egui::{CursorIcon, Pos2, Rect, Response, Role, Sense, Vec2, WidgetInfo};
+use egui::{Pos2, Rect, Response};
 use glam::DVec2;
 
 use super::compare;
 use super::hull;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, clicked, cursor, style};
-use super::pane::{self, PinOwner};
+use super::pane;
 use super::scene::{MeshScene, PlaneScene};
 use super::theme::{Theme, theme_of};
-use super::{Editor, Pane, Request};
+use super::{Editor, Pane, Request, constrain, pair_magnifier, pin_drag, pins};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
-use crate::session::{Action, Place, Surface};
+use crate::session::{Place, Surface};
 use crate::view::PlaneCamera;
-
-/// Side of the square around a pin that can be grabbed, points.
-const GRAB_SIZE: f32 = 18.0;
 
 /// Marks drawn at most for a large selection.
 const MARKS_SHOWN: usize = 2000;
@@ -30,6 +27,7 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     pane::header(ui, editor, Pane::Plane, requests);
     pane::message_bars(ui, editor, Place::Embedding, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
+    editor.pane_rects[1] = Some(rect);
     if editor.plane_pane_size != pane::size_of(rect) {
         editor.plane_pane_size = pane::size_of(rect);
         editor.keep_framed();
@@ -46,7 +44,7 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         ui.ctx().request_repaint();
     }
     let size = pane::size_of(rect);
-    let magnifier = Magnifier::over(editor, rect, &plane);
+    let magnifier = Magnifier::over(editor, rect, &plane).filter(|_| !editor.magnifies_pair());
     let is_covered = |at: Pos2| magnifier.as_ref().is_some_and(|magnifier| magnifier.rect.contains(at));
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at) && !is_covered(*at));
     if response.hovered() || response.contains_pointer() {
@@ -55,16 +53,18 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         editor.pointer_in_embedding = pointer.map(|at| camera.embedding_from_pane(at, size));
         let pick = pointer.and_then(|at| plane.picker.nearest_vertex(&camera, size, at));
         editor.hovered = pick.map(|pick| pick.vertex);
+        editor.aim(ui, Pane::Plane);
     }
     if editor.has_gpu {
-        let frame = frame(editor, &mesh, &plane, camera, theme);
+        let frame = frame(editor, (&mesh, &plane), camera, theme);
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
     select(ui, &response, editor, &plane, requests);
     marks(ui, rect, editor, (&mesh, &plane), camera);
     super::equation_table::draw(ui, rect, editor, &plane, camera);
     if !plane.is_stage() {
-        drag_pins(ui, rect, editor, camera, requests);
+        pin_drag::pins_ui(ui, rect, editor, camera, requests);
+        pair_magnifier::over_plane(ui, rect, editor, (&mesh, &plane));
     }
     if let Some(magnifier) = magnifier {
         magnifier.show(ui, editor, (&mesh, &plane), requests);
@@ -117,7 +117,11 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
         let count = plane.outcome.step.solution.embedding.len();
         let positions = plane.positions()[..count].iter().enumerate();
         let inside = positions.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
-        requests.push(Request::AddToSelection(inside.map(|(i, _)| VertexId::from_index(i)).collect()));
+        let mut chosen: Vec<VertexId> = inside.map(|(i, _)| VertexId::from_index(i)).collect();
+        let targets = editor.pins_shown().into_iter();
+        let targets = targets.filter(|pin| pin.target.cmpge(a).all() && pin.target.cmple(b).all());
+        chosen.extend(targets.map(|pin| pin.vertex));
+        requests.push(Request::AddToSelection(chosen));
     }
     if response.clicked() {
         requests.extend(clicked(ui, editor));
@@ -127,7 +131,12 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
     }
 }
 
-fn frame(editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
+pub(super) fn frame(
+    editor: &Editor,
+    (mesh, plane): (&MeshScene, &PlaneScene),
+    camera: PlaneCamera,
+    theme: &Theme,
+) -> PlaneFrame {
     let mut lines = vec![boundary_line(mesh, theme)];
     let mut fills = Vec::new();
     if let Some(scene) = editor.hull_scene() {
@@ -138,7 +147,7 @@ fn frame(editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCam
     if plane.is_stage() && style.shading == render::Shading::Paint {
         style.shading = render::Shading::Plain;
     }
-    let paint = editor.stage_paint().or(editor.paint().map(|paint| &paint.faces));
+    let paint = editor.stage_paint().or(editor.preview_paint()).or(editor.paint().map(|paint| &paint.faces));
     PlaneFrame {
         mesh: Arc::clone(&mesh.arrays),
         plane: Some(Arc::clone(&plane.arrays)),
@@ -146,7 +155,8 @@ fn frame(editor: &Editor, mesh: &MeshScene, plane: &PlaneScene, camera: PlaneCam
         fills,
         lines,
         ghost: editor.ghost.as_ref().filter(|_| !plane.is_stage()).map(|ghost| ghost.layer(theme)),
-        picture: None,
+        picture: editor.picture_layer(),
+        outlined: editor.picture_box(),
         style,
         palette: theme.palette,
         camera,
@@ -166,56 +176,18 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
         let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
         super::defect_marks::plane_marks(ui, rect, editor, (mesh, plane), &spot);
     }
+    if !plane.is_stage() {
+        for pin in editor.pins_shown() {
+            let target = pane::on_screen(rect, camera.pane_from_embedding(pin.target, size));
+            pins::residual(&over, [spot(pin.vertex), target], theme, pin.kind);
+        }
+        let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
+        constrain::preview(&over, ui, editor, &spot);
+    }
     for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
         pane::halo(&over, spot(vertex), theme.selection, 6.0);
     }
     if let Some(vertex) = editor.hovered {
         pane::halo(&over, spot(vertex), theme.selection, 5.0);
-    }
-}
-
-/// Pins are widgets of their own: they can be grabbed, and have names.
-fn drag_pins(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, camera: PlaneCamera, requests: &mut Vec<Request>) {
-    let theme = theme_of(ui);
-    let size = pane::size_of(rect);
-    let pins: Vec<(VertexId, DVec2, PinOwner)> = editor.pins_shown().collect();
-    for (vertex, position, owner) in pins {
-        let at = pane::on_screen(rect, camera.pane_from_embedding(position, size));
-        if !rect.expand(GRAB_SIZE).contains(at) {
-            continue;
-        }
-        let grab = Rect::from_center_size(at, Vec2::splat(GRAB_SIZE)).intersect(rect);
-        let response = ui.interact(grab, ui.scope_id().with(("pin", vertex)), Sense::click_and_drag());
-        let name = match owner {
-            PinOwner::User => format!("Pin {vertex}"),
-            PinOwner::Solver => format!("Gauge pin {vertex}"),
-        };
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-        let strong = response.hovered() || editor.selection.contains(&vertex);
-        pane::pin_mark(&ui.painter_at(rect), at, theme, owner, strong);
-        if response.hovered() || response.dragged() {
-            ui.ctx().set_cursor_icon(if response.dragged() { CursorIcon::Grabbing } else { CursorIcon::Grab });
-            editor.hovered = Some(vertex);
-        }
-        if response.clicked() {
-            requests.push(Request::Select(vec![vertex]));
-        }
-        if response.drag_started() {
-            editor.dragged_pin = Some(vertex);
-            let pressed = ui.input(|input| input.pointer.press_origin());
-            editor.grab_offset = pressed.map_or(Vec2::ZERO, |pressed| at - pressed);
-            requests.push(Request::Do(Action::EndGesture));
-            requests.push(Request::Select(vec![vertex]));
-        }
-        if response.dragged() && editor.dragged_pin == Some(vertex) && response.drag_delta() != Vec2::ZERO {
-            let pointer = response.interact_pointer_pos().map_or(at, |pointer| pointer + editor.grab_offset);
-            let place = camera.embedding_from_pane(pane::in_pane(rect, pointer), size);
-            let target = editor.session.document().frame().uv_from_plane(place);
-            requests.push(Request::Do(Action::MovePin { vertex, target }));
-        }
-        if response.drag_stopped() {
-            editor.dragged_pin = None;
-            requests.push(Request::Do(Action::EndGesture));
-        }
     }
 }

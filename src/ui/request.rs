@@ -1,8 +1,9 @@
 //! What a person can ask of the window. Panels collect requests; the editor carries them out after the frame.
 
-use super::Stage;
+use super::{Answer, Nudge, Purpose, Stage};
 use crate::mesh::VertexId;
 use crate::session::{Action, OutputFit};
+use crate::solver::Hold;
 use eframe::egui;
 
 /// What the left mouse button does.
@@ -13,6 +14,8 @@ pub enum Tool {
     Select,
     /// Pins vertices where they lie.
     Fix,
+    /// Joins vertices with their places on the picture.
+    Constrain,
 }
 
 /// How faces are coloured.
@@ -23,6 +26,8 @@ pub enum Shading {
     /// A checker over the plane, carried to the mesh.
     #[default]
     Checker,
+    /// The picture, carried to the mesh; the checker where there is none.
+    Picture,
     /// Angle distortion.
     Angle,
     /// Area distortion.
@@ -35,13 +40,15 @@ pub enum Shading {
 
 impl Shading {
     /// All shadings, in the order of menus.
-    pub const ALL: [Self; 6] = [Self::Plain, Self::Checker, Self::Angle, Self::Area, Self::Stretch, Self::Move];
+    pub const ALL: [Self; 7] =
+        [Self::Plain, Self::Checker, Self::Picture, Self::Angle, Self::Area, Self::Stretch, Self::Move];
 
     /// Its name in menus.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Plain => "Plain",
             Self::Checker => "Checker",
+            Self::Picture => "Picture",
             Self::Angle => "Angle distortion",
             Self::Area => "Area distortion",
             Self::Stretch => "Stretch",
@@ -54,6 +61,7 @@ impl Shading {
         match self {
             Self::Plain => "no colours but those of defects",
             Self::Checker => "squares of the plane, carried to the mesh: they show angles and sizes at a glance",
+            Self::Picture => "the picture, carried to the mesh; a checker where there is none",
             Self::Angle => "ratio of the singular values σ₁/σ₂ per face: 1 keeps angles",
             Self::Area => "area in the plane over area on the mesh per face, at equal total areas: 1 keeps areas",
             Self::Stretch => "root mean square stretch from the plane to the mesh per face (L²)",
@@ -156,20 +164,36 @@ pub enum Request {
     Select(Vec<VertexId>),
     /// Adds vertices to the selection.
     AddToSelection(Vec<VertexId>),
+    /// Selects a vertex beside the others, or no more.
+    ToggleSelected(VertexId),
     /// Frees the selected pins.
     UnpinSelected,
+    /// Moves the selected pins by pixels of the picture.
+    Nudge(Nudge),
+    /// The keys that nudge are let go.
+    EndNudge,
+    /// Holds the selected pins in another way, and pins that are placed from now on.
+    SetHold(Hold),
+    /// Chooses how strongly the picture shows behind the embedding, 0 to 1.
+    SetOpacity(f32),
+    /// Shows pixels of the picture as squares, or fading into each other.
+    ToggleSharp,
     /// Gives up the gesture, then the tool, then the selection.
     Escape,
     /// Shows one pane in full size, or both again.
     ToggleFull(Pane),
     /// Shows the pane without the pointer in full size, or both again.
     TogglePane,
-    /// Asks for a mesh to open.
-    AskOpen,
-    /// Asks where to save the mesh with its texture coordinates.
-    AskSave,
-    /// Asks where to export to.
-    AskExport,
+    /// Asks for a file.
+    Ask(Purpose),
+    /// Saves the project where it was saved before, or asks where.
+    SaveProject,
+    /// Shows or hides what can be exported.
+    ToggleExports,
+    /// Answers the question about unsaved work.
+    Answer(Answer),
+    /// Leaves faces that point inward as they are.
+    LeaveFaces,
     /// Asks for an element to go to.
     AskGoTo,
     /// Shows or hides the list of keys.

@@ -168,7 +168,7 @@ impl Paint {
             by_values(scale, &outcome.distortion.faces.iter().map(of).collect::<Vec<f64>>())
         };
         match (key.shading, base) {
-            (Shading::Plain | Shading::Checker, _) | (Shading::Move, None) => {
+            (Shading::Plain | Shading::Checker | Shading::Picture, _) | (Shading::Move, None) => {
                 Self { key, faces: Arc::new(FacePaint::plain(mesh.face_count(), flipped)), legend: None }
             }
             (Shading::Angle, _) => by(Scale::Angle, |face| face.angle),

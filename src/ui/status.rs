@@ -1,5 +1,7 @@
 //! The bar at the bottom: what the tool does, and what is under the pointer.
 
+use std::borrow::Cow;
+
 use eframe::egui;
 use egui::RichText;
 
@@ -16,13 +18,20 @@ pub(super) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 let hint = hint(editor);
                 let ink = if hint == PRESS_SPACE { theme_of(ui).text } else { weak };
-                ui.add(egui::Label::new(RichText::new(hint).color(ink)).truncate());
+                ui.add(egui::Label::new(RichText::new(hint.as_ref()).color(ink)).truncate());
             });
         });
     });
 }
 
-fn hint(editor: &Editor) -> &'static str {
+fn hint(editor: &Editor) -> Cow<'static, str> {
+    if editor.tool == Tool::Constrain && editor.dragged_pin.is_none() && editor.session.model().is_some() {
+        return editor.constrain_words().into();
+    }
+    fixed_hint(editor).into()
+}
+
+fn fixed_hint(editor: &Editor) -> &'static str {
     if editor.dragged_pin.is_some() {
         return "Move the pin; the embedding follows. Esc gives up.";
     }
@@ -32,8 +41,11 @@ fn hint(editor: &Editor) -> &'static str {
     if editor.session.is_held() && !editor.timeline.curves_shown() {
         return PRESS_SPACE;
     }
+    if editor.selected_pins() > 0 && editor.tool == Tool::Select {
+        return "Drag a selected pin to move them all, arrows nudge by a pixel (Shift: ten), Delete frees them.";
+    }
     match editor.tool {
-        Tool::Select => {
+        Tool::Select | Tool::Constrain => {
             "Click a vertex to select it, Shift adds, Ctrl and a drag draw a box. Drag a square to move a pin."
         }
         Tool::Fix => "Click a vertex to fix it where it lies. Drag a square to move it. Esc ends.",
@@ -42,7 +54,8 @@ fn hint(editor: &Editor) -> &'static str {
 
 fn numbers(editor: &Editor) -> String {
     let mut parts = Vec::new();
-    if let Some(at) = editor.pointer_in_embedding {
+    if let Some(place) = editor.pointer_in_embedding {
+        let at = editor.session.document().frame().uv_from_plane(place);
         parts.push(format!("u {} v {}", short(at.x), short(at.y)));
     }
     if let (Some(vertex), Some(model)) = (editor.hovered, editor.session.model()) {

@@ -25,6 +25,8 @@ pub struct Theme {
     pub overwound: Color32,
     /// A pin.
     pub pin: Color32,
+    /// A constraint, its line and its residual.
+    pub constraint: Color32,
     /// What is selected or under the pointer.
     pub selection: Color32,
     /// Planar and proved.
@@ -73,6 +75,7 @@ pub const LIGHT: Theme = Theme {
     crossing: hex(0x00E8_700A),
     overwound: hex(0x00C0_26A8),
     pin: hex(0x002F_5BD8),
+    constraint: hex(0x0000_8FA3),
     selection: hex(0x00E0_A100),
     planar: hex(0x001F_8A4C),
     stale: hex(0x00B8_7A00),
@@ -109,6 +112,7 @@ pub const DARK: Theme = Theme {
     crossing: hex(0x00FF_9A3D),
     overwound: hex(0x00F0_6BD8),
     pin: hex(0x007B_9BFF),
+    constraint: hex(0x002B_D4E6),
     selection: hex(0x00FF_D24A),
     planar: hex(0x004A_CB80),
     stale: hex(0x00F0_B43C),

@@ -9,10 +9,17 @@ use super::{Editor, Request, Tool, icons, keys_of};
 /// Side of a tool's button, points.
 const BUTTON: f32 = 32.0;
 
+/// The tools with their names.
+const TOOLS: [(Tool, &str); 3] = [
+    (Tool::Select, "Select vertices"),
+    (Tool::Fix, "Fix: pin a vertex where it lies"),
+    (Tool::Constrain, "Constrain: join a vertex with its place"),
+];
+
 /// Shows the tools.
 pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.vertical_centered(|ui| {
-        for (tool, name) in [(Tool::Select, "Select vertices"), (Tool::Fix, "Fix: pin a vertex where it lies")] {
+        for (tool, name) in TOOLS {
             let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
             let on = editor.tool == tool;
             response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
@@ -28,6 +35,7 @@ pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Re
             match tool {
                 Tool::Select => icons::pointer(ui.painter(), rect, colour),
                 Tool::Fix => icons::pin(ui.painter(), rect, colour),
+                Tool::Constrain => icons::pair(ui.painter(), rect, colour),
             }
             let request = Request::SetTool(tool);
             let tip = format!("{name} ({})", keys_of(ui.ctx(), &request));

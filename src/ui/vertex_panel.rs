@@ -41,8 +41,10 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             row(axis, short(value));
         }
         if let Some(z) = embedding.and_then(|embedding| embedding.get(vertex.index())) {
-            row("u", short(z.x));
-            row("v", short(z.y));
+            let frame = editor.session.outcome().map(|outcome| outcome.frame).unwrap_or_default();
+            let uv = frame.uv_from_plane(*z);
+            row("u", short(uv.x));
+            row("v", short(uv.y));
         }
         if let Some(disk) = model.disk() {
             let valence = disk.outgoing(vertex).count();

@@ -7,7 +7,7 @@ use super::mesh_pane::mesh_pane_ui;
 use super::plane_pane::plane_pane_ui;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
 use super::timeline::{CURVES_FROM, timeline_ui};
-use super::{Editor, Pane, Request, floating, keys, menu, side_panel, status, tools};
+use super::{Editor, Intent, Pane, Request, constrain, floating, keys, menu, side_panel, status, tools, unsaved};
 use crate::session::Action;
 
 /// Width of the bar between the panes that can be grabbed, points.
@@ -22,12 +22,13 @@ const LEAST_SHARE: f32 = 0.15;
 /// Shows everything and carries out what was asked for.
 pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.poll();
-    let mut requests = keys::requests(ui.ctx(), &editor.session);
+    unsaved::hold_window(ui.ctx(), editor);
+    let mut requests = keys::requests(ui.ctx(), editor);
     if let Some(place) = requests.iter().position(|request| *request == Request::Escape) {
         // Before the panes are shown: egui ends a drag at the same key, and the pane would forget what was dragged.
         editor.handle(requests.remove(place));
     }
-    requests.extend(dropped_file(ui));
+    requests.extend(dropped_files(ui));
     let fill = theme_of(ui).panel;
     let bar = Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 0));
     Panel::top("top").exact_size(TOP_HEIGHT).frame(bar).show(ui, |ui| menu::top_bar(ui, editor, &mut requests));
@@ -56,11 +57,14 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
     editor.pane_under_pointer = None;
     editor.pointer_in_embedding = None;
+    editor.intent = Intent::Nothing;
+    editor.pane_rects = [None; 2];
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
     if editor.pane_under_pointer.is_none() && editor.dragged_pin.is_none() {
         // Not before: the pane drawn first shows what the pointer found in the other.
         editor.hovered = None;
     }
+    constrain::line_across(ui, editor);
     floating::floating_windows(ui.ctx(), editor, &mut requests);
     for request in requests {
         editor.handle(request);
@@ -112,10 +116,14 @@ fn splitter(ui: &egui::Ui, editor: &mut Editor, all: Rect, middle: f32) {
     ui.painter().vline(middle, all.y_range(), egui::Stroke::new(1.0, colour));
 }
 
-/// A file dropped on the window is opened.
-fn dropped_file(ui: &egui::Ui) -> Option<Request> {
-    let path = ui.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()))?;
-    Some(Request::Do(Action::Open(path)))
+/// Files dropped on the window are opened: a mesh or project alone, since the others would belong to the one before.
+fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
+    let paths = ui.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<_>>());
+    let asked: Vec<Request> = paths.into_iter().map(Editor::dropped).collect();
+    match asked.iter().find(|request| matches!(request, Request::Do(Action::Open(_)))) {
+        Some(open) => vec![open.clone()],
+        None => asked,
+    }
 }
 
 /// What only the window itself can do.
@@ -123,6 +131,7 @@ fn carry_out_for_window(context: &egui::Context, editor: &mut Editor) {
     if let Some(theme) = editor.theme_wanted.take() {
         context.set_theme(theme);
     }
+    unsaved::title_of_window(context, editor);
     if editor.quit {
         context.send_viewport_cmd(egui::ViewportCommand::Close);
     }

@@ -2,18 +2,18 @@
 
 use eframe::egui;
 use egui::Key;
-use freebound::app::Start;
+use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::solver::{Method, Settings};
 use freebound::ui::{Shading, Stage};
 use glam::DVec2;
 
-use crate::harness::{SIZE, Window, sheet};
+use crate::harness::{Window, sheet};
 
 /// The built-in face after its first iteration: two steps, the second on the screen.
 fn two_steps() -> Window {
-    let mut window = Window::start(SIZE, Start { dialogs_inside: true, ..Start::default() });
+    let mut window = Window::with_example(Example::Face);
     let settings = Settings { method: Method::Iterate, ..Settings::default() };
     window.editor_mut().session.handle(Action::SetSettings(settings));
     window.settle();
@@ -196,7 +196,7 @@ fn moves_are_measured_from_the_compared_step_or_else_from_the_one_before() {
 
 #[test]
 fn the_stages_of_a_virtual_boundary_show_no_outline_of_another_step() {
-    let mut window = Window::start(SIZE, Start { dialogs_inside: true, ..Start::default() });
+    let mut window = Window::with_example(Example::Face);
     window.choose("Method", "Virtual boundary");
     window.editor_mut().session.handle(Action::Compare(Some(0)));
     window.settle();

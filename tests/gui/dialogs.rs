@@ -22,6 +22,10 @@ fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(6, 0.3))
 }
 
+fn ask_where_to_save(window: &mut Window) {
+    window.menu(&["File", "Export", "Mesh with texture coordinates…"]);
+}
+
 fn name(window: &Window) -> String {
     window.editor().session.model().map(|model| model.name.clone()).unwrap_or_default()
 }
@@ -32,7 +36,7 @@ fn a_mesh_is_opened_through_the_dialog() {
     write_obj(&window.path("second.obj"), &sheet(4, 0.0));
     std::fs::write(window.path("notes.txt"), "no mesh").unwrap();
     window.press(Modifiers::COMMAND, Key::O);
-    assert!(window.shows("Open a mesh"));
+    assert!(window.shows("Open a mesh or a project"));
     assert!(window.has_button("second.obj") && window.has_button("sheet.obj"));
     assert!(!window.has_button("notes.txt"), "only meshes are listed");
     window.click("second.obj");
@@ -73,10 +77,10 @@ fn a_dialog_is_left_by_cancel_or_escape() {
     window.press(Modifiers::COMMAND, Key::O);
     window.click("Cancel");
     assert!(!window.editor().dialogs.is_open());
-    window.press(Modifiers::COMMAND, Key::S);
+    ask_where_to_save(&mut window);
     window.key(Key::Escape);
     assert!(!window.editor().dialogs.is_open());
-    window.press(Modifiers::COMMAND, Key::S);
+    ask_where_to_save(&mut window);
     window.harness.get_by_role_and_label(Role::TextInput, "Name").click();
     window.step();
     window.key(Key::Escape);
@@ -87,7 +91,7 @@ fn a_dialog_is_left_by_cancel_or_escape() {
 #[test]
 fn the_mesh_is_saved_with_texture_coordinates() {
     let mut window = window();
-    window.press(Modifiers::COMMAND, Key::S);
+    ask_where_to_save(&mut window);
     window.click("Save");
     let path = window.path("sheet-flat.obj");
     let saved = read_mesh(&path).expect("a mesh");
@@ -102,7 +106,7 @@ fn the_mesh_is_saved_with_texture_coordinates() {
 fn a_file_that_is_there_is_replaced_only_by_that_word() {
     let mut window = window();
     std::fs::write(window.path("sheet-flat.obj"), "precious").unwrap();
-    window.press(Modifiers::COMMAND, Key::S);
+    ask_where_to_save(&mut window);
     assert!(window.has_button("Replace") && !window.has_button("Save"));
     window.harness.get_by_role_and_label(Role::TextInput, "Name").click();
     window.step();
@@ -114,14 +118,14 @@ fn a_file_that_is_there_is_replaced_only_by_that_word() {
 
 #[test]
 fn drawings_pictures_and_reports_are_exported() {
-    for (file, begin) in
-        [("a.svg", b"<svg".as_slice()), ("a.png", b"\x89PNG"), ("a.json", b"{"), ("sheet-flat.svg", b"<svg")]
-    {
+    for (entry, file, begin) in [
+        ("Layout in the unit square…", "sheet-flat.svg", b"<svg".as_slice()),
+        ("Layout at true scale…", "sheet-flat.svg", b"<svg"),
+        ("Mesh and layout side by side…", "sheet-flat.png", b"\x89PNG"),
+        ("Report…", "sheet-report.json", b"{"),
+    ] {
         let mut window = window();
-        window.menu(&["File", "Export drawing or report…"]);
-        if file.starts_with('a') {
-            window.fill_in(Role::TextInput, "Name", file);
-        }
+        window.menu(&["File", "Export", entry]);
         window.click("Export");
         let bytes = std::fs::read(window.path(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
         let found = bytes.windows(begin.len()).take(200).any(|part| part == begin);
@@ -130,9 +134,20 @@ fn drawings_pictures_and_reports_are_exported() {
 }
 
 #[test]
-fn a_name_of_another_kind_is_refused_with_a_remedy() {
+fn the_list_of_exports_has_the_same_entries_as_the_menu() {
     let mut window = window();
     window.press(Modifiers::COMMAND, Key::E);
+    assert!(window.has_button("Picture of the mesh's pane…") && window.has_button("Layout at true scale…"));
+    window.click("Report…");
+    assert!(window.editor().dialogs.is_open() && !window.editor().exports_shown);
+    window.click("Export");
+    assert!(window.path("sheet-report.json").exists());
+}
+
+#[test]
+fn a_name_of_another_kind_is_refused_with_a_remedy() {
+    let mut window = window();
+    window.menu(&["File", "Export", "Layout in the unit square…"]);
     window.fill_in(Role::TextInput, "Name", "drawing.pdf");
     window.click("Export");
     assert!(!window.path("drawing.pdf").exists());
@@ -145,7 +160,7 @@ fn a_name_of_another_kind_is_refused_with_a_remedy() {
 #[test]
 fn a_file_that_cannot_be_written_says_so() {
     let mut window = window();
-    window.press(Modifiers::COMMAND, Key::S);
+    ask_where_to_save(&mut window);
     window.fill_in(Role::TextInput, "Name", "missing/deep.obj");
     window.click("Save");
     let message = &window.editor().session.messages()[0];
@@ -166,6 +181,11 @@ impl egui::DroppedFile for Dropped {
     }
 }
 
+/// A file as the system drops it on the window.
+pub(crate) fn dropped(path: PathBuf) -> Arc<dyn egui::DroppedFile + Send + Sync> {
+    Arc::new(Dropped(path))
+}
+
 #[test]
 fn a_file_dropped_on_the_window_opens() {
     let mut window = window();
@@ -182,7 +202,12 @@ fn files_opened_last_are_kept_and_opened_again() {
     let first = window();
     let store = first.path("settings/recent.json");
     let file = first.path("sheet.obj");
-    let start = || Start { file: Some(file.clone()), recent_store: Some(store.clone()), dialogs_inside: true };
+    let start = || Start {
+        file: Some(file.clone()),
+        recent_store: Some(store.clone()),
+        dialogs_inside: true,
+        ..Start::default()
+    };
     drop(Window::start(SIZE, start()));
     let mut again = Window::start(SIZE, Start { file: None, ..start() });
     assert_eq!(name(&again), "Face");
@@ -267,7 +292,7 @@ fn try_everything(window: &mut Window) {
     window.type_text("1");
     window.key(Key::Enter);
     window.key(Key::Escape);
-    window.press(Modifiers::COMMAND, Key::S);
+    ask_where_to_save(window);
     window.key(Key::Escape);
 }
 

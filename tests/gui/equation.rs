@@ -4,6 +4,7 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Pos2};
 use egui_kittest::kittest::{NodeT, Queryable};
+use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::solver::{Method, Settings, equation_of_step};
@@ -131,8 +132,7 @@ fn an_iteration_s_weights_are_those_of_the_step_before() {
 
 #[test]
 fn a_vertex_in_a_pocket_has_virtual_or_boundary_neighbours_as_well() {
-    let mut window =
-        Window::start(crate::harness::SIZE, freebound::app::Start { dialogs_inside: true, ..Default::default() });
+    let mut window = Window::with_example(Example::Face);
     window.choose("Method", "Virtual boundary");
     let outcome = window.outcome();
     let stages = outcome.step.virtual_boundary.as_ref().expect("the face bends");

@@ -2,16 +2,15 @@
 
 use eframe::egui;
 use egui::Key;
-use freebound::app::Start;
 use freebound::examples::Example;
 use freebound::ui::Stage;
 use glam::DVec2;
 
-use crate::harness::{SIZE, Window, sheet};
+use crate::harness::{Window, sheet};
 
 /// The built-in face, whose three folds the virtual boundary takes away within the hull.
 fn bent() -> Window {
-    let mut window = Window::start(SIZE, Start { dialogs_inside: true, ..Start::default() });
+    let mut window = Window::with_example(Example::Face);
     window.choose("Method", "Virtual boundary");
     assert!(window.outcome().step.virtual_boundary.is_some(), "the face bends");
     window

@@ -4,13 +4,13 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Rect};
 use egui_kittest::kittest::Queryable as _;
-use freebound::app::Start;
+use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::ui::Defect;
 
 use crate::defects::fold;
-use crate::harness::{SIZE, Window, corpus, sheet};
+use crate::harness::{Window, corpus, sheet};
 
 fn folded() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
@@ -71,9 +71,9 @@ fn a_click_goes_to_its_defect() {
 #[test]
 fn it_can_be_switched_off() {
     let mut window = folded();
-    window.menu(&["View", "Magnifier over a defect"]);
+    window.menu(&["View", "Magnifier"]);
     assert_eq!(inset(&window), None);
-    window.menu(&["View", "Magnifier over a defect"]);
+    window.menu(&["View", "Magnifier"]);
     assert!(inset(&window).is_some());
 }
 
@@ -141,7 +141,7 @@ fn a_small_pane_has_no_room_for_it() {
 
 #[test]
 fn a_stage_before_the_result_has_no_verdict_and_so_no_inset() {
-    let mut window = Window::start(SIZE, Start { dialogs_inside: true, ..Start::default() });
+    let mut window = Window::with_example(Example::Face);
     window.choose("Method", "Natural boundary");
     assert!(inset(&window).is_some());
     window.key(Key::H);

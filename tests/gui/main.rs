@@ -4,6 +4,7 @@
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod compare;
+mod constraints;
 mod defects;
 mod dialogs;
 mod equation;
@@ -13,10 +14,12 @@ mod harness;
 mod hull;
 mod magnifier;
 mod panels;
+mod pictures;
 mod render;
 mod screens;
 mod shaders;
 mod shortcuts;
 mod timeline;
 mod timeline_run;
+mod unsaved;
 mod window;

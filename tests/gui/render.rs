@@ -12,8 +12,8 @@ use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use freebound::mesh::{FaceId, VertexId};
 use freebound::render::{
-    FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Shading, Style, install, mesh_pane,
-    plane_pane, stats,
+    FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Shading, Style, install,
+    mesh_pane, plane_pane, stats,
 };
 use freebound::view::{
     EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera,
@@ -118,6 +118,7 @@ fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
         ghost: None,
         lines: Vec::new(),
         picture: None,
+        outlined: PlaneBox::UNIT,
         camera: PlaneCamera::framing(box_of_sheet, PANE_SIZE),
         style: Style { flipped_outline_in_points: 0.0, ..Style::default() },
         palette: PALETTE,
@@ -302,7 +303,7 @@ fn the_picture_lies_in_its_box_upper_row_up() {
     let picture = Arc::new(Picture::new([1, 2], pixels).expect("two pixels"));
     let bounds = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
     let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
-    frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0 });
+    frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0, sampling: Sampling::Smooth });
     frame.style.shading = Shading::Picture;
     let mut behind = frame.clone();
     behind.plane = None;

@@ -52,6 +52,10 @@ fn shortcuts_do_what_the_table_says() {
         assert_eq!(pins, 3);
         // Away from where framing leads, and Select in hand where that is asked for.
         let request = (binding.request)();
+        if matches!(request, Request::GoToStep(_)) {
+            // With a pin selected the arrows are the pin's.
+            window.editor_mut().selection = [VertexId::new(41)].into();
+        }
         if request == Request::SetTool(Tool::Fix) {
             window.editor_mut().tool = Tool::Select;
         }
@@ -65,8 +69,11 @@ fn shortcuts_do_what_the_table_says() {
             Request::RunOrPause => steps(&window).0 == 3 && !editor.session.is_running(),
             Request::GoToStep(StepTarget::First | StepTarget::Previous) => steps(&window) == (3, Some(0)),
             Request::GoToStep(StepTarget::Next | StepTarget::Last) => steps(&window) == (3, Some(2)),
-            Request::AskOpen | Request::AskSave | Request::AskExport => editor.dialogs.is_open(),
-            Request::Quit => editor.quit,
+            // Never saved before: it asks where.
+            Request::Ask(_) | Request::SaveProject => editor.dialogs.is_open(),
+            Request::ToggleExports => editor.exports_shown,
+            // There is work that is not saved.
+            Request::Quit => editor.unsaved.is_asked(),
             // Nothing is wrong here to go to.
             Request::StepDefect(_) => editor.defect.is_none(),
             Request::SetTool(tool) => editor.tool == tool,

@@ -6,7 +6,9 @@ use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::kittest::Queryable;
 use freebound::app::Start;
 use freebound::examples::Example;
+use freebound::solver::Pin;
 use freebound::ui::{BINDINGS, Shading, Tab};
+use glam::DVec2;
 
 use crate::harness::{MESH_VIEW, PLANE_VIEW, SIZE, Window, sheet};
 
@@ -31,7 +33,7 @@ fn the_name_and_the_size_of_what_is_open_show() {
 type State = (&'static str, fn(&mut Window));
 
 /// What a person can bring the window to.
-const STATES: [State; 27] = [
+const STATES: [State; 30] = [
     ("at the start", |_| ()),
     ("the File menu", |window| window.click("File")),
     ("the list of recent files", |window| window.menu(&["File", "Recent"])),
@@ -72,13 +74,37 @@ const STATES: [State; 27] = [
     }),
     ("the keys", |window| window.key(Key::F1)),
     ("go to", |window| window.key(Key::G)),
-    ("a file dialog", |window| window.press(Modifiers::COMMAND, Key::E)),
+    ("what can be exported", |window| window.press(Modifiers::COMMAND, Key::E)),
+    ("a file dialog", |window| window.press(Modifiers::COMMAND, Key::O)),
+    ("constraints in the pins panel", |window| {
+        constraints(window);
+        window.click("Pins");
+    }),
+    ("the question about unsaved work", |window| {
+        fix(window, &[0, 24]);
+        window.press(Modifiers::COMMAND, Key::Q);
+    }),
 ];
 
 fn steps(window: &mut Window) {
     for _ in 0..3 {
         window.key(Key::Space);
     }
+}
+
+/// Several constraints of all kinds, all selected.
+fn constraints(window: &mut Window) {
+    fix(window, &[0]);
+    for (vertex, pin) in [
+        (4, Pin::hard(DVec2::new(1.0, 0.0))),
+        (20, Pin::weighted(DVec2::new(0.0, 1.0), 2.0)),
+        (24, Pin::weighted(DVec2::ONE, 0.5)),
+    ] {
+        let vertex = freebound::mesh::VertexId::new(vertex);
+        window.editor_mut().session.handle(freebound::session::Action::Place { vertex, pin });
+    }
+    window.editor_mut().selection = [0, 4, 20, 24].map(freebound::mesh::VertexId::new).into();
+    window.settle();
 }
 
 fn fix(window: &mut Window, vertices: &[u32]) {
@@ -120,19 +146,33 @@ fn no_two_controls_of_a_state_have_the_same_role_and_name() {
 #[test]
 fn each_menu_has_its_entries() {
     let menus: [(&[&str], &[&str]); 9] = [
-        (&["File"], &["Open…", "Save with texture coordinates…", "Export drawing or report…", "Quit"]),
+        (
+            &["File"],
+            &["Open…", "Save project", "Save project as…", "Open picture…", "Import constraints…", "Export", "Quit"],
+        ),
         (&["File", "Examples"], &["Face", "Open cube", "Flat L", "Dome", "Bumpy cap", "Spiral strip"]),
         (&["File", "Size in files"], &["Fit into the unit square", "True scale: the mesh's own area"]),
         (
             &["Edit"],
-            &["Undo", "Redo", "Select vertices", "Fix vertices", "Fix the selection", "Free the selected pins"],
+            &[
+                "Undo",
+                "Redo",
+                "Select vertices",
+                "Fix vertices",
+                "Constrain vertices",
+                "Fix the selection",
+                "Free the selected pins",
+                "Mirror the targets",
+                "Fit the targets to the mesh",
+                "Turn the faces around",
+            ],
         ),
         (
             &["View"],
             &[
                 "Wireframe",
                 "Hull and pockets",
-                "Magnifier over a defect",
+                "Magnifier",
                 "Glide from step to step",
                 "Panels",
                 "Frame the selection, or all",
@@ -141,7 +181,10 @@ fn each_menu_has_its_entries() {
                 "Previous defect",
             ],
         ),
-        (&["View", "Shading"], &["Plain", "Checker", "Angle distortion", "Area distortion", "Stretch", "Move"]),
+        (
+            &["View", "Shading"],
+            &["Plain", "Checker", "Picture", "Angle distortion", "Area distortion", "Stretch", "Move"],
+        ),
         (&["View", "Theme"], &["As the system", "Light", "Dark"]),
         (&["Solve"], &["Take one step", "Run on", "Play all steps", "Solve again", "Cancel", "Method and weights"]),
         (&["Help"], &["All keys"]),
@@ -185,7 +228,7 @@ fn each_shading_of_the_view_menu_is_put_on() {
         assert_eq!(window.editor().shading, shading);
         let legend = window.editor().paint().expect("painted").legend.is_some();
         // Nothing has moved at the first step.
-        let is_bare = matches!(shading, Shading::Plain | Shading::Checker | Shading::Move);
+        let is_bare = matches!(shading, Shading::Plain | Shading::Checker | Shading::Picture | Shading::Move);
         assert_eq!(legend, !is_bare, "{shading:?}");
     }
     window.choose("Shading of both panes", "Stretch");

@@ -1,0 +1,60 @@
+//! Bars that the window shows by itself: work that a session before left, and faces that point inward.
+
+use eframe::egui;
+
+use super::pane::bar;
+use super::theme::theme_of;
+use super::{Editor, Pane, Request, icons};
+use crate::session::Action;
+
+/// Shows the bars of a pane.
+pub(super) fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
+    if pane == Pane::Mesh {
+        recovery(ui, editor, requests);
+        inward(ui, editor, requests);
+    }
+}
+
+fn recovery(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    for left in editor.session.recoverable() {
+        bar(ui, (theme.stale, icons::Sign::Warning), |ui| {
+            let words = format!("Work on {} was not saved when the program ended", left.name);
+            ui.add(egui::Label::new(words).wrap());
+            ui.horizontal_wrapped(|ui| {
+                if ui.small_button("Recover").on_hover_text("Open it as it was").clicked() {
+                    requests.push(Request::Do(Action::Recover(left.path.clone())));
+                }
+                if ui.small_button("Discard").on_hover_text("Forget it for good").clicked() {
+                    requests.push(Request::Do(Action::DiscardRecovery(left.path.clone())));
+                }
+            });
+        });
+    }
+}
+
+fn inward(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    if !editor.faces_point_inward() {
+        return;
+    }
+    let theme = theme_of(ui);
+    bar(ui, (theme.stale, icons::Sign::Warning), |ui| {
+        ui.add(egui::Label::new("The faces point inward: the mesh shows from behind, and its picture mirrored").wrap());
+        ui.horizontal_wrapped(|ui| {
+            if ui.small_button("Turn them").on_hover_text("Make the other side the outside").clicked() {
+                requests.push(Request::Do(Action::TurnFaces));
+            }
+            if ui.small_button("Leave them").on_hover_text("It is meant so").clicked() {
+                requests.push(Request::LeaveFaces);
+            }
+        });
+    });
+}
+
+impl Editor {
+    /// Whether the open mesh's faces point inward and nobody said that they may.
+    pub(super) fn faces_point_inward(&self) -> bool {
+        let is_open = self.faces_left != Some(self.session.model_revision());
+        is_open && self.session.model().is_some_and(|model| model.faces_point_inward())
+    }
+}

@@ -1,0 +1,357 @@
+//! Constraints by mouse and keys: pairs in both orders, several at once, nudges, weights.
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, Pos2, Vec2};
+use freebound::mesh::VertexId;
+use freebound::session::Action;
+use freebound::solver::{Hold, Pin, Pins};
+use freebound::ui::{Half, Intent, Tool};
+use glam::DVec2;
+
+use crate::harness::{Window, sheet};
+
+fn window() -> Window {
+    Window::with_mesh("sheet.obj", &sheet(8, 0.4))
+}
+
+fn pins(window: &Window) -> Pins {
+    window.editor().session.document().pins.clone()
+}
+
+fn place(window: &mut Window, pins: &[(u32, Pin)]) {
+    for &(vertex, pin) in pins {
+        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), pin });
+    }
+    window.settle();
+}
+
+/// The corners of the sheet on those of the unit square, and one vertex in between.
+fn corners(window: &mut Window) {
+    let at = |x: f64, y: f64| Pin::hard(DVec2::new(x, y));
+    place(window, &[(0, at(0.0, 0.0)), (8, at(1.0, 0.0)), (72, at(0.0, 1.0)), (80, at(1.0, 1.0)), (40, at(0.5, 0.5))]);
+    window.key(Key::F);
+}
+
+fn in_embedding(window: &Window, at: Pos2) -> DVec2 {
+    let relative = at - window.plane_view().min;
+    let camera = window.editor().plane_camera.expect("an embedding shows");
+    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane_pane_size)
+}
+
+/// A place of the plane's pane without a vertex near by.
+fn free_place(window: &Window) -> Pos2 {
+    window.plane_view().left_top() + Vec2::splat(24.0)
+}
+
+#[test]
+fn a_vertex_and_then_its_place_make_a_constraint() {
+    let mut window = window();
+    let vertex = window.vertex_in_the_middle();
+    let to = free_place(&window);
+    let target = in_embedding(&window, to);
+    window.key(Key::C);
+    window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
+    assert_eq!(window.editor().pair, Some(Half::Vertex(vertex)));
+    assert!(pins(&window).is_empty(), "half a pair pins nothing");
+    window.click_at(to, Modifiers::NONE);
+    assert_eq!(window.editor().pair, None);
+    assert_eq!(pins(&window), [(vertex, Pin::hard(target))].into());
+    assert!(window.has_button(&format!("Constraint {vertex}")));
+    assert_eq!(window.editor().selection, [vertex].into());
+    assert_eq!(window.editor().tool, Tool::Constrain, "the next pair can follow");
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert!(pins(&window).is_empty(), "one undo step");
+}
+
+#[test]
+fn a_place_and_then_its_vertex_make_the_same_constraint() {
+    let mut window = window();
+    let vertex = window.vertex_in_the_middle();
+    let to = free_place(&window);
+    let target = in_embedding(&window, to);
+    window.key(Key::C);
+    window.click_at(to, Modifiers::NONE);
+    assert_eq!(window.editor().pair, Some(Half::Target(target)));
+    window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
+    assert_eq!(pins(&window), [(vertex, Pin::hard(target))].into());
+}
+
+#[test]
+fn a_vertex_can_be_taken_in_the_embedding() {
+    let mut window = window();
+    window.key(Key::C);
+    window.click_at(window.place_in_plane(window.embedding()[40]), Modifiers::NONE);
+    assert_eq!(window.editor().pair, Some(Half::Vertex(VertexId::new(40))));
+    let to = free_place(&window);
+    let target = in_embedding(&window, to);
+    window.click_at(to, Modifiers::NONE);
+    assert_eq!(pins(&window), [(VertexId::new(40), Pin::hard(target))].into());
+}
+
+#[test]
+fn what_a_click_would_do_is_said_before_it() {
+    let mut window = window();
+    let vertex = window.vertex_in_the_middle();
+    window.click("Constrain: join a vertex with its place");
+    assert!(window.shows("Click a vertex on the mesh, then its place"));
+    window.harness.hover_at(window.place_on_mesh(vertex));
+    window.settle();
+    assert!(window.shows(&format!("take {vertex}")), "{:?}", window.words());
+    assert!(window.has_ring_at(window.place_on_mesh(vertex)));
+    window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
+    let to = free_place(&window);
+    window.harness.hover_at(to);
+    window.settle();
+    let Intent::Join(joined, target) = window.editor().intent else { panic!("{:?}", window.editor().intent) };
+    assert_eq!((joined, target), (vertex, in_embedding(&window, to)));
+    assert!(window.shows(&format!("{vertex} goes to u ")), "{:?}", window.words());
+    let from = window.place_in_plane(window.embedding()[vertex.index()]);
+    let is_joined = |[a, b]: &[Pos2; 2]| a.distance(from) < 1.0 && b.distance(to) < 1.0;
+    assert!(window.lines().iter().any(is_joined), "a line joins the vertex with the pointer");
+}
+
+#[test]
+fn escape_gives_up_the_pair_and_then_the_tool() {
+    let mut window = window();
+    window.key(Key::C);
+    window.click_at(window.place_on_mesh(window.vertex_in_the_middle()), Modifiers::NONE);
+    assert!(window.editor().pair.is_some());
+    window.key(Key::Escape);
+    assert_eq!((window.editor().pair, window.editor().tool), (None, Tool::Constrain));
+    window.key(Key::Escape);
+    assert_eq!(window.editor().tool, Tool::Select);
+    assert!(pins(&window).is_empty());
+}
+
+#[test]
+fn a_click_on_a_constraint_selects_it() {
+    let mut window = window();
+    corners(&mut window);
+    window.key(Key::C);
+    let before = pins(&window);
+    window.click_at(window.place_in_plane(DVec2::new(0.5, 0.5)), Modifiers::NONE);
+    assert_eq!(window.editor().selection, [VertexId::new(40)].into());
+    assert_eq!((window.editor().pair, pins(&window)), (None, before));
+}
+
+#[test]
+fn a_place_can_lie_near_another_constraint() {
+    let mut window = window();
+    corners(&mut window);
+    window.key(Key::C);
+    let to = window.place_in_plane(DVec2::new(0.5, 0.5)) + Vec2::new(6.0, 0.0);
+    let target = in_embedding(&window, to);
+    window.editor_mut().pair = Some(Half::Vertex(VertexId::new(30)));
+    window.click_at(to, Modifiers::NONE);
+    assert_eq!(pins(&window).get(&VertexId::new(30)), Some(&Pin::hard(target)));
+}
+
+#[test]
+fn one_of_several_selected_pins_takes_the_others_along() {
+    let mut window = window();
+    corners(&mut window);
+    let before = pins(&window);
+    let at = |z: DVec2| z;
+    window.click_at(window.place_in_plane(at(DVec2::new(0.5, 0.5))), Modifiers::NONE);
+    window.click_at(window.place_in_plane(at(DVec2::ONE)), Modifiers::SHIFT);
+    assert_eq!(window.editor().selection, [40, 80].map(VertexId::new).into());
+    let from = window.place_in_plane(DVec2::new(0.5, 0.5));
+    let to = from + Vec2::new(-20.0, 15.0);
+    let by = in_embedding(&window, to) - in_embedding(&window, from);
+    window.drag(from, to, Modifiers::NONE);
+    for (vertex, pin) in pins(&window) {
+        let moved = if [40, 80].contains(&vertex.number()) { by } else { DVec2::ZERO };
+        assert!((pin.target - before[&vertex].target).distance(moved) < 1e-6, "{vertex}");
+    }
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(pins(&window), before, "one undo step");
+}
+
+#[test]
+fn a_box_selects_the_pins_in_it() {
+    let mut window = window();
+    corners(&mut window);
+    let at = |x, y| window.place_in_plane(DVec2::new(x, y));
+    let (from, to) = (at(0.9, 1.1), at(1.1, -0.1));
+    window.drag(from, to, Modifiers::COMMAND);
+    let selected = &window.editor().selection;
+    assert!(selected.contains(&VertexId::new(8)) && selected.contains(&VertexId::new(80)), "{selected:?}");
+    assert!(!selected.contains(&VertexId::new(40)) && !selected.contains(&VertexId::new(0)));
+}
+
+#[test]
+fn a_pin_dragged_out_of_the_pane_stays_in_the_hand() {
+    let mut window = window();
+    corners(&mut window);
+    let from = window.place_in_plane(DVec2::new(0.5, 0.5));
+    let outside = Pos2::new(window.plane_view().left() - 120.0, from.y);
+    window.begin_drag(from, outside, Modifiers::NONE);
+    window.settle();
+    assert_eq!(window.editor().dragged_pin, Some(VertexId::new(40)));
+    let back = from + Vec2::new(10.0, 0.0);
+    window.harness.hover_at(back);
+    window.step();
+    window.end_drag(back);
+    let target = pins(&window)[&VertexId::new(40)].target;
+    assert!(target.distance(in_embedding(&window, back)) < 1e-6, "{target}");
+    assert_eq!(pins(&window).len(), 5, "none is lost");
+}
+
+#[test]
+fn arrows_nudge_selected_pins_and_only_them() {
+    let mut window = window();
+    corners(&mut window);
+    let before = pins(&window);
+    window.editor_mut().selection = [8, 40].map(VertexId::new).into();
+    let step = window.editor().plane_scene().expect("solved").arrays.bounds().extent() / 512.0;
+    window.key(Key::ArrowRight);
+    for (vertex, by) in [(8, step), (40, step), (0, 0.0)] {
+        let moved = pins(&window)[&VertexId::new(vertex)].target - before[&VertexId::new(vertex)].target;
+        assert!(moved.distance(DVec2::new(by, 0.0)) < 1e-12, "{vertex}: {moved}");
+    }
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(pins(&window), before, "one undo step");
+    window.press(Modifiers::SHIFT, Key::ArrowUp);
+    let moved = pins(&window)[&VertexId::new(40)].target - before[&VertexId::new(40)].target;
+    assert!(moved.distance(DVec2::new(0.0, 10.0 * step)) < 1e-9, "{moved}");
+}
+
+#[test]
+fn a_held_arrow_is_one_undo_step() {
+    let mut window = window();
+    corners(&mut window);
+    let before = pins(&window);
+    window.editor_mut().selection = [VertexId::new(40)].into();
+    for repeat in [false, true, true] {
+        window.harness.event(egui::Event::Key {
+            key: Key::ArrowLeft,
+            physical_key: None,
+            pressed: true,
+            repeat,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    assert!(window.editor().nudging);
+    window.harness.key_up(Key::ArrowLeft);
+    window.settle();
+    assert!(!window.editor().nudging);
+    assert_ne!(pins(&window), before);
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(pins(&window), before);
+}
+
+#[test]
+fn arrows_step_through_the_timeline_where_no_pin_is_selected() {
+    let mut window = window();
+    corners(&mut window);
+    let before = pins(&window);
+    window.editor_mut().selection = [VertexId::new(30)].into();
+    window.key(Key::ArrowRight);
+    assert_eq!(pins(&window), before);
+}
+
+#[test]
+fn delete_frees_all_selected_constraints() {
+    let mut window = window();
+    corners(&mut window);
+    window.editor_mut().selection = [8, 40].map(VertexId::new).into();
+    window.key(Key::Delete);
+    assert_eq!(pins(&window).keys().map(|v| v.number()).collect::<Vec<_>>(), [0, 72, 80]);
+}
+
+#[test]
+fn a_row_s_mark_makes_a_hard_constraint_pull_and_back() {
+    let mut window = window();
+    corners(&mut window);
+    window.click("Pins 5");
+    window.click("Hold of pin v40: hard");
+    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(Pin::DEFAULT_WEIGHT));
+    window.fill_in(Role::SpinButton, "Weight of pin v40", "25");
+    window.key(Key::Enter);
+    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(25.0));
+    window.click("Hold of pin v40: weighted");
+    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Hard);
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(25.0), "each is an undo step");
+}
+
+#[test]
+fn selected_pins_are_held_alike_by_one_click() {
+    let mut window = window();
+    corners(&mut window);
+    window.click("Pins 5");
+    window.editor_mut().selection = [0, 8, 40].map(VertexId::new).into();
+    window.settle();
+    assert!(window.shows("3 selected"));
+    window.click("Weighted");
+    let weighted = pins(&window).into_iter().filter(|(_, pin)| !pin.hold.is_exact());
+    assert_eq!(weighted.map(|(v, _)| v.number()).collect::<Vec<_>>(), [0, 8, 40]);
+    window.click("Hard");
+    assert!(pins(&window).values().all(|pin| pin.hold == Hold::Hard));
+}
+
+#[test]
+fn the_hold_chosen_last_is_that_of_the_next_constraint() {
+    let mut window = window();
+    corners(&mut window);
+    window.click("Pins 5");
+    window.editor_mut().selection = [0, 8].map(VertexId::new).into();
+    window.settle();
+    window.click("Weighted");
+    window.key(Key::C);
+    window.editor_mut().pair = Some(Half::Vertex(VertexId::new(30)));
+    window.click_at(free_place(&window), Modifiers::NONE);
+    assert!(matches!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(_)));
+}
+
+#[test]
+fn the_largest_errors_of_exact_and_weighted_pins_show() {
+    let mut window = window();
+    corners(&mut window);
+    place(&mut window, &[(30, Pin::weighted(DVec2::new(0.9, 0.1), 0.5))]);
+    window.click("Pins 6");
+    let error = window.outcome().pin_error();
+    assert!(error > 1e-3, "it cannot be met: {error}");
+    assert!(window.shows(&format!("exact 0, weighted {error:.2e} at v30")), "{:?}", window.words());
+}
+
+#[test]
+fn rows_are_selected_together_with_shift_and_ctrl() {
+    let mut window = window();
+    corners(&mut window);
+    window.click("Pins 5");
+    let row = |window: &Window, name: &str| window.rect(Role::Button, name).center();
+    window.click_at(row(&window, "v8"), Modifiers::NONE);
+    window.click_at(row(&window, "v72"), Modifiers::SHIFT);
+    assert_eq!(window.editor().selection, [8, 40, 72].map(VertexId::new).into());
+    window.click_at(row(&window, "v40"), Modifiers::COMMAND);
+    assert_eq!(window.editor().selection, [8, 72].map(VertexId::new).into());
+}
+
+#[test]
+fn a_residual_joins_a_weighted_vertex_with_its_target() {
+    let mut window = window();
+    corners(&mut window);
+    let target = DVec2::new(0.9, 0.1);
+    place(&mut window, &[(30, Pin::weighted(target, 0.5))]);
+    let [from, to] = [window.embedding()[30], target].map(|z| window.place_in_plane(z));
+    assert!(from.distance(to) > 10.0, "they differ");
+    let is_residual = |[a, b]: &[Pos2; 2]| a.distance(from) < 1.0 && b.distance(to) < 1.0;
+    assert!(window.lines().iter().any(is_residual));
+}
+
+#[test]
+fn the_selected_constraint_is_magnified_in_both_panes() {
+    let mut window = window();
+    corners(&mut window);
+    let named = |window: &Window, name: &str| window.harness.query_by_role_and_label(Role::Image, name).is_some();
+    use egui_kittest::kittest::Queryable as _;
+    assert!(!named(&window, "Magnifier: v40 on the mesh"));
+    window.editor_mut().selection = [VertexId::new(40)].into();
+    window.settle();
+    assert!(named(&window, "Magnifier: v40 on the mesh") && named(&window, "Magnifier: the target of v40"));
+    window.menu(&["View", "Magnifier"]);
+    assert!(!named(&window, "Magnifier: v40 on the mesh"));
+}

@@ -1,0 +1,162 @@
+//! Work that is not saved: the question, the window's title, projects saved and opened, bars at the start.
+
+use eframe::egui;
+use egui::{Key, Modifiers};
+use freebound::app::Start;
+use freebound::examples::Example;
+use freebound::mesh::{TriMesh, VertexId};
+use freebound::session::Action;
+
+use crate::harness::{SIZE, Window, sheet, write_obj};
+
+fn window() -> Window {
+    Window::with_mesh("sheet.obj", &sheet(6, 0.3))
+}
+
+fn edit(window: &mut Window) {
+    window.editor_mut().session.handle(Action::Fix([0, 24, 48].map(VertexId::new).to_vec()));
+    window.settle();
+}
+
+#[test]
+fn quitting_with_unsaved_work_asks_and_cancel_stays() {
+    let mut window = window();
+    edit(&mut window);
+    window.press(Modifiers::COMMAND, Key::Q);
+    assert!(!window.editor().quit);
+    assert!(window.shows("Save the changes to sheet"));
+    window.click("Cancel");
+    assert!(!window.editor().quit && !window.editor().unsaved.is_asked());
+    window.press(Modifiers::COMMAND, Key::Q);
+    window.key(Key::Escape);
+    assert!(!window.editor().quit && !window.editor().unsaved.is_asked(), "Esc is Cancel");
+    window.press(Modifiers::COMMAND, Key::Q);
+    window.click("Don't save");
+    assert!(window.editor().quit);
+}
+
+#[test]
+fn saving_from_the_question_quits_once_it_is_saved() {
+    let mut window = window();
+    edit(&mut window);
+    window.press(Modifiers::COMMAND, Key::Q);
+    window.click("Save");
+    assert!(!window.editor().quit, "it asks where first");
+    window.click("Save");
+    window.settle();
+    assert!(window.path("sheet.freebound").exists());
+    assert!(window.editor().quit);
+}
+
+#[test]
+fn a_dialog_that_is_left_keeps_the_window_open() {
+    let mut window = window();
+    edit(&mut window);
+    window.press(Modifiers::COMMAND, Key::Q);
+    window.click("Save");
+    window.click("Cancel");
+    window.settle();
+    assert!(!window.editor().quit && !window.editor().unsaved.is_asked());
+    assert!(window.editor().session.has_unsaved_work());
+}
+
+#[test]
+fn keys_rest_while_the_question_is_asked() {
+    let mut window = window();
+    edit(&mut window);
+    window.press(Modifiers::COMMAND, Key::Q);
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.editor().session.document().pins.len(), 3);
+    assert!(window.editor().unsaved.is_asked());
+}
+
+#[test]
+fn opening_something_else_asks_too() {
+    let mut window = window();
+    edit(&mut window);
+    write_obj(&window.path("other.obj"), &sheet(4, 0.0));
+    let name = |window: &Window| window.editor().session.model().expect("open").name.clone();
+    window.menu(&["File", "Examples", Example::Dome.title()]);
+    assert!(window.editor().unsaved.is_asked() && name(&window) == "sheet.obj");
+    window.click("Cancel");
+    let path = window.path("other.obj");
+    window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(path));
+    window.settle();
+    assert!(window.editor().unsaved.is_asked() && name(&window) == "sheet.obj");
+    window.click("Don't save");
+    assert_eq!(name(&window), "other.obj");
+}
+
+#[test]
+fn a_project_is_saved_and_opened_again() {
+    let mut window = window();
+    edit(&mut window);
+    let before = window.editor().session.document().clone();
+    assert!(window.shows("• sheet"), "{:?}", window.words());
+    window.press(Modifiers::COMMAND, Key::S);
+    window.click("Save");
+    assert!(!window.editor().session.has_unsaved_work() && !window.shows("• sheet"));
+    window.menu(&["File", "Examples", Example::Dome.title()]);
+    let path = window.path("sheet.freebound");
+    window.open(&path);
+    assert_eq!(*window.editor().session.document(), before);
+    window.editor_mut().session.handle(Action::UnpinAll);
+    window.settle();
+    window.press(Modifiers::COMMAND, Key::S);
+    assert!(!window.editor().dialogs.is_open(), "it knows where");
+    assert!(!window.editor().session.has_unsaved_work());
+}
+
+#[test]
+fn what_a_session_left_is_offered_and_recovered() {
+    let left = tempfile::tempdir().expect("a folder");
+    let mesh = window();
+    let start = || Start {
+        file: Some(mesh.path("sheet.obj")),
+        recovery_folder: Some(left.path().to_owned()),
+        dialogs_inside: true,
+        ..Start::default()
+    };
+    let mut first = Window::start(SIZE, start());
+    assert!(!first.has_button("Recover"));
+    edit(&mut first);
+    let document = first.editor().session.document().clone();
+    let later = std::time::Instant::now() + std::time::Duration::from_secs(60);
+    first.editor_mut().session.poll_at(later);
+    let is_there = || std::fs::read_dir(left.path()).expect("a folder").count() > 1;
+    let begun = std::time::Instant::now();
+    while !is_there() && begun.elapsed().as_secs() < 20 {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    first.settle();
+    // Dropped without an end: as the system sees a session that died.
+    drop(first);
+    let mut second = Window::start(SIZE, start());
+    assert!(second.shows("was not saved when the program ended"), "{:?}", second.words());
+    second.click("Recover");
+    assert_eq!(*second.editor().session.document(), document);
+    assert!(second.editor().session.has_unsaved_work());
+    assert!(!second.has_button("Recover"));
+}
+
+/// A dome whose faces look to its inside.
+fn hollow() -> TriMesh {
+    let dome = Example::Dome.mesh();
+    let turned = |triangle: &[VertexId; 3]| [triangle[0], triangle[2], triangle[1]].map(VertexId::number);
+    let triangles: Vec<[u32; 3]> = dome.triangles.iter().map(turned).collect();
+    TriMesh::new(dome.positions, &triangles)
+}
+
+#[test]
+fn faces_that_point_inward_are_said_and_turned_by_a_click() {
+    let mut window = Window::with_mesh("hollow.obj", &hollow());
+    assert!(window.shows("The faces point inward"));
+    let before = window.editor().session.model().expect("open").mesh().triangles[0];
+    window.click("Turn them");
+    assert!(!window.shows("The faces point inward"));
+    assert_ne!(window.editor().session.model().expect("open").mesh().triangles[0], before);
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert!(window.shows("The faces point inward"));
+    window.click("Leave them");
+    assert!(!window.shows("The faces point inward"));
+}
