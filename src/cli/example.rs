@@ -26,9 +26,9 @@ pub fn run_example() -> ExitCode {
 /// The face with its portrait, and its landmarks as constraints.
 fn document() -> Document {
     let pins: Pins = Example::Face.landmarks().iter().map(|l| (l.vertex, Pin::hard(l.target.into()))).collect();
-    let picture = Example::Face
-        .picture()
-        .map(|pixels| Arc::new(PictureFile { name: "portrait".to_owned(), path: None, pixels: Arc::new(pixels) }));
+    let picture = Example::Face.picture().map(|pixels| {
+        Arc::new(PictureFile { name: "portrait".to_owned(), path: None, stamp: None, pixels: Arc::new(pixels) })
+    });
     Document { pins, picture, ..Document::default() }
 }
 

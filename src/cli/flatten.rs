@@ -63,7 +63,7 @@ fn output_fit(fit: Fit) -> OutputFit {
 
 fn open_picture(path: &Path) -> Result<PictureFile, Failure> {
     let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-    Ok(PictureFile { name, path: Some(path.to_owned()), pixels: Arc::new(read_picture(path)?) })
+    Ok(PictureFile { name, path: Some(path.to_owned()), stamp: None, pixels: Arc::new(read_picture(path)?) })
 }
 
 /// A flattening without a screen, the mesh already read.
