@@ -8,8 +8,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Family, Iteration, Method, Pins, Settings, Treatment, flatten, largest_move};
+use freebound::mesh::DiskMesh;
+use freebound::solver::{
+    Control, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move,
+};
 
 use glam::DVec2;
 
@@ -53,8 +55,8 @@ fn main() {
         for _ in 0..ROUNDS {
             let solution =
                 first.run(|| flatten(&mesh, &settings, &Pins::new(), Control::unattended()).expect("solvable"));
-            let pinned: Vec<VertexId> = solution.pins.keys().copied().collect();
             let folded = folded(&mesh, &solution.embedding);
+            let pinned = held_in(&folded, &solution.pins);
             for (times, treatment) in steps.iter_mut().zip([Treatment::Eliminate, Treatment::LeastSquares]) {
                 let (taken, iteration) = time(|| {
                     Iteration::new(&mesh, &folded, &pinned, treatment, Control::unattended()).expect("analysable")
@@ -83,6 +85,11 @@ fn main() {
     cancelling();
 }
 
+/// The same pins where an embedding has them.
+fn held_in(embedding: &[DVec2], pins: &Pins) -> Pins {
+    fixed_pins(pins.keys().map(|&v| (v, embedding[v.index()])))
+}
+
 /// An embedding in which every fiftieth inner vertex was pushed across a neighbour: a planar one would be left alone.
 fn folded(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<DVec2> {
     let mut folded = embedding.to_vec();
@@ -101,7 +108,7 @@ fn cancelling() {
         let mesh = DiskMesh::try_from(sheet_of_faces(2 * vertices)).expect("the sheet is a disk");
         let first = flatten(&mesh, &Settings::default(), &Pins::new(), Control::unattended()).expect("solvable");
         let folded = folded(&mesh, &first.embedding);
-        let pinned: Vec<VertexId> = first.pins.keys().copied().collect();
+        let pinned = held_in(&folded, &first.pins);
         let iteration = Iteration::new(&mesh, &folded, &pinned, Treatment::LeastSquares, Control::unattended())
             .expect("analysable");
         let (whole, _) = time(|| iteration.step(&mesh, &folded, Control::unattended()).expect("solvable"));

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Family, Method, Pins, Run, Settings, Step};
+use freebound::solver::{Control, Family, Method, Pins, Run, Settings, Step, fixed_pins};
 use glam::DVec2;
 
 use common::machine::print_machine;
@@ -125,7 +125,7 @@ fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
     let second = (first + 1 + below(boundary.len() - 1)) % boundary.len();
     let [first, second] = [boundary[first], boundary[second]];
     let distance = mesh.position(first).distance(mesh.position(second));
-    Pins::from([(first, DVec2::ZERO), (second, DVec2::new(distance, 0.0))])
+    fixed_pins([(first, DVec2::ZERO), (second, DVec2::new(distance, 0.0))])
 }
 
 /// Where a run ended, and after how many steps.

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::time::Instant;
 
 use super::exit::conclude;
@@ -11,8 +10,7 @@ use super::progress::Progress;
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::{OutputKind, WriteError};
-use crate::session::{Document, Model, OutputFit, PictureFile};
-use crate::solver::{Pin, Pins};
+use crate::session::{Document, Model, OutputFit};
 
 /// Folder that the example is written into, in the current one.
 const FOLDER: &str = "freebound-example";
@@ -23,21 +21,12 @@ pub fn run_example() -> ExitCode {
     conclude(flatten_example())
 }
 
-/// The face with its portrait, and its landmarks as constraints.
-fn document() -> Document {
-    let pins: Pins = Example::Face.landmarks().iter().map(|l| (l.vertex, Pin::hard(l.target.into()))).collect();
-    let picture = Example::Face.picture().map(|pixels| {
-        Arc::new(PictureFile { name: "portrait".to_owned(), path: None, stamp: None, pixels: Arc::new(pixels) })
-    });
-    Document { pins, picture, ..Document::default() }
-}
-
 fn flatten_example() -> Result<Status, Failure> {
     let folder = Path::new(FOLDER);
     std::fs::create_dir_all(folder).map_err(|error| WriteError { path: folder.to_owned(), source: error })?;
     let [mesh, picture, report] = ["face.obj", "face.png", "face.json"].map(|name| folder.join(name));
     let job = HeadlessJob {
-        document: document(),
+        document: Document::of_example(Example::Face),
         aspect: None,
         sizes: [OutputFit::Unit; 2],
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
@@ -46,6 +35,8 @@ fn flatten_example() -> Result<Status, Failure> {
     };
     let progress = Progress::default();
     let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;
-    println!("wrote face.obj with face.mtl and portrait.png, face.json and face.png (before and after) into {FOLDER}/");
+    println!(
+        "wrote face.obj with face.mtl and face-picture.png, face.json and face.png (before and after) into {FOLDER}/"
+    );
     Ok(status)
 }

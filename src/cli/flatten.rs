@@ -9,7 +9,7 @@ use super::constraints::gather;
 use super::progress::{Progress, interrupted, is_interrupted};
 use super::{Failure, Status};
 use crate::geom::PictureFrame;
-use crate::io::{OutputKind, PinsReport, Report, StepReport, StepsFolder, read_picture};
+use crate::io::{OutputKind, PinsReport, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
 use crate::session::{Document, Finished, Model, Outcome, OutputFit, PictureFile, Placement, Surface};
 use crate::solver::{Control, Ending, GaugeSize, Method, Phase, Pin, Run, Settings, SolveError, Step};
@@ -25,7 +25,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         ));
     }
     set_threads(arguments.threads)?;
-    let picture = arguments.picture.as_deref().map(open_picture).transpose()?;
+    let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
     let fit = output_fit(arguments.fit);
     let progress = Progress::default();
     progress.follow(|| {
@@ -59,11 +59,6 @@ fn output_fit(fit: Fit) -> OutputFit {
         Fit::Unit => OutputFit::Unit,
         Fit::True => OutputFit::True,
     }
-}
-
-fn open_picture(path: &Path) -> Result<PictureFile, Failure> {
-    let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-    Ok(PictureFile { name, path: Some(path.to_owned()), stamp: None, pixels: Arc::new(read_picture(path)?) })
 }
 
 /// A flattening without a screen, the mesh already read.

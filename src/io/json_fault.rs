@@ -8,13 +8,7 @@ pub(super) fn json_fault(text: &str, error: &serde_json::Error) -> (usize, Strin
     let before = String::from_utf8_lossy(&text.as_bytes()[..noticed]).trim_end().to_owned();
     let message = error.to_string();
     let reason = message.rfind(" at line ").map_or(message.as_str(), |end| &message[..end]);
-    let mut path = open_levels(&before);
-    if reason.starts_with("missing field") {
-        // It is missing from what is open, not from the last field in there.
-        if let Some(Level::Object { key, .. }) = path.last_mut() {
-            key.clear();
-        }
-    }
+    let path = open_levels(&before);
     (before.lines().count().max(1), in_words(&path), reason.to_owned())
 }
 

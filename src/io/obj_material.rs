@@ -74,8 +74,9 @@ fn is_ours(library: &Path) -> bool {
 
 /// Sees to it that a picture lies in a folder, and returns its name there.
 fn put_picture(folder: &Path, mesh: &Path, picture: &TexturePicture) -> Result<String, WriteError> {
+    let stem = without_blanks(&mesh.file_stem().unwrap_or_default().to_string_lossy());
     let Some(source) = picture.path else {
-        let target = folder.join(format!("{}.png", without_blanks(&picture.name.to_lowercase())));
+        let target = folder.join(format!("{stem}-{MATERIAL}.png"));
         write_atomically(&target, |out| picture.pixels.write_png(out).map_err(io::Error::other))?;
         return Ok(name_of(&target));
     };
@@ -91,7 +92,6 @@ fn put_picture(folder: &Path, mesh: &Path, picture: &TexturePicture) -> Result<S
     let bytes = fs::read(source).map_err(|error| WriteError { path: source.to_owned(), source: error })?;
     let is_free = |place: &Path| fs::read(place).map_or(true, |present| present == bytes);
     // Another picture of the same name stays; a second copy is told apart by the mesh's name.
-    let stem = without_blanks(&mesh.file_stem().unwrap_or_default().to_string_lossy());
     let target = if is_free(&target) { target } else { folder.join(format!("{stem}-{}", without_blanks(&name))) };
     write_atomically(&target, |out| out.write_all(&bytes))?;
     Ok(name_of(&target))

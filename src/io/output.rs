@@ -66,8 +66,6 @@ pub fn layout_picture(mesh: &DiskMesh, embedding: &[DVec2], verdict: &Verdict, c
 /// The picture that texture coordinates are for.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturePicture<'a> {
-    /// What it is called.
-    pub name: &'a str,
     /// The file that it came from.
     pub path: Option<&'a Path>,
     /// Its pixels.

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::{Outcome, PictureFile};
+use crate::examples::Example;
 use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::VertexId;
-use crate::solver::{GaugeSize, Pin, Pins, Settings};
+use crate::solver::{GaugeSize, Pin, Pins, Settings, hard_pins};
 
 /// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,6 +24,16 @@ pub struct Document {
 }
 
 impl Document {
+    /// A built-in mesh's landmarks as constraints, on the picture that belongs to it.
+    pub fn of_example(example: Example) -> Self {
+        let landmarks = example.landmarks().into_iter();
+        Self {
+            pins: hard_pins(landmarks.map(|landmark| (landmark.vertex, landmark.target.into()))),
+            picture: PictureFile::of_example(example).map(Arc::new),
+            ..Self::default()
+        }
+    }
+
     /// How texture coordinates lie in the plane where the mesh is flattened.
     pub fn frame(&self) -> PictureFrame {
         let aspect = self.picture.as_ref().map_or(1.0, |picture| picture.aspect());
@@ -126,11 +137,17 @@ impl Gesture {
 }
 
 impl History {
-    /// Applies an edit as a step of its own.
-    pub fn apply(&mut self, command: Command, document: &mut Document) {
-        self.end_gesture();
-        self.undo.push(command.apply(document));
+    /// Applies an edit as a step of its own. Returns whether it changed anything; one that did not is no step.
+    pub fn apply(&mut self, command: Command, document: &mut Document) -> bool {
+        self.end_gesture(document);
+        let before = document.clone();
+        let inverse = command.apply(document);
+        if *document == before {
+            return false;
+        }
+        self.undo.push(inverse);
         self.redo.clear();
+        true
     }
 
     /// Applies an edit that belongs to a gesture: until the gesture ends, edits share one step.
@@ -153,9 +170,18 @@ impl History {
         self.gesture.is_some()
     }
 
-    /// Marks the end of a gesture: the next edit starts a new step.
-    pub fn end_gesture(&mut self) {
-        self.gesture = None;
+    /// Marks the end of a gesture: the next edit starts a new step. A gesture that ended where it began is none.
+    pub fn end_gesture(&mut self, document: &Document) {
+        if self.gesture.take().is_none() {
+            return;
+        }
+        if let Some(step) = self.undo.last() {
+            let mut before = document.clone();
+            drop(step.clone().apply(&mut before));
+            if before == *document {
+                self.undo.pop();
+            }
+        }
     }
 
     /// Takes back the gesture that has not ended, for good. Returns whether there was one.
@@ -181,13 +207,13 @@ impl History {
 
     /// Takes back the last step. Returns whether there was one.
     pub fn undo(&mut self, document: &mut Document) -> bool {
-        self.end_gesture();
+        self.end_gesture(document);
         replay(&mut self.undo, &mut self.redo, document)
     }
 
     /// Repeats the last step taken back. Returns whether there was one.
     pub fn redo(&mut self, document: &mut Document) -> bool {
-        self.end_gesture();
+        self.end_gesture(document);
         replay(&mut self.redo, &mut self.undo, document)
     }
 }
@@ -237,7 +263,7 @@ mod tests {
         for x in [0.0, 0.5, 1.0] {
             history.apply_in_gesture(pin(7, x), &mut document);
         }
-        history.end_gesture();
+        history.end_gesture(&document);
 
         assert!(history.undo(&mut document));
         assert_eq!(document, Document::default());
@@ -284,10 +310,23 @@ mod tests {
     }
 
     #[test]
+    fn what_changes_nothing_is_no_undo_step() {
+        let (mut history, mut document) = (History::default(), Document::default());
+        assert!(history.apply(pin(7, 0.5), &mut document));
+        assert!(!history.apply(pin(7, 0.5), &mut document));
+        for x in [1.0, 0.5] {
+            history.apply_in_gesture(pin(7, x), &mut document);
+        }
+        history.end_gesture(&document);
+        assert!(history.undo(&mut document));
+        assert!(!history.can_undo() && document == Document::default());
+    }
+
+    #[test]
     fn two_drags_are_two_undo_steps() {
         let (mut history, mut document) = (History::default(), Document::default());
         history.apply_in_gesture(pin(7, 0.5), &mut document);
-        history.end_gesture();
+        history.end_gesture(&document);
         history.apply_in_gesture(pin(7, 1.0), &mut document);
         history.undo(&mut document);
         assert_eq!(document.pins[&VertexId::new(7)].target, DVec2::new(0.5, 0.0));

@@ -3,15 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::{Document, Model, PictureFile, Place};
 use crate::examples::Example;
 use crate::io::{
     FileStamp, PROJECT_EXTENSION, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError, RecoveryNote,
     material_picture,
 };
-use crate::solver::{Pins, hard_pins};
+use crate::solver::Pins;
 
 /// Something that was opened, ready to be put on the table.
 #[derive(Debug)]
@@ -94,13 +92,7 @@ impl Opened {
 
     /// A built-in mesh, with the picture and the constraints that belong to it.
     pub(super) fn example(example: Example) -> Self {
-        let model = Model::example(example);
-        let landmarks = example.landmarks().into_iter();
-        let document = Document {
-            pins: hard_pins(landmarks.map(|landmark| (landmark.vertex, DVec2::from(landmark.target)))),
-            picture: PictureFile::of_example(example).map(Arc::new),
-            ..Document::default()
-        };
+        let (model, document) = (Model::example(example), Document::of_example(example));
         Self { model, document, view: ProjectView::default(), origin: Origin::Mesh, remarks: Vec::new() }
     }
 

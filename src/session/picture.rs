@@ -10,7 +10,7 @@ use crate::io::{FileStamp, PictureError, read_picture};
 /// A picture with where it came from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PictureFile {
-    /// What to call it: file name, or title of the built-in one.
+    /// What to call it: the file's name, or a word for the built-in one.
     pub name: String,
     /// The file it came from; none where it belongs to the built-in mesh.
     pub path: Option<PathBuf>,
@@ -36,7 +36,7 @@ impl PictureFile {
     /// The picture that belongs to a built-in mesh.
     pub fn of_example(example: Example) -> Option<Self> {
         let pixels = Arc::new(example.picture()?);
-        Some(Self { name: format!("{} (built-in)", example.title()), path: None, stamp: None, pixels })
+        Some(Self { name: "portrait".to_owned(), path: None, stamp: None, pixels })
     }
 
     /// Width over height.

@@ -94,8 +94,9 @@ impl Session {
             1 => commands.remove(0),
             _ => Command::Together(commands),
         };
-        self.history.apply(command, &mut self.document);
-        self.solve();
+        if self.history.apply(command, &mut self.document) {
+            self.solve();
+        }
     }
 
     /// Says why where the method takes no pins.

@@ -110,6 +110,10 @@ impl Session {
 
     /// Solves for base and column in the background, unless that is under way for the same drag.
     fn begin_to_follow(&mut self, dragged: Vec<VertexId>) {
+        if !self.bring_faces() {
+            // A solve follows once the mesh is turned around.
+            return;
+        }
         if let Some((document, under_way, _)) = &self.follow_job
             && *under_way == dragged
             && are_alike(document, &self.document)

@@ -209,7 +209,7 @@ impl Session {
     /// The end of a gesture: where only the first step was taken, or none, the others follow.
     pub(super) fn end_gesture(&mut self) {
         let was_in_gesture = self.history.is_in_gesture();
-        self.history.end_gesture();
+        self.history.end_gesture(&self.document);
         self.follow_job = None;
         if !was_in_gesture {
             return;

@@ -107,11 +107,10 @@ impl<'a> Finished<'a> {
     ///
     /// Where it cannot be written.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
-        let picture = self.picture.as_deref().map(|picture| TexturePicture {
-            name: &picture.name,
-            path: picture.path.as_deref(),
-            pixels: &picture.pixels,
-        });
+        let picture = self
+            .picture
+            .as_deref()
+            .map(|picture| TexturePicture { path: picture.path.as_deref(), pixels: &picture.pixels });
         let output = Output {
             source: &self.model.source,
             mesh: self.mesh,

@@ -250,16 +250,8 @@ impl Session {
             Action::Recover(path) => self.recover(path),
             Action::DiscardRecovery(path) => self.discard_recovery(&path),
             Action::Rest => self.rest(),
-            Action::RemovePicture => {
-                if self.document.picture.is_some() {
-                    self.edit(vec![Command::SetPicture(None)]);
-                }
-            }
-            Action::SetVAxis(v_axis) => {
-                if v_axis != self.document.v_axis {
-                    self.edit(vec![Command::SetVAxis(v_axis)]);
-                }
-            }
+            Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
+            Action::SetVAxis(v_axis) => self.edit(vec![Command::SetVAxis(v_axis)]),
             Action::Place { vertex, pin } => self.place(vertex, pin),
             Action::MovePin { vertex, target } => self.move_pins(&[(vertex, target)]),
             Action::MovePins(moves) => self.move_pins(&moves),
@@ -273,12 +265,7 @@ impl Session {
             }
             Action::Unpin(vertices) => self.unpin(&vertices),
             Action::UnpinAll => self.unpin(&self.document.pins.keys().copied().collect::<Vec<_>>()),
-            Action::SetSettings(settings) => {
-                if settings != self.document.settings {
-                    self.history.apply(Command::SetSettings(settings), &mut self.document);
-                    self.solve();
-                }
-            }
+            Action::SetSettings(settings) => self.edit(vec![Command::SetSettings(settings)]),
             Action::SlideSettings(settings) => {
                 if settings != self.document.settings {
                     self.history.apply_in_gesture(Command::SetSettings(settings), &mut self.document);

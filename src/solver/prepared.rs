@@ -132,7 +132,7 @@ impl Prepared {
     }
 
     /// How all vertices move when the targets of some pins move by (1, 0): the embedding is complex-linear in the
-    /// targets, so that a move by δ adds δ times this, as complex numbers.
+    /// targets, so that a move by δ adds δ times this, as complex numbers. Pins do not move what has a convex boundary.
     ///
     /// # Errors
     ///
@@ -140,10 +140,10 @@ impl Prepared {
     ///
     /// # Panics
     ///
-    /// If one of the vertices is not pinned.
+    /// If one of the vertices is not pinned, where pins matter.
     pub fn column(&self, mesh: &DiskMesh, moved: &[VertexId]) -> Result<Vec<DVec2>, SolveError> {
-        assert!(moved.iter().all(|vertex| self.asked.contains_key(vertex)), "only pins have columns");
         let Values::Free(free) = &self.values else { return Ok(vec![DVec2::ZERO; mesh.vertex_count()]) };
+        assert!(moved.iter().all(|vertex| self.asked.contains_key(vertex)), "only pins have columns");
         if self.own_places.is_some() {
             // One pin alone moves everything.
             return Ok(vec![DVec2::X; mesh.vertex_count()]);

@@ -5,7 +5,9 @@
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
-use freebound::solver::{BoundaryShape, Control, Family, Method, Pins, Settings, flatten, shape_preserving, verdict};
+use freebound::solver::{
+    BoundaryShape, Control, Family, Method, Pins, Prepared, Settings, flatten, hard_pins, shape_preserving, verdict,
+};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
@@ -192,4 +194,15 @@ fn shape_preserving_weights_of_a_regular_ring_are_equal() {
             assert!((weight - 1.0 / f64::from(sides)).abs() < 1e-14, "{sides} sides: {weight}");
         }
     }
+}
+
+#[test]
+fn a_pin_that_is_dragged_moves_nothing_within_a_convex_boundary() {
+    let mesh = DiskMesh::try_from(Example::Dome.mesh()).expect("well-formed by construction");
+    let settings = convex(BoundaryShape::Circle, Family::Uniform);
+    let vertex = VertexId::new(3);
+    let pins = hard_pins([(vertex, DVec2::ONE)]);
+    let prepared = Prepared::new(&mesh, &settings, &pins, Control::unattended()).expect("solvable");
+    let column = prepared.column(&mesh, &[vertex]).expect("solvable");
+    assert!(column.iter().all(|way| *way == DVec2::ZERO));
 }

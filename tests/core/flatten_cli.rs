@@ -318,7 +318,7 @@ fn without_a_screen_the_example_is_flattened_into_a_folder_that_is_named() {
     let folder = program.path("freebound-example");
     let names: BTreeSet<String> =
         fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
-    assert_eq!(names, ["face.json", "face.mtl", "face.obj", "face.png", "portrait.png"].map(str::to_owned).into());
+    assert_eq!(names, ["face-picture.png", "face.json", "face.mtl", "face.obj", "face.png"].map(str::to_owned).into());
     let report: Value = serde_json::from_slice(&fs::read(folder.join("face.json")).unwrap()).unwrap();
     assert_eq!(run.status, Some(0));
     assert_eq!(report["verdict"]["planar"], true);

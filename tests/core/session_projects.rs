@@ -261,7 +261,7 @@ fn faults_of_a_project_name_line_and_field() {
             "line 4, family: \"nonsense\"",
         ),
         ("{\n\"freebound_project\": 1,\n\"mesh\": {},\n\"pins\": []\n}".to_owned(), "line 3, mesh: name either"),
-        ("{\n\"freebound_project\": 1\n}".to_owned(), "line 2, the project: missing field `mesh`"),
+        ("{\n\"freebound_project\": 1\n}".to_owned(), "line 3, the project: missing field `mesh`"),
         (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"max_steps\": -3}}"), "line 4, max_steps: "),
         (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"pins\": ["), "line 4, pins[0]: EOF"),
     ];

@@ -8,7 +8,7 @@ use freebound::examples::Example;
 use freebound::io::OutputKind;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop, StopConditions};
-use freebound::solver::{Control, Family, Hold, Method, Pin, Pins, Run, Settings, Step, flatten, hard_pins, verdict};
+use freebound::solver::{Control, Family, Method, Pin, Pins, Run, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::common::grid;

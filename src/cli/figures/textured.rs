@@ -89,11 +89,11 @@ pub(super) fn figure_8(face: &Subject, control: Control<'_>) -> Result<Figure, S
     let on_mesh = face.landmarks.iter().map(|landmark| places[landmark.vertex.index()]).collect();
     let on_picture: Vec<DVec2> = face.landmarks.iter().map(|landmark| landmark.target.into()).collect();
     let photo = |picture: Picture, marks: Vec<DVec2>| PhotoDrawing { picture, marks };
-    let steps = last.index - first.index;
+    let iterations = iterations_in_words(last.index - first.index);
     let words = [
         format!("(a) the mesh with {} constraints", face.landmarks.len()),
         "(b) the picture with their targets".to_owned(),
-        format!("(c) the picture on the mesh after {steps} iterations"),
+        format!("(c) the picture on the mesh after {iterations}"),
     ];
     let rows = [None, None, Some(Numbers::of(&last))];
     let rows = ('a'..).zip(&words).zip(rows).map(|((panel, words), numbers)| Row {
@@ -115,6 +115,10 @@ pub(super) fn figure_8(face: &Subject, control: Control<'_>) -> Result<Figure, S
     Ok(Figure { number: 8, sheet: Sheet { columns: 3, panels, caption }, rows })
 }
 
+fn iterations_in_words(count: usize) -> String {
+    if count == 1 { "1 iteration".to_owned() } else { format!("{count} iterations") }
+}
+
 /// Weighted constraints, before and after the iteration.
 pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, SolveError> {
     let (mut panels, mut rows) = (Vec::new(), Vec::new());
@@ -130,18 +134,18 @@ pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, S
             .landmarks
             .iter()
             .map(|landmark| last.solution.embedding[landmark.vertex.index()].distance(landmark.target.into()));
-        let miss = 100.0 * miss.fold(0.0, f64::max);
+        let miss = miss.fold(0.0, f64::max);
         let words = take(&format!("{name} weights: {}", flips_in_words(&first)), &first);
         panels.push(Panel::plane(words, face.layout(&first)));
-        let words = take(&format!("after {} iterations: {}", last.index, flips_in_words(&last)), &last);
+        let words = take(&format!("after {}: {}", iterations_in_words(last.index), flips_in_words(&last)), &last);
         panels.push(Panel::plane(words, face.layout(&last)));
-        let words = take(&format!("the picture on the mesh; off by up to {miss:.1} %"), &last);
+        let words = take(&format!("the picture on the mesh; the farthest off by {miss:.4}"), &last);
         panels.push(Panel::photo(words, PhotoDrawing { picture: face.textured(&last), marks: Vec::new() }));
     }
     let caption = format!(
         "Figure 9. Constraints by weights: large ones, {}, above, and medium ones, {}, below. The first solve (left) \
          flips faces, red; the iteration (middle) repairs them; the picture on the mesh (right). The outer corners of the eyes are held exactly. \
-         The larger the weights, the nearer do the other landmarks come to their places; how far the farthest is off is in shares of the picture.",
+         The larger the weights, the nearer do the other landmarks come to their places; the farthest is off by so much of the picture's width.",
         WEIGHTS[0].1, WEIGHTS[1].1
     );
     Ok(Figure { number: 9, sheet: Sheet { columns: 3, panels, caption }, rows })

@@ -1,0 +1,112 @@
+//! What a move of a dragged pin costs: `cargo bench --bench drag`.
+//!
+//! `cargo bench --bench drag -- VERTICES…` takes other sizes. The constraints are hard but for every sixth, which pulls;
+//! all are dragged once. "first move" is what passes until the embedding follows: base and column are solved for with
+//! the factors of the run before. "move" is all that the session does for one further move, "arrays" what the window
+//! makes of it for the graphics card, "bytes" what it uploads; the verdict comes in its own time. A frame at 60 a second
+//! has 16.7 ms.
+
+mod common;
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use freebound::io::{ObjMesh, write_obj};
+use freebound::mesh::VertexId;
+use freebound::session::{Action, RecentFiles, Session};
+use freebound::solver::{Hold, Pin, verdict};
+use freebound::view::{PlaneArrays, PlaneBox, UnitPlane};
+use glam::DVec2;
+
+use common::machine::print_machine;
+use common::sheet::sheet_of_faces;
+use common::table::{Table, seconds};
+use common::{Times, arguments};
+
+/// Vertices of the meshes.
+const SIZES: [usize; 2] = [20_000, 100_000];
+
+/// Constraints on each mesh.
+const CONSTRAINTS: usize = 24;
+
+/// Moves of one drag.
+const MOVES: u32 = 60;
+
+fn main() {
+    print_machine();
+    let wanted: Vec<usize> = arguments().iter().filter_map(|text| text.parse().ok()).collect();
+    let sizes = if wanted.is_empty() { SIZES.to_vec() } else { wanted };
+    let heads = ["vertices", "first move", "move", "arrays", "bytes", "verdict", "moves a second"];
+    let mut table = Table::new(&format!("dragging one of {CONSTRAINTS} constraints, seconds"), &heads);
+    for vertices in sizes {
+        table.row(drag(vertices));
+    }
+    table.print();
+}
+
+/// Polls until nothing goes on.
+fn settle(session: &mut Session) {
+    while session.busy().is_some() {
+        session.poll();
+        std::thread::sleep(Duration::from_micros(200));
+    }
+}
+
+fn opened(vertices: usize) -> Session {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("sheet.obj");
+    let mut text = Vec::new();
+    write_obj(&mut text, &ObjMesh::from(&sheet_of_faces(2 * vertices)), &[]).expect("memory takes it");
+    std::fs::write(&path, text).expect("a file");
+    let mut session = Session::new(Arc::new(|| ()), RecentFiles::default());
+    session.handle(Action::Open(path));
+    settle(&mut session);
+    session
+}
+
+fn drag(vertices: usize) -> [String; 7] {
+    let mut session = opened(vertices);
+    let mesh = Arc::clone(session.model().and_then(|model| model.disk()).expect("the sheet is a disk"));
+    let flat = session.outcome().expect("solved").step.solution.embedding.clone();
+    let extent = PlaneBox::around(&flat).extent();
+    for k in 0..CONSTRAINTS {
+        let vertex = VertexId::from_index((2 * k + 1) * mesh.vertex_count() / (2 * CONSTRAINTS));
+        let hold = if k % 6 == 5 { Hold::Weighted(10.0) } else { Hold::Hard };
+        let target = flat[vertex.index()] + DVec2::from_angle(k as f64) * (0.01 * extent);
+        session.handle(Action::Place { vertex, pin: Pin { target, hold } });
+    }
+    settle(&mut session);
+    let (mut first, mut move_, mut arrays, mut proof) =
+        (Times::default(), Times::default(), Times::default(), Times::default());
+    let mut bytes = 0;
+    let pins: Vec<(VertexId, DVec2)> = session.document().pins.iter().map(|(&v, pin)| (v, pin.target)).collect();
+    for (vertex, from) in pins {
+        let begin = Instant::now();
+        session.handle(Action::MovePin { vertex, target: from + DVec2::X * (1e-4 * extent) });
+        while session.preview().is_none() {
+            session.poll();
+            std::thread::sleep(Duration::from_micros(50));
+        }
+        first.add(begin.elapsed().as_secs_f64());
+        let frame = UnitPlane::of(PlaneBox::around(&flat));
+        for k in 0..MOVES / CONSTRAINTS as u32 + 1 {
+            let target = from + DVec2::new(f64::from(k), 1.0) * (1e-4 * extent);
+            move_.run(|| session.handle(Action::MovePin { vertex, target }));
+            let preview = session.preview().expect("it follows").embedding.clone();
+            let drawn = arrays.run(|| PlaneArrays::in_frame(&preview, &mesh.mesh().triangles, frame));
+            bytes = size_of_val(drawn.points()) + size_of_val(drawn.corners());
+            proof.run(|| verdict(&mesh, &preview));
+        }
+        session.handle(Action::GiveUpGesture);
+        settle(&mut session);
+    }
+    [
+        mesh.vertex_count().to_string(),
+        seconds(first.median()),
+        seconds(move_.median()),
+        seconds(arrays.median()),
+        bytes.to_string(),
+        seconds(proof.median()),
+        format!("{:.0}", 1.0 / (move_.median() + arrays.median())),
+    ]
+}
