@@ -87,14 +87,22 @@ fn buttons_and_menu_go_through_the_steps() {
 #[test]
 fn each_step_says_what_it_is_and_shows_by_a_click() {
     let mut window = with_four_steps();
-    let defects = window.editor().session.timeline().records()[0].defect_count();
-    assert_eq!(name_of_step(&window, 0), format!("Step 0: natural, {defects} defects"));
-    assert_eq!(name_of_step(&window, 1), "Step 1: mean value, planar");
+    let defects = |window: &Window, step: usize| window.editor().session.timeline().records()[step].defect_count();
+    let begin = |step: usize| if step == 0 { "natural" } else { "mean value" };
+    for step in 0..4 {
+        let state = match defects(&window, step) {
+            0 => "planar".to_owned(),
+            1 => "1 defect".to_owned(),
+            count => format!("{count} defects"),
+        };
+        assert_eq!(name_of_step(&window, step), format!("Step {step}: {}, {state}", begin(step)));
+    }
+    assert!(defects(&window, 0) > 0 && defects(&window, 3) == 0, "it folds, and is repaired");
     window.click(&name_of_step(&window, 0));
     assert_eq!(shown(&window), 0);
     assert!(window.verdict().contains("flipped"), "the verdict is that of the step on the screen");
-    window.click(&name_of_step(&window, 2));
-    assert_eq!((shown(&window), window.verdict().as_str()), (2, "Planar: proved"));
+    window.click(&name_of_step(&window, 3));
+    assert_eq!((shown(&window), window.verdict().as_str()), (3, "Planar: proved"));
 }
 
 #[test]
