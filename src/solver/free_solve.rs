@@ -42,8 +42,8 @@ pub(super) struct Site<'a> {
 /// How pins enter a system.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
-    /// The vertices without unknown and equation in the factors, ascending: the exact pins, and where all equations are
-    /// kept a gauge.
+    /// The vertices without unknown and equation in the factors, ascending: where all equations are kept all pins and a
+    /// gauge, otherwise the exact pins.
     pub(super) left_out: Vec<VertexId>,
     /// Whether the equations of those are kept beside the factors; otherwise they are pins, eliminated.
     pub(super) keeps_equations: bool,
@@ -64,6 +64,7 @@ impl Layout {
         // One pin alone does not fix the similarity: what is left without its equation would still be singular.
         let keeps_equations = treatment != Treatment::Eliminate || left_out.len() < 2;
         if keeps_equations {
+            left_out = pins.keys().copied().collect();
             left_out.extend(gauge(&left_out)?);
             left_out.sort_unstable();
             left_out.dedup();

@@ -13,8 +13,8 @@
 //! # Method
 //!
 //! The factors leave out the unknowns *and* the equations of a few vertices g, and these equations are kept apart: g are
-//! the exact pins, and two vertices where the equations depend on each other (`left_kernel.rs`). Of g those that are
-//! not pinned exactly can move: m. With N = −A without the rows and columns of g, s = δ on m, and e the (negated)
+//! all pins, which makes what is left well-conditioned, and two vertices where the equations depend on each other
+//! (`left_kernel.rs`). Of g those that are not pinned exactly can move: m. With N = −A without the rows and columns of g, s = δ on m, and e the (negated)
 //! residual of the other rows:
 //!
 //! ```text
@@ -107,7 +107,7 @@ impl LeastSquares {
         let equation = |&v: &VertexId| equation_of(site, equations, v);
         let rows: Vec<Row> = left_out.iter().map(equation).chain(springs.iter().map(unit)).collect();
         let from_movers: Vec<Vec<C64>> = movers.iter().map(|&v| column_of(site, equations, v)).collect();
-        let by_movers = factored.factor.solve_many(factored.matrix, &from_movers.concat())?.x;
+        let by_movers = factored.factor.solve_correction(factored.matrix, &from_movers.concat())?.x;
         let n = site.system.free().len();
         let (k, g, m) = (rows.len(), left_out.len(), movers.len());
         let mut matrix: DMatrix<C64> = DMatrix::zeros(k + m, k + m);
@@ -212,7 +212,7 @@ fn gram_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<DMatrix<C6
     }
     let mut matrix = DMatrix::zeros(k, k);
     for (place, group) in rows.chunks(GROUP).enumerate() {
-        let solved = factored.factor.solve_many(factored.matrix, &columns_of(group)?)?.x;
+        let solved = factored.factor.solve_correction(factored.matrix, &columns_of(group)?)?.x;
         for (j, column) in (place * GROUP..).zip(solved.chunks_exact(n)) {
             for (i, row) in rows[..=j].iter().enumerate() {
                 let value = along(row, column);

@@ -106,12 +106,12 @@ impl Prepared {
                 let (equations, power) = free_equations(mesh, method, settings.family)?;
                 let is_hermitian = method != Method::Levy && power == Family::CONFORMAL_POWER;
                 let treatment = settings.treatment_on(Method::Natural, asked.len());
-                let layout = Layout::new(&pins, treatment, |exact| {
+                let layout = Layout::new(&pins, treatment, |pinned| {
                     if !is_hermitian {
                         return gauge_or_farthest(mesh, &equations, control);
                     }
                     // Conformal equations depend on each other all over the mesh: those of any pins will do.
-                    Ok(if exact.len() < PINS_NEEDED { farthest_pair(mesh).to_vec() } else { Vec::new() })
+                    Ok(if pinned.len() < PINS_NEEDED { farthest_pair(mesh).to_vec() } else { Vec::new() })
                 })?;
                 let system = layout.system(mesh);
                 seconds.assemble = start.elapsed().as_secs_f64();

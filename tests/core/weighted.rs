@@ -241,6 +241,21 @@ fn heavier_weights_bring_vertices_nearer_and_very_heavy_ones_are_as_good_as_hard
 }
 
 #[test]
+fn the_face_takes_its_landmarks_with_any_weight() {
+    let mesh = disk(Example::Face.mesh());
+    for weight in [1e-3, 1.0, 10.0, 1e3, 1e6] {
+        for family in [Family::Conformal, Family::MeanValue] {
+            let landmarks = Example::Face.landmarks();
+            let pins: Pins = landmarks.iter().map(|l| (l.vertex, Pin::weighted(l.target.into(), weight))).collect();
+            let settings = Settings::new(Method::Natural, family);
+            let solved = flatten(&mesh, &settings, &pins, Control::unattended());
+            let residual = solved.map(|solution| solution.residual);
+            assert!(residual.as_ref().is_ok_and(|&residual| residual < 1e-12), "{weight} {family}: {residual:?}");
+        }
+    }
+}
+
+#[test]
 fn the_weighted_treatment_gives_hard_constraints_the_default_weight() {
     let mesh = disk(bump(7));
     let hard = hard_pins([(v(3), DVec2::ZERO), (v(30), DVec2::X), (v(40), DVec2::ONE)]);
