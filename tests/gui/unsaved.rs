@@ -124,8 +124,8 @@ fn what_a_session_left_is_offered_and_recovered() {
     let later = std::time::Instant::now() + std::time::Duration::from_secs(60);
     first.editor_mut().session.poll_at(later);
     let is_copy = |path: &std::path::Path| path.extension().is_some_and(|extension| extension == "freebound");
-    let mut files = || std::fs::read_dir(left.path()).expect("a folder").map(|file| file.expect("a file").path());
-    let mut is_there = || files().any(|path| is_copy(&path));
+    let files = || std::fs::read_dir(left.path()).expect("a folder").map(|file| file.expect("a file").path());
+    let is_there = || files().any(|path| is_copy(&path));
     let begun = std::time::Instant::now();
     while !is_there() && begun.elapsed().as_secs() < 20 {
         std::thread::sleep(std::time::Duration::from_millis(10));
