@@ -9,7 +9,7 @@ use super::theme::{Theme, theme_of};
 use super::{Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of};
 use crate::examples::Example;
 use crate::session::{Action, Busy, OutputFit, Surface};
-use crate::solver::Verdict;
+use crate::solver::{Phase, Verdict};
 
 /// Shows the bar.
 pub(super) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -255,7 +255,8 @@ fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>)
         }
         let words = match busy {
             Busy::Loading => "opening…".to_owned(),
-            Busy::Solving(phase) => format!("solving… {}", phase.map_or("", crate::solver::Phase::words)),
+            Busy::Solving(None | Some(Phase::Solve)) => "solving…".to_owned(),
+            Busy::Solving(Some(phase)) => format!("solving… {}", phase.words()),
             Busy::Saving => "saving…".to_owned(),
         };
         ui.label(RichText::new(words).color(theme_of(ui).weak_text));

@@ -293,10 +293,10 @@ fn a_drag_shows_first_steps_only_and_its_end_the_whole_run() {
     let mut session = opened(Example::Face);
     settled(&mut session, Action::Run);
     let (&vertex, &Pin { target: from, .. }) =
-        session.outcome().expect("solved").step.solution.pins.iter().next().expect("a gauge pin");
+        session.outcome().expect("solved").step.solution.pins.iter().next().expect("a landmark");
     assert!(!session.is_preview());
     for i in 1..=5 {
-        let target = from + DVec2::new(0.01, 0.02) * f64::from(i);
+        let target = from + DVec2::new(1e-4, 2e-4) * f64::from(i);
         settled(&mut session, Action::MovePin { vertex, target });
         assert!(session.is_preview() && !session.is_current() && !session.is_held(), "steps follow at the end");
     }

@@ -38,14 +38,10 @@ impl Subject {
         self.landmarks.iter().map(|landmark| (landmark.vertex, Pin::hard(landmark.target.into()))).collect()
     }
 
-    /// The landmarks as constraints by weight, but for the outer corners of the eyes: two that are met exactly fix the
-    /// similarity.
+    /// The landmarks as constraints by weight.
     fn weighted_pins(&self, weight: f64) -> Pins {
-        let mut pins = self.hard_pins();
-        for landmark in self.landmarks.iter().filter(|landmark| !landmark.name.ends_with("outer corner")) {
-            pins.insert(landmark.vertex, Pin::weighted(landmark.target.into(), weight));
-        }
-        pins
+        let pin = |landmark: &Landmark| (landmark.vertex, Pin::weighted(landmark.target.into(), weight));
+        self.landmarks.iter().map(pin).collect()
     }
 
     /// The first solve, and where the iteration ends.
@@ -139,13 +135,14 @@ pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, S
         panels.push(Panel::plane(words, face.layout(&first)));
         let words = take(&format!("after {}: {}", iterations_in_words(last.index), flips_in_words(&last)), &last);
         panels.push(Panel::plane(words, face.layout(&last)));
-        let words = take(&format!("the picture on the mesh; the farthest off by {miss:.4}"), &last);
+        let words = take(&format!("the picture on the mesh; the farthest off by {miss:.1e}"), &last);
         panels.push(Panel::photo(words, PhotoDrawing { picture: face.textured(&last), marks: Vec::new() }));
     }
     let caption = format!(
         "Figure 9. Constraints by weights: large ones, {}, above, and medium ones, {}, below. The first solve (left) \
-         flips faces, red; the iteration (middle) repairs them; the picture on the mesh (right). The outer corners of the eyes are held exactly. \
-         The larger the weights, the nearer do the other landmarks come to their places; the farthest is off by so much of the picture's width.",
+         flips faces, red; the iteration (middle) repairs them; the picture on the mesh (right). \
+         The larger the weights, the nearer do the landmarks come to their places; the farthest is off by so much of the \
+         picture's width.",
         WEIGHTS[0].1, WEIGHTS[1].1
     );
     Ok(Figure { number: 9, sheet: Sheet { columns: 3, panels, caption }, rows })
