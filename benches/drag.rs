@@ -46,7 +46,7 @@ fn main() {
 
 /// Polls until nothing goes on.
 fn settle(session: &mut Session) {
-    while session.busy().is_some() {
+    while session.busy().is_some() || session.is_following() {
         session.poll();
         std::thread::sleep(Duration::from_micros(200));
     }

@@ -71,6 +71,7 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self) {
+        self.editor.session.finish_writing();
         // Where the person was not asked, such as at the end of a session of the system's, the copy stays.
         if self.editor.quit || !self.editor.session.has_unsaved_work() {
             self.editor.session.close();

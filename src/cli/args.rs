@@ -28,7 +28,7 @@ const EXIT_HELP: &str = "Exit status: 0 planar and proved, 1 internal error, 2 w
 pub enum Command {
     /// Flatten a mesh; prove the result; write it as texture coordinates.
     #[command(after_help = EXIT_HELP)]
-    Flatten(FlattenArguments),
+    Flatten(Box<FlattenArguments>),
     /// Diagnose a mesh, and prove its texture coordinates where it has some.
     #[command(after_help = EXIT_HELP)]
     Check(CheckArguments),
@@ -235,7 +235,7 @@ fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
         let target = DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?);
         Some((VertexId::new(vertex.trim().parse().ok()?), Pin { target, hold }))
     };
-    let (vertex, pin) = parsed().ok_or_else(|| "write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
+    let (vertex, pin) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
     match pin.hold {
         Hold::Weighted(weight) if !(weight.is_finite() && weight > 0.0) => {
             Err(format!("the weight {weight} of vertex {vertex} is not a positive number"))

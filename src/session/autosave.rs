@@ -13,6 +13,9 @@ const INTERVAL: Duration = Duration::from_secs(5);
 /// How long the end of a session waits for a copy that is being written. It is small: longer means that the disk hangs.
 const PATIENCE: Duration = Duration::from_secs(2);
 
+/// How long it waits for files that a person asked for, which may be large.
+const LONG_PATIENCE: Duration = Duration::from_secs(60);
+
 type CopyJob = Job<(), Result<(), WriteError>>;
 
 /// The copy of this session's work.
@@ -92,6 +95,17 @@ impl Session {
     /// Work that sessions before have left unsaved, newest first.
     pub fn recoverable(&self) -> &[Recoverable] {
         &self.autosave.found
+    }
+
+    /// Waits until all files are written that were asked for, or the disk hangs. For the end of the program, which
+    /// would break them off.
+    pub fn finish_writing(&mut self) {
+        let begun = Instant::now();
+        while (!self.saving.is_empty() || self.is_saving_project()) && begun.elapsed() < LONG_PATIENCE {
+            std::thread::sleep(Duration::from_millis(1));
+            self.poll_saving();
+            self.poll_project_saves();
+        }
     }
 
     /// Ends the session as a person wishes: what is not saved is not wanted. A session that is merely dropped leaves

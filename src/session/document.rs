@@ -1,5 +1,6 @@
 //! What the user edits, and how an edit is taken back.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::{Outcome, PictureFile};
@@ -17,6 +18,8 @@ pub struct Document {
     pub settings: Settings,
     /// The picture that is mapped on the mesh.
     pub picture: Option<Arc<PictureFile>>,
+    /// Width over height of a picture that is not at hand.
+    pub aspect: Option<f64>,
     /// Where v = 0 is on the picture.
     pub v_axis: VAxis,
     /// Whether the mesh's faces are turned around.
@@ -36,14 +39,15 @@ impl Document {
 
     /// How texture coordinates lie in the plane where the mesh is flattened.
     pub fn frame(&self) -> PictureFrame {
-        let aspect = self.picture.as_ref().map_or(1.0, |picture| picture.aspect());
-        PictureFrame { aspect, v_axis: self.v_axis }
+        let aspect = self.picture.as_ref().map(|picture| picture.aspect()).or(self.aspect);
+        PictureFrame { aspect: aspect.unwrap_or(1.0), v_axis: self.v_axis }
     }
 
     /// The settings of a run: where there is a picture, the embedding is made to lie on it.
     pub fn run_settings(&self) -> Settings {
         let [low, high] = self.frame().corners();
-        let size = if self.picture.is_some() { GaugeSize::Within { low, high } } else { GaugeSize::TrueArea };
+        let has_picture = self.picture.is_some() || self.aspect.is_some();
+        let size = if has_picture { GaugeSize::Within { low, high } } else { GaugeSize::TrueArea };
         Settings { size, ..self.settings }
     }
 
@@ -121,6 +125,8 @@ pub struct History {
     redo: Vec<Command>,
     /// The gesture whose edits the last step collects.
     gesture: Option<Gesture>,
+    /// What could be repeated when the gesture began: it can be again where the gesture comes to nothing.
+    redo_before: Vec<Command>,
 }
 
 /// What a gesture edits. Two gestures of different kinds never share a step, even where the end of the first was missed.
@@ -159,10 +165,12 @@ impl History {
                 let earlier = std::mem::replace(step, Command::Together(Vec::new()));
                 *step = joined(inverse, earlier);
             }
-            _ => self.undo.push(inverse),
+            _ => {
+                self.redo_before = std::mem::take(&mut self.redo);
+                self.undo.push(inverse);
+            }
         }
         self.gesture = Some(gesture);
-        self.redo.clear();
     }
 
     /// Whether a gesture has edited the document and has not ended.
@@ -180,8 +188,10 @@ impl History {
             drop(step.clone().apply(&mut before));
             if before == *document {
                 self.undo.pop();
+                self.redo = std::mem::take(&mut self.redo_before);
             }
         }
+        self.redo_before.clear();
     }
 
     /// Takes back the gesture that has not ended, for good. Returns whether there was one.
@@ -192,6 +202,7 @@ impl History {
         if let Some(command) = self.undo.pop() {
             drop(command.apply(document));
         }
+        self.redo = std::mem::take(&mut self.redo_before);
         true
     }
 
@@ -220,22 +231,32 @@ impl History {
 
 /// Two inverses as one. What sets the same things again is dropped: only the state before the gesture matters.
 fn joined(later: Command, earlier: Command) -> Command {
-    let touched = |command: &Command| match command {
+    let earlier = parts(earlier);
+    let vertices: BTreeSet<VertexId> = earlier.iter().filter_map(vertex_of).collect();
+    let sets_settings = earlier.iter().any(|command| matches!(command, Command::SetSettings(_)));
+    let is_new = |command: &Command| match command {
+        Command::SetPin { vertex, .. } => !vertices.contains(vertex),
+        Command::SetSettings(_) => !sets_settings,
+        _ => true,
+    };
+    let mut commands: Vec<Command> = parts(later).into_iter().filter(is_new).collect();
+    commands.extend(earlier);
+    if commands.len() == 1 { commands.remove(0) } else { Command::Together(commands) }
+}
+
+fn vertex_of(command: &Command) -> Option<VertexId> {
+    match command {
         Command::SetPin { vertex, .. } => Some(*vertex),
         _ => None,
-    };
-    let parts = |command: &Command| -> Vec<Option<VertexId>> {
-        match command {
-            Command::Together(commands) => commands.iter().map(touched).collect(),
-            single => vec![touched(single)],
-        }
-    };
-    let before = parts(&earlier);
-    let is_covered = match &later {
-        Command::SetSettings(_) => matches!(earlier, Command::SetSettings(_)),
-        pins => parts(pins).iter().all(|vertex| vertex.is_some() && before.contains(vertex)),
-    };
-    if is_covered { earlier } else { Command::Together(vec![later, earlier]) }
+    }
+}
+
+/// A command's single edits, in their order.
+fn parts(command: Command) -> Vec<Command> {
+    match command {
+        Command::Together(commands) => commands.into_iter().flat_map(parts).collect(),
+        single => vec![single],
+    }
 }
 
 fn replay(from: &mut Vec<Command>, to: &mut Vec<Command>, document: &mut Document) -> bool {
@@ -297,6 +318,38 @@ mod tests {
         assert!(!history.can_redo());
         assert!(!history.give_up_gesture(&mut document), "nothing is under way any more");
         assert_eq!(document, before);
+    }
+
+    #[test]
+    fn a_drag_that_comes_to_nothing_leaves_what_could_be_redone() {
+        for gives_up in [true, false] {
+            let (mut history, mut document) = (History::default(), Document::default());
+            history.apply(pin(3, 1.0), &mut document);
+            history.apply(pin(3, 2.0), &mut document);
+            history.undo(&mut document);
+            for x in [0.0, 1.0] {
+                history.apply_in_gesture(pin(3, x), &mut document);
+            }
+            if gives_up {
+                history.give_up_gesture(&mut document);
+            } else {
+                history.end_gesture(&document);
+            }
+            assert!(history.redo(&mut document));
+            assert_eq!(document.pins[&VertexId::new(3)].target.x.to_bits(), 2.0_f64.to_bits());
+        }
+    }
+
+    #[test]
+    fn a_gesture_over_many_pins_stays_one_flat_step() {
+        let (mut history, mut document) = (History::default(), Document::default());
+        for round in 0..100_u32 {
+            history.apply_in_gesture(pin(round % 7, f64::from(round)), &mut document);
+        }
+        let Some(Command::Together(commands)) = history.undo.last() else { panic!("one step: {:?}", history.undo) };
+        assert_eq!(commands.len(), 7);
+        history.undo(&mut document);
+        assert_eq!(document, Document::default());
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub struct Model {
     pub source: Arc<ObjMesh>,
     /// Its triangles and what is known of them.
     pub surface: Surface,
+    /// Whether its faces seem to point inward: found once, for it takes a look at all of them.
+    pub(super) points_inward: bool,
 }
 
 /// Triangles, with the diagnosis' word on them.
@@ -46,6 +48,10 @@ impl Surface {
             Ok(disk) => Self::Disk(Arc::new(disk)),
             Err(diagnosis) => Self::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
         }
+    }
+
+    fn points_inward(&self) -> bool {
+        matches!(self, Self::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME)
     }
 }
 
@@ -80,7 +86,9 @@ impl Model {
 
     fn new(name: String, path: Option<PathBuf>, source: ObjMesh) -> Self {
         let surface = Surface::of(&source);
-        Self { name, path, stamp: None, example: None, faces_turned: false, source: Arc::new(source), surface }
+        let points_inward = surface.points_inward();
+        let source = Arc::new(source);
+        Self { name, path, stamp: None, example: None, faces_turned: false, source, surface, points_inward }
     }
 
     /// The same mesh with its faces turned around: positions and vertices stay, and so does the order of the polygons.
@@ -88,13 +96,14 @@ impl Model {
     pub fn turned(&self) -> Self {
         let source = self.source.turned();
         let surface = Surface::of(&source);
-        Self { faces_turned: !self.faces_turned, source: Arc::new(source), surface, ..self.clone() }
+        let points_inward = surface.points_inward();
+        Self { faces_turned: !self.faces_turned, source: Arc::new(source), surface, points_inward, ..self.clone() }
     }
 
     /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
     /// is too flat to tell.
     pub fn faces_point_inward(&self) -> bool {
-        self.disk().is_some_and(|disk| relative_volume(disk) < -LEAST_VOLUME)
+        self.points_inward
     }
 
     /// Where it came from, in words.

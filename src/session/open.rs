@@ -7,6 +7,7 @@ use super::opened::{OpenError, Opened, Origin, Remark};
 use super::state::{REPORT_IT, lost};
 use super::{Document, History, Job, Message, Place, Poll, Session, Severity, Surface, Timeline};
 use crate::examples::Example;
+use crate::io::ProjectSource;
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
 
 /// What is on the table, apart from what is edited: what an edit is compared with.
@@ -20,6 +21,8 @@ pub(super) struct OnTable {
     pub(super) project: Option<PathBuf>,
     /// The document as it was opened or saved; none where it is nowhere but here.
     pub(super) saved: Option<Document>,
+    /// The project's picture, where it could not be read: it stays in the project until there is another.
+    pub(super) missing_picture: Option<ProjectSource>,
 }
 
 impl Session {
@@ -83,7 +86,7 @@ impl Session {
 
     /// Puts something on the table. The document before it is gone, its history with it.
     fn take_opened(&mut self, opened: Opened) {
-        let Opened { model, mut document, view, origin, remarks } = opened;
+        let Opened { model, mut document, view, origin, remarks, missing_picture, lost_pins } = opened;
         if matches!(origin, Origin::Mesh) {
             document.settings = self.document.settings;
         }
@@ -91,6 +94,11 @@ impl Session {
         let waits = model.is_example() && matches!(origin, Origin::Mesh);
         self.autosave.begin_anew(Some(&document).filter(|_| matches!(origin, Origin::Recovery(_))));
         self.on_table = on_table(self.on_table.opening + 1, origin, &document);
+        self.on_table.missing_picture = missing_picture;
+        if lost_pins {
+            // The file keeps them: saving asks for another place.
+            self.on_table.project = None;
+        }
         self.document = document;
         self.view = view;
         self.history = History::default();
@@ -143,9 +151,11 @@ impl Session {
 fn on_table(opening: u64, origin: Origin, document: &Document) -> OnTable {
     let saved = Some(document.clone());
     match origin {
-        Origin::Mesh => OnTable { opening, name: None, project: None, saved },
-        Origin::Project(path) => OnTable { opening, name: None, project: Some(path), saved },
-        Origin::Recovery(note) => OnTable { opening, name: Some(note.name), project: note.project, saved: None },
+        Origin::Mesh => OnTable { opening, saved, ..OnTable::default() },
+        Origin::Project(path) => OnTable { opening, project: Some(path), saved, ..OnTable::default() },
+        Origin::Recovery(note) => {
+            OnTable { opening, name: Some(note.name), project: note.project, ..OnTable::default() }
+        }
     }
 }
 

@@ -20,6 +20,10 @@ pub(super) struct Opened {
     pub(super) origin: Origin,
     /// What is not as it ought to be.
     pub(super) remarks: Vec<Remark>,
+    /// The project's picture, where it could not be read.
+    pub(super) missing_picture: Option<ProjectSource>,
+    /// Whether pins of the project are left out.
+    pub(super) lost_pins: bool,
 }
 
 /// Where it came from.
@@ -80,7 +84,15 @@ impl Opened {
             found.map_err(|error| remarks.push(picture_remark(error.to_string(), "open another picture"))).ok()
         });
         let document = Document { picture: picture.map(Arc::new), ..Document::default() };
-        Ok(Self { model, document, view: ProjectView::default(), origin: Origin::Mesh, remarks })
+        Ok(Self {
+            model,
+            document,
+            view: ProjectView::default(),
+            origin: Origin::Mesh,
+            remarks,
+            missing_picture: None,
+            lost_pins: false,
+        })
     }
 
     /// Opens what a session before has left.
@@ -93,7 +105,15 @@ impl Opened {
     /// A built-in mesh, with the picture and the constraints that belong to it.
     pub(super) fn example(example: Example) -> Self {
         let (model, document) = (Model::example(example), Document::of_example(example));
-        Self { model, document, view: ProjectView::default(), origin: Origin::Mesh, remarks: Vec::new() }
+        Self {
+            model,
+            document,
+            view: ProjectView::default(),
+            origin: Origin::Mesh,
+            remarks: Vec::new(),
+            missing_picture: None,
+            lost_pins: false,
+        }
     }
 
     fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
@@ -103,16 +123,22 @@ impl Opened {
             model = model.turned();
         }
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
+        let pin_count = project.pins.len();
+        let pins = pins_there_are(project.pins, &model, &mut remarks);
+        let lost_pins = pins.len() < pin_count;
         let document = Document {
-            pins: pins_there_are(project.pins, &model, &mut remarks),
+            pins,
             settings: project.settings,
             picture: picture.map(Arc::new),
             v_axis: project.v_axis,
             faces_turned: project.faces_turned,
+            aspect: None,
         };
+        // Saving must not take out of the file what only was not to be had this time.
+        let missing_picture = project.picture.filter(|_| document.picture.is_none());
         let mut view = project.view;
         view.selection.retain(|&vertex| (vertex as usize) < model.mesh().vertex_count());
-        Ok(Self { model, document, view, origin, remarks })
+        Ok(Self { model, document, view, origin, remarks, missing_picture, lost_pins })
     }
 }
 

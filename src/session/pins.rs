@@ -11,9 +11,11 @@ impl Session {
     /// Pins vertices where they lie.
     pub(super) fn fix(&mut self, vertices: &[VertexId]) {
         let Some(outcome) = self.outcome().cloned().filter(|_| self.takes_pins()) else { return };
-        let frame = outcome.frame;
+        // What the screen shows is the preview, where there is one.
+        let preview = self.preview().map(|preview| (self.document.frame(), preview.embedding.as_slice()));
+        let (frame, shown) = preview.unwrap_or((outcome.frame, &outcome.step.solution.embedding));
         let fresh = vertices.iter().filter(|v| !self.document.pins.contains_key(v));
-        let place = |vertex: &VertexId| outcome.step.solution.embedding.get(vertex.index()).copied();
+        let place = |vertex: &VertexId| shown.get(vertex.index()).copied();
         let pin = |&vertex: &VertexId| Command::SetPin {
             vertex,
             pin: place(&vertex).map(|z| Pin::fixed(frame.uv_from_plane(z))),
@@ -34,7 +36,8 @@ impl Session {
     pub(super) fn move_pins(&mut self, moves: &[(VertexId, DVec2)]) {
         let is_users = |(vertex, _): &(VertexId, DVec2)| self.document.pins.contains_key(vertex);
         if !moves.iter().all(is_users) {
-            let Some(outcome) = self.outcome() else { return };
+            // Where the solver chose no gauge, those it has are pins of the user's that are freed by now.
+            let Some(outcome) = self.outcome().filter(|outcome| outcome.step.solution.gauge_completed) else { return };
             let adopted = adopted(&self.document, &outcome.step.solution.pins, outcome.frame);
             if !moves.iter().all(|(vertex, _)| adopted.contains_key(vertex)) {
                 return;
@@ -42,11 +45,11 @@ impl Session {
             let commands = adopted.into_iter().map(|(vertex, pin)| Command::SetPin { vertex, pin: Some(pin) });
             self.history.apply_in_gesture(Command::Together(commands.collect()), &mut self.document);
         }
-        let moved = |&(vertex, target): &(VertexId, DVec2)| {
+        let command = |&(vertex, target): &(VertexId, DVec2)| {
             let pin = self.document.pins.get(&vertex).filter(|pin| target.is_finite() && pin.target != target)?;
             Some(Command::SetPin { vertex, pin: Some(Pin { target, ..*pin }) })
         };
-        let commands: Vec<Command> = moves.iter().filter_map(moved).collect();
+        let commands: Vec<Command> = moves.iter().filter_map(command).collect();
         if commands.is_empty() {
             return;
         }
@@ -73,11 +76,11 @@ impl Session {
         if !can_hold(hold) {
             return Vec::new();
         }
-        let held = |&vertex: &VertexId| {
+        let command = |&vertex: &VertexId| {
             let pin = self.document.pins.get(&vertex).filter(|pin| pin.hold != hold)?;
             Some(Command::SetPin { vertex, pin: Some(Pin { hold, ..*pin }) })
         };
-        vertices.iter().filter_map(held).collect()
+        vertices.iter().filter_map(command).collect()
     }
 
     /// Frees vertices.

@@ -101,7 +101,7 @@ impl Session {
         let mut dragged: Vec<VertexId> = moves.iter().map(|(vertex, _)| *vertex).collect();
         dragged.sort_unstable();
         dragged.dedup();
-        (self.running, self.resting, self.solve_again) = (None, None, false);
+        (self.running, self.solve_again) = (None, false);
         let served = self.follow.as_ref().is_some_and(|follow| follow.serves(&self.document, &dragged));
         if !(served && self.show_preview()) {
             self.begin_to_follow(dragged);

@@ -7,10 +7,12 @@ use super::state::{REPORT_IT, lost};
 use super::{Document, Job, Model, PictureFile, Place, Poll, Session};
 use crate::io::{PathStyle, ProjectFile, ProjectSource, ProjectView, WriteError};
 
+type SaveJob = Job<(), Result<(), WriteError>>;
+
 /// Projects on their way to the disk: one after the other, so that the last one asked for is the last one written.
 #[derive(Debug, Default)]
 pub(super) struct ProjectSaves {
-    under_way: Option<(Request, Job<(), Result<(), WriteError>>)>,
+    under_way: Option<(Request, SaveJob)>,
     waiting: VecDeque<(Request, ProjectFile)>,
 }
 
@@ -82,7 +84,10 @@ impl Session {
         Some(ProjectFile {
             mesh: mesh_source(model)?,
             faces_turned: document.faces_turned,
-            picture: document.picture.as_ref().and_then(|picture| picture_source(picture, model)),
+            picture: match &document.picture {
+                Some(picture) => picture_source(picture, model),
+                None => self.on_table.missing_picture.clone(),
+            },
             v_axis: document.v_axis,
             settings: document.settings,
             pins: document.pins.clone(),

@@ -214,6 +214,10 @@ impl Session {
         if !was_in_gesture {
             return;
         }
+        if self.running.is_none() && self.is_current() {
+            // It ended where it began, or the steps were taken while the pointer rested.
+            self.end_preview();
+        }
         let is_solved = self.running.is_some() || self.is_current();
         if !is_solved {
             self.run_document();

@@ -12,7 +12,7 @@ use crate::io::{
     MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, SvgPage, TexturePicture,
     WeightedPinReport, WriteError, peak_memory_bytes, verdict_as_in_file,
 };
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{Hold, Pin, Verdict, distortion, verdict};
 
 /// A file to write.
@@ -132,21 +132,21 @@ impl<'a> Finished<'a> {
     }
 }
 
-/// What the coordinates make of the user's pins.
+/// What became of the user's pins. Those that are to be met exactly have their own numbers in `coordinates`, whatever
+/// was solved: for them the solver's places count too.
 fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
     let settings = &outcome.settings;
     let held = settings.held(&outcome.pins);
-    let error = |vertex: usize, pin: &Pin| coordinates[vertex].distance(pin.target);
     let (mut max_hard_error, mut max_weighted_error) = (None::<f64>, None::<f64>);
     let mut weighted = Vec::new();
     for (&vertex, pin) in held.iter().filter(|_| settings.method.uses_pins()) {
-        let error = error(vertex.index(), pin);
-        let largest = match pin.hold {
+        let written = coordinates[vertex.index()].distance(pin.target);
+        let (largest, error) = match pin.hold {
             Hold::Weighted(weight) => {
-                weighted.push(WeightedPinReport { vertex, weight, error });
-                &mut max_weighted_error
+                weighted.push(WeightedPinReport { vertex, weight, error: written });
+                (&mut max_weighted_error, written)
             }
-            Hold::Fixed | Hold::Hard => &mut max_hard_error,
+            Hold::Fixed | Hold::Hard => (&mut max_hard_error, written.max(solver_error(outcome, vertex, pin))),
         };
         *largest = Some(largest.unwrap_or(0.0).max(error));
     }
@@ -157,5 +157,53 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
         max_hard_error,
         max_weighted_error,
         weighted,
+    }
+}
+
+/// Distance of a pinned vertex from its target as solved for, in texture coordinates. Compared in the plane, so that it
+/// is 0 where the solver met the target to the last bit, and only there.
+fn solver_error(outcome: &Outcome, vertex: VertexId, pin: &Pin) -> f64 {
+    let frame = outcome.frame;
+    let off = outcome.step.solution.embedding[vertex.index()] - frame.plane_from_uv(pin.target);
+    // The frame has no offset: it takes differences to differences.
+    frame.uv_from_plane(off).length()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::examples::Example;
+    use crate::geom::PictureFrame;
+    use crate::solver::{Control, Pins, Run, Settings, hard_pins};
+
+    /// The built-in face's first step with hard pins, on a picture twice as wide as high.
+    fn first_step() -> Outcome {
+        let model = Model::example(Example::Dome);
+        let mesh = model.disk().expect("a dome is a disk");
+        let frame = PictureFrame { aspect: 2.0, ..PictureFrame::default() };
+        let targets = [(3, [0.2, 0.2]), (40, [0.8, 0.3]), (11, [0.7, 0.9])];
+        let uv: Pins = hard_pins(targets.map(|(vertex, target)| (VertexId::new(vertex), target.into())));
+        let placed = |(&vertex, pin): (&VertexId, &Pin)| (vertex, frame.plane_from_uv(pin.target));
+        let mut run = Run::new(Settings::default(), hard_pins(uv.iter().map(placed)));
+        let step = run.step(mesh, Control::unattended()).expect("a dome can be solved");
+        Outcome::new(mesh, Settings::default(), (frame, uv), step)
+    }
+
+    /// The largest error of the hard pins that the report tells.
+    fn reported(outcome: &Outcome) -> Option<f64> {
+        let model = Model::example(Example::Dome);
+        let mesh = model.disk().expect("a dome is a disk");
+        let finished = Finished::new((&model, mesh), outcome, Vec::new(), OutputFit::Unit, 0.0);
+        finished.report.pins.and_then(|pins| pins.max_hard_error)
+    }
+
+    #[test]
+    fn a_hard_constraint_that_the_solver_misses_is_reported_though_the_file_has_its_numbers() {
+        let mut outcome = first_step();
+        assert_eq!(reported(&outcome), Some(0.0));
+        let place = &mut outcome.step.solution.embedding[40];
+        *place += DVec2::new(0.25, 0.0);
+        let error = reported(&outcome).expect("there are hard pins");
+        assert!((error - 0.125).abs() < 1e-12, "{error}");
     }
 }

@@ -18,7 +18,7 @@ use super::{
 };
 use crate::io::ProjectView;
 use crate::mesh::VertexId;
-use crate::solver::{Ending, Phase, Prepared, Run};
+use crate::solver::{Ending, Phase, Prepared, Run, Settings};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
@@ -212,10 +212,13 @@ impl Session {
         if let Some(running) = &self.running {
             return Some(Busy::Solving(running.phase()));
         }
-        if self.follow_job.is_some() || self.verdict_job.is_some() {
-            return Some(Busy::Solving(None));
-        }
         (!self.saving.is_empty() || self.project_saves.is_busy()).then_some(Busy::Saving)
+    }
+
+    /// Whether what a drag needs is being computed: its column, or the verdict on its preview. That is no work to wait
+    /// for: it goes on as long as the drag.
+    pub fn is_following(&self) -> bool {
+        self.follow_job.is_some() || self.verdict_job.is_some()
     }
 
     /// Whether a run takes steps in the background.
@@ -258,30 +261,13 @@ impl Session {
             Action::SetHold { vertices, hold } => self.set_hold(&vertices, hold),
             Action::SlideHold { vertices, hold } => self.slide_hold(&vertices, hold),
             Action::EndGesture => self.end_gesture(),
-            Action::GiveUpGesture => {
-                if self.history.give_up_gesture(&mut self.document) {
-                    self.solve();
-                }
-            }
             Action::Unpin(vertices) => self.unpin(&vertices),
             Action::UnpinAll => self.unpin(&self.document.pins.keys().copied().collect::<Vec<_>>()),
             Action::SetSettings(settings) => self.edit(vec![Command::SetSettings(settings)]),
-            Action::SlideSettings(settings) => {
-                if settings != self.document.settings {
-                    self.history.apply_in_gesture(Command::SetSettings(settings), &mut self.document);
-                    self.solve();
-                }
-            }
-            Action::Undo => {
-                if self.history.undo(&mut self.document) {
-                    self.solve();
-                }
-            }
-            Action::Redo => {
-                if self.history.redo(&mut self.document) {
-                    self.solve();
-                }
-            }
+            Action::SlideSettings(settings) => self.slide_settings(settings),
+            Action::GiveUpGesture => self.travel(History::give_up_gesture),
+            Action::Undo => self.travel(History::undo),
+            Action::Redo => self.travel(History::redo),
             Action::Solve => self.solve(),
             Action::Step => self.step(),
             Action::Run => self.run_on(),
@@ -299,6 +285,20 @@ impl Session {
                 self.fail(Place::Embedding, text, Some("end the name in .svg, .png, .json or .obj"));
             }
             Action::Dismiss(id) => self.messages.retain(|message| message.id != id),
+        }
+    }
+
+    fn slide_settings(&mut self, settings: Settings) {
+        if settings != self.document.settings {
+            self.history.apply_in_gesture(Command::SetSettings(settings), &mut self.document);
+            self.solve();
+        }
+    }
+
+    /// Goes to another state of the document, and solves where there is one.
+    fn travel(&mut self, to: impl FnOnce(&mut History, &mut Document) -> bool) {
+        if to(&mut self.history, &mut self.document) {
+            self.solve();
         }
     }
 
@@ -320,7 +320,7 @@ impl Session {
 
     fn cancel(&mut self) {
         // Dropping the job raises its flag; whatever it still computes is not looked at.
-        self.loading = None;
+        (self.loading, self.follow_job) = (None, None);
         self.autosave.give_up_claim();
         self.forget_errands();
         self.pause();

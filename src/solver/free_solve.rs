@@ -196,11 +196,11 @@ impl FreeSolve {
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
             let tail = mesh.tail(h).index();
-            let (term, term_size) = (coefficient.conj() * left[tail], coefficient.norm() * sizes[tail]);
+            let (term, most) = (coefficient.conj() * left[tail], coefficient.norm() * sizes[tail]);
             for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
                 let (sum, size) = &mut sums[vertex.index()];
                 *sum += term * sign;
-                *size += term_size;
+                *size += most;
             }
         }
         for vertex in targets.keys().filter(|v| springs.iter().all(|pin| pin.vertex != **v)) {

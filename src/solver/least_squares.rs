@@ -23,7 +23,7 @@
 //! ```
 //!
 //! Stationarity gives `e = −W (r_g, λ)` and `w_j² (δ_j − τ_j) = λ_j`, where W has the columns `N⁻ᴴ A_{g·}ᴴ` and `N⁻ᴴ E_Pᵀ`,
-//! P being the weighted pins. With K = Wᴴ W, the compliances C = diag(1/w_j²), and M = U on P (the identity where P and
+//! P being the weighted pins. With K = Wᴴ W, the compliances `C = diag(1/w_j²)`, and M = U on P (the identity where P and
 //! m meet) that is a small dense system:
 //!
 //! ```text

@@ -52,7 +52,7 @@ struct Prescribed {
 
 enum Values {
     /// A free boundary couples x and y: one complex unknown per vertex.
-    Free(FreeSolve),
+    Free(Box<FreeSolve>),
     /// A prescribed boundary does not: one real matrix, two right-hand sides.
     Prescribed(Prescribed),
 }
@@ -119,7 +119,7 @@ impl Prepared {
                 let analysis = analyze(&system, is_hermitian, &mut seconds, control)?;
                 let unit = mean_edge_length(mesh).powf(1.0 - power);
                 let free = FreeSolve::new(site, (equations, unit), (&analysis, &layout), &mut seconds, control)?;
-                (system, Values::Free(free))
+                (system, Values::Free(Box::new(free)))
             }
         };
         Ok(Self { settings: *settings, asked, own_places, system, values, seconds })

@@ -27,7 +27,7 @@ pub(crate) fn session() -> Session {
 pub(crate) fn settle(session: &mut Session) {
     let start = Instant::now();
     session.poll();
-    while session.busy().is_some() {
+    while session.busy().is_some() || session.is_following() {
         assert!(start.elapsed() < PATIENCE, "{session:?}");
         std::thread::sleep(Duration::from_micros(200));
         session.poll();

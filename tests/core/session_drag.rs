@@ -99,3 +99,38 @@ fn a_slower_column_catches_up_with_the_pointer() {
     let target = session.document().pins[&vertex].target;
     assert_eq!(session.preview().expect("it caught up").embedding[vertex.index()], target);
 }
+
+#[test]
+fn a_drag_that_ends_where_it_began_shows_the_proved_embedding_again() {
+    let mut session = opened(Example::Dome);
+    let vertex = VertexId::new(100);
+    let targets = [(0, DVec2::ZERO), (100, DVec2::X), (200, DVec2::new(0.5, 0.8))];
+    for (number, target) in targets {
+        settled(&mut session, Action::Place { vertex: VertexId::new(number), pin: Pin::hard(target) });
+    }
+    let before = session.outcome().expect("solved").clone();
+    for target in [DVec2::new(0.9, 0.0), DVec2::X] {
+        settled(&mut session, Action::MovePin { vertex, target });
+        assert!(session.preview().is_some());
+    }
+    settled(&mut session, Action::EndGesture);
+    assert!(session.preview().is_none() && session.is_current());
+    assert!(Arc::ptr_eq(&before, session.outcome().expect("solved")), "nothing was solved anew");
+}
+
+#[test]
+fn a_vertex_fixed_during_a_drag_is_fixed_where_the_screen_shows_it() {
+    let mut session = with_constraints();
+    settled(&mut session, Action::MovePin { vertex: VertexId::new(100), target: DVec2::new(0.9, 0.1) });
+    let shown = session.preview().expect("a drag shows one").embedding[150];
+    settled(&mut session, Action::Fix(vec![VertexId::new(150)]));
+    assert_eq!(session.document().pins[&VertexId::new(150)], Pin::fixed(shown));
+}
+
+#[test]
+fn pins_that_were_freed_do_not_come_back_with_a_late_move() {
+    let mut session = with_constraints();
+    session.handle(Action::UnpinAll);
+    session.handle(Action::MovePin { vertex: VertexId::new(100), target: DVec2::ONE });
+    assert!(session.document().pins.is_empty());
+}

@@ -184,6 +184,17 @@ fn of_many_saves_the_last_one_is_in_the_file() {
 }
 
 #[test]
+fn the_end_of_the_program_waits_for_what_is_being_written() {
+    let (folder, mut session) = with_dome();
+    place(&mut session, 1, Pin::hard(DVec2::X));
+    session.handle(Action::SaveProject(project_in(&folder)));
+    let constraints = folder.path().join("marks.txt");
+    session.handle(Action::ExportConstraints(constraints.clone()));
+    session.finish_writing();
+    assert!(project_in(&folder).is_file() && constraints.is_file());
+}
+
+#[test]
 fn a_save_that_fails_is_said_and_nothing_counts_as_saved() {
     let (folder, mut session) = with_dome();
     place(&mut session, 1, Pin::hard(DVec2::X));
@@ -214,6 +225,7 @@ fn a_changed_mesh_is_said_and_pins_that_it_has_no_vertices_for_are_counted() {
     let said = errors(&session);
     assert!(said[0].contains("mesh has changed") && said[0].contains("dome.obj"), "{said:?}");
     assert!(said[1].starts_with("1 of the project's 3 pins"), "{said:?}");
+    assert!(session.project_path().is_none(), "saving asks where, so that the pins stay in the file");
 }
 
 #[test]
@@ -229,6 +241,19 @@ fn a_missing_and_a_changed_picture_are_said() {
     let session = reopened(&project_in(&folder));
     assert!(session.document().picture.is_none() && session.document().pins.len() == 3);
     assert!(errors(&session)[0].contains("is not there") && errors(&session)[0].contains("ä b.png"));
+}
+
+#[test]
+fn saving_a_project_without_its_picture_keeps_the_picture_s_name_in_the_file() {
+    let (folder, mut first) = with_everything();
+    settled(&mut first, Action::SaveProject(project_in(&folder)));
+    let before = ProjectFile::read(&project_in(&folder)).unwrap().picture;
+    assert!(before.is_some());
+    fs::remove_file(folder.path().join("pictures").join("ä b.png")).unwrap();
+    let mut session = reopened(&project_in(&folder));
+    place(&mut session, 6, Pin::hard(DVec2::Y));
+    settled(&mut session, Action::SaveProject(project_in(&folder)));
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().picture, before);
 }
 
 /// What is said of a project file with this text.

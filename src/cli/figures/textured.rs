@@ -98,11 +98,11 @@ pub(super) fn figure_8(face: &Subject, control: Control<'_>) -> Result<Figure, S
         numbers,
     });
     let rows = rows.collect();
-    let [of_mesh, of_picture, of_texture] = words.map(|words| vec![words]);
+    let [first_words, second_words, third_words] = words.map(|words| vec![words]);
     let panels = vec![
-        Panel::photo(of_mesh, photo(face.seen(Paint::Clay), on_mesh)),
-        Panel::photo(of_picture, photo(face.portrait.clone(), on_picture)),
-        Panel::photo(of_texture, photo(face.textured(&last), Vec::new())),
+        Panel::photo(first_words, photo(face.seen(Paint::Clay), on_mesh)),
+        Panel::photo(second_words, photo(face.portrait.clone(), on_picture)),
+        Panel::photo(third_words, photo(face.textured(&last), Vec::new())),
     ];
     let caption = "Figure 8. Texture mapping with constraints: (a) landmarks of the mesh and (b) their places in the \
                    picture, of the same number; (c) the mesh with the picture. Each landmark lies on its place exactly, and \

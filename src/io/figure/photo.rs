@@ -34,8 +34,8 @@ impl PhotoDrawing {
         for (number, mark) in (1..).zip(&self.marks) {
             let text = format!("{number}");
             // Beside the mark, on the side away from the middle, where fewer other marks are.
-            let side = if mark.x < 0.5 { -2.6 * MARK } else { 1.3 * MARK };
-            page.words(place(mark) + DVec2::new(side, -0.6 * MARK), Anchor::Start, WORDS, &text);
+            let beside = if mark.x < 0.5 { -2.6 * MARK } else { 1.3 * MARK };
+            page.words(place(mark) + DVec2::new(beside, -0.6 * MARK), Anchor::Start, WORDS, &text);
         }
     }
 }
