@@ -39,15 +39,19 @@ fn sets(name: &str) -> Vec<PathBuf> {
         return Vec::new();
     };
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.retain(|path| mesh_of(path).is_file() && path.to_string_lossy().contains(name));
+    paths.retain(|path| mesh_of(path).is_file() && name_of(path).contains(name));
     paths.sort();
     paths
 }
 
+fn name_of(set: &Path) -> String {
+    set.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
 /// The mesh of a constraint file: `maze_k4.txt` belongs to `maze.obj`.
 fn mesh_of(set: &Path) -> PathBuf {
-    let stem = set.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let mesh = stem.rsplit_once('_').map_or(stem.as_str(), |(mesh, _)| mesh);
+    let name = name_of(set);
+    let mesh = name.rsplit_once('_').map_or(name.as_str(), |(mesh, _)| mesh);
     set.with_file_name("..").join(format!("{mesh}.obj"))
 }
 
@@ -58,16 +62,17 @@ fn on_set(path: &Path) -> [String; 9] {
     let mut last = None::<Step>;
     let mut run = Run::new(Settings::default(), pins.clone());
     let (elapsed, ending) = time(|| run.finish(&mesh, Control::unattended(), |step| last = Some(step)));
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = name_of(path);
     let Some(step) = last else { panic!("{name}: {ending:?}") };
     let steps = step.index + 1;
-    let outcome = Outcome::new(&mesh, Settings::default(), (PictureFrame::default(), pins.clone()), step);
-    let (coordinates, _, verdict) = outcome.output(&mesh, OutputFit::Unit);
-    let error = pins.iter().map(|(v, pin)| coordinates[v.index()].distance(pin.target)).fold(0.0, f64::max);
+    let outcome = Outcome::new(&mesh, Settings::default(), (PictureFrame::default(), pins), step);
+    let (_, _, verdict) = outcome.output(&mesh, OutputFit::Unit);
+    // What the solver gave: in the coordinates to be written, exact pins have their own numbers.
+    let error = outcome.pin_error();
     [
         name,
         mesh.vertex_count().to_string(),
-        pins.len().to_string(),
+        outcome.pins.len().to_string(),
         steps.to_string(),
         verdict.flipped_faces.len().to_string(),
         (verdict.boundary_crossings.len() + verdict.unlisted_crossings).to_string(),

@@ -27,7 +27,6 @@ fn flatten_example() -> Result<Status, Failure> {
     let [mesh, picture, report] = ["face.obj", "face.png", "face.json"].map(|name| folder.join(name));
     let job = HeadlessJob {
         document: Document::of_example(Example::Face),
-        aspect: None,
         sizes: [OutputFit::Unit; 2],
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
         report: Some(&report),
@@ -35,8 +34,6 @@ fn flatten_example() -> Result<Status, Failure> {
     };
     let progress = Progress::default();
     let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;
-    println!(
-        "wrote face.obj with face.mtl and face-picture.png, face.json and face.png (before and after) into {FOLDER}/"
-    );
+    println!("wrote face.obj with its material and picture, face.json and face.png (before and after) into {FOLDER}/");
     Ok(status)
 }

@@ -8,11 +8,10 @@ use super::args::{Fit, FlattenArguments};
 use super::constraints::gather;
 use super::progress::{Progress, interrupted, is_interrupted};
 use super::{Failure, Status};
-use crate::geom::PictureFrame;
 use crate::io::{OutputKind, PinsReport, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
 use crate::session::{Document, Finished, Model, Outcome, OutputFit, PictureFile, Placement, Surface};
-use crate::solver::{Control, Ending, GaugeSize, Method, Phase, Pin, Run, Settings, SolveError, Step};
+use crate::solver::{Control, Ending, Method, Phase, Run, SolveError, Step};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     if let Some((option, why)) = arguments.idle_option() {
@@ -33,11 +32,15 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         progress.enter("reading");
         let model = Model::read_until(&arguments.mesh, &is_interrupted)?;
         let pins = gather(arguments, disk_of(&model)?.vertex_count())?;
-        let settings = arguments.settings();
-        let document = Document { pins, settings, picture: picture.map(Arc::new), ..Document::default() };
+        let document = Document {
+            pins,
+            settings: arguments.settings(),
+            picture: picture.map(Arc::new),
+            aspect: arguments.aspect,
+            ..Document::default()
+        };
         let job = HeadlessJob {
             document,
-            aspect: arguments.aspect,
             sizes: [fit, arguments.svg_scale.map_or(fit, output_fit)],
             outputs: [
                 (OutputKind::Obj, arguments.output.as_deref()),
@@ -64,8 +67,6 @@ fn output_fit(fit: Fit) -> OutputFit {
 /// A flattening without a screen, the mesh already read.
 pub(super) struct HeadlessJob<'a> {
     pub(super) document: Document,
-    /// Width over height of a picture that is not at hand.
-    pub(super) aspect: Option<f64>,
     /// Size of the texture coordinates and of the drawing.
     pub(super) sizes: [OutputFit; 2],
     pub(super) outputs: Vec<(OutputKind, &'a Path)>,
@@ -117,8 +118,10 @@ impl HeadlessJob<'_> {
     ) -> Result<Solved, Failure> {
         let report_phase = |phase: Phase| progress.enter(phase.words());
         let control = Control::new(interrupted(), &report_phase);
-        let Document { settings, pins, .. } = self.in_plane();
-        let mut run = Run::new(settings, pins);
+        let document = &self.document;
+        let settings = document.run_settings();
+        let mut run = Run::new(settings, document.plane_pins());
+        let placed = |step: Step| Outcome::new(mesh, settings, (document.frame(), document.pins.clone()), step);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;
         loop {
@@ -126,8 +129,7 @@ impl HeadlessJob<'_> {
                 (Ok(step), _) => step,
                 // A rung that gives nothing leaves the steps before it, which are written.
                 (Err(error), Some(last)) if error != SolveError::Cancelled => {
-                    let outcome = self.outcome(mesh, last);
-                    return Ok(Solved { outcome, records, ending: Err(error) });
+                    return Ok(Solved { outcome: placed(last), records, ending: Err(error) });
                 }
                 (Err(error), _) => return Err(error.into()),
             };
@@ -138,36 +140,10 @@ impl HeadlessJob<'_> {
                 folder.add(mesh, &step)?;
             }
             if let Some(ending) = run.ending() {
-                return Ok(Solved { outcome: self.outcome(mesh, step), records, ending: Ok(ending) });
+                return Ok(Solved { outcome: placed(step), records, ending: Ok(ending) });
             }
             last = Some(step);
         }
-    }
-}
-
-impl HeadlessJob<'_> {
-    /// How texture coordinates lie in the plane.
-    fn frame(&self) -> PictureFrame {
-        let frame = self.document.frame();
-        PictureFrame { aspect: self.aspect.unwrap_or(frame.aspect), ..frame }
-    }
-
-    /// Settings and pins as they are solved for.
-    fn in_plane(&self) -> Document {
-        let frame = self.frame();
-        let placed = |pin: &Pin| Pin { target: frame.plane_from_uv(pin.target), ..*pin };
-        let pins = self.document.pins.iter().map(|(&vertex, pin)| (vertex, placed(pin))).collect();
-        let [low, high] = frame.corners();
-        let settings = match self.aspect {
-            Some(_) => Settings { size: GaugeSize::Within { low, high }, ..self.document.settings },
-            None => self.document.run_settings(),
-        };
-        Document { pins, settings, ..Document::default() }
-    }
-
-    fn outcome(&self, mesh: &DiskMesh, step: Step) -> Outcome {
-        let settings = self.in_plane().settings;
-        Outcome::new(mesh, settings, (self.frame(), self.document.pins.clone()), step)
     }
 }
 

@@ -13,14 +13,14 @@ use super::{WriteError, write_atomically, write_obj};
 /// Name of the material.
 const MATERIAL: &str = "picture";
 
-/// First line of the material libraries written here, by which they are known again.
+/// How the material libraries written here begin, by which they are known again.
 const HEAD: &str = "# Freebound: the picture of ";
 
 /// Writes a mesh with texture coordinates, v up, whose only material shows a picture.
 ///
 /// Names in the files are relative and without blanks, which not all readers take. A picture that lies in the same
 /// folder already is named where it is; another one is copied byte for byte, and one that came from no file is written
-/// as a PNG. The mesh comes last, so that what it names is there.
+/// as a PNG. Files of others are never written over. The mesh comes last, so that what it names is there.
 ///
 /// # Errors
 ///
@@ -30,12 +30,11 @@ pub(super) fn write_obj_with_picture(
     (mesh, coordinates): (&ObjMesh, &[DVec2]),
     picture: &TexturePicture,
 ) -> Result<(), WriteError> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let picture_name = put_picture(folder, path, picture)?;
+    let picture_name = put_picture(path, picture)?;
     let library = library_beside(path);
     let library_name = name_of(&library);
     write_atomically(&library, |out| {
-        writeln!(out, "{HEAD}{}", name_of(path))?;
+        out.write_all(head_for(path).as_bytes())?;
         writeln!(out, "newmtl {MATERIAL}")?;
         writeln!(out, "Ka 0 0 0\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1")?;
         writeln!(out, "map_Kd {picture_name}")
@@ -59,42 +58,90 @@ fn with_material(mesh: &ObjMesh, library: &str) -> ObjMesh {
 
 /// The material library of an OBJ file: beside it, of its name, unless somebody else's has that.
 fn library_beside(path: &Path) -> PathBuf {
-    let stem = without_blanks(&path.file_stem().unwrap_or_default().to_string_lossy());
-    let first = path.with_file_name(format!("{stem}.mtl"));
-    if is_ours(&first) { first } else { path.with_file_name(format!("{stem}-{MATERIAL}.mtl")) }
+    let stem = stem_of(path);
+    let head = head_for(path);
+    place_for(path, &[format!("{stem}.mtl"), format!("{stem}-{MATERIAL}.mtl")], |place| begins_with(place, &head))
 }
 
-/// Whether a material library was written here, or is none yet.
-fn is_ours(library: &Path) -> bool {
-    let Ok(file) = fs::File::open(library) else { return true };
-    let mut head = Vec::new();
-    let is_read = file.take(HEAD.len() as u64).read_to_end(&mut head).is_ok();
-    is_read && head == HEAD.as_bytes()
+/// First line of the material library of an OBJ file. One of another mesh's begins otherwise: it may be in use.
+fn head_for(path: &Path) -> String {
+    format!("{HEAD}{}\n", name_of(path))
 }
 
-/// Sees to it that a picture lies in a folder, and returns its name there.
-fn put_picture(folder: &Path, mesh: &Path, picture: &TexturePicture) -> Result<String, WriteError> {
-    let stem = without_blanks(&mesh.file_stem().unwrap_or_default().to_string_lossy());
+/// Sees to it that a picture lies beside a mesh, and returns its name there.
+fn put_picture(mesh: &Path, picture: &TexturePicture) -> Result<String, WriteError> {
+    let stem = stem_of(mesh);
     let Some(source) = picture.path else {
-        let target = folder.join(format!("{stem}-{MATERIAL}.png"));
-        write_atomically(&target, |out| picture.pixels.write_png(out).map_err(io::Error::other))?;
-        return Ok(name_of(&target));
+        let name = format!("{stem}-{MATERIAL}.png");
+        let mut bytes = Vec::new();
+        let failed = |error| WriteError { path: mesh.with_file_name(&name), source: io::Error::other(error) };
+        picture.pixels.write_png(&mut bytes).map_err(failed)?;
+        return put(mesh, &[name], &bytes);
     };
-    let name = name_of(source);
-    let target = folder.join(without_blanks(&name));
-    let is_there = |place: &Path| match (fs::canonicalize(source), fs::canonicalize(place)) {
-        (Ok(source), Ok(place)) => source == place,
-        _ => false,
-    };
-    if is_there(&target) {
-        return Ok(name_of(&target));
+    let name = without_blanks(&name_of(source));
+    if is_same_file(source, &mesh.with_file_name(&name)) {
+        return Ok(name);
     }
     let bytes = fs::read(source).map_err(|error| WriteError { path: source.to_owned(), source: error })?;
-    let is_free = |place: &Path| fs::read(place).map_or(true, |present| present == bytes);
     // Another picture of the same name stays; a second copy is told apart by the mesh's name.
-    let target = if is_free(&target) { target } else { folder.join(format!("{stem}-{}", without_blanks(&name))) };
-    write_atomically(&target, |out| out.write_all(&bytes))?;
-    Ok(name_of(&target))
+    let second = format!("{stem}-{name}");
+    put(mesh, &[name, second], &bytes)
+}
+
+/// Writes a file beside a mesh under the first of these names that may be used, and returns that name.
+fn put(mesh: &Path, names: &[String], bytes: &[u8]) -> Result<String, WriteError> {
+    let place = place_for(mesh, names, |place| holds(place, bytes));
+    write_atomically(&place, |out| out.write_all(bytes))?;
+    Ok(name_of(&place))
+}
+
+/// Where a file that belongs to a mesh may lie without harm to files of others: beside it, under the first of these
+/// names that is free or whose file is ours; after the last of them with a number, from 2 on.
+fn place_for(mesh: &Path, names: &[String], is_ours: impl Fn(&Path) -> bool) -> PathBuf {
+    let last = names.last().map_or("", String::as_str);
+    let further = (2_u64..).map(|number| numbered(last, number));
+    let mut places = names.iter().cloned().chain(further).map(|name| mesh.with_file_name(name));
+    places
+        .find(|place| place != mesh && (is_free(place) || is_ours(place)))
+        .expect("a folder has fewer files than there are numbers")
+}
+
+/// Whether nothing can be seen there. Where that is because nobody may look, writing says so.
+fn is_free(place: &Path) -> bool {
+    fs::symlink_metadata(place).is_err()
+}
+
+/// Whether a file begins so. Something that is no regular file, such as a pipe, is not opened: nothing may ever come.
+fn begins_with(place: &Path, head: &str) -> bool {
+    if !place.is_file() {
+        return false;
+    }
+    let Ok(file) = fs::File::open(place) else { return false };
+    let mut found = Vec::new();
+    file.take(head.len() as u64).read_to_end(&mut found).is_ok() && found == head.as_bytes()
+}
+
+/// Whether a file has exactly these contents. It is only read where its length is the same.
+fn holds(place: &Path, bytes: &[u8]) -> bool {
+    let is_as_long = |data: &fs::Metadata| data.is_file() && data.len() == bytes.len() as u64;
+    fs::metadata(place).is_ok_and(|data| is_as_long(&data)) && fs::read(place).is_ok_and(|found| found == bytes)
+}
+
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// A file name with a number before its extension.
+fn numbered(name: &str, number: u64) -> String {
+    match name.rsplit_once('.') {
+        Some((stem, extension)) => format!("{stem}-{number}.{extension}"),
+        None => format!("{name}-{number}"),
+    }
+}
+
+/// A mesh's name without its extension, for the names of the files beside it.
+fn stem_of(mesh: &Path) -> String {
+    without_blanks(&mesh.file_stem().unwrap_or_default().to_string_lossy())
 }
 
 fn name_of(path: &Path) -> String {

@@ -92,22 +92,24 @@ pub struct Output<'a> {
 }
 
 impl Output<'_> {
-    /// The mesh under its picture, or under a checker of its texture coordinates, seen from the side that most faces
-    /// look to; beside it the layout.
+    /// The mesh under its picture, or under a checker of its layout, seen from the side that most faces look to; beside
+    /// it the layout. The layout lies in the plane, where angles are measured: texture coordinates of a picture that is
+    /// not square are not square either.
     fn picture(&self) -> Picture {
         let mesh = self.mesh.mesh();
         let eye = self.mesh.faces().map(|face| mesh.double_area_vector(face)).sum();
         let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
-        let extent =
-            self.coordinates.iter().fold(0.0_f64, |m, z| m.max((*z - self.coordinates[0]).abs().max_element()));
+        let scale = DVec2::new(self.svg_page.aspect(), 1.0);
+        let layout: Vec<DVec2> = self.coordinates.iter().map(|uv| *uv * scale).collect();
+        let extent = layout.iter().fold(0.0_f64, |m, z| m.max((*z - layout[0]).abs().max_element()));
         let paint = match self.picture {
             Some(picture) => Paint::Picture { coordinates: self.coordinates, picture: picture.pixels },
-            None => Paint::Checker { coordinates: self.coordinates, size: extent / CHECKER_FIELDS },
+            None => Paint::Checker { coordinates: &layout, size: extent / CHECKER_FIELDS },
         };
         let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
         let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, paint);
         let drawing = Canvas::drawing(PICTURE_SIZE, PICTURE_SIZE);
-        before.beside(&layout_picture(self.mesh, self.coordinates, self.verdict, &drawing))
+        before.beside(&layout_picture(self.mesh, &layout, self.verdict, &drawing))
     }
 
     /// Writes one file: aside first, then renamed, so that it is never half-written. An OBJ file with a picture comes

@@ -31,6 +31,16 @@ pub enum SvgPage {
     },
 }
 
+impl SvgPage {
+    /// Width over height of the picture that the texture coordinates are for; 1 where there is none.
+    pub const fn aspect(self) -> f64 {
+        match self {
+            Self::Layout => 1.0,
+            Self::Picture { aspect } | Self::TrueArea { aspect } => aspect,
+        }
+    }
+}
+
 /// What lies outside the boundary in a step of the virtual boundary.
 struct Outside<'a> {
     /// Places of all vertices, the virtual ones last.

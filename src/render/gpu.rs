@@ -8,6 +8,7 @@ use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::Pipelines;
 use super::plan::{Draw, Kind, LAYER_LIMIT, Plan, Planner};
+use super::shrink::shrunk;
 use super::target::Target;
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;
@@ -142,14 +143,17 @@ impl Gpu {
         let Some(picture) = layer.map(|layer| &layer.picture) else {
             return;
         };
-        let limit = io.device.limits().max_texture_dimension_2d;
         let key = Some(picture.revision());
-        if self.pictures.contains_key(&key) || picture.size().iter().any(|&side| side > limit) {
+        if self.pictures.contains_key(&key) {
             return;
         }
+        // A picture that the card does not take is shown with less detail rather than not at all.
+        let small = shrunk(picture.size(), picture.pixels(), io.device.limits().max_texture_dimension_2d);
+        let whole = (picture.size(), picture.pixels());
+        let (size, pixels) = small.as_ref().map_or(whole, |(size, pixels)| (*size, pixels.as_slice()));
         self.stats.uploads += 1;
-        self.stats.uploaded_bytes += picture.pixels().len() as u64;
-        self.pictures.insert(key, picture_view(io.device, io.queue, picture.size(), picture.pixels()));
+        self.stats.uploaded_bytes += pixels.len() as u64;
+        self.pictures.insert(key, picture_view(io.device, io.queue, size, pixels));
     }
 
     /// Drops what no pane shows any more.

@@ -20,6 +20,7 @@ mod frame;
 mod gpu;
 mod pipelines;
 mod plan;
+mod shrink;
 mod target;
 mod uniforms;
 

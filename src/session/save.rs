@@ -176,7 +176,7 @@ mod tests {
     use crate::geom::PictureFrame;
     use crate::solver::{Control, Pins, Run, Settings, hard_pins};
 
-    /// The built-in face's first step with hard pins, on a picture twice as wide as high.
+    /// The dome's first step with hard pins, on a picture twice as wide as high.
     fn first_step() -> Outcome {
         let model = Model::example(Example::Dome);
         let mesh = model.disk().expect("a dome is a disk");
@@ -201,8 +201,7 @@ mod tests {
     fn a_hard_constraint_that_the_solver_misses_is_reported_though_the_file_has_its_numbers() {
         let mut outcome = first_step();
         assert_eq!(reported(&outcome), Some(0.0));
-        let place = &mut outcome.step.solution.embedding[40];
-        *place += DVec2::new(0.25, 0.0);
+        outcome.step.solution.embedding[40] += DVec2::new(0.25, 0.0);
         let error = reported(&outcome).expect("there are hard pins");
         assert!((error - 0.125).abs() < 1e-12, "{error}");
     }

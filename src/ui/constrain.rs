@@ -36,14 +36,14 @@ pub enum Intent {
     TakeTarget(DVec2),
     /// Complete the pair.
     Join(VertexId, DVec2),
-    /// Select a constraint that is there.
+    /// Select a pin that is there.
     Select(VertexId),
 }
 
 impl Editor {
     /// Takes in where the pointer is, and what a click there would do. Call in each pane, once it knows the vertex under
-    /// the pointer.
-    pub(super) fn aim(&mut self, ui: &egui::Ui, pane: Pane) {
+    /// the pointer; `grip` is the vertex of the pin whose mark would take the click.
+    pub(super) fn aim(&mut self, ui: &egui::Ui, pane: Pane, grip: Option<VertexId>) {
         if self.tool != Tool::Constrain {
             return;
         }
@@ -51,7 +51,7 @@ impl Editor {
         let target = self.pointer_in_embedding.map(|place| self.target_at(place, modifiers));
         self.intent = match pane {
             Pane::Mesh => self.intent_on_mesh(),
-            Pane::Plane => self.intent_in_plane(target, modifiers),
+            Pane::Plane => self.intent_in_plane(target, modifiers, grip),
         };
     }
 
@@ -63,11 +63,12 @@ impl Editor {
         }
     }
 
-    fn intent_in_plane(&self, target: Option<DVec2>, modifiers: egui::Modifiers) -> Intent {
+    fn intent_in_plane(&self, target: Option<DVec2>, modifiers: egui::Modifiers, grip: Option<VertexId>) -> Intent {
         let Some(target) = target else { return Intent::Nothing };
         match (self.pair, self.hovered) {
             (Some(Half::Vertex(vertex)), _) => Intent::Join(vertex, target),
             (Some(Half::Target(first)), Some(vertex)) => Intent::Join(vertex, first),
+            (None, Some(vertex)) if grip == Some(vertex) => Intent::Select(vertex),
             // Over a picture a click means a place of the picture.
             (None, Some(vertex)) if modifiers.shift || !(modifiers.alt || self.has_picture()) => {
                 self.first_half(vertex)
@@ -119,7 +120,7 @@ impl Editor {
         let numbers = |target: DVec2| format!("u {:.4} v {:.4}", target.x, target.y);
         match (self.intent, self.pair) {
             (Intent::Join(vertex, target), _) => format!("Click: {vertex} goes to {}.", numbers(target)),
-            (Intent::Select(vertex), _) => format!("Click: select the constraint of {vertex}."),
+            (Intent::Select(vertex), _) => format!("Click: select the pin of {vertex}."),
             (Intent::TakeVertex(vertex), _) => format!("Click: take {vertex}; its place comes next."),
             (Intent::TakeTarget(target), _) => {
                 format!("Click: take the place {}; the vertex comes next.", numbers(target))

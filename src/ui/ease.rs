@@ -103,7 +103,7 @@ impl Editor {
     }
 
     /// Whether nobody has moved the camera since the window chose it.
-    fn is_framed(&self) -> bool {
+    pub(super) fn is_framed(&self) -> bool {
         self.plane_camera.is_some() && self.plane_camera == self.ease.framed
     }
 

@@ -124,6 +124,10 @@ pub struct Editor {
     pub(super) window_title: String,
     /// What was opened last, by the session's count.
     pub(super) opening: Option<u64>,
+    /// The plane's camera that it was saved with, until there is an embedding to look at.
+    pub(super) plane_camera_wanted: Option<Vec<f64>>,
+    /// When the session was last told how the person looks at it.
+    pub(super) view_kept: Option<Instant>,
     pub(super) ghost: Option<Ghost>,
     pub(super) busy_since: Option<Instant>,
 }
@@ -191,6 +195,8 @@ impl Editor {
             shot: None,
             window_title: String::new(),
             opening: None,
+            plane_camera_wanted: None,
+            view_kept: None,
             ghost: None,
             busy_since: None,
         }
@@ -228,6 +234,7 @@ impl Editor {
 
     /// Takes in what the background has finished. Call at the start of each frame.
     pub fn poll(&mut self) {
+        self.refresh_view();
         self.session.poll();
         self.go_on_after_saving();
         self.go_on_playing();

@@ -92,7 +92,7 @@ impl Editor {
             Purpose::ImportConstraints => self.act(Action::ImportConstraints(path)),
             Purpose::ExportConstraints => self.act(Action::ExportConstraints(path)),
             Purpose::SaveProject => {
-                self.session.set_view(self.view());
+                self.keep_view();
                 self.act(Action::SaveProject(path));
             }
             Purpose::PanePicture(pane) => self.shoot_pane(pane, path),

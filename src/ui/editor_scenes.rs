@@ -63,6 +63,7 @@ impl Editor {
                     if self.plane_camera.is_none() {
                         let bounds = self.framed_box(scene.arrays.bounds());
                         self.set_framed(PlaneCamera::framing(bounds, self.plane_pane_size));
+                        self.put_on_plane_camera();
                     }
                     self.take_plane_scene(scene);
                 }

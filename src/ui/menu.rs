@@ -4,12 +4,11 @@ use eframe::egui;
 use egui::{Button, RichText, Role, WidgetInfo};
 
 use super::exports::EXPORTS;
-use super::icons::{self, Sign};
-use super::theme::{Theme, theme_of};
+use super::theme::theme_of;
+use super::verdict_pill::verdict_pill;
 use super::{Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of};
 use crate::examples::Example;
-use crate::session::{Action, Busy, OutputFit, Surface};
-use crate::solver::{Phase, Verdict};
+use crate::session::{Action, OutputFit};
 
 /// Shows the bar.
 pub(super) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -238,115 +237,3 @@ pub(super) fn grouped(count: usize) -> String {
     }
     words
 }
-
-/// What the pill says.
-struct Pill {
-    sign: Sign,
-    colour: egui::Color32,
-    words: String,
-    tip: &'static str,
-}
-
-/// The truth at one glance: proved, wrong and how, being solved, or not up to date.
-fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    if let Some(busy) = editor.busy_for_long() {
-        if ui.small_button("Stop").on_hover_text("Stop the work in the background").clicked() {
-            requests.push(Request::Do(Action::Cancel));
-        }
-        let words = match busy {
-            Busy::Loading => "opening…".to_owned(),
-            Busy::Solving(None | Some(Phase::Solve)) => "solving…".to_owned(),
-            Busy::Solving(Some(phase)) => format!("solving… {}", phase.words()),
-            Busy::Saving => "saving…".to_owned(),
-        };
-        ui.label(RichText::new(words).color(theme_of(ui).weak_text));
-        ui.add(egui::Spinner::new().size(12.0));
-        return;
-    }
-    let Some(pill) = pill(theme_of(ui), editor) else { return };
-    if show_pill(ui, &pill).clicked() {
-        requests.push(if editor.has_defects() { Request::StepDefect(1) } else { Request::ShowTab(Tab::Defects) });
-    }
-}
-
-fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
-    let session = &editor.session;
-    let model = session.model()?;
-    if let Surface::Faulty(_, diagnosis) = &model.surface {
-        let count = diagnosis.faults.len();
-        let words = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
-        let tip = "The bars over the mesh say what is wrong and what to do";
-        return Some(Pill { sign: Sign::Bad, colour: theme.flipped, words, tip });
-    }
-    if session.is_preview() || session.preview().is_some() {
-        let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
-        let words = preview_words(editor);
-        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words, tip });
-    }
-    let more_to_come = session.is_running() && session.timeline().records().len() <= 1;
-    if more_to_come || (session.busy().is_some() && !session.is_current()) {
-        let words = if session.outcome().is_some() && !more_to_come { "following…" } else { "solving…" };
-        let tip = "The solve is on its way";
-        return Some(Pill { sign: Sign::Working, colour: theme.weak_text, words: words.to_owned(), tip });
-    }
-    let Some(outcome) = session.outcome().filter(|_| session.is_current()) else {
-        let tip = "The embedding does not belong to these settings and pins: press Solve";
-        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words: "not solved".to_owned(), tip });
-    };
-    Some(if outcome.step.verdict.planar {
-        let tip = "Exact arithmetic shows that no two faces overlap";
-        Pill { sign: Sign::Good, colour: theme.planar, words: "Planar: proved".to_owned(), tip }
-    } else {
-        let tip = "Not planar. Click for the next defect (D)";
-        Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&outcome.step.verdict), tip }
-    })
-}
-
-/// What follows a drag, and what is known of it.
-fn preview_words(editor: &Editor) -> String {
-    let known = match editor.session.preview().map(crate::session::Preview::verdict) {
-        None => return "preview, not repaired".to_owned(),
-        Some(None) => "checking…".to_owned(),
-        Some(Some(verdict)) if verdict.planar => "planar".to_owned(),
-        Some(Some(verdict)) => short_verdict(verdict),
-    };
-    format!("preview, not repaired · {known}")
-}
-
-/// The verdict in the fewest words.
-fn short_verdict(verdict: &Verdict) -> String {
-    let counts = [
-        (verdict.flipped_faces.len(), "flipped"),
-        (verdict.boundary_crossings.len() + verdict.unlisted_crossings, "crossing"),
-        (verdict.overwound_vertices.len(), "overwound"),
-    ];
-    let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, words)| {
-        let plural = if *words == "crossing" && *count > 1 { "s" } else { "" };
-        format!("{count} {words}{plural}")
-    });
-    words.collect::<Vec<_>>().join(" · ")
-}
-
-fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
-    let text = egui::WidgetText::from(RichText::new(&pill.words).color(pill.colour).strong());
-    let galley = text.into_galley(ui, None, f32::INFINITY, egui::TextStyle::Body);
-    let size = galley.size() + egui::vec2(20.0 + SIGN + 6.0, 6.0);
-    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
-    let strength = if response.hovered() { 0.24 } else { 0.13 };
-    ui.painter().rect_filled(rect, rect.height() / 2.0, pill.colour.gamma_multiply(strength));
-    if response.has_focus() {
-        let stroke = egui::Stroke::new(1.0, pill.colour);
-        ui.painter().rect_stroke(rect, rect.height() / 2.0, stroke, egui::StrokeKind::Inside);
-    }
-    let square =
-        egui::Rect::from_center_size(rect.left_center() + egui::vec2(10.0 + SIGN / 2.0, 0.0), egui::Vec2::splat(SIGN));
-    icons::sign(ui.painter(), square, pill.sign, pill.colour);
-    let at = egui::pos2(square.right() + 6.0, rect.center().y - galley.size().y / 2.0);
-    ui.painter().galley(at, galley, pill.colour);
-    let name = format!("Verdict: {}", pill.words);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-    response.on_hover_text(pill.tip)
-}
-
-/// Side of the sign in the pill, points.
-const SIGN: f32 = 11.0;

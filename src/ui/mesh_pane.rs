@@ -46,7 +46,7 @@ pub(super) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mu
         editor.pane_under_pointer = Some(Pane::Mesh);
         let pick = scene.picker.nearest_vertex(&camera, editor.mesh_pane_size, pointer, Visibility::Visible);
         editor.hovered = pick.map(|pick| pick.vertex);
-        editor.aim(ui, Pane::Mesh);
+        editor.aim(ui, Pane::Mesh, None);
     }
     select(ui, &response, editor, &scene, requests);
     if editor.has_gpu {

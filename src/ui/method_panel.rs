@@ -137,7 +137,7 @@ fn family_menu(ui: &mut egui::Ui, settings: &mut Settings) {
 }
 
 /// What each treatment of the pinned vertices' equations does.
-const TREATMENTS: [(Option<Treatment>, &str, &str); 3] = [
+const TREATMENTS: [(Option<Treatment>, &str, &str); 4] = [
     (None, "Automatic", "Two pins only fix size and place: eliminated. More are constraints: least squares"),
     (Some(Treatment::Eliminate), "Eliminate", "The equations of pinned vertices are dropped (paper §3.3)"),
     (
@@ -145,6 +145,7 @@ const TREATMENTS: [(Option<Treatment>, &str, &str); 3] = [
         "Least squares",
         "All equations are kept and met as well as can be, the pins exactly (paper §6)",
     ),
+    (Some(Treatment::Weighted), "Weighted", "All equations are kept, and all pins pull by their weights (paper §6)"),
 ];
 
 fn treatment_menu(ui: &mut egui::Ui, settings: &mut Settings) {

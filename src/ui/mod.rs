@@ -48,6 +48,7 @@ mod timeline_chips;
 mod timeline_curves;
 mod tools;
 mod unsaved;
+mod verdict_pill;
 mod vertex_panel;
 mod window;
 

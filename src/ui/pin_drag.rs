@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::pins::{self, Emphasis, PinShown};
 use super::theme::theme_of;
-use super::{Editor, Half, Request, pane};
+use super::{Editor, Request, pane};
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::view::PlaneCamera;
@@ -67,7 +67,8 @@ pub(super) fn pins_ui(
         let strong = response.hovered() || editor.selection.contains(&pin.vertex);
         let emphasis = if strong { Emphasis::Strong } else { Emphasis::Plain };
         pins::mark(&ui.painter_at(rect), at, theme, (pin.kind, emphasis));
-        if response.hovered() || response.dragged() {
+        // A mark that leaves the click to the pane leaves it what is said of it, too.
+        if editor.pair.is_none() && (response.hovered() || response.dragged()) {
             ui.ctx().set_cursor_icon(if response.dragged() { CursorIcon::Grabbing } else { CursorIcon::Grab });
             editor.hovered = Some(pin.vertex);
         }
@@ -80,15 +81,24 @@ pub(super) fn pins_ui(
     }
 }
 
+/// The vertex of the pin whose mark is under a place of the screen: of several the one on top, which takes the click.
+pub(super) fn pin_at(editor: &Editor, rect: Rect, camera: PlaneCamera, at: egui::Pos2) -> Option<VertexId> {
+    let size = pane::size_of(rect);
+    let is_under = |pin: &PinShown| {
+        let middle = pane::on_screen(rect, camera.pane_from_embedding(pin.target, size));
+        Rect::from_center_size(middle, Vec2::splat(GRAB_SIZE)).contains(at)
+    };
+    editor.pins_shown().into_iter().rfind(is_under).map(|pin| pin.vertex)
+}
+
 impl Grip {
     fn widget(&self, ui: &egui::Ui, editor: &Editor) -> Response {
         let PinShown { vertex, kind, .. } = self.pin;
         let grab = Rect::from_center_size(self.at, Vec2::splat(GRAB_SIZE));
         let seen = grab.intersect(self.rect);
         let grab = if seen.is_positive() { seen } else { grab };
-        // The pane itself takes the click that places the target of a vertex, even over another pin.
-        let awaits_target = matches!(editor.pair, Some(Half::Vertex(_)));
-        let sense = if awaits_target { Sense::hover() } else { Sense::click_and_drag() };
+        // The pane itself takes the click that completes a pair, even over a pin.
+        let sense = if editor.pair.is_some() { Sense::hover() } else { Sense::click_and_drag() };
         let response = ui.interact(grab, ui.scope_id().with(("pin", vertex)), sense);
         let name = kind.name(vertex);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));

@@ -64,7 +64,9 @@ impl Editor {
     /// The pins as drawn: the user's, then the gauge pins that the solver chose.
     pub fn pins_shown(&self) -> Vec<PinShown> {
         let document = self.session.document();
-        let users = if document.settings.method.uses_pins() { document.plane_pins() } else { BTreeMap::new() };
+        let uses_pins = document.settings.method.uses_pins();
+        // Marks show what the solver does: a treatment may weigh what was asked for exactly.
+        let users = if uses_pins { document.settings.held(&document.plane_pins()) } else { BTreeMap::new() };
         let gauge = self.plane_scene.as_ref().filter(|scene| {
             scene.outcome.step.solution.gauge_completed && scene.outcome.settings.method.uses_pins() && users.len() < 2
         });

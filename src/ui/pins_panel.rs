@@ -51,6 +51,17 @@ fn no_pins(ui: &mut egui::Ui) {
     ));
 }
 
+/// A pin in the table.
+#[derive(Clone, Copy)]
+struct Row {
+    vertex: VertexId,
+    pin: Pin,
+    /// How the solver holds it: a treatment may weigh what was asked for exactly.
+    held: Hold,
+    /// How far a coordinate goes with a point of a drag.
+    speed: f64,
+}
+
 fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
     let speed = editor.plane_scene().map_or(0.01, |plane| plane.arrays.bounds().extent() / 500.0);
@@ -62,16 +73,18 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 ui.weak(words);
             }
             ui.end_row();
-            for (&vertex, &pin) in &document.pins {
-                row(ui, editor, (vertex, pin, speed), requests);
+            let held = document.settings.held(&document.pins);
+            for ((&vertex, &pin), held) in document.pins.iter().zip(held.values()) {
+                row(ui, editor, Row { vertex, pin, held: held.hold, speed }, requests);
                 ui.end_row();
             }
         });
     });
 }
 
-fn row(ui: &mut egui::Ui, editor: &Editor, (vertex, pin, speed): (VertexId, Pin, f64), requests: &mut Vec<Request>) {
-    hold_button(ui, (vertex, pin.hold), requests);
+fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
+    let Row { vertex, pin, held, speed } = row;
+    hold_button(ui, row, requests);
     let selected = editor.selection.contains(&vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
     let label = label.on_hover_text("Select; Shift selects all up to it, Ctrl adds it, a double click shows it");
@@ -81,9 +94,12 @@ fn row(ui: &mut egui::Ui, editor: &Editor, (vertex, pin, speed): (VertexId, Pin,
         requests.push(chosen(ui, editor, vertex));
     }
     coordinates(ui, (vertex, pin.target, speed), requests);
-    match pin.hold {
-        Hold::Weighted(weight) => weight_field(ui, (vertex, weight), requests),
-        Hold::Fixed | Hold::Hard => {
+    match (pin.hold, held) {
+        (Hold::Weighted(weight), _) => weight_field(ui, (vertex, weight), requests),
+        (Hold::Fixed | Hold::Hard, Hold::Weighted(weight)) => {
+            ui.weak(weight_words(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
+        }
+        (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => {
             ui.weak("exact");
         }
     }
@@ -95,17 +111,22 @@ fn row(ui: &mut egui::Ui, editor: &Editor, (vertex, pin, speed): (VertexId, Pin,
 }
 
 /// The pin's mark; a click makes a hard one weighted and a weighted one hard.
-fn hold_button(ui: &mut egui::Ui, (vertex, hold): (VertexId, Hold), requests: &mut Vec<Request>) {
+fn hold_button(ui: &mut egui::Ui, Row { vertex, pin, held, .. }: Row, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
-    pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(hold), emphasis));
-    let (words, other) = match hold {
+    pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(held), emphasis));
+    let (words, other) = match pin.hold {
         Hold::Weighted(_) => ("weighted", Hold::Hard),
         Hold::Fixed => ("fixed", Hold::Weighted(Pin::DEFAULT_WEIGHT)),
         Hold::Hard => ("hard", Hold::Weighted(Pin::DEFAULT_WEIGHT)),
     };
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Hold of pin {vertex}: {words}")));
+    let is_weighed = pin.hold != held;
+    let note = if is_weighed { ", weighed by the treatment" } else { "" };
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Hold of pin {vertex}: {words}{note}")));
     let tip = match other {
+        Hold::Weighted(_) if is_weighed => {
+            "To be met exactly, but this treatment of pinned vertices weighs it. Click: give it a weight of its own"
+        }
         Hold::Weighted(_) => "Met exactly. Click: let it pull with a weight instead",
         Hold::Fixed | Hold::Hard => "Pulls with a weight. Click: meet it exactly",
     };
@@ -153,10 +174,16 @@ fn weight_field(ui: &mut egui::Ui, (vertex, weight): (VertexId, f64), requests: 
     }
 }
 
-/// A field for a weight: typing is an edit of its own, a drag one gesture.
+/// A field for a weight: what is typed is one edit, made when the field is left; a drag is one gesture.
 fn weight_request(ui: &mut egui::Ui, (weight, name): (f64, &str), vertices: &[VertexId]) -> Option<Request> {
     let mut typed = weight;
-    let drag = DragValue::new(&mut typed).range(1e-9..=1e9).speed(weight * 0.02).max_decimals(4);
+    let shown = weight_words(weight);
+    let drag = DragValue::new(&mut typed).range(1e-9..=1e9).speed(weight * 0.02).update_while_editing(false);
+    // A weight that is only looked at keeps all of its digits.
+    let drag = drag.custom_formatter(|weight, _| weight_words(weight)).custom_parser(move |text| {
+        let text = text.trim();
+        if text == shown { Some(weight) } else { text.parse().ok().filter(|weight: &f64| weight.is_finite()) }
+    });
     let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("How strongly it pulls: drag, or type");
     field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, name));
     let vertices = vertices.to_vec();
@@ -205,7 +232,7 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 fn errors(ui: &mut egui::Ui, editor: &Editor) {
     let Some(outcome) = editor.session.outcome().filter(|_| editor.session.is_current()) else { return };
     let worst = |is_exact: bool| {
-        let errors = outcome.pin_errors().filter(|(_, pin, _)| pin.hold.is_exact() == is_exact);
+        let errors = outcome.pin_errors().filter(|(_, pin, _)| outcome.settings.is_exact(pin.hold) == is_exact);
         errors.map(|(vertex, _, error)| (error, vertex)).max_by(|a, b| a.0.total_cmp(&b.0))
     };
     let words: Vec<String> = [(worst(true), "exact"), (worst(false), "weighted")]
@@ -259,6 +286,11 @@ fn coordinate(value: &mut f64, speed: f64) -> DragValue<'_> {
         let text = text.trim().replace('−', "-");
         if text == shown { Some(exact) } else { text.parse().ok() }
     })
+}
+
+/// A weight with a few digits that mean something.
+fn weight_words(weight: f64) -> String {
+    if (1e-3..1e6).contains(&weight) { ((weight * 1e4).round() / 1e4).to_string() } else { format!("{weight:.3e}") }
 }
 
 /// Five digits behind the point, or as many that mean something.

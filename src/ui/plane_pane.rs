@@ -43,17 +43,11 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         editor.plane_camera = Some(camera);
         ui.ctx().request_repaint();
     }
-    let size = pane::size_of(rect);
     let magnifier = Magnifier::over(editor, rect, &plane).filter(|_| !editor.magnifies_pair());
     let is_covered = |at: Pos2| magnifier.as_ref().is_some_and(|magnifier| magnifier.rect.contains(at));
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at) && !is_covered(*at));
     if response.hovered() || response.contains_pointer() {
-        editor.pane_under_pointer = Some(Pane::Plane);
-        let pointer = pointer.map(|at| pane::in_pane(rect, at));
-        editor.pointer_in_embedding = pointer.map(|at| camera.embedding_from_pane(at, size));
-        let pick = pointer.and_then(|at| plane.picker.nearest_vertex(&camera, size, at));
-        editor.hovered = pick.map(|pick| pick.vertex);
-        editor.aim(ui, Pane::Plane);
+        look_under(ui, editor, (rect, &plane, camera), pointer);
     }
     if editor.has_gpu {
         let frame = frame(editor, (&mesh, &plane), camera, theme);
@@ -78,6 +72,23 @@ pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     if !plane.is_stage() {
         compare::ghost_note(ui, rect, editor);
     }
+}
+
+/// Takes in what is under the pointer: a pin by its mark, which lies over the vertices, else the nearest vertex.
+fn look_under(
+    ui: &egui::Ui,
+    editor: &mut Editor,
+    (rect, plane, camera): (Rect, &PlaneScene, PlaneCamera),
+    pointer: Option<Pos2>,
+) {
+    let size = pane::size_of(rect);
+    editor.pane_under_pointer = Some(Pane::Plane);
+    let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, rect, camera, at));
+    let pointer = pointer.map(|at| pane::in_pane(rect, at));
+    editor.pointer_in_embedding = pointer.map(|at| camera.embedding_from_pane(at, size));
+    let pick = pointer.and_then(|at| plane.picker.nearest_vertex(&camera, size, at));
+    editor.hovered = grip.or(pick.map(|pick| pick.vertex));
+    editor.aim(ui, Pane::Plane, grip);
 }
 
 fn waiting_words(editor: &Editor) -> Vec<&'static str> {

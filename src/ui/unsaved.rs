@@ -81,7 +81,7 @@ impl Editor {
     pub(super) fn save_project(&mut self) {
         match self.session.project_path().cloned() {
             Some(path) => {
-                self.session.set_view(self.view());
+                self.keep_view();
                 self.session.handle(Action::SaveProject(path));
             }
             None => self.ask(Purpose::SaveProject),

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use freebound::examples::Example;
-use freebound::geom::Picture;
+use freebound::geom::{Picture, PictureFrame, VAxis};
 use freebound::io::{OutputKind, material_picture, read_mesh, read_picture};
 use freebound::mesh::DiskMesh;
-use freebound::session::{Finished, Model, Outcome, OutputFit};
+use freebound::session::{Finished, Model, Outcome, OutputFit, PictureFile};
 use freebound::solver::{Control, Pin, Pins, Run, Settings};
 use glam::DVec2;
 
@@ -117,6 +117,65 @@ fn files_of_others_are_not_written_over() {
 }
 
 #[test]
+fn where_names_are_taken_again_and_again_they_are_counted_up() {
+    let program = Program::new();
+    let mesh = example_file(&program, Example::Dome);
+    fs::create_dir(program.path("pictures")).unwrap();
+    write_quarters(&program.path("pictures/four.png"));
+    // A library of another mesh's, and a folder, are not this mesh's either.
+    let others = [
+        ("four.png", "somebody's"),
+        ("out-four.png", "somebody's"),
+        ("out.mtl", "newmtl somebody's\n"),
+        ("out-picture.mtl", "# Freebound: the picture of in.obj\n"),
+        ("out-picture-2.mtl", ""),
+    ];
+    for (name, text) in others {
+        program.write(name, text);
+    }
+    fs::create_dir(program.path("out-four-2.png")).unwrap();
+    let arguments = ["flatten", "in.obj", "--picture", "pictures/four.png", "-o", "out.obj"];
+    program.run(&arguments).expect(0);
+    let files = program.files();
+    program.run(&arguments).expect(0);
+    assert_eq!(program.files(), files, "what was written before is written again");
+    for (name, text) in others {
+        assert_eq!(fs::read_to_string(program.path(name)).unwrap(), text, "{name}");
+    }
+    let [picture, library] = ["out-four-3.png", "out-picture-3.mtl"].map(str::to_owned);
+    assert!(files.contains(&picture) && files.contains(&library), "{files:?}");
+    assert_eq!(files.len(), others.len() + 6, "{files:?}");
+    let [r, g, b] = colour_at(&program.path("out.obj"), mesh.mesh().positions[3]);
+    assert!(r + g == 255 && (b == 0 || b == 255), "the picture that was asked for");
+}
+
+#[test]
+fn a_picture_of_no_file_is_not_written_over_files_of_others() {
+    let model = Model::example(Example::Dome);
+    let mesh: &DiskMesh = model.disk().unwrap();
+    let step = Run::new(Settings::default(), Pins::new()).step(mesh, Control::unattended()).unwrap();
+    let outcome = Outcome::new(mesh, Settings::default(), (PictureFrame::default(), Pins::new()), step);
+    let picture = PictureFile { name: "four".into(), path: None, stamp: None, pixels: quarters(4, 2).into() };
+    let finished = Finished::new((&model, mesh), &outcome, Vec::new(), OutputFit::Unit, 0.0);
+    let finished = finished.with_picture(Some(picture.into()));
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    for name in ["out-picture.png", "out-picture-2.png"] {
+        fs::write(path(name), "somebody's").unwrap();
+    }
+    for _ in 0..2 {
+        finished.write(OutputKind::Obj, &path("out.obj")).unwrap();
+    }
+    for name in ["out-picture.png", "out-picture-2.png"] {
+        assert_eq!(fs::read_to_string(path(name)).unwrap(), "somebody's");
+    }
+    let written = read_mesh(&path("out.obj")).unwrap();
+    assert_eq!(material_picture(&written, &path("out.obj")), Some(path("out-picture-3.png")));
+    assert_eq!(read_picture(&path("out-picture-3.png")).unwrap(), quarters(4, 2));
+    assert!(!path("out-picture-4.png").exists(), "a second time it is found again");
+}
+
+#[test]
 fn the_material_replaces_those_before_it_and_groups_stay() {
     let program = Program::new();
     let mesh = example_file(&program, Example::Dome);
@@ -133,7 +192,6 @@ fn the_material_replaces_those_before_it_and_groups_stay() {
 
 #[test]
 fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
-    use freebound::geom::{PictureFrame, VAxis};
     let model = Model::example(Example::Dome);
     let mesh: &DiskMesh = model.disk().unwrap();
     let frame = PictureFrame { aspect: 2.0, v_axis: VAxis::Down };
@@ -169,6 +227,29 @@ fn the_picture_is_on_the_mesh_in_the_picture_of_it() {
         green += usize::from(g > 100 && r < 30);
     }
     assert!(red > 10_000 && green > 10_000, "{red} {green}");
+}
+
+#[test]
+fn the_picture_of_mesh_and_layout_is_not_squeezed_where_the_aspect_is_not_square() {
+    let program = Program::new();
+    let mesh = example_file(&program, Example::Ell);
+    // The same places in the plane, once as texture coordinates of a picture twice as wide as high.
+    let shown = |aspect: &str, width: f64| {
+        let pin = |&v: &usize| {
+            let place = mesh.mesh().positions[v].truncate() * 0.1;
+            ["--pin".to_owned(), format!("{v}:{:?},{:?}", place.x / width, place.y)]
+        };
+        let pins: Vec<String> = [0, 20, 90].iter().flat_map(pin).collect();
+        let mut arguments = vec!["flatten", "in.obj", "--aspect", aspect, "--png", "out.png"];
+        arguments.extend(pins.iter().map(String::as_str));
+        program.run(&arguments).expect(0);
+        read_picture(&program.path("out.png")).unwrap()
+    };
+    let (square, wide) = (shown("1:1", 1.0), shown("2:1", 2.0));
+    let pairs = square.pixels.chunks_exact(4).zip(wide.pixels.chunks_exact(4));
+    let different = pairs.filter(|(a, b)| a != b).count();
+    // Rounding may move the edge of a field past the middle of a pixel.
+    assert!(different < 100, "{different} pixels, in checker or layout");
 }
 
 #[test]

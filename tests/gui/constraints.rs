@@ -3,10 +3,11 @@
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, Vec2};
+use egui_kittest::kittest::Queryable as _;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Hold, Pin, Pins};
-use freebound::ui::{Half, Intent, Tool};
+use freebound::solver::{Family, Hold, Method, Pin, Pins, Settings, Treatment};
+use freebound::ui::{Half, Intent, PinKind, Tool};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -148,6 +149,41 @@ fn a_place_can_lie_near_another_constraint() {
 }
 
 #[test]
+fn a_click_on_another_pin_s_mark_completes_the_pair_as_the_status_line_says() {
+    let mut window = window();
+    corners(&mut window);
+    window.key(Key::C);
+    let target = DVec2::new(0.3, 0.7);
+    window.editor_mut().pair = Some(Half::Target(target));
+    let mark = window.place_in_plane(DVec2::new(0.5, 0.5));
+    window.harness.hover_at(mark);
+    window.settle();
+    assert!(window.shows("v40 goes to u 0.3000 v 0.7000"), "{:?}", window.words());
+    window.click_at(mark, Modifiers::NONE);
+    assert_eq!(pins(&window)[&VertexId::new(40)], Pin::hard(target));
+    assert_eq!(window.editor().pair, None);
+}
+
+#[test]
+fn a_click_on_a_mark_far_from_its_vertex_selects_as_the_status_line_says() {
+    let mut window = window();
+    corners(&mut window);
+    let target = DVec2::new(0.9, 0.1);
+    place(&mut window, &[(30, Pin::weighted(target, 0.5))]);
+    // An inset over a defect would take the place of what lies under it.
+    window.editor_mut().magnifier = false;
+    window.key(Key::C);
+    let mark = window.place_in_plane(target);
+    window.harness.hover_at(mark);
+    window.settle();
+    assert_eq!(window.editor().intent, Intent::Select(VertexId::new(30)));
+    assert!(window.shows("select the pin of v30"), "{:?}", window.words());
+    window.click_at(mark, Modifiers::NONE);
+    assert_eq!(window.editor().selection, [VertexId::new(30)].into());
+    assert_eq!(window.editor().pair, None);
+}
+
+#[test]
 fn one_of_several_selected_pins_takes_the_others_along() {
     let mut window = window();
     corners(&mut window);
@@ -278,6 +314,52 @@ fn a_row_s_mark_makes_a_hard_constraint_pull_and_back() {
 }
 
 #[test]
+fn a_typed_weight_is_one_undo_step() {
+    let mut window = window();
+    corners(&mut window);
+    place(&mut window, &[(30, Pin::weighted(DVec2::new(0.9, 0.1), 0.5))]);
+    window.click("Pins 6");
+    window.fill_in(Role::SpinButton, "Weight of pin v30", "250");
+    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5), "not before it is whole");
+    window.key(Key::Enter);
+    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(250.0));
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5));
+}
+
+#[test]
+fn a_weight_that_is_only_looked_at_keeps_its_digits() {
+    let mut window = window();
+    corners(&mut window);
+    for weight in [0.123_456_789, 2.5e-7] {
+        place(&mut window, &[(30, Pin::weighted(DVec2::new(0.9, 0.1), weight))]);
+        window.click("Pins 6");
+        window.harness.get_by_role_and_label(Role::SpinButton, "Weight of pin v30").click();
+        window.settle();
+        window.key(Key::Enter);
+        assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(weight));
+    }
+}
+
+#[test]
+fn where_the_treatment_weighs_exact_pins_marks_and_rows_say_so() {
+    let mut window = window();
+    corners(&mut window);
+    let natural = Settings::new(Method::Natural, Family::Conformal);
+    let settings = Settings { treatment: Some(Treatment::Weighted), ..natural };
+    window.editor_mut().session.handle(Action::SetSettings(settings));
+    window.settle();
+    let kind = PinKind::User(Hold::Weighted(Pin::DEFAULT_WEIGHT));
+    let shown = window.editor().pins_shown();
+    assert!(shown.len() == 5 && shown.iter().all(|pin| pin.kind == kind), "{shown:?}");
+    window.click("Pins 5");
+    assert!(window.has_button("Hold of pin v40: hard, weighed by the treatment"));
+    assert!(!window.words().iter().any(|words| words == "exact"), "{:?}", window.words());
+    assert!(window.shows("Largest error: weighted"), "{:?}", window.words());
+    assert!(pins(&window).values().all(|pin| pin.hold == Hold::Hard), "what was asked for stays");
+}
+
+#[test]
 fn selected_pins_are_held_alike_by_one_click() {
     let mut window = window();
     corners(&mut window);
@@ -347,7 +429,6 @@ fn the_selected_constraint_is_magnified_in_both_panes() {
     let mut window = window();
     corners(&mut window);
     let named = |window: &Window, name: &str| window.harness.query_by_role_and_label(Role::Image, name).is_some();
-    use egui_kittest::kittest::Queryable as _;
     assert!(!named(&window, "Magnifier: v40 on the mesh"));
     window.editor_mut().selection = [VertexId::new(40)].into();
     window.settle();

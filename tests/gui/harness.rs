@@ -127,7 +127,7 @@ impl Window {
         let plane_wanted = session.outcome().map(|_| session.outcome_revision());
         let scenes_drawn =
             mesh_drawn == mesh_wanted && plane_drawn == plane_wanted && editor.hull_is_drawn() && !editor.is_easing();
-        session.busy().is_none() && scenes_drawn
+        session.busy().is_none() && !session.is_following() && scenes_drawn
     }
 
     /// Presses keys together with modifiers.

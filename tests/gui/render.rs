@@ -318,6 +318,24 @@ fn the_picture_lies_in_its_box_upper_row_up() {
 
 #[test]
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_picture_larger_than_the_card_takes_shows_all_the_same() {
+    // Cards and drivers take 8192 to 32768 pixels a side.
+    let rows = 40_000_usize;
+    let pixels = [[255_u8, 0, 0, 255].repeat(rows / 2), [0, 0, 255, 255].repeat(rows / 2)].concat();
+    let picture = Arc::new(Picture::new([1, 40_000], pixels).expect("as many pixels"));
+    let bounds = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
+    let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
+    frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0, sampling: Sampling::Smooth });
+    frame.style.shading = Shading::Picture;
+    let picture = plane_picture(frame.clone());
+    let [r, _, b] = plane_pixel(&picture, &frame, DVec2::new(0.2, 0.1));
+    assert!(r > 240 && b < 20, "above: {r} {b}");
+    let [r, _, b] = plane_pixel(&picture, &frame, DVec2::new(0.2, -0.1));
+    assert!(b > 240 && r < 20, "below: {r} {b}");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn a_detail_of_a_billionth_still_has_a_shape() {
     // The lower right corner comes within 2e-9 of vertex 5 at (1, 0), then the camera goes there. One f32 would draw
     // both at the same place, and the boundary as the straight line y = x − 1.

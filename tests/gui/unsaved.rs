@@ -6,6 +6,7 @@ use freebound::app::Start;
 use freebound::examples::Example;
 use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::Action;
+use glam::DVec2;
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
 
@@ -105,6 +106,32 @@ fn a_project_is_saved_and_opened_again() {
     window.press(Modifiers::COMMAND, Key::S);
     assert!(!window.editor().dialogs.is_open(), "it knows where");
     assert!(!window.editor().session.has_unsaved_work());
+}
+
+#[test]
+fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
+    let mut window = window();
+    edit(&mut window);
+    let size = window.editor().plane_pane_size;
+    let editor = window.editor_mut();
+    let (orbit, plane) = (editor.orbit.as_mut().expect("a mesh"), editor.plane_camera.as_mut().expect("an embedding"));
+    orbit.orbit(DVec2::new(70.0, -30.0));
+    orbit.pan(DVec2::new(20.0, 10.0), size);
+    plane.zoom_at(DVec2::splat(100.0), 5.0, size);
+    let (orbit, plane) = (*orbit, *plane);
+    window.settle();
+    window.press(Modifiers::COMMAND, Key::S);
+    window.click("Save");
+    window.menu(&["File", "Examples", Example::Dome.title()]);
+    assert_ne!(window.editor().orbit, Some(orbit));
+    let path = window.path("sheet.freebound");
+    window.open(&path);
+    let (again, plane_again) = (window.editor().orbit.expect("a mesh"), window.editor().plane_camera.expect("solved"));
+    assert!(again.eye().distance(orbit.eye()) < 1e-9 && again.pivot().distance(orbit.pivot()) < 1e-9, "{again:?}");
+    assert!(plane_again.center().distance(plane.center()) < 1e-9, "{plane_again:?}");
+    // What the pane shows is kept, and a bar with a message makes it a little lower.
+    let larger = plane_again.points_per_unit() / plane.points_per_unit();
+    assert!((0.7..1.4).contains(&larger), "{larger}");
 }
 
 #[test]
