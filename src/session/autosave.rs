@@ -14,7 +14,7 @@ const INTERVAL: Duration = Duration::from_secs(5);
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// How long it waits for files that a person asked for, which may be large.
-const LONG_PATIENCE: Duration = Duration::from_secs(60);
+const LONG_PATIENCE: Duration = Duration::from_mins(1);
 
 type CopyJob = Job<(), Result<(), WriteError>>;
 

@@ -184,19 +184,19 @@ impl FreeSolve {
     fn gradient_residual(&self, site: Site<'_>, embedding: &[DVec2], (springs, targets): (&[Spring], &Places)) -> f64 {
         let mesh = site.mesh;
         let mut left = self.left_over(mesh, embedding);
-        let mut sizes = vec![0.0; mesh.vertex_count()];
+        let mut bounds = vec![0.0; mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
             let along = embedding[mesh.head(h).index()].distance(embedding[mesh.tail(h).index()]);
-            sizes[mesh.tail(h).index()] += coefficient.norm() * along;
+            bounds[mesh.tail(h).index()] += coefficient.norm() * along;
         }
         for vertex in &self.eliminated {
             left[vertex.index()] = Complex::ZERO;
-            sizes[vertex.index()] = 0.0;
+            bounds[vertex.index()] = 0.0;
         }
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
             let tail = mesh.tail(h).index();
-            let (term, most) = (coefficient.conj() * left[tail], coefficient.norm() * sizes[tail]);
+            let (term, most) = (coefficient.conj() * left[tail], coefficient.norm() * bounds[tail]);
             for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
                 let (sum, size) = &mut sums[vertex.index()];
                 *sum += term * sign;

@@ -54,7 +54,7 @@ pub(super) fn exports_window(context: &egui::Context, editor: &mut Editor, reque
 impl Editor {
     /// Asks for a picture of the window, to cut a pane out of.
     pub(super) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
-        let rect = self.pane_rects[if pane == Pane::Mesh { 0 } else { 1 }];
+        let rect = self.pane_rects[usize::from(pane == Pane::Plane)];
         let Some(part) = rect else { return };
         let (sender, answer) = sync_channel(1);
         let waker = self.context.clone();
@@ -85,7 +85,7 @@ fn cut(image: &egui::ColorImage, part: Rect) -> Picture {
     let (left, right) = (within(part.left(), width), within(part.right(), width));
     let (top, bottom) = (within(part.top(), height), within(part.bottom(), height));
     let row = |y: usize| &image.pixels[y * width + left..y * width + right.max(left)];
-    let pixels = (top..bottom).flat_map(row).flat_map(|pixel| pixel.to_srgba_unmultiplied()).collect();
+    let pixels = (top..bottom).flat_map(row).flat_map(egui::Color32::to_srgba_unmultiplied).collect();
     let count = |from: usize, to: usize| u32::try_from(to.saturating_sub(from)).unwrap_or(0);
     Picture { width: count(left, right), height: count(top, bottom), pixels }
 }

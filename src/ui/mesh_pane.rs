@@ -126,10 +126,9 @@ pub(super) fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
 /// The cursor says what a click would do.
 pub(super) fn cursor(editor: &Editor) -> CursorIcon {
     match (editor.tool, editor.hovered) {
-        (Tool::Constrain, _) => CursorIcon::Crosshair,
+        (Tool::Constrain, _) | (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
         (_, None) => CursorIcon::Default,
         (Tool::Select, Some(_)) => CursorIcon::PointingHand,
-        (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
     }
 }
 

@@ -71,8 +71,8 @@ impl Editor {
         };
         // The frame has no offset: it takes differences to differences.
         let by = frame.uv_from_plane(pixels * step);
-        let moved = |vertex: VertexId| Some((vertex, document.pins.get(&vertex)?.target + by));
-        let moves: Vec<(VertexId, DVec2)> = self.pins_selected().filter_map(moved).collect();
+        let nudged = |vertex: VertexId| Some((vertex, document.pins.get(&vertex)?.target + by));
+        let moves: Vec<(VertexId, DVec2)> = self.pins_selected().filter_map(nudged).collect();
         if !self.nudging {
             self.nudging = true;
             self.session.handle(Action::EndGesture);

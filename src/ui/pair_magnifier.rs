@@ -56,9 +56,9 @@ fn place_in(pane: Rect, looks_at: egui::Pos2) -> Option<Rect> {
     if pane.width() < 2.5 * side || pane.height() < 2.0 * side {
         return None;
     }
-    let size = Vec2::splat(side);
-    let lower = Rect::from_min_size(pane.max - size - Vec2::splat(GAP), size);
-    let upper = Rect::from_min_size(egui::pos2(lower.left(), pane.top() + GAP), size);
+    let square = Vec2::splat(side);
+    let lower = Rect::from_min_size(pane.max - square - Vec2::splat(GAP), square);
+    let upper = Rect::from_min_size(egui::pos2(lower.left(), pane.top() + GAP), square);
     Some(if lower.expand(3.0 * GAP).contains(looks_at) { upper } else { lower })
 }
 

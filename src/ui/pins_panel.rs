@@ -215,7 +215,7 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             Hold::Weighted(weight) => Some(weight),
             Hold::Fixed | Hold::Hard => None,
         });
-        let weight = weights.last();
+        let weight = weights.max_by(f64::total_cmp);
         if ui.small_button("Weighted").on_hover_text("Let them pull with a weight").clicked() {
             requests.push(Request::SetHold(Hold::Weighted(weight.unwrap_or(Pin::DEFAULT_WEIGHT))));
         }

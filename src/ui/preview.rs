@@ -62,10 +62,13 @@ impl Editor {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b),
             _ => false,
         };
-        let faces = before.as_ref().filter(same_faces).map(|before| Arc::clone(&before.faces)).unwrap_or_else(|| {
-            let flipped = verdict.as_ref().map_or(&[] as &[_], |verdict| &verdict.flipped_faces);
-            Arc::new(FacePaint::plain(triangles.face_count(), flipped))
-        });
+        let faces = before.as_ref().filter(same_faces).map_or_else(
+            || {
+                let flipped = verdict.as_ref().map_or(&[] as &[_], |verdict| &verdict.flipped_faces);
+                Arc::new(FacePaint::plain(triangles.face_count(), flipped))
+            },
+            |before| Arc::clone(&before.faces),
+        );
         self.preview = Some(PreviewScene { key, scene, faces, verdict });
     }
 }
