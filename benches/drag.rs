@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use freebound::io::{ObjMesh, write_obj};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, RecentFiles, Session};
-use freebound::solver::{Hold, Pin, verdict};
+use freebound::solver::{Family, Hold, Method, Pin, Settings, verdict};
 use freebound::view::{PlaneArrays, PlaneBox, UnitPlane};
 use glam::DVec2;
 
@@ -66,6 +66,9 @@ fn opened(vertices: usize) -> Session {
 
 fn drag(vertices: usize) -> [String; 7] {
     let mut session = opened(vertices);
+    // The ladder would iterate after every drag, which is not what is measured here.
+    session.handle(Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
+    settle(&mut session);
     let mesh = Arc::clone(session.model().and_then(|model| model.disk()).expect("the sheet is a disk"));
     let flat = session.outcome().expect("solved").step.solution.embedding.clone();
     let extent = PlaneBox::around(&flat).extent();
