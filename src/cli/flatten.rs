@@ -231,7 +231,7 @@ fn pins_words(pins: &PinsReport) -> Option<String> {
     let worst = pins.weighted.iter().max_by(|a, b| a.error.total_cmp(&b.error));
     let weighted = worst.map(|worst| {
         let count = pins.weighted.len();
-        format!("{count} weighted met within {:.3} (the farthest is vertex {})", worst.error, worst.vertex)
+        format!("{count} weighted met within {:.1e} (the farthest is vertex {})", worst.error, worst.vertex)
     });
     let parts: Vec<String> = hard.into_iter().chain(weighted).collect();
     (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
