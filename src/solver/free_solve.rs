@@ -198,9 +198,9 @@ impl FreeSolve {
             let tail = mesh.tail(h).index();
             let (term, most) = (coefficient.conj() * left[tail], coefficient.norm() * bounds[tail]);
             for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
-                let (sum, size) = &mut sums[vertex.index()];
+                let (sum, total) = &mut sums[vertex.index()];
                 *sum += term * sign;
-                *size += most;
+                *total += most;
             }
         }
         for vertex in targets.keys().filter(|v| springs.iter().all(|pin| pin.vertex != **v)) {
@@ -214,7 +214,7 @@ impl FreeSolve {
             at.1 += (place.length() + target.length()) / pin.compliance;
         }
         let (left, whole) =
-            sums.iter().fold((0.0, 0.0), |(left, whole), (sum, size)| (left + sum.norm_sqr(), whole + size * size));
+            sums.iter().fold((0.0, 0.0), |(left, whole), (sum, total)| (left + sum.norm_sqr(), whole + total * total));
         if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
     }
 
