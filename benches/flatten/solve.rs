@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use freebound::linalg::{Analysis, FactorStats, Kind};
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, FreeSystem, Pins, Prepared, Settings, equations, gauge_pins};
+use freebound::solver::{Control, FreeSystem, Pins, Prepared, Settings, equations, fixed_pins, gauge_pins};
 use glam::DVec2;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 use num_complex::Complex;
@@ -148,7 +148,7 @@ pub(crate) fn again() {
         let new_analysis = || Analysis::new(Kind::Hermitian, matrix.pattern()).expect("a symmetric pattern");
         let [mut analyze, mut factor, mut fresh, mut first, mut drag] = <[Times; 5]>::default();
         let control = Control::unattended();
-        let mut pins = gauge_pins(&mesh);
+        let mut pins = fixed_pins(gauge_pins(&mesh));
         let settings = Settings::default();
         let prepared = Prepared::new(&mesh, &settings, &pins, control).expect("a regular system");
         for _ in 0..rounds {
@@ -157,7 +157,7 @@ pub(crate) fn again() {
             drop(fresh.run(|| new_analysis().factor(&matrix, &GO_ON).expect("positive definite")));
             first.run(|| flatten(&mesh));
             let moved = pins.values_mut().next_back().expect("there are two");
-            *moved += DVec2::new(0.01, 0.02);
+            moved.target += DVec2::new(0.01, 0.02);
             drag.run(|| prepared.solve(&mesh, &pins, control).expect("a good answer"));
         }
         table.row([

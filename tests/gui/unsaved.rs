@@ -148,7 +148,7 @@ fn what_a_session_left_is_offered_and_recovered() {
     assert!(!first.has_button("Recover"));
     edit(&mut first);
     let document = first.editor().session.document().clone();
-    let later = std::time::Instant::now() + std::time::Duration::from_secs(60);
+    let later = std::time::Instant::now() + std::time::Duration::from_mins(1);
     first.editor_mut().session.poll_at(later);
     let is_copy = |path: &std::path::Path| path.extension().is_some_and(|extension| extension == "freebound");
     let files = || std::fs::read_dir(left.path()).expect("a folder").map(|file| file.expect("a file").path());
