@@ -29,15 +29,16 @@ const SIZES: [usize; 2] = [20_000, 100_000];
 /// Constraints on each mesh.
 const CONSTRAINTS: usize = 24;
 
-/// Moves of one drag.
-const MOVES: u32 = 60;
+/// Moves of each drag that are measured.
+const MOVES: u32 = 3;
 
 fn main() {
     print_machine();
     let wanted: Vec<usize> = arguments().iter().filter_map(|text| text.parse().ok()).collect();
     let sizes = if wanted.is_empty() { SIZES.to_vec() } else { wanted };
     let heads = ["vertices", "first move", "move", "arrays", "bytes", "verdict", "moves a second"];
-    let mut table = Table::new(&format!("dragging one of {CONSTRAINTS} constraints, seconds"), &heads);
+    let title = format!("dragging one of {CONSTRAINTS} constraints, seconds");
+    let mut table = Table::new(&title, &heads);
     for vertices in sizes {
         table.row(drag(vertices));
     }
@@ -92,7 +93,7 @@ fn drag(vertices: usize) -> [String; 7] {
         }
         first.add(begin.elapsed().as_secs_f64());
         let frame = UnitPlane::of(PlaneBox::around(&flat));
-        for k in 0..MOVES / CONSTRAINTS as u32 + 1 {
+        for k in 0..MOVES {
             let target = from + DVec2::new(f64::from(k), 1.0) * (1e-4 * extent);
             move_.run(|| session.handle(Action::MovePin { vertex, target }));
             let preview = session.preview().expect("it follows").embedding.clone();

@@ -29,7 +29,7 @@ const SETS: [(&str, &str); 9] = [
 fn targets(text: &str) -> Vec<(usize, DVec2)> {
     let numbers = |line: &str| -> Vec<f64> { line.split_whitespace().map(|word| word.parse().unwrap()).collect() };
     let lines = text.lines().map(numbers).filter(|numbers| !numbers.is_empty());
-    let vertex = |number: f64| (0..).find(|&v: &usize| v as f64 == number).expect("a whole number");
+    let vertex = |number: f64| (0..1 << 20).find(|&v: &usize| v as f64 == number).expect("a whole number");
     lines.map(|numbers| (vertex(numbers[0]), DVec2::new(numbers[1], numbers[2]))).collect()
 }
 
@@ -167,7 +167,7 @@ fn the_report_lists_what_weights_make_of_each_soft_constraint() {
     let listed = pins["weighted"].as_array().unwrap();
     assert_eq!(listed.len(), 2);
     let mut largest = 0.0_f64;
-    for (entry, (vertex, weight, target)) in listed.iter().zip([(11, 0.5, [0.8, 0.9]), (25, 0.25, [0.1, 0.6])]) {
+    for (entry, (vertex, weight, target)) in listed.iter().zip([(11_u32, 0.5, [0.8, 0.9]), (25, 0.25, [0.1, 0.6])]) {
         assert_eq!([&entry["vertex"], &entry["weight"]], [f64::from(vertex), weight]);
         let error = written[vertex as usize].distance(target.into());
         assert_eq!(entry["error"], error, "vertex {vertex}");

@@ -66,7 +66,8 @@ fn dense_least_squares(mesh: &DiskMesh, embedding: &[DVec2], pins: &Pins) -> Vec
             match column(v) {
                 Some(column) => matrix[(tail.index(), column)] += coefficient * sign,
                 None => {
-                    rhs[(tail.index(), 0)] -= coefficient * sign * Complex::new(pins[&v].target.x, pins[&v].target.y)
+                    let target = pins[&v].target;
+                    rhs[(tail.index(), 0)] -= coefficient * sign * Complex::new(target.x, target.y);
                 }
             }
         }

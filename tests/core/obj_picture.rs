@@ -41,7 +41,7 @@ fn colour_at(obj: &Path, position: glam::DVec3) -> [u8; 3] {
     let at = mesh.texcoord_indices[corner] as usize * 2;
     let [u, v] = [mesh.texcoords[at], mesh.texcoords[at + 1]].map(f64::from);
     let share = DVec2::new(u, 1.0 - v) * DVec2::new(f64::from(image.width()), f64::from(image.height()));
-    let [column, row] = share.to_array().map(|x| (0_u32..).find(|&k| f64::from(k + 1) > x).expect("a pixel"));
+    let [column, row] = share.to_array().map(|x| (0..1_u32 << 16).find(|&k| f64::from(k + 1) > x).expect("a pixel"));
     image.get_pixel(column, row).0
 }
 

@@ -17,7 +17,7 @@ use crate::session_documents::{errors, id, place, with_dome, write_dome};
 const FOLDER_OF_CHILD: &str = "FREEBOUND_TEST_FOLDER";
 
 /// More than the time between two copies.
-const LONG: Duration = Duration::from_secs(60);
+const LONG: Duration = Duration::from_mins(1);
 
 /// How often a process is killed.
 const KILLS: u32 = 36;
@@ -223,7 +223,7 @@ fn a_project_is_whole_whenever_its_writer_is_killed() {
             30 => seen[1] += 1,
             count => panic!("{count} pins are of neither project"),
         }
-        assert_eq!(copies(folder.path()), [path.clone()], "what is half-written is not called a project");
+        assert_eq!(copies(folder.path()), std::slice::from_ref(&path), "what is half-written is not called a project");
     }
     assert!(seen[0] > 0 && seen[1] > 0, "the kills came at different moments: {seen:?}");
 }

@@ -48,9 +48,12 @@ fn normalised(mesh: &DiskMesh) -> TriMesh {
     TriMesh { positions, ..mesh.mesh().clone() }
 }
 
+/// A row's entries by column, and its right-hand side.
+type Row = (Vec<(usize, Complex<f64>)>, Complex<f64>);
+
 /// Rows of a dense least-squares problem.
 struct Dense {
-    rows: Vec<(Vec<(usize, Complex<f64>)>, Complex<f64>)>,
+    rows: Vec<Row>,
 }
 
 impl Dense {
