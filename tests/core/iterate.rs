@@ -63,12 +63,11 @@ fn dense_least_squares(mesh: &DiskMesh, embedding: &[DVec2], pins: &Pins) -> Vec
         let (tail, head) = (mesh.tail(h), mesh.head(h));
         let coefficient = equations.coefficients[h.index()];
         for (v, sign) in [(head, 1.0), (tail, -1.0)] {
-            match column(v) {
-                Some(column) => matrix[(tail.index(), column)] += coefficient * sign,
-                None => {
-                    let target = pins[&v].target;
-                    rhs[(tail.index(), 0)] -= coefficient * sign * Complex::new(target.x, target.y);
-                }
+            if let Some(column) = column(v) {
+                matrix[(tail.index(), column)] += coefficient * sign;
+            } else {
+                let target = pins[&v].target;
+                rhs[(tail.index(), 0)] -= coefficient * sign * Complex::new(target.x, target.y);
             }
         }
     }
