@@ -60,7 +60,7 @@ pub struct FlattenArguments {
     /// Pin a vertex, numbered from 0, at u,v: exactly, or pulled there by a weight. Repeatable.
     #[arg(long = "pin", value_name = "V:U,V[:WEIGHT]", value_parser = parse_pin, allow_hyphen_values = true)]
     pub pins: Vec<(VertexId, Pin)>,
-    /// Pin vertices as a file says: lines "vertex u v [weight]", vertices numbered from 0, comments behind a #.
+    /// Pin vertices as a file says: lines `vertex u v [weight]`, vertices numbered from 0, comments behind a #.
     #[arg(long, value_name = "FILE")]
     pub constraints: Option<PathBuf>,
     /// The picture that u and v are for, width to height: angles are kept on it. 1:1 without it.
