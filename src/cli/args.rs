@@ -76,6 +76,13 @@ pub struct FlattenArguments {
     /// The most mean-value iterations, for `auto` and `iterate`; 60 without it.
     #[arg(long, value_name = "N")]
     pub max_steps: Option<usize>,
+    /// After a planar end, lower the distortion in at most this many rounds, one-to-one throughout, constraints kept.
+    #[arg(long, value_name = "N")]
+    pub relax: Option<usize>,
+    /// Do not split edges where the constraints cannot be met otherwise: keep the best planar embedding instead, and
+    /// name the constraints that are not met.
+    #[arg(long)]
+    pub no_new_vertices: bool,
     /// How the virtual boundary pins more of the boundary while it crosses itself, for `auto` and `virtual-boundary`.
     #[arg(long, value_enum)]
     pub growth: Option<GrowthName>,
@@ -118,6 +125,8 @@ impl FlattenArguments {
             }),
             MethodName::Lscm => Method::Lscm,
             MethodName::Levy => Method::Levy,
+            MethodName::Continuation => Method::Continuation,
+            MethodName::Matchmaker => Method::Matchmaker,
         };
         let treatment = self.treatment.map(|name| match name {
             TreatmentName::Eliminate => Treatment::Eliminate,
@@ -129,7 +138,9 @@ impl FlattenArguments {
             Some(GrowthName::Double) | None => Growth::Double,
         };
         let max_steps = self.max_steps.unwrap_or(Settings::MAX_STEPS);
-        Settings { treatment, max_steps, growth, ..Settings::new(method, self.family.unwrap_or_default()) }
+        let (relax_rounds, new_vertices) = (self.relax.unwrap_or(0), !self.no_new_vertices);
+        let base = Settings::new(method, self.family.unwrap_or_default());
+        Settings { treatment, max_steps, growth, relax_rounds, new_vertices, ..base }
     }
 
     /// An option that was given but means nothing to the method, and why.
@@ -169,7 +180,7 @@ pub struct CheckArguments {
 /// Names of the methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MethodName {
-    /// The ladder: natural, iterate, virtual-boundary, until planar
+    /// The ladder: from natural to matchmaker, until planar and all constraints are met
     Auto,
     /// Natural boundary (paper §3.3)
     Natural,
@@ -183,6 +194,10 @@ pub enum MethodName {
     Lscm,
     /// Lévy's equations summed around vertices (paper §3.2)
     Levy,
+    /// One-to-one all the way from a planar map to the constraints
+    Continuation,
+    /// Paths between the constraints, with new vertices where they need room
+    Matchmaker,
 }
 
 /// Names of the treatments of pinned vertices' equations.

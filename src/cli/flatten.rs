@@ -175,11 +175,12 @@ fn step_words(step: &Step) -> String {
 fn ending_words(outcome: &Outcome, finished: &Finished, ending: &Result<Ending, SolveError>) -> String {
     let mut words = finished.verdict().summary();
     let step = &outcome.step;
-    if matches!(outcome.settings.method, Method::Auto | Method::Iterate | Method::VirtualBoundary) {
+    if outcome.settings.method.takes_steps() {
         let count = finished.report.steps.len();
         let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
         let why = match ending {
             Ok(Ending::Planar | Ending::Done) => String::new(),
+            Ok(Ending::Unmet) => ", constraints not met".to_owned(),
             Ok(Ending::Stalled) => ", which gets no better".to_owned(),
             Ok(Ending::Limit) => ", as many as it may take".to_owned(),
             Err(error) => format!("; the next gave nothing: {error}"),

@@ -7,6 +7,7 @@ mod outside;
 mod picture;
 mod picture_frame;
 mod polygon;
+mod similarity;
 
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, segments_meet};
 pub use hull::convex_hull;
@@ -15,3 +16,4 @@ pub use outside::outside_triangles;
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};
 pub use polygon::{turning_number, winding_number};
+pub use similarity::Similarity;

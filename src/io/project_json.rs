@@ -113,6 +113,8 @@ enum RawMethod {
     Convex,
     Lscm,
     Levy,
+    Continuation,
+    Matchmaker,
 }
 
 #[derive(Clone, Copy, Default, Serialize, Deserialize)]
@@ -223,6 +225,8 @@ impl From<RawProject> for ProjectFile {
                 RawGrowth::One => Growth::One,
             },
             size: GaugeSize::default(),
+            relax_rounds: 0,
+            new_vertices: true,
         };
         Self {
             mesh: raw.mesh.0,
@@ -252,6 +256,8 @@ fn method(name: RawMethod, boundary: RawBoundary) -> Method {
         }),
         RawMethod::Lscm => Method::Lscm,
         RawMethod::Levy => Method::Levy,
+        RawMethod::Continuation => Method::Continuation,
+        RawMethod::Matchmaker => Method::Matchmaker,
     }
 }
 
@@ -298,6 +304,9 @@ fn names_of(method: Method) -> (RawMethod, RawBoundary) {
         Method::Convex(BoundaryShape::Square) => return (RawMethod::Convex, RawBoundary::Square),
         Method::Lscm => RawMethod::Lscm,
         Method::Levy => RawMethod::Levy,
+        // Relaxing is a rung: it is never chosen.
+        Method::Continuation | Method::Relax => RawMethod::Continuation,
+        Method::Matchmaker => RawMethod::Matchmaker,
     };
     (name, RawBoundary::Circle)
 }

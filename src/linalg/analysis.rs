@@ -180,6 +180,19 @@ impl<T: Scalar> Factor<T> {
         self.run(matrix, (Operation::Plain, Accept::BackwardError), rhs)
     }
 
+    /// Solves A x = b by substitution alone, without refinement: for directions of descent, where any answer near to the
+    /// system's will do.
+    ///
+    /// # Panics
+    ///
+    /// If the right-hand side has another length than the system.
+    pub fn substitute(&self, rhs: &[T]) -> Vec<T> {
+        assert_eq!(rhs.len(), self.shared.pattern.order(), "one number per row");
+        let mut x = rhs.to_vec();
+        self.solve_in_place(Operation::Plain, &mut x);
+        x
+    }
+
     fn one(&self, matrix: &CscMatrix<T>, operation: Operation, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
         let order = self.shared.pattern.order();
         if rhs.len() != order {

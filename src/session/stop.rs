@@ -32,6 +32,8 @@ pub enum Stop {
     Done,
     /// The iteration gets no better.
     Stalled,
+    /// The embedding is planar, but constraints cannot be met without new vertices.
+    Unmet,
     /// It has taken as many steps as it may.
     Limit,
     /// The boundary crosses itself.
@@ -46,6 +48,7 @@ impl Stop {
         match self {
             Self::Planar => "planar",
             Self::Done => "the method has no further step",
+            Self::Unmet => "constraints cannot be met without new vertices",
             Self::Stalled => "stalled: it gets no better",
             Self::Limit => "the step limit is reached",
             Self::Crossing => "the boundary crosses itself",
@@ -68,6 +71,7 @@ impl StopConditions {
     pub fn reason_for_good(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
         match ending? {
             Ending::Done => Some(Stop::Done),
+            Ending::Unmet => Some(Stop::Unmet),
             Ending::Limit => Some(Stop::Limit),
             Ending::Planar if self.planar => Some(Stop::Planar),
             Ending::Stalled if self.stalled => Some(Stop::Stalled),

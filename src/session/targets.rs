@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::errands::{Errand, Purpose};
 use super::{Command, Place, Session};
-use crate::geom::PictureFrame;
+use crate::geom::{PictureFrame, Similarity};
 use crate::solver::{Control, Family, GaugeSize, Method, Pin, Pins, Settings, SolveError, flatten};
 
 /// The mesh flattened without pins, in the middle of the picture.
@@ -62,7 +62,7 @@ impl Session {
         let pairs: Vec<[DVec2; 2]> = (self.document.plane_pins().into_iter())
             .map(|(vertex, pin)| [pin.target, embedding[vertex.index()]])
             .collect();
-        let fitted = best_similarity(&pairs).map(|similarity| {
+        let fitted = Similarity::fitting(&pairs).map(|similarity| {
             let targets = pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target)));
             targets.collect::<Vec<_>>()
         });
@@ -79,54 +79,5 @@ impl Session {
             moved.map(|((&vertex, pin), &target)| Command::SetPin { vertex, pin: Some(Pin { target, ..*pin }) });
         let commands = commands.collect();
         self.edit(commands);
-    }
-}
-
-/// z ↦ turn · (z − from) + to, in complex numbers.
-struct Similarity {
-    turn: DVec2,
-    from: DVec2,
-    to: DVec2,
-}
-
-impl Similarity {
-    fn apply(&self, z: DVec2) -> DVec2 {
-        self.turn.rotate(z - self.from) + self.to
-    }
-}
-
-/// The similarity without reflection that takes the first of each pair nearest to the second, in the sum of squares;
-/// `None` where there is none, or where it would take all to one place.
-fn best_similarity(pairs: &[[DVec2; 2]]) -> Option<Similarity> {
-    let count = pairs.len() as f64;
-    let from = pairs.iter().map(|[a, _]| *a).sum::<DVec2>() / count;
-    let to = pairs.iter().map(|[_, b]| *b).sum::<DVec2>() / count;
-    let (mut product, mut square) = (DVec2::ZERO, 0.0);
-    for [a, b] in pairs.iter().map(|[a, b]| [*a - from, *b - to]) {
-        // The conjugate of a, times b.
-        product += DVec2::new(a.dot(b), a.perp_dot(b));
-        square += a.length_squared();
-    }
-    let turn = product / square;
-    (turn.is_finite() && turn != DVec2::ZERO).then_some(Similarity { turn, from, to })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_best_similarity_gives_an_exact_one_back() {
-        let points = [DVec2::new(0.0, 0.0), DVec2::new(2.0, 1.0), DVec2::new(-1.0, 3.0)];
-        let moved = |z: DVec2| DVec2::new(0.3, -0.4).rotate(z) + DVec2::new(5.0, 6.0);
-        let found = best_similarity(&points.map(|z| [z, moved(z)])).expect("there is one");
-        for z in points {
-            assert!(found.apply(z).distance(moved(z)) < 1e-14);
-        }
-    }
-
-    #[test]
-    fn no_similarity_spreads_what_lies_in_one_place() {
-        assert!(best_similarity(&[[DVec2::ONE, DVec2::ZERO], [DVec2::ONE, DVec2::X]]).is_none());
     }
 }

@@ -18,8 +18,8 @@ pub const METHODS: &[CatalogueEntry] = &[
     CatalogueEntry {
         name: "auto",
         title: "Auto (ladder)",
-        about: "natural boundary, iteration, virtual boundary: one after another until the map is proved one-to-one",
-        source: "paper §3.3, §4, §5",
+        about: "one way after another, the least costly first, until the map is proved one-to-one and meets the constraints",
+        source: "paper §3.3, §4, §5, and beyond",
     },
     CatalogueEntry {
         name: "natural",
@@ -56,6 +56,18 @@ pub const METHODS: &[CatalogueEntry] = &[
         title: "Lévy, summed",
         about: "Lévy's triangle equations summed around each vertex",
         source: "paper §3.2",
+    },
+    CatalogueEntry {
+        name: "continuation",
+        title: "Continuation",
+        about: "from a planar map without constraints to their targets, one-to-one all the way",
+        source: "ours; energy of Garanzha et al. 2021",
+    },
+    CatalogueEntry {
+        name: "matchmaker",
+        title: "Matchmaker",
+        about: "paths between the constraints, with new vertices where they need room, made straight in the plane",
+        source: "Eckstein et al. 2001; Kraevoy et al. 2003",
     },
 ];
 

@@ -82,6 +82,25 @@ pub enum SolveError {
         most: usize,
     },
 
+    /// Two exact targets so near to each other that numbers between them run out.
+    #[error(
+        "the targets of vertices {first} and {second} are nearer to each other than 1e-9 of all targets' extent: move one of them"
+    )]
+    TargetsTooNear {
+        /// The one with the lower number.
+        first: VertexId,
+        /// The other.
+        second: VertexId,
+    },
+
+    /// Continuation is stuck, and no other way is left.
+    #[error("the constraints cannot be met without new vertices: the best planar embedding is the step before")]
+    Unmet,
+
+    /// Relaxing was asked for where faces overlap.
+    #[error("only a planar embedding can be relaxed: make it planar first")]
+    NotPlanar,
+
     /// The last rung of the ladder has no way left.
     #[error("the whole boundary is on a circle, and 64-bit numbers still cannot hold the faces apart")]
     LadderExhausted,

@@ -25,6 +25,12 @@ pub enum Method {
     Lscm,
     /// Lévy's triangle equations summed around each vertex (paper §3.2).
     Levy,
+    /// From a planar embedding without the constraints, one-to-one all the way to their targets.
+    Continuation,
+    /// Paths between the constraints on the mesh, with new vertices where they need room, straightened in the plane.
+    Matchmaker,
+    /// A planar embedding's distortion lowered, one-to-one throughout. A rung only: what follows a method.
+    Relax,
 }
 
 impl Method {
@@ -38,17 +44,30 @@ impl Method {
             Self::Convex(_) => "convex",
             Self::Lscm => "lscm",
             Self::Levy => "levy",
+            Self::Continuation => "continuation",
+            Self::Matchmaker => "matchmaker",
+            Self::Relax => "relax",
         }
     }
 
     /// Whether the choice of family matters.
     pub const fn uses_family(self) -> bool {
-        !matches!(self, Self::Lscm | Self::Levy)
+        !matches!(self, Self::Lscm | Self::Levy | Self::Continuation | Self::Matchmaker | Self::Relax)
     }
 
     /// Whether it iterates, so that a limit of its steps matters.
     pub const fn iterates(self) -> bool {
         matches!(self, Self::Auto | Self::Iterate)
+    }
+
+    /// Whether it takes more steps than one linear solve.
+    pub const fn takes_steps(self) -> bool {
+        !matches!(self, Self::Natural | Self::Convex(_) | Self::Lscm | Self::Levy)
+    }
+
+    /// Whether it keeps every step one-to-one on the way to the constraints.
+    pub const fn is_one_to_one(self) -> bool {
+        matches!(self, Self::Continuation | Self::Matchmaker | Self::Relax)
     }
 
     /// Whether it may bend the boundary, so that the growth of the pinned vertices matters.
@@ -207,6 +226,10 @@ pub struct Settings {
     pub growth: Growth,
     /// How large the embedding is where the user's pins do not say.
     pub size: GaugeSize,
+    /// The most rounds of relaxing after a planar end; none where nobody asks for any.
+    pub relax_rounds: usize,
+    /// Whether edges may be split where the constraints cannot be met otherwise.
+    pub new_vertices: bool,
 }
 
 impl Default for Settings {
@@ -218,6 +241,8 @@ impl Default for Settings {
             max_steps: Self::MAX_STEPS,
             growth: Growth::default(),
             size: GaugeSize::default(),
+            relax_rounds: 0,
+            new_vertices: true,
         }
     }
 }

@@ -1,15 +1,19 @@
 //! The paper: weights, systems, methods, verdict and distortion. Knows no screen and no file.
 
 mod catalogue;
+mod constrained_run;
+mod continuation;
 mod control;
 mod convex;
 mod distortion;
 pub mod equations;
 mod error;
+mod foldover_energy;
 mod free_solve;
 mod iterate;
 mod least_squares;
 mod left_kernel;
+mod membrane;
 mod method;
 mod pins;
 pub mod plane_weights;
@@ -40,7 +44,7 @@ pub use run::{Ending, Run};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use shape_preserving::shape_preserving;
 pub use solution::{PhaseSeconds, Solution};
-pub use step::{Step, diameter, largest_move};
+pub use step::{Outside, Progress, Step, diameter, largest_move};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, verdict};
 pub use vertex_equation::{EquationTerm, NoEquation, VertexEquation, WeightSource, equation_of_step};

@@ -19,16 +19,17 @@ use std::time::Instant;
 
 use glam::DVec2;
 
+use super::constrained_run::{ConstrainedRun, Reached};
 use super::iterate::Iteration;
 use super::scale::{complete_gauge, fit_gauge};
 use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
 use super::{
-    Control, Family, Method, Phase, Pins, Prepared, Settings, Solution, SolveError, fixed_pins, flatten, gauge_pins,
-    verdict,
+    Control, Family, Method, Outside, Phase, PhaseSeconds, Pins, Prepared, Progress, Settings, Solution, SolveError,
+    fixed_pins, flatten, gauge_pins, verdict,
 };
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, Refinement};
 
 /// Why a run has come to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +42,8 @@ pub enum Ending {
     Stalled,
     /// The iteration has taken as many steps as it may.
     Limit,
+    /// The embedding is planar, but constraints could not be met without new vertices: [`Step::unmet`] names them.
+    Unmet,
 }
 
 /// A method under way on one mesh with one set of pins.
@@ -51,6 +54,7 @@ pub struct Run {
     prepared: Option<Arc<Prepared>>,
     iteration: Option<Iteration>,
     virtual_boundary: Option<VirtualBoundaryRun>,
+    constrained: Option<ConstrainedRun>,
     stall: Stall,
     /// Iterations since the last linear solve.
     iterations: usize,
@@ -80,6 +84,26 @@ struct Raw {
     bent_vertices: usize,
     virtual_boundary: Option<Arc<super::VirtualBoundary>>,
     prepared: Option<Arc<Prepared>>,
+    refinement: Option<Arc<Refinement>>,
+    progress: Option<Progress>,
+    outside: Option<Arc<Outside>>,
+}
+
+impl Raw {
+    /// A solution of a rung, and nothing else.
+    fn of(rung: Method, family: Family, solution: Solution) -> Self {
+        Self {
+            rung,
+            family,
+            solution,
+            bent_vertices: 0,
+            virtual_boundary: None,
+            prepared: None,
+            refinement: None,
+            progress: None,
+            outside: None,
+        }
+    }
 }
 
 impl Run {
@@ -93,6 +117,7 @@ impl Run {
             prepared: None,
             iteration: None,
             virtual_boundary: None,
+            constrained: None,
             stall: Stall::default(),
             iterations: 0,
             step_count: 0,
@@ -165,7 +190,8 @@ impl Run {
         // What is solved is handed over, even where the caller has meanwhile asked to stop: the run has moved on.
         control.enter(Phase::Verify).ok();
         let start = Instant::now();
-        let verdict = verdict(mesh, &raw.solution.embedding);
+        let proved_mesh = raw.refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
+        let verdict = verdict(proved_mesh, &raw.solution.embedding);
         let verify_seconds = start.elapsed().as_secs_f64();
         let max_move = self.latest.as_ref().map(|latest| largest_move(&latest.embedding, &raw.solution.embedding));
         let step = Step {
@@ -180,6 +206,9 @@ impl Run {
             virtual_boundary: raw.virtual_boundary,
             note: (!self.notes.is_empty()).then(|| std::mem::take(&mut self.notes).join("; ")),
             prepared: raw.prepared,
+            refinement: raw.refinement,
+            progress: raw.progress,
+            outside: raw.outside,
         };
         self.take_in(&step);
         Ok(step)
@@ -197,13 +226,17 @@ impl Run {
             self.iterations += 1;
         }
         self.stall.look_at(step);
-        self.ending = if step.verdict.planar { Some(Ending::Planar) } else { self.ending_of_method() };
+        let is_solved = step.verdict.planar && step.unmet().is_empty();
+        self.ending = if is_solved { Some(Ending::Planar) } else { self.ending_of_method() };
     }
 
     fn ending_of_method(&self) -> Option<Ending> {
         match self.settings.method {
             Method::Auto | Method::VirtualBoundary if self.may_bend_boundary() => None,
-            Method::Auto | Method::Iterate => self.ending_of_iteration(),
+            Method::Iterate => self.ending_of_iteration(),
+            Method::Auto | Method::Continuation | Method::Matchmaker => {
+                self.constrained.as_ref().filter(|run| run.is_exhausted()).map(|_| Ending::Unmet)
+            }
             _ => Some(Ending::Done),
         }
         .or_else(|| self.virtual_boundary.as_ref().filter(|run| run.is_exhausted()).map(|_| Ending::Done))
@@ -224,6 +257,11 @@ impl Run {
     }
 
     fn next_raw(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        let is_stuck = || self.latest.is_some() && self.ending_of_iteration().is_some();
+        let climbs_on = self.settings.method == Method::Auto && !self.may_bend_boundary();
+        if self.settings.method.is_one_to_one() || self.constrained.is_some() || (climbs_on && is_stuck()) {
+            return self.constrained_step(mesh, control);
+        }
         if self.latest.is_none() && self.virtual_boundary.is_none() {
             return match self.linear(mesh, control) {
                 Err(error) if self.has_rung_left_after(&error) => {
@@ -245,6 +283,27 @@ impl Run {
             }
             other => other,
         }
+    }
+
+    /// Rungs 4 and 5: planar embeddings on their way to the constraints.
+    fn constrained_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        let start = Instant::now();
+        let run = self.constrained.get_or_insert_with(|| ConstrainedRun::new(&self.settings, &self.pins));
+        let reached = run.step(mesh, control)?;
+        let Reached { rung, embedding, progress, outside, refinement } = reached;
+        let seconds = PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
+        let solution = Solution {
+            embedding,
+            pins: self.settings.held(&self.pins),
+            gauge_completed: self.pins.len() < 2,
+            residual: f64::NAN,
+            equation_residual: f64::NAN,
+            replaced_pivots: 0,
+            bounded_corners: 0,
+            factor_bytes: 0,
+            seconds,
+        };
+        Ok(Raw { refinement, progress, outside, ..Raw::of(rung, Family::default(), solution) })
     }
 
     /// Keeps something to say about the next step, once.
@@ -294,7 +353,7 @@ impl Run {
             other => other,
         };
         let family = self.settings.family;
-        Ok(Raw { rung, family, solution, bent_vertices: 0, virtual_boundary: None, prepared: Some(prepared) })
+        Ok(Raw { prepared: Some(prepared), ..Raw::of(rung, family, solution) })
     }
 
     /// The natural boundary with conformal weights and the default pins, moved to where the user's pins want it.
@@ -305,14 +364,7 @@ impl Run {
         (self.stall, self.iterations) = (Stall::default(), 0);
         self.say("started again with conformal weights and the farthest boundary vertices as pins".to_owned());
         self.fit(mesh, &mut solution);
-        Ok(Raw {
-            rung: Method::Natural,
-            family: settings.family,
-            solution,
-            bent_vertices: 0,
-            virtual_boundary: None,
-            prepared: None,
-        })
+        Ok(Raw::of(Method::Natural, settings.family, solution))
     }
 
     /// Moves an embedding to where up to two pins of the user's want it.
@@ -345,14 +397,7 @@ impl Run {
                 pin.target = solution.embedding[vertex.index()];
             }
         }
-        Ok(Raw {
-            rung: Method::Iterate,
-            family: Family::MeanValue,
-            solution,
-            bent_vertices: 0,
-            virtual_boundary: None,
-            prepared: None,
-        })
+        Ok(Raw::of(Method::Iterate, Family::MeanValue, solution))
     }
 
     fn virtual_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
@@ -364,14 +409,8 @@ impl Run {
         }
         let Bent { mut solution, pinned, family, stages } = bent?;
         self.fit(mesh, &mut solution);
-        Ok(Raw {
-            rung: Method::VirtualBoundary,
-            family,
-            solution,
-            bent_vertices: if pinned > 2 { pinned } else { 0 },
-            virtual_boundary: stages,
-            prepared: None,
-        })
+        let bent_vertices = if pinned > 2 { pinned } else { 0 };
+        Ok(Raw { bent_vertices, virtual_boundary: stages, ..Raw::of(Method::VirtualBoundary, family, solution) })
     }
 }
 

@@ -5,6 +5,27 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{Family, Method, Prepared, Solution, Verdict, VirtualBoundary};
+use crate::mesh::{DiskMesh, Refinement, VertexId};
+
+/// Where a one-to-one embedding stands on its way: the numbers of continuation and relaxing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Mean over the surface of ½ tr(JᵀJ)/det J + ½ (det J + 1/det J): 2 where nothing is distorted.
+    pub energy: f64,
+    /// Smallest determinant of a face's map, at equal total areas.
+    pub least_determinant: f64,
+    /// Largest distance of an exact pin from its target, in the plane.
+    pub distance_left: f64,
+}
+
+/// The outside of an embedding up to a frame, triangulated: what keeps the boundary simple while vertices move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outside {
+    /// The frame's points.
+    pub frame: Vec<DVec2>,
+    /// Triangles, counter-clockwise. Numbers beyond the step's mesh are the frame's points.
+    pub triangles: Vec<[VertexId; 3]>,
+}
 
 /// An embedding, what made it, and how good it is.
 #[derive(Clone, Debug)]
@@ -33,9 +54,28 @@ pub struct Step {
     pub note: Option<String>,
     /// Equations and factors of a linear solve, for other targets of the same pins.
     pub prepared: Option<Arc<Prepared>>,
+    /// The mesh with new vertices that the embedding is of; none where it is of the mesh as given.
+    pub refinement: Option<Arc<Refinement>>,
+    /// How far a continuation or relaxing has come.
+    pub progress: Option<Progress>,
+    /// The outside that the step was made with, where there was one.
+    pub outside: Option<Arc<Outside>>,
 }
 
 impl Step {
+    /// The mesh that the embedding is of: `mesh` as given, or its refinement.
+    pub fn mesh<'a>(&'a self, mesh: &'a DiskMesh) -> &'a DiskMesh {
+        self.refinement.as_ref().map_or(mesh, |refinement| refinement.disk())
+    }
+
+    /// Vertices that are to be met exactly and are not, by number.
+    pub fn unmet(&self) -> Vec<VertexId> {
+        let Solution { embedding, pins, .. } = &self.solution;
+        let is_unmet =
+            |(vertex, pin): &(&VertexId, &super::Pin)| pin.hold.is_exact() && embedding[vertex.index()] != pin.target;
+        pins.iter().filter(is_unmet).map(|(&vertex, _)| vertex).collect()
+    }
+
     /// Flipped faces, boundary crossings and overwound vertices together.
     pub fn defect_count(&self) -> usize {
         let Verdict { flipped_faces, boundary_crossings, unlisted_crossings, overwound_vertices, .. } = &self.verdict;

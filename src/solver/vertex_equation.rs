@@ -80,6 +80,8 @@ pub enum NoEquation {
     StepBeforeMissing,
     /// The weights are a last resort against rounding: equal ones, or those of the surface.
     OtherWeights,
+    /// The step minimises an energy.
+    OfEnergy,
 }
 
 impl NoEquation {
@@ -90,6 +92,7 @@ impl NoEquation {
             Self::OfTriangles => "Lévy's equations belong to triangles: they have no barycentre.",
             Self::StepBeforeMissing => "Its weights come from the step before, of which only the numbers were kept.",
             Self::OtherWeights => "Its weights are a last resort against rounding, not those of an embedding.",
+            Self::OfEnergy => "This step minimises an energy of whole faces: vertices have no equations of their own.",
         }
     }
 }
@@ -123,6 +126,7 @@ pub fn equation_of_step(
             }
             None => Ok(on_surface(step.family)),
         },
+        Method::Continuation | Method::Matchmaker | Method::Relax => Err(NoEquation::OfEnergy),
         Method::Auto | Method::Natural | Method::Convex(_) => Ok(on_surface(step.family)),
     }
 }

@@ -94,6 +94,8 @@ fn method_menu(ui: &mut egui::Ui, settings: &mut Settings) {
                 "convex" => Method::Convex(BoundaryShape::default()),
                 "lscm" => Method::Lscm,
                 "levy" => Method::Levy,
+                "continuation" => Method::Continuation,
+                "matchmaker" => Method::Matchmaker,
                 "natural" => Method::Natural,
                 "iterate" => Method::Iterate,
                 "virtual-boundary" => Method::VirtualBoundary,

@@ -40,6 +40,7 @@ fn with_everything() -> (TempDir, Session) {
         max_steps: 7,
         growth: Growth::One,
         size: GaugeSize::default(),
+        ..Settings::default()
     };
     settled(&mut session, Action::SetSettings(settings));
     place(&mut session, 0, Pin::hard(DVec2::new(0.1 + 0.7, -0.0)));

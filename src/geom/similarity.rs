@@ -1,0 +1,60 @@
+//! Similarities of the plane, and the one that fits pairs of points best.
+
+use glam::DVec2;
+
+/// z ↦ turn · (z − from) + to, in complex numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Similarity {
+    turn: DVec2,
+    from: DVec2,
+    to: DVec2,
+}
+
+impl Similarity {
+    /// Where it takes a point.
+    pub fn apply(&self, z: DVec2) -> DVec2 {
+        self.turn.rotate(z - self.from) + self.to
+    }
+
+    /// The similarity without reflection that takes the first of each pair nearest to the second, in the sum of squares;
+    /// `None` where there is none, or where it would take all to one place.
+    pub fn fitting(pairs: &[[DVec2; 2]]) -> Option<Self> {
+        let count = pairs.len() as f64;
+        let from = pairs.iter().map(|[a, _]| *a).sum::<DVec2>() / count;
+        let to = pairs.iter().map(|[_, b]| *b).sum::<DVec2>() / count;
+        let (mut product, mut square) = (DVec2::ZERO, 0.0);
+        for [a, b] in pairs.iter().map(|[a, b]| [*a - from, *b - to]) {
+            // The conjugate of a, times b.
+            product += DVec2::new(a.dot(b), a.perp_dot(b));
+            square += a.length_squared();
+        }
+        let turn = product / square;
+        (turn.is_finite() && turn != DVec2::ZERO).then_some(Self { turn, from, to })
+    }
+
+    /// Root of the mean squared distance that it leaves between pairs.
+    pub fn error(&self, pairs: &[[DVec2; 2]]) -> f64 {
+        let sum: f64 = pairs.iter().map(|[a, b]| self.apply(*a).distance_squared(*b)).sum();
+        (sum / pairs.len() as f64).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_similarity_gives_an_exact_one_back() {
+        let points = [DVec2::new(0.0, 0.0), DVec2::new(2.0, 1.0), DVec2::new(-1.0, 3.0)];
+        let moved = |z: DVec2| DVec2::new(0.3, -0.4).rotate(z) + DVec2::new(5.0, 6.0);
+        let found = Similarity::fitting(&points.map(|z| [z, moved(z)])).expect("there is one");
+        for z in points {
+            assert!(found.apply(z).distance(moved(z)) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn no_similarity_spreads_what_lies_in_one_place() {
+        assert!(Similarity::fitting(&[[DVec2::ONE, DVec2::ZERO], [DVec2::ONE, DVec2::X]]).is_none());
+    }
+}

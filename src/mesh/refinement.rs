@@ -1,0 +1,86 @@
+//! A mesh with new vertices on its edges: the same surface, cut into more triangles.
+//!
+//! New vertices lie on edges of the mesh as given, its *old* edges, and are numbered after the old vertices. A face with
+//! new vertices on its sides is cut into parts; all others stay as they are. So the surface does not change, and whoever
+//! knows only the old vertices still finds them under their numbers.
+
+use std::collections::BTreeMap;
+
+use super::{Diagnosis, DiskMesh, FaceId, TriMesh, VertexId};
+
+/// A vertex on an edge of the mesh as given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewVertex {
+    /// The ends of the edge, the lower number first.
+    pub edge: [VertexId; 2],
+    /// Where on the edge: 0 at the first end, 1 at the second, and strictly between them.
+    pub at: f64,
+}
+
+/// A mesh with new vertices, and where each part of it comes from.
+#[derive(Clone, Debug)]
+pub struct Refinement {
+    disk: DiskMesh,
+    new_vertices: Vec<NewVertex>,
+    /// For each face the old face that it is or is a part of.
+    source: Vec<FaceId>,
+}
+
+impl Refinement {
+    /// Cuts faces of a mesh into parts, whose corners are numbered with the new vertices after the old ones. The parts
+    /// stand where their face stood; faces without an entry stay whole.
+    ///
+    /// # Errors
+    ///
+    /// What keeps the parts from being a disk together.
+    pub fn new(
+        mesh: &DiskMesh,
+        new_vertices: Vec<NewVertex>,
+        parts: &BTreeMap<FaceId, Vec<[VertexId; 3]>>,
+    ) -> Result<Self, Box<Diagnosis>> {
+        let old = mesh.mesh();
+        let mut positions = old.positions.clone();
+        positions.extend(new_vertices.iter().map(|new| {
+            let [a, b] = new.edge.map(|v| mesh.position(v));
+            a.lerp(b, new.at)
+        }));
+        let (mut triangles, mut source) = (Vec::new(), Vec::new());
+        for face in mesh.faces() {
+            let whole = [mesh.face(face)];
+            let parts: &[[VertexId; 3]] = parts.get(&face).map_or(&whole, |parts| parts);
+            triangles.extend_from_slice(parts);
+            source.extend(std::iter::repeat_n(face, parts.len()));
+        }
+        let polygon_of = Some(source.iter().map(|&face| old.polygon(face)).collect());
+        let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of })?;
+        Ok(Self { disk, new_vertices, source })
+    }
+
+    /// The mesh with its new vertices, as a disk.
+    pub fn disk(&self) -> &DiskMesh {
+        &self.disk
+    }
+
+    /// The new vertices, in the order of their numbers.
+    pub fn new_vertices(&self) -> &[NewVertex] {
+        &self.new_vertices
+    }
+
+    /// How many vertices the mesh has as given.
+    pub fn old_vertex_count(&self) -> usize {
+        self.disk.vertex_count() - self.new_vertices.len()
+    }
+
+    /// The old face that a face is, or is a part of.
+    pub fn source_of(&self, face: FaceId) -> FaceId {
+        self.source[face.index()]
+    }
+
+    /// The old edges that are split, each once, ascending.
+    pub fn split_edges(&self) -> Vec<[VertexId; 2]> {
+        let mut edges: Vec<[VertexId; 2]> = self.new_vertices.iter().map(|new| new.edge).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+}

@@ -1,0 +1,278 @@
+//! The energy that keeps faces from folding: its value and derivatives for one triangle.
+//!
+//! ```text
+//! f(J) = ½ tr(JᵀJ)/χ(det J) + ½ (det²J + 1)/χ(det J),     χ(d) = (d + √(ε² + d²))/2
+//! ```
+//!
+//! Source: V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, "Foldover-free maps in 50 lines of
+//! code", 2021. With ε = 0 it is a barrier: infinite where a triangle has no area. With ε > 0 it is finite everywhere,
+//! and pulls folded triangles back.
+//!
+//! # In complex numbers
+//!
+//! The map of a triangle has the derivatives α = ∂z/∂w and β = ∂z/∂w̄, and with p = |α|², q = |β|²
+//!
+//! ```text
+//! tr(JᵀJ) = 2 (p + q),   det J = p − q,   f = (p + q + ½ (det²J + 1)) / χ(det J)
+//! ```
+//!
+//! So f is a function of p and q alone, and its Hessian in (α, β) falls into three parts that are known in closed form:
+//! 2 f_p along iα, 2 f_q along iβ, and a 2×2 matrix in the directions of α and β. Where they are not positive they are
+//! made so, which makes a descent direction of Newton's (A. Shtengel et al., "Geometric optimization via composite
+//! majorization", 2017; B. Smith et al., "Analytic eigensystems for isotropic distortion energies", 2019).
+
+use glam::DVec2;
+
+/// A triangle that is thinner than this, height to longest side, is measured as if it were so thick.
+const THINNEST: f64 = 1e-7;
+
+/// A triangle with the shape that it is to have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element {
+    /// Its corners, as numbers of points.
+    pub(super) corners: [u32; 3],
+    /// Gradients of the three hat functions on the shape at rest.
+    gradients: [DVec2; 3],
+    /// Factor of its energy.
+    weight: f64,
+}
+
+/// A second-order model of an element's energy: coordinates x and y of each corner in turn.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    /// Gradient.
+    pub(super) gradient: [f64; 6],
+    /// Hessian, made positive semidefinite; symmetric.
+    pub(super) hessian: [[f64; 6]; 6],
+}
+
+/// f by p and q, with its derivatives.
+struct Terms {
+    p: f64,
+    q: f64,
+    pp: f64,
+    pq: f64,
+    qq: f64,
+}
+
+/// 1/χ(d) without cancellation, and √(ε² + d²).
+fn inverse_chi(d: f64, epsilon: f64) -> (f64, f64) {
+    let root = d.hypot(epsilon);
+    // (√ + d)(√ − d) = ε².
+    let inverse = if d >= 0.0 { 2.0 / (d + root) } else { 2.0 * (root - d) / (epsilon * epsilon) };
+    (inverse, root)
+}
+
+fn value(p: f64, q: f64, epsilon: f64) -> f64 {
+    let d = p - q;
+    if epsilon == 0.0 && d <= 0.0 {
+        return f64::INFINITY;
+    }
+    (p + q + 0.5 * (d * d + 1.0)) * inverse_chi(d, epsilon).0
+}
+
+fn terms(p: f64, q: f64, epsilon: f64) -> Terms {
+    let d = p - q;
+    let (u, root) = inverse_chi(d, epsilon);
+    let (du, ddu) = (-u / root, 2.0 / (root * root * root));
+    let n = p + q + 0.5 * (d * d + 1.0);
+    Terms {
+        p: (1.0 + d) * u + n * du,
+        q: (1.0 - d) * u - n * du,
+        pp: u + 2.0 * (1.0 + d) * du + n * ddu,
+        pq: -u - 2.0 * d * du - n * ddu,
+        qq: u - 2.0 * (1.0 - d) * du + n * ddu,
+    }
+}
+
+impl Element {
+    /// A triangle that is at rest in the shape `[a, b, c]`, counter-clockwise.
+    pub(super) fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], weight: f64) -> Self {
+        let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
+        let double_area = (b - a).perp_dot(c - a).max(THINNEST * longest);
+        let gradients = [c - b, a - c, b - a].map(|side| side.perp() / double_area);
+        Self { corners, gradients, weight }
+    }
+
+    /// α = ½ Σ ḡ z and β = ½ Σ g z.
+    fn derivatives(&self, z: [DVec2; 3]) -> (DVec2, DVec2) {
+        let mut sums = (DVec2::ZERO, DVec2::ZERO);
+        for (g, z) in self.gradients.iter().zip(z) {
+            sums.0 += conjugate(*g).rotate(z);
+            sums.1 += g.rotate(z);
+        }
+        (0.5 * sums.0, 0.5 * sums.1)
+    }
+
+    /// The determinant of its map.
+    pub(super) fn determinant(&self, z: [DVec2; 3]) -> f64 {
+        let [g, h] = [self.gradients[1], self.gradients[2]];
+        (z[1] - z[0]).perp_dot(z[2] - z[0]) * g.perp_dot(h)
+    }
+
+    /// Its energy; infinite where ε = 0 and it is folded.
+    pub(super) fn energy(&self, z: [DVec2; 3], epsilon: f64) -> f64 {
+        let (alpha, beta) = self.derivatives(z);
+        self.weight * value(alpha.length_squared(), beta.length_squared(), epsilon)
+    }
+
+    /// The gradient of its energy, per corner.
+    pub(super) fn gradient(&self, z: [DVec2; 3], epsilon: f64) -> [DVec2; 3] {
+        let (alpha, beta) = self.derivatives(z);
+        let Terms { p, q, .. } = terms(alpha.length_squared(), beta.length_squared(), epsilon);
+        let (a, b) = (self.weight * p * alpha, self.weight * q * beta);
+        // d|α|² = 2 Re(ᾱ dα).
+        self.gradients.map(|g| a.rotate(g) + b.rotate(conjugate(g)))
+    }
+
+    /// Gradient and Hessian of its energy, the Hessian made positive semidefinite.
+    pub(super) fn model(&self, z: [DVec2; 3], epsilon: f64) -> Model {
+        let (alpha, beta) = self.derivatives(z);
+        let (p, q) = (alpha.length_squared(), beta.length_squared());
+        let by = terms(p, q, epsilon);
+        let w = self.weight;
+        let along = |direction: DVec2| direction.try_normalize().unwrap_or(DVec2::X);
+        let (e, f) = (along(alpha), along(beta));
+        // How a move of the corners changes α and β along these directions and across them.
+        let on_alpha = |e: DVec2| flat(self.gradients.map(|g| 0.5 * e.rotate(g)));
+        let on_beta = |f: DVec2| flat(self.gradients.map(|g| 0.5 * f.rotate(conjugate(g))));
+        let rows = [on_alpha(e), on_beta(f), on_alpha(e.perp()), on_beta(f.perp())];
+        let [[aa, ab], [_, bb]] =
+            positive([2.0 * by.p + 4.0 * p * by.pp, 4.0 * (p * q).sqrt() * by.pq, 2.0 * by.q + 4.0 * q * by.qq]);
+        let (across_alpha, across_beta) = ((2.0 * by.p).max(0.0), (2.0 * by.q).max(0.0));
+        let mut hessian = [[0.0; 6]; 6];
+        for (i, row) in hessian.iter_mut().enumerate() {
+            let scaled = [
+                w * (aa * rows[0][i] + ab * rows[1][i]),
+                w * (ab * rows[0][i] + bb * rows[1][i]),
+                w * across_alpha * rows[2][i],
+                w * across_beta * rows[3][i],
+            ];
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = scaled.iter().zip(&rows).map(|(s, row)| s * row[j]).sum();
+            }
+        }
+        let (a, b) = (w * by.p * alpha, w * by.q * beta);
+        Model { gradient: flat(self.gradients.map(|g| a.rotate(g) + b.rotate(conjugate(g)))), hessian }
+    }
+
+    /// The longest step along a direction that leaves the triangle unfolded, in multiples of the direction; it must be
+    /// unfolded before.
+    pub(super) fn longest_step(z: [DVec2; 3], direction: [DVec2; 3]) -> f64 {
+        let (u, v) = (z[1] - z[0], z[2] - z[0]);
+        let (du, dv) = (direction[1] - direction[0], direction[2] - direction[0]);
+        smallest_positive_root([u.perp_dot(v), u.perp_dot(dv) + du.perp_dot(v), du.perp_dot(dv)])
+    }
+}
+
+/// The smallest positive t with c + b t + a t² = 0, where c > 0; infinite where there is none.
+fn smallest_positive_root([c, b, a]: [f64; 3]) -> f64 {
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return f64::INFINITY;
+    }
+    // With c > 0 the stable form of the nearer root is 2c / (−b ± √).
+    let divisor = -b + discriminant.sqrt();
+    if divisor > 0.0 { 2.0 * c / divisor } else { f64::INFINITY }
+}
+
+fn conjugate(z: DVec2) -> DVec2 {
+    DVec2::new(z.x, -z.y)
+}
+
+fn flat(vectors: [DVec2; 3]) -> [f64; 6] {
+    let [a, b, c] = vectors;
+    [a.x, a.y, b.x, b.y, c.x, c.y]
+}
+
+/// The nearest positive semidefinite matrix to [[a, b], [b, c]].
+fn positive([a, b, c]: [f64; 3]) -> [[f64; 2]; 2] {
+    let (mean, half) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
+    let (low, high) = (mean - half, mean + half);
+    if low >= 0.0 {
+        return [[a, b], [b, c]];
+    }
+    if high <= 0.0 {
+        return [[0.0; 2]; 2];
+    }
+    // The projection on the eigenvector of the larger eigenvalue, which is then kept alone.
+    let factor = high / (high - low);
+    [[factor * (a - low), factor * b], [factor * b, factor * (c - low)]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn element() -> Element {
+        Element::new([0, 1, 2], [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)], 0.7)
+    }
+
+    const PLACES: [[DVec2; 3]; 3] = [
+        [DVec2::new(0.1, 0.2), DVec2::new(1.7, -0.3), DVec2::new(0.9, 1.2)],
+        [DVec2::new(0.1, 0.2), DVec2::new(1.7, 0.3), DVec2::new(0.9, -1.2)],
+        [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(2.0, 1e-3)],
+    ];
+
+    /// Moves one coordinate.
+    fn moved(mut z: [DVec2; 3], coordinate: usize, by: f64) -> [DVec2; 3] {
+        z[coordinate / 2][coordinate % 2] += by;
+        z
+    }
+
+    #[test]
+    fn a_triangle_at_rest_has_the_least_energy() {
+        let rest = [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)];
+        let element = element();
+        assert!((element.energy(rest, 0.0) - 2.0 * 0.7).abs() < 1e-14);
+        assert!((element.determinant(rest) - 1.0).abs() < 1e-14);
+        assert!(element.gradient(rest, 0.0).iter().all(|g| g.length() < 1e-14));
+        let turned = rest.map(|z| DVec2::from_angle(1.0).rotate(z) + DVec2::new(3.0, 4.0));
+        assert!((element.energy(turned, 0.0) - 2.0 * 0.7).abs() < 1e-13);
+    }
+
+    #[test]
+    fn the_gradient_is_that_of_the_energy() {
+        for (z, epsilon) in PLACES.into_iter().zip([0.0, 0.3, 0.01]) {
+            let gradient = flat(element().gradient(z, epsilon));
+            assert_eq!(gradient, element().model(z, epsilon).gradient);
+            for (i, derivative) in gradient.iter().enumerate() {
+                let [after, before] = [1e-6, -1e-6].map(|h| element().energy(moved(z, i, h), epsilon));
+                let difference = (after - before) / 2e-6;
+                assert!((difference - derivative).abs() < 1e-6 * (1.0 + derivative.abs()), "{difference} {derivative}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_hessian_is_that_of_the_energy_where_it_is_convex() {
+        // Near to rest, where nothing had to be made positive.
+        let z = [DVec2::new(0.01, 0.0), DVec2::new(2.02, 0.1), DVec2::new(0.4, 1.53)];
+        let model = element().model(z, 0.0);
+        for i in 0..6 {
+            let [after, before] = [1e-5, -1e-5].map(|h| flat(element().gradient(moved(z, i, h), 0.0)));
+            for j in 0..6 {
+                let difference = (after[j] - before[j]) / 2e-5;
+                assert!((difference - model.hessian[i][j]).abs() < 1e-7, "{i} {j}: {difference}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_longest_step_ends_where_the_triangle_has_no_area() {
+        let z = PLACES[0];
+        for direction in PLACES {
+            let step = Element::longest_step(z, direction);
+            if step.is_finite() {
+                let end = [0, 1, 2].map(|k| z[k] + step * direction[k]);
+                assert!((end[1] - end[0]).perp_dot(end[2] - end[0]).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn folded_triangles_have_infinite_energy_behind_the_barrier_and_a_finite_one_without() {
+        assert_eq!(element().energy(PLACES[1], 0.0), f64::INFINITY);
+        assert!(element().energy(PLACES[1], 1e-6).is_finite());
+    }
+}

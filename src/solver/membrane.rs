@@ -1,0 +1,379 @@
+//! Triangles in the plane that resist folding: an energy over all of them, and Newton's method to lower it.
+//!
+//! ```text
+//! E(z) = Σ elements f(J) + Σ springs ½ s |z − t|²
+//! ```
+//!
+//! Some points are held; the others move. While a triangle is folded, ε follows the smallest determinant, as in "Foldover-free
+//! maps in 50 lines of code" (see the module `foldover_energy`); once all are unfolded ε is 0, and no step leaves that state.
+
+use glam::DVec2;
+use nalgebra_sparse::CscMatrix;
+use nalgebra_sparse::pattern::SparsityPattern;
+use rayon::prelude::*;
+
+use super::foldover_energy::{Element, Model};
+use super::{Control, Phase, SolveError};
+use crate::linalg::{Analysis, Factor, Kind, LinalgError};
+
+/// A point without an unknown of its own.
+const HELD: u32 = u32::MAX;
+
+/// Elements whose energies are summed by one task: the sum is the same however many threads share it.
+const CHUNK: usize = 2048;
+
+/// Elements whose models are held at one time.
+const MODELS: usize = 8 * CHUNK;
+
+/// ε² where a triangle is folded: a little, and a share of the worst determinant's square.
+const EPSILON_SQUARED: [f64; 2] = [1e-12, 0.04];
+
+/// The share of the longest unfolded step that is taken at most.
+const STEP_SHARE: f64 = 0.9;
+
+/// The least decrease of the energy, as a share of what the gradient promises (Armijo).
+const DECREASE: f64 = 1e-4;
+
+/// Halvings of a step before it counts as none.
+const HALVINGS: usize = 40;
+
+/// The first multiple of the diagonal that is added where the Hessian cannot be factored; then ten times as much.
+const REGULARISATION: f64 = 1e-10;
+
+/// A pull on a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spring {
+    pub(super) point: u32,
+    pub(super) target: DVec2,
+    pub(super) stiffness: f64,
+}
+
+/// The elements with what is free to move, and the plan of the Hessian.
+pub(super) struct Membrane {
+    elements: Vec<Element>,
+    springs: Vec<Spring>,
+    /// For each point its unknown, or `HELD`.
+    unknown_of: Vec<u32>,
+    unknowns: Vec<u32>,
+    pattern: SparsityPattern,
+    /// For each element and pair of corners (row, column) the place of the block's first entry, or `HELD`.
+    slots: Vec<[[u32; 3]; 3]>,
+    /// Entries of each unknown's columns.
+    column_length: Vec<u32>,
+    diagonal: Vec<u32>,
+    analysis: Analysis,
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Limits {
+    /// The most Newton steps.
+    pub(super) steps: usize,
+    /// Whether to stop as soon as no triangle is folded.
+    pub(super) until_unfolded: bool,
+    /// A step that lowers the energy by a smaller share of it is the last.
+    pub(super) tolerance: f64,
+}
+
+/// What a descent came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Descent {
+    /// Smallest determinant.
+    pub(super) least_determinant: f64,
+    /// Steps taken.
+    pub(super) steps: usize,
+    /// Whether it ended because no step lowers the energy by much.
+    pub(super) converged: bool,
+}
+
+impl Membrane {
+    /// Plans the energy of `elements` over points of which some are held.
+    pub(super) fn new(
+        point_count: usize,
+        elements: Vec<Element>,
+        springs: Vec<Spring>,
+        is_held: impl Fn(u32) -> bool,
+    ) -> Result<Self, SolveError> {
+        let mut unknown_of = vec![HELD; point_count];
+        let mut unknowns = Vec::new();
+        for point in elements.iter().flat_map(|element| element.corners) {
+            if unknown_of[point as usize] == HELD && !is_held(point) {
+                unknown_of[point as usize] = 0;
+            }
+        }
+        for (point, unknown) in (0..).zip(&mut unknown_of) {
+            if *unknown != HELD {
+                *unknown = number(unknowns.len());
+                unknowns.push(point);
+            }
+        }
+        let springs: Vec<Spring> =
+            springs.into_iter().filter(|spring| unknown_of[spring.point as usize] != HELD).collect();
+        let neighbours = neighbours(&elements, &unknown_of, unknowns.len());
+        let place = |row: u32, column: u32| {
+            let (starts, list) = &neighbours;
+            let (from, to) = (starts[column as usize], starts[column as usize + 1]);
+            let at = list[from..to].binary_search(&row).expect("corners of one element are neighbours");
+            number(4 * from + 2 * at)
+        };
+        let slot = |row: u32, column: u32| if row == HELD || column == HELD { HELD } else { place(row, column) };
+        let slots = elements
+            .iter()
+            .map(|element| {
+                let unknowns = element.corners.map(|corner| unknown_of[corner as usize]);
+                unknowns.map(|row| unknowns.map(|column| slot(row, column)))
+            })
+            .collect();
+        let column_length = neighbours.0.windows(2).map(|pair| number(2 * (pair[1] - pair[0]))).collect();
+        let diagonal = (0..number(unknowns.len())).map(|unknown| place(unknown, unknown)).collect();
+        let pattern = block_pattern(&neighbours);
+        let analysis = Analysis::new(Kind::Hermitian, &pattern).map_err(of_the_system)?;
+        Ok(Self { elements, springs, unknown_of, unknowns, pattern, slots, column_length, diagonal, analysis })
+    }
+
+    /// Corners of an element.
+    fn corners(element: &Element, z: &[DVec2]) -> [DVec2; 3] {
+        element.corners.map(|corner| z[corner as usize])
+    }
+
+    /// The energy; infinite where ε = 0 and a triangle is folded.
+    pub(super) fn energy(&self, z: &[DVec2], epsilon: f64) -> f64 {
+        let of_chunk = |chunk: &[Element]| -> f64 {
+            chunk.iter().map(|element| element.energy(Self::corners(element, z), epsilon)).sum()
+        };
+        let sums: Vec<f64> = self.elements.par_chunks(CHUNK).map(of_chunk).collect();
+        let pulled =
+            |spring: &Spring| 0.5 * spring.stiffness * z[spring.point as usize].distance_squared(spring.target);
+        sums.iter().sum::<f64>() + self.springs.iter().map(pulled).sum::<f64>()
+    }
+
+    /// The smallest determinant of an element.
+    pub(super) fn least_determinant(&self, z: &[DVec2]) -> f64 {
+        let of = |element: &Element| element.determinant(Self::corners(element, z));
+        self.elements.par_iter().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
+    }
+
+    /// The longest step along a direction that folds nothing.
+    fn longest_step(&self, z: &[DVec2], direction: &[DVec2]) -> f64 {
+        let of =
+            |element: &Element| Element::longest_step(Self::corners(element, z), Self::corners(element, direction));
+        self.elements.par_iter().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
+    }
+
+    /// Gradient by unknown, and Hessian. Where points are moved by `shift`, the gradient is that of the model there.
+    fn linearise(&self, z: &[DVec2], epsilon: f64, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
+        let mut gradient = vec![0.0; 2 * self.unknowns.len()];
+        let mut values = vec![0.0; self.pattern.nnz()];
+        for (block, slots) in self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS)) {
+            let model = |element: &Element| element.model(Self::corners(element, z), epsilon);
+            let models: Vec<Model> = block.par_iter().with_min_len(CHUNK / 8).map(model).collect();
+            for ((element, slots), model) in block.iter().zip(slots).zip(&models) {
+                let mut of_element = model.gradient;
+                if let Some(shift) = shift {
+                    let [a, b, c] = Self::corners(element, shift);
+                    let by = [a.x, a.y, b.x, b.y, c.x, c.y];
+                    for (g, row) in of_element.iter_mut().zip(&model.hessian) {
+                        *g += row.iter().zip(by).map(|(h, by)| h * by).sum::<f64>();
+                    }
+                }
+                self.add(element, slots, (&of_element, &model.hessian), (&mut gradient, &mut values));
+            }
+        }
+        for Spring { point, target, stiffness } in &self.springs {
+            let unknown = self.unknown_of[*point as usize] as usize;
+            let pull = *stiffness * (z[*point as usize] - *target);
+            gradient[2 * unknown] += pull.x;
+            gradient[2 * unknown + 1] += pull.y;
+            let at = self.diagonal[unknown] as usize;
+            values[at] += stiffness;
+            values[at + self.column_length[unknown] as usize + 1] += stiffness;
+        }
+        let hessian = CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values).expect("one value an entry");
+        (gradient, hessian)
+    }
+
+    /// Adds an element's part of the gradient and of the Hessian.
+    fn add(
+        &self,
+        element: &Element,
+        slots: &[[u32; 3]; 3],
+        (of_element, hessian): (&[f64; 6], &[[f64; 6]; 6]),
+        (gradient, values): (&mut [f64], &mut [f64]),
+    ) {
+        let unknowns = element.corners.map(|corner| self.unknown_of[corner as usize]);
+        for (k, (&unknown, slots)) in unknowns.iter().zip(slots).enumerate() {
+            if unknown == HELD {
+                continue;
+            }
+            gradient[2 * unknown as usize] += of_element[2 * k];
+            gradient[2 * unknown as usize + 1] += of_element[2 * k + 1];
+            for (l, (&column, &slot)) in unknowns.iter().zip(slots).enumerate() {
+                if slot == HELD {
+                    continue;
+                }
+                let (first, second) = (slot as usize, (slot + self.column_length[column as usize]) as usize);
+                values[first] += hessian[2 * k][2 * l];
+                values[first + 1] += hessian[2 * k + 1][2 * l];
+                values[second] += hessian[2 * k][2 * l + 1];
+                values[second + 1] += hessian[2 * k + 1][2 * l + 1];
+            }
+        }
+    }
+
+    /// Factors a Hessian; where rounding has made it indefinite, with a growing multiple of its diagonal added.
+    fn factor(&self, hessian: &mut CscMatrix<f64>, control: Control<'_>) -> Result<Factor<f64>, SolveError> {
+        let mut share = REGULARISATION;
+        loop {
+            match self.analysis.factor(hessian, control.cancel()) {
+                Err(LinalgError::NotPositiveDefinite { .. }) if share < 1e3 => {
+                    let values = hessian.values_mut();
+                    for (&first, &length) in self.diagonal.iter().zip(&self.column_length) {
+                        let (x, y) = (first as usize, (first + length) as usize + 1);
+                        let most = values[x].max(values[y]).max(f64::MIN_POSITIVE);
+                        values[x] += share * most;
+                        values[y] += share * most;
+                    }
+                    share *= 10.0;
+                }
+                other => return other.map_err(of_the_system),
+            }
+        }
+    }
+
+    /// Newton's direction: how far each point goes.
+    fn direction(
+        &self,
+        (gradient, mut hessian): (Vec<f64>, CscMatrix<f64>),
+        control: Control<'_>,
+    ) -> Result<Vec<DVec2>, SolveError> {
+        let factor = self.factor(&mut hessian, control)?;
+        let rhs: Vec<f64> = gradient.iter().map(|g| -g).collect();
+        let x = factor.substitute(&rhs);
+        let mut direction = vec![DVec2::ZERO; self.unknown_of.len()];
+        for (&point, move_) in self.unknowns.iter().zip(x.chunks_exact(2)) {
+            direction[point as usize] = DVec2::new(move_[0], move_[1]);
+        }
+        Ok(direction)
+    }
+
+    /// Moves held points by `shift`, and the others as the model of the energy says they follow.
+    pub(super) fn follow(&self, z: &mut [DVec2], shift: &[DVec2], control: Control<'_>) -> Result<(), SolveError> {
+        let direction = self.direction(self.linearise(z, 0.0, Some(shift)), control)?;
+        for ((z, direction), shift) in z.iter_mut().zip(direction).zip(shift) {
+            *z += direction + *shift;
+        }
+        Ok(())
+    }
+
+    /// Lowers the energy step by step.
+    pub(super) fn descend(&self, z: &mut [DVec2], limits: Limits, control: Control<'_>) -> Result<Descent, SolveError> {
+        let mut trial = z.to_vec();
+        for steps in 0..limits.steps {
+            control.enter(Phase::Solve)?;
+            let least = self.least_determinant(z);
+            if least > 0.0 && limits.until_unfolded {
+                return Ok(Descent { least_determinant: least, steps, converged: false });
+            }
+            let [floor, share] = EPSILON_SQUARED;
+            let epsilon = if least > 0.0 { 0.0 } else { (floor + share * least * least).sqrt() };
+            let (gradient, hessian) = self.linearise(z, epsilon, None);
+            let before = self.energy(z, epsilon);
+            let slope_of = |direction: &[DVec2]| -> f64 {
+                let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
+                self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum()
+            };
+            let direction = self.direction((gradient.clone(), hessian), control)?;
+            let slope = slope_of(&direction);
+            let longest = if epsilon == 0.0 { STEP_SHARE * self.longest_step(z, &direction) } else { 1.0 };
+            let mut step = longest.min(1.0);
+            let mut gained = 0.0;
+            for _ in 0..HALVINGS {
+                for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
+                    *trial = *z + step * *direction;
+                }
+                gained = before - self.energy(&trial, epsilon);
+                if gained >= -DECREASE * step * slope {
+                    break;
+                }
+                step *= 0.5;
+            }
+            if std::env::var_os("FB_TRACE").is_some() {
+                eprintln!(
+                    "   {steps} eps {epsilon:.2e} least {least:.3e} E {before:.6e} gained {gained:.3e} step {step:.3e} slope {slope:.2e}"
+                );
+            }
+            if !(gained > 0.0) {
+                return Ok(Descent { least_determinant: least, steps, converged: true });
+            }
+            z.copy_from_slice(&trial);
+            if epsilon == 0.0 && gained < limits.tolerance * before {
+                return Ok(Descent { least_determinant: self.least_determinant(z), steps: steps + 1, converged: true });
+            }
+        }
+        Ok(Descent { least_determinant: self.least_determinant(z), steps: limits.steps, converged: false })
+    }
+}
+
+fn number(count: usize) -> u32 {
+    u32::try_from(count).expect("entries fit")
+}
+
+fn of_the_system(error: LinalgError) -> SolveError {
+    match error {
+        LinalgError::Cancelled => SolveError::Cancelled,
+        other => SolveError::Linear { reason: other.to_string() },
+    }
+}
+
+/// For each unknown the unknowns that share an element with it, itself included, ascending; starts and list.
+fn neighbours(elements: &[Element], unknown_of: &[u32], count: usize) -> (Vec<usize>, Vec<u32>) {
+    let of = |element: &Element| element.corners.map(|corner| unknown_of[corner as usize]);
+    let mut starts = vec![0_usize; count + 1];
+    for unknown in elements.iter().flat_map(of).filter(|&u| u != HELD) {
+        starts[unknown as usize + 1] += 3;
+    }
+    for i in 0..count {
+        starts[i + 1] += starts[i];
+    }
+    let mut list = vec![HELD; starts[count]];
+    let mut next = starts.clone();
+    for element in elements {
+        let unknowns = of(element);
+        for column in unknowns.into_iter().filter(|&u| u != HELD) {
+            for row in unknowns {
+                list[next[column as usize]] = row;
+                next[column as usize] += 1;
+            }
+        }
+    }
+    let mut packed = Vec::with_capacity(list.len() / 2);
+    let mut packed_starts = Vec::with_capacity(count + 1);
+    packed_starts.push(0);
+    for pair in starts.windows(2) {
+        let column = &mut list[pair[0]..pair[1]];
+        column.sort_unstable();
+        let begin = packed.len();
+        for &row in column.iter().filter(|&&row| row != HELD) {
+            if packed.len() == begin || packed.last() != Some(&row) {
+                packed.push(row);
+            }
+        }
+        packed_starts.push(packed.len());
+    }
+    (packed_starts, packed)
+}
+
+/// The pattern with a 2×2 block for every pair of neighbours.
+fn block_pattern((starts, list): &(Vec<usize>, Vec<u32>)) -> SparsityPattern {
+    let count = starts.len() - 1;
+    let mut offsets = Vec::with_capacity(2 * count + 1);
+    let mut rows = Vec::with_capacity(4 * list.len());
+    offsets.push(0);
+    for pair in starts.windows(2) {
+        for _ in 0..2 {
+            rows.extend(list[pair[0]..pair[1]].iter().flat_map(|&row| [2 * row as usize, 2 * row as usize + 1]));
+            offsets.push(rows.len());
+        }
+    }
+    SparsityPattern::try_from_offsets_and_indices(2 * count, 2 * count, offsets, rows).expect("sorted and distinct")
+}
