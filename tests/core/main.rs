@@ -28,6 +28,7 @@ mod mesh;
 mod natural;
 mod obj;
 mod obj_picture;
+mod obj_refined;
 mod obj_texture;
 mod obj_write;
 mod pins;
