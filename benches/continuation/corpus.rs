@@ -40,7 +40,11 @@ pub(crate) fn run(is_quick: bool) {
         if is_quick && !name.starts_with("fran_face") {
             continue;
         }
-        let row = row(&path).unwrap_or_else(|error| HEADS.map(|_| String::new()).map(|_| error.clone()));
+        let row = row(&path).unwrap_or_else(|error| {
+            let mut cells = HEADS.map(|_| "–".to_owned());
+            (cells[0], cells[HEADS.len() - 1]) = (name, error);
+            cells
+        });
         println!("{}", row.join("  "));
         table.row(row);
     }
@@ -95,7 +99,7 @@ fn row(path: &Path) -> Result<[String; 13], String> {
         seconds(found.seconds_to_solve()),
         seconds(found.seconds),
         relaxed.map_or("–".to_owned(), |step| energy(step.mesh(&mesh), &step.solution.embedding)),
-        published(path, &mesh).unwrap_or("–".to_owned()),
+        published(path, &mesh).unwrap_or_else(|| "–".to_owned()),
         found.ending,
     ])
 }

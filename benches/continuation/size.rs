@@ -19,7 +19,11 @@ pub(crate) fn run(is_quick: bool) {
     let heads = ["faces", "planar", "rung", "steps", "new", "s", "target s", "peak MB", "end"];
     let mut table = Table::new("auto with 10 hard pins displaced by 10 % of the size", &heads);
     for &(faces, at_most) in if is_quick { &FACES[..1] } else { &FACES[..] } {
-        let row = row(faces, at_most).unwrap_or_else(|error| heads.map(|_| error.clone()));
+        let row = row(faces, at_most).unwrap_or_else(|error| {
+            let mut cells = heads.map(|_| "–".to_owned());
+            (cells[0], cells[heads.len() - 1]) = (faces.to_string(), error);
+            cells
+        });
         println!("{}", row.join("  "));
         table.row(row);
     }
