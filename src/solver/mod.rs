@@ -1,6 +1,7 @@
 //! The paper: weights, systems, methods, verdict and distortion. Knows no screen and no file.
 
 mod catalogue;
+mod conflicts;
 mod constrained_run;
 mod continuation;
 mod control;
@@ -34,10 +35,11 @@ mod virtual_boundary;
 mod virtual_boundary_run;
 pub mod weights;
 
-pub use catalogue::{CatalogueEntry, FAMILIES, METHODS};
+pub use catalogue::{CatalogueEntry, Choice, FAMILIES, METHODS};
+pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use control::{Control, Phase};
 pub use convex::convex_boundary;
-pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Spread, distortion};
+pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
 pub use error::SolveError;
 pub use iterate::Iteration;
 pub use method::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
