@@ -24,14 +24,24 @@ fn check(mesh: &DiskMesh, pins: &Pins, name: &str) -> Step {
     assert!(verdict(fine, embedding).planar, "{name}");
     assert!(!step.verdict.mirrored, "{name}");
     for (v, pin) in pins {
-        assert_eq!(embedding[v.index()].to_array().map(f64::to_bits), pin.target.to_array().map(f64::to_bits), "{name}");
+        assert_eq!(
+            embedding[v.index()].to_array().map(f64::to_bits),
+            pin.target.to_array().map(f64::to_bits),
+            "{name}"
+        );
     }
     let old = mesh.vertex_count();
     assert_eq!(refinement.old_vertex_count(), old);
     assert_eq!(fine.mesh().positions[..old], mesh.mesh().positions[..]);
     for (new, position) in refinement.new_vertices().iter().zip(&fine.mesh().positions[old..]) {
         assert!(new.edge[0] < new.edge[1] && new.at > 0.0 && new.at < 1.0, "{name}");
-        assert!(mesh.edges().any(|e| { let [a, b] = mesh.ends(e); [a.min(b), a.max(b)] == new.edge }), "{name}");
+        assert!(
+            mesh.edges().any(|e| {
+                let [a, b] = mesh.ends(e);
+                [a.min(b), a.max(b)] == new.edge
+            }),
+            "{name}"
+        );
         let [a, b] = new.edge.map(|v| mesh.position(v));
         assert_eq!(a.lerp(b, new.at), *position);
     }
