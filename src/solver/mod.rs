@@ -14,6 +14,7 @@ mod free_solve;
 mod iterate;
 mod least_squares;
 mod left_kernel;
+mod matchmaker;
 mod membrane;
 mod method;
 mod outside;

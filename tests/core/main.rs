@@ -23,6 +23,7 @@ mod linalg;
 mod linalg_faults;
 mod linalg_matrices;
 mod linalg_mean_value;
+mod matchmaker;
 mod materials;
 mod mesh;
 mod natural;
