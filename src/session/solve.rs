@@ -138,8 +138,11 @@ impl Outcome {
     fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Vec<DVec2>, Placement, Verdict) {
         let embedding = &self.step.solution.embedding;
         let mut coordinates: Vec<DVec2> = embedding.iter().map(|&z| self.frame.uv_from_plane(z)).collect();
-        for (vertex, pin) in self.pins_in_use().filter(|(_, pin)| self.settings.is_exact(pin.hold)) {
-            coordinates[vertex.index()] = pin.target;
+        for (vertex, pin, error) in self.pin_errors().filter(|(_, pin, _)| self.settings.is_exact(pin.hold)) {
+            // A step on the way to the constraints has not met them yet.
+            if error == 0.0 {
+                coordinates[vertex.index()] = pin.target;
+            }
         }
         let upright: Vec<DVec2> = match self.frame.v_axis {
             VAxis::Up => coordinates.clone(),

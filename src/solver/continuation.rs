@@ -23,6 +23,9 @@ use crate::mesh::{DiskMesh, VertexId};
 /// Points on each side of the frame.
 const FRAME_POINTS: u32 = 8;
 
+/// Faces and triangles of the outside that are thinner, height to longest side, are measured as if they were so thick.
+const THINNEST: [f64; 2] = [1e-4, 0.1];
+
 /// Size of the frame, relative to everything within.
 const FRAME_SIZE: f64 = 2.0;
 
@@ -90,7 +93,7 @@ impl Rest {
         mesh.faces()
             .zip(&self.triangles)
             .zip(&self.shares)
-            .map(|((face, shape), &share)| Element::new(numbers(face), shape.map(|z| scale * z), share))
+            .map(|((face, shape), &share)| Element::new(numbers(face), shape.map(|z| scale * z), (share, THINNEST[0])))
             .collect()
     }
 }
@@ -141,7 +144,9 @@ fn outside_elements(outside: &Outside, points: &[DVec2], weight: f64) -> Vec<Ele
     let shape = |t: &[VertexId; 3]| t.map(|v| points[v.index()]);
     let area = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a);
     let total: f64 = outside.triangles.iter().map(|t| area(shape(t))).sum();
-    let element = |t: &[VertexId; 3]| Element::new(t.map(VertexId::number), shape(t), weight * area(shape(t)) / total);
+    let element = |t: &[VertexId; 3]| {
+        Element::new(t.map(VertexId::number), shape(t), (weight * area(shape(t)) / total, THINNEST[1]))
+    };
     outside.triangles.iter().map(element).collect()
 }
 

@@ -23,9 +23,6 @@
 
 use glam::DVec2;
 
-/// A triangle that is thinner than this, height to longest side, is measured as if it were so thick.
-const THINNEST: f64 = 1e-7;
-
 /// A triangle with the shape that it is to have.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
@@ -86,10 +83,11 @@ fn terms(p: f64, q: f64, epsilon: f64) -> Terms {
 }
 
 impl Element {
-    /// A triangle that is at rest in the shape `[a, b, c]`, counter-clockwise.
-    pub(super) fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], weight: f64) -> Self {
+    /// A triangle that is at rest in the shape `[a, b, c]`, counter-clockwise. One that is thinner than `thinnest`, height
+    /// to longest side, is measured as if it were so thick.
+    pub(super) fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], (weight, thinnest): (f64, f64)) -> Self {
         let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
-        let double_area = (b - a).perp_dot(c - a).max(THINNEST * longest);
+        let double_area = (b - a).perp_dot(c - a).max(thinnest * longest);
         let gradients = [c - b, a - c, b - a].map(|side| side.perp() / double_area);
         Self { corners, gradients, weight }
     }
@@ -205,7 +203,7 @@ mod tests {
     use super::*;
 
     fn element() -> Element {
-        Element::new([0, 1, 2], [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)], 0.7)
+        Element::new([0, 1, 2], [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)], (0.7, 1e-6))
     }
 
     const PLACES: [[DVec2; 3]; 3] = [

@@ -268,6 +268,7 @@ impl Membrane {
     /// Lowers the energy step by step.
     pub(super) fn descend(&self, z: &mut [DVec2], limits: Limits, control: Control<'_>) -> Result<Descent, SolveError> {
         let mut trial = z.to_vec();
+        let (mut last_epsilon, mut last_ratio) = (0.0, 1.0);
         for steps in 0..limits.steps {
             control.enter(Phase::Solve)?;
             let least = self.least_determinant(z);
@@ -275,7 +276,15 @@ impl Membrane {
                 return Ok(Descent { least_determinant: least, steps, converged: false });
             }
             let [floor, share] = EPSILON_SQUARED;
-            let epsilon = if least > 0.0 { 0.0 } else { (floor + share * least * least).sqrt() };
+            let mut epsilon = if least > 0.0 { 0.0 } else { (floor + share * least * least).sqrt() };
+            if std::env::var_os("FB_G").is_some() && least <= 0.0 {
+                if steps > 0 && last_epsilon > 0.0 {
+                    let sigma = (1.0 - last_ratio).max(0.1);
+                    let root = least.hypot(last_epsilon);
+                    epsilon = (last_epsilon * (1.0 - sigma * root / (least.abs() + root))).max(1e-6);
+                }
+                last_epsilon = epsilon;
+            }
             let (gradient, hessian) = self.linearise(z, epsilon, None);
             let before = self.energy(z, epsilon);
             let slope_of = |direction: &[DVec2]| -> f64 {
@@ -305,6 +314,7 @@ impl Membrane {
             if !(gained > 0.0) {
                 return Ok(Descent { least_determinant: least, steps, converged: true });
             }
+            last_ratio = 1.0 - gained / before;
             z.copy_from_slice(&trial);
             if epsilon == 0.0 && gained < limits.tolerance * before {
                 return Ok(Descent { least_determinant: self.least_determinant(z), steps: steps + 1, converged: true });
