@@ -38,4 +38,4 @@ pub use save::{Finished, SaveRequest};
 pub use solve::{Outcome, OutputFit, Placement};
 pub use state::{Busy, Session, Wake};
 pub use stop::{Stop, StopConditions};
-pub use timeline::{TIMELINE_BUDGET, Timeline};
+pub use timeline::{Standing, TIMELINE_BUDGET, Timeline};

@@ -43,18 +43,19 @@ pub struct Finished<'a> {
 }
 
 impl<'a> Finished<'a> {
-    /// Takes the embedding to its final size, and proves and measures it there.
+    /// Takes the embedding to its final size, and proves and measures it there. `given` is the mesh as it was opened.
     ///
     /// `read_seconds` is what opening the mesh took, for the report.
     pub fn new(
-        (model, mesh): (&'a Model, &'a DiskMesh),
-        outcome: &Outcome,
+        (model, given): (&'a Model, &'a DiskMesh),
+        outcome: &'a Outcome,
         steps: Vec<StepReport>,
         fit: OutputFit,
         read_seconds: f64,
     ) -> Self {
         let start = Instant::now();
-        let (coordinates, placement, of_coordinates) = outcome.output(mesh, fit);
+        let (coordinates, placement, of_coordinates) = outcome.output(given, fit);
+        let mesh = outcome.step.mesh(given);
         let is_on_picture = matches!(placement, Placement::Pins | Placement::Picture);
         let is_as_solved = is_on_picture || coordinates == outcome.step.solution.embedding;
         let summary = if is_as_solved { outcome.distortion.summary } else { distortion(mesh, &coordinates).summary };
@@ -73,7 +74,7 @@ impl<'a> Finished<'a> {
         let settings = &outcome.settings;
         let report = Report {
             freebound: env!("CARGO_PKG_VERSION"),
-            mesh: MeshReport::new(model.path_words(), mesh),
+            mesh: MeshReport::new(model.path_words(), given),
             method: Some(settings.method.name()),
             family: settings.method.uses_family().then(|| settings.family.to_string()),
             pins: Some(pins),
@@ -82,7 +83,7 @@ impl<'a> Finished<'a> {
             steps,
             verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
             distortion: Some(summary),
-            new_vertices: 0,
+            new_vertices: outcome.new_vertex_count(),
             seconds: Seconds { read: read_seconds, solve, verify, write: 0.0, total: read_seconds + solve + verify },
             peak_memory_bytes: peak_memory_bytes(),
         };

@@ -94,6 +94,11 @@ impl Outcome {
             + outside
     }
 
+    /// How many vertices its mesh has beyond those of the mesh as given.
+    pub fn new_vertex_count(&self) -> usize {
+        self.step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len())
+    }
+
     /// Whether the picture is proved one-to-one, but exact pins are not on their targets yet.
     pub fn is_planar_but_unmet(&self) -> bool {
         self.step.verdict.planar && !self.step.unmet().is_empty()
@@ -107,7 +112,7 @@ impl Outcome {
     /// is rounded, and then nothing is moved, so that nothing is.
     pub fn output(&self, mesh: &DiskMesh, fit: OutputFit) -> (Vec<DVec2>, Placement, Verdict) {
         type Way = (fn(&mut [DVec2]), Placement);
-        let embedding = &self.step.solution.embedding;
+        let (embedding, mesh) = (&self.step.solution.embedding, self.step.mesh(mesh));
         if self.pins_in_use().next().is_some() {
             return self.as_it_lies(mesh, Placement::Pins);
         }
@@ -134,7 +139,7 @@ impl Outcome {
     }
 
     /// The texture coordinates of the embedding where it lies, the user's pins on their own numbers, and the verdict on
-    /// them in the plane.
+    /// them in the plane. `mesh` is the step's own.
     fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Vec<DVec2>, Placement, Verdict) {
         let embedding = &self.step.solution.embedding;
         let mut coordinates: Vec<DVec2> = embedding.iter().map(|&z| self.frame.uv_from_plane(z)).collect();

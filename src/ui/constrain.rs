@@ -144,7 +144,7 @@ impl Editor {
 
     /// Where a vertex of the mesh's pane is on the screen.
     fn on_mesh(&self, vertex: VertexId) -> Option<Pos2> {
-        let position = *self.mesh_scene()?.model.mesh().positions.get(vertex.index())?;
+        let position = *self.mesh_scene()?.mesh().positions.get(vertex.index())?;
         let rect = self.pane_rects[0]?;
         Some(pane::on_screen(rect, self.orbit?.pane_from_world(position, pane::size_of(rect))?))
     }

@@ -114,6 +114,7 @@ pub struct Editor {
     /// The theme to put on, where it was asked for in this frame.
     pub theme_wanted: Option<egui::ThemePreference>,
     pub(super) context: egui::Context,
+    /// The mesh as given.
     pub(super) mesh_scene: Option<Arc<MeshScene>>,
     pub(super) mesh_scene_job: Option<Job<(), MeshScene>>,
     pub(super) plane_scene: Option<Arc<PlaneScene>>,
@@ -202,9 +203,9 @@ impl Editor {
         }
     }
 
-    /// The mesh as drawn.
+    /// The mesh as drawn: that of the embedding on the screen, where there is one.
     pub fn mesh_scene(&self) -> Option<&Arc<MeshScene>> {
-        self.mesh_scene.as_ref()
+        self.drawn_plane().map(|plane| &plane.mesh).or(self.mesh_scene.as_ref())
     }
 
     /// The embedding as drawn.

@@ -94,11 +94,11 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, scene: &MeshS
     if let Some(chosen) = super::boxes::drag_box(ui, response, editor, Pane::Mesh) {
         let size = pane::size_of(rect);
         let inside = |vertex: &VertexId| {
-            let position = scene.model.mesh().positions[vertex.index()];
+            let position = scene.mesh().positions[vertex.index()];
             let at = camera.pane_from_world(position, size).map(|at| pane::on_screen(rect, at));
             at.is_some_and(|at| chosen.contains(at)) && scene.picker.is_visible(*vertex, camera.eye())
         };
-        let count = scene.model.mesh().vertex_count();
+        let count = scene.mesh().vertex_count();
         requests.push(Request::AddToSelection((0..count).map(VertexId::from_index).filter(inside).collect()));
     }
     if response.clicked() {
@@ -177,7 +177,7 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
     let painter = ui.painter_at(rect);
     let size = pane::size_of(rect);
     let eye = camera.eye();
-    let positions = &scene.model.mesh().positions;
+    let positions = &scene.mesh().positions;
     let place = |vertex: VertexId| -> Option<(Pos2, bool)> {
         let at = camera.pane_from_world(*positions.get(vertex.index())?, size)?;
         Some((pane::on_screen(rect, at), scene.picker.is_visible(vertex, eye)))

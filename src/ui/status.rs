@@ -7,6 +7,7 @@ use egui::RichText;
 
 use super::theme::theme_of;
 use super::timeline::PRESS_SPACE;
+use super::vertex_panel::new_vertex_words;
 use super::{Editor, Tool};
 
 /// Shows the bar.
@@ -58,9 +59,10 @@ fn numbers(editor: &Editor) -> String {
         let at = editor.session.document().frame().uv_from_plane(place);
         parts.push(format!("u {} v {}", short(at.x), short(at.y)));
     }
-    if let (Some(vertex), Some(model)) = (editor.hovered, editor.session.model()) {
+    if let (Some(vertex), Some(scene)) = (editor.hovered, editor.mesh_scene()) {
         parts.push(vertex.to_string());
-        if let Some(x) = model.mesh().positions.get(vertex.index()) {
+        parts.extend(scene.new_vertex(vertex).map(new_vertex_words));
+        if let Some(x) = scene.mesh().positions.get(vertex.index()) {
             parts.push(format!("({}, {}, {})", short(x.x), short(x.y), short(x.z)));
         }
     }
