@@ -263,16 +263,17 @@ impl Editor {
         self.hull_scene().and_then(|scene| scene.paint.as_ref())
     }
 
-    /// Hull and pockets of the shown step, where they are wanted and made.
+    /// Hull and pockets of the shown step, where they are wanted and made, and nothing follows a drag in its place.
     pub fn hull_scene(&self) -> Option<&Arc<HullScene>> {
         let revision = self.plane_scene.as_ref()?.outcome_revision;
-        self.hull.scene.as_ref().filter(|scene| self.hull.shown && scene.key.0 == revision)
+        let is_wanted = self.hull.shown && self.preview_plane().is_none();
+        self.hull.scene.as_ref().filter(|scene| is_wanted && scene.key.0 == revision)
     }
 
     /// Whether hull and pockets are drawn as they were asked for.
     pub fn hull_is_drawn(&self) -> bool {
         let shown = self.hull_scene().map(|scene| scene.key.1);
-        !self.hull.shown || self.plane_scene.is_none() || shown == Some(self.hull.stage)
+        !self.hull.shown || self.plane_scene.is_none() || self.preview_plane().is_some() || shown == Some(self.hull.stage)
     }
 
     /// Makes the chosen stage in the background where it is not there yet.

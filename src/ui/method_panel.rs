@@ -4,6 +4,7 @@ use eframe::egui;
 use egui::{RichText, Role, WidgetInfo};
 
 use super::theme::theme_of;
+use super::timeline_chips::residual_words;
 use super::{Editor, Request};
 use crate::session::{Action, Outcome};
 use crate::solver::{BoundaryShape, FAMILIES, Family, Growth, METHODS, Method, Settings, Treatment};
@@ -307,9 +308,9 @@ fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.monospace(value));
                 ui.end_row();
             };
-            row("Residual", "|Ax − b| / |b| of the linear solve", format!("{:.1e}", solution.residual));
+            row("Residual", "|Ax − b| / |b| of the linear solve", residual_words(solution.residual));
             let tip = "|A z| of all equations, pinned vertices included, relative to their terms";
-            row("Equation residual", tip, format!("{:.1e}", solution.equation_residual));
+            row("Equation residual", tip, residual_words(solution.equation_residual));
             let seconds = &solution.seconds;
             let phases = [
                 ("Assembly", seconds.assemble),
