@@ -1,6 +1,7 @@
 //! The paper: weights, systems, methods, verdict and distortion. Knows no screen and no file.
 
 mod catalogue;
+mod conflicts;
 mod constrained_run;
 mod continuation;
 mod control;
@@ -32,6 +33,7 @@ mod virtual_boundary_run;
 pub mod weights;
 
 pub use catalogue::{CatalogueEntry, FAMILIES, METHODS};
+pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use control::{Control, Phase};
 pub use convex::convex_boundary;
 pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Spread, distortion};

@@ -5,6 +5,7 @@
 mod bad_input;
 mod check_cli;
 mod common;
+mod conflicts;
 mod constrained;
 mod convex;
 mod diagnosis;
