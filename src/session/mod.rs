@@ -2,12 +2,14 @@
 
 mod action;
 mod autosave;
+mod conflicts;
 mod document;
 mod errands;
 mod files;
 mod job;
 mod load;
 mod message;
+mod mirrored;
 mod open;
 mod opened;
 mod picture;
@@ -16,6 +18,7 @@ mod preview;
 mod project;
 mod recent;
 mod recovery;
+mod relax;
 mod run;
 mod save;
 mod solve;

@@ -97,6 +97,8 @@ pub struct Editor {
     pub exports_shown: bool,
     /// The mesh, by its revision, whose faces may point inward.
     pub faces_left: Option<u64>,
+    /// What was opened, by the session's count, where the targets may look mirrored.
+    pub targets_left: Option<u64>,
     /// The question about unsaved work.
     pub unsaved: Unsaved,
     /// What is typed into "go to", where it shows.
@@ -178,6 +180,7 @@ impl Editor {
             keys_shown: false,
             exports_shown: false,
             faces_left: None,
+            targets_left: None,
             unsaved: Unsaved::default(),
             go_to: None,
             timeline: TimelineView::default(),

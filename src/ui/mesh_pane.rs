@@ -220,6 +220,8 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
         if let Some((at, true)) = place(pin.vertex) {
             if unmet.contains(&pin.vertex) {
                 pins::unmet_mark(&painter, at, theme);
+            } else if editor.session.conflict_of(pin.vertex).is_some() {
+                pins::conflict_mark(&painter, at, theme);
             }
             let is_strong = editor.selection.contains(&pin.vertex);
             let emphasis = if is_strong { Emphasis::Strong } else { Emphasis::Plain };

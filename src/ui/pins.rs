@@ -128,6 +128,11 @@ pub(super) fn unmet_mark(painter: &Painter, at: Pos2, theme: &Theme) {
     painter.circle_stroke(at, DIAMOND + 4.0, Stroke::new(2.0, theme.unmet));
 }
 
+/// A thin ring around a pin that contradicts others on the mesh as it is.
+pub(super) fn conflict_mark(painter: &Painter, at: Pos2, theme: &Theme) {
+    painter.circle_stroke(at, DIAMOND + 3.0, Stroke::new(1.25, theme.stale));
+}
+
 /// What a click would place: a diamond that is not there yet.
 pub(super) fn ghost(painter: &Painter, at: Pos2, theme: &Theme) {
     let colour = theme.constraint.gamma_multiply(0.7);

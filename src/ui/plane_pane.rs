@@ -25,6 +25,7 @@ const MARKS_SHOWN: usize = 2000;
 /// Shows the pane and takes its gestures.
 pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Plane, requests);
+    super::bars::bars(ui, editor, Pane::Plane, requests);
     pane::message_bars(ui, editor, Place::Embedding, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
     editor.pane_rects[1] = Some(rect);
