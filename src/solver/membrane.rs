@@ -12,7 +12,7 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 use rayon::prelude::*;
 
-use super::foldover_energy::{Element, Model};
+use super::foldover_energy::{Element, Energy, Model};
 use super::{Control, Phase, SolveError};
 use crate::linalg::{Analysis, Factor, Kind, LinalgError};
 
@@ -69,6 +69,8 @@ pub(super) struct Membrane {
 pub(super) struct Limits {
     /// The most Newton steps.
     pub(super) steps: usize,
+    /// The energy where no triangle is folded: a barrier.
+    pub(super) unfolded: Energy,
     /// Whether to stop as soon as no triangle is folded.
     pub(super) until_unfolded: bool,
     /// A step that lowers the energy by a smaller share of it is the last.
@@ -137,9 +139,9 @@ impl Membrane {
     }
 
     /// The energy; infinite where ε = 0 and a triangle is folded.
-    pub(super) fn energy(&self, z: &[DVec2], epsilon: f64) -> f64 {
+    pub(super) fn energy(&self, z: &[DVec2], energy: Energy) -> f64 {
         let of_chunk = |chunk: &[Element]| -> f64 {
-            chunk.iter().map(|element| element.energy(Self::corners(element, z), epsilon)).sum()
+            chunk.iter().map(|element| element.energy(Self::corners(element, z), energy)).sum()
         };
         let sums: Vec<f64> = self.elements.par_chunks(CHUNK).map(of_chunk).collect();
         let pulled =
@@ -161,11 +163,11 @@ impl Membrane {
     }
 
     /// Gradient by unknown, and Hessian. Where points are moved by `shift`, the gradient is that of the model there.
-    fn linearise(&self, z: &[DVec2], epsilon: f64, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
+    fn linearise(&self, z: &[DVec2], energy: Energy, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
         let mut gradient = vec![0.0; 2 * self.unknowns.len()];
         let mut values = vec![0.0; self.pattern.nnz()];
         for (block, slots) in self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS)) {
-            let model = |element: &Element| element.model(Self::corners(element, z), epsilon);
+            let model = |element: &Element| element.model(Self::corners(element, z), energy);
             let models: Vec<Model> = block.par_iter().with_min_len(CHUNK / 8).map(model).collect();
             for ((element, slots), model) in block.iter().zip(slots).zip(&models) {
                 let mut of_element = model.gradient;
@@ -258,7 +260,7 @@ impl Membrane {
 
     /// Moves held points by `shift`, and the others as the model of the energy says they follow.
     pub(super) fn follow(&self, z: &mut [DVec2], shift: &[DVec2], control: Control<'_>) -> Result<(), SolveError> {
-        let direction = self.direction(self.linearise(z, 0.0, Some(shift)), control)?;
+        let direction = self.direction(self.linearise(z, Energy::Foldover(0.0), Some(shift)), control)?;
         for ((z, direction), shift) in z.iter_mut().zip(direction).zip(shift) {
             *z += direction + *shift;
         }
@@ -268,7 +270,7 @@ impl Membrane {
     /// Lowers the energy step by step.
     pub(super) fn descend(&self, z: &mut [DVec2], limits: Limits, control: Control<'_>) -> Result<Descent, SolveError> {
         let mut trial = z.to_vec();
-        let (mut last_epsilon, mut last_ratio) = (0.0, 1.0);
+        let (mut last_epsilon, mut last_ratio) = (0.0_f64, 1.0_f64);
         for steps in 0..limits.steps {
             control.enter(Phase::Solve)?;
             let least = self.least_determinant(z);
@@ -285,22 +287,23 @@ impl Membrane {
                 }
                 last_epsilon = epsilon;
             }
-            let (gradient, hessian) = self.linearise(z, epsilon, None);
-            let before = self.energy(z, epsilon);
+            let energy = if least > 0.0 { limits.unfolded } else { Energy::Foldover(epsilon) };
+            let (gradient, hessian) = self.linearise(z, energy, None);
+            let before = self.energy(z, energy);
             let slope_of = |direction: &[DVec2]| -> f64 {
                 let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
                 self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum()
             };
             let direction = self.direction((gradient.clone(), hessian), control)?;
             let slope = slope_of(&direction);
-            let longest = if epsilon == 0.0 { STEP_SHARE * self.longest_step(z, &direction) } else { 1.0 };
+            let longest = if energy.is_barrier() { STEP_SHARE * self.longest_step(z, &direction) } else { 1.0 };
             let mut step = longest.min(1.0);
             let mut gained = 0.0;
             for _ in 0..HALVINGS {
                 for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
                     *trial = *z + step * *direction;
                 }
-                gained = before - self.energy(&trial, epsilon);
+                gained = before - self.energy(&trial, energy);
                 if gained >= -DECREASE * step * slope {
                     break;
                 }
@@ -316,7 +319,7 @@ impl Membrane {
             }
             last_ratio = 1.0 - gained / before;
             z.copy_from_slice(&trial);
-            if epsilon == 0.0 && gained < limits.tolerance * before {
+            if energy.is_barrier() && gained < limits.tolerance * before {
                 return Ok(Descent { least_determinant: self.least_determinant(z), steps: steps + 1, converged: true });
             }
         }
