@@ -7,10 +7,10 @@ use super::{Place, Session};
 const ROUNDS: usize = 20;
 
 impl Session {
-    /// Whether the newest step is planar and its run waits to be taken on.
+    /// Whether the newest step is planar, its constraints met, and its run waits to be taken on.
     pub fn can_relax(&self) -> bool {
         let newest = self.timeline.newest().and_then(|newest| self.timeline.outcome(newest));
-        let is_planar = newest.is_some_and(|newest| newest.step.verdict.planar);
+        let is_planar = newest.is_some_and(|newest| newest.step.verdict.planar && newest.step.unmet().is_empty());
         let is_of_document = |run: &crate::solver::Run| self.document.is_solved_by(run.settings(), run.pins());
         is_planar && self.is_current() && self.resting.as_ref().is_some_and(is_of_document)
     }

@@ -344,8 +344,11 @@ impl Session {
         self.ending = Some(Ending::Unmet);
         let newest = self.timeline.newest().and_then(|newest| self.timeline.outcome(newest));
         let unmet = newest.map(|newest| newest.step.unmet()).unwrap_or_default();
-        let remedy =
-            if self.document.settings.new_vertices { "move these pins" } else { "allow new vertices, or move these pins" };
+        let remedy = if self.document.settings.new_vertices {
+            "move these pins"
+        } else {
+            "allow new vertices, or move these pins"
+        };
         if let Some(message) = self.messages.last_mut() {
             (message.vertices, message.remedy) = (unmet, Some(remedy.to_owned()));
         }

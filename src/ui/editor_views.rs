@@ -48,7 +48,9 @@ impl Editor {
 
     pub(super) fn go_to_defect(&mut self, place: usize) {
         self.defect = Some(place);
-        let (Some(scene), Some(defect)) = (self.mesh_scene().cloned(), self.defects().get(place).copied()) else { return };
+        let (Some(scene), Some(defect)) = (self.mesh_scene().cloned(), self.defects().get(place).copied()) else {
+            return;
+        };
         let vertices = defect.elements().into_iter().flatten().flat_map(|element| vertices_of(&scene, element));
         self.go_to_vertices(vertices.collect());
     }

@@ -134,7 +134,8 @@ impl HullScene {
     /// A step that was made with the outside triangulated up to a frame: the result within it.
     fn of_outside(result: &PlaneScene, outside: &Outside, key: (u64, Stage)) -> Self {
         let embedding = result.positions();
-        let around: Vec<VertexId> = (0..outside.frame.len()).map(|k| VertexId::from_index(embedding.len() + k)).collect();
+        let around: Vec<VertexId> =
+            (0..outside.frame.len()).map(|k| VertexId::from_index(embedding.len() + k)).collect();
         let points = embedding.iter().chain(&outside.frame).copied().collect();
         Self {
             key,
@@ -273,7 +274,10 @@ impl Editor {
     /// Whether hull and pockets are drawn as they were asked for.
     pub fn hull_is_drawn(&self) -> bool {
         let shown = self.hull_scene().map(|scene| scene.key.1);
-        !self.hull.shown || self.plane_scene.is_none() || self.preview_plane().is_some() || shown == Some(self.hull.stage)
+        !self.hull.shown
+            || self.plane_scene.is_none()
+            || self.preview_plane().is_some()
+            || shown == Some(self.hull.stage)
     }
 
     /// Makes the chosen stage in the background where it is not there yet.
@@ -295,7 +299,8 @@ impl Editor {
         }
         let Some(plane) = &self.plane_scene else { return };
         let key = (plane.outcome_revision, self.hull.stage);
-        let Some(disk) = plane.mesh.model.disk().filter(|_| self.hull.scene.as_ref().is_none_or(|s| s.key != key)) else {
+        let Some(disk) = plane.mesh.model.disk().filter(|_| self.hull.scene.as_ref().is_none_or(|s| s.key != key))
+        else {
             return;
         };
         let (disk, plane, waker) = (Arc::clone(disk), Arc::clone(plane), self.context.clone());

@@ -178,7 +178,8 @@ fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<PlaneBox> {
             (at(vertex)?, bounds.size().max_element())
         }
         Defect::Flipped(face) => {
-            let corners: Vec<DVec2> = vertices_of(&plane.mesh, Element::Face(face)).into_iter().filter_map(at).collect();
+            let corners: Vec<DVec2> =
+                vertices_of(&plane.mesh, Element::Face(face)).into_iter().filter_map(at).collect();
             let bounds = PlaneBox::around(&corners);
             (bounds.center(), bounds.size().max_element())
         }

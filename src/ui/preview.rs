@@ -56,7 +56,7 @@ impl Editor {
         let before = self.preview.take().filter(|before| before.key.0 == key.0);
         let scene = match &before {
             Some(before) if before.key == key => Arc::clone(&before.scene),
-                        Some(before) if before.scene.outcome_revision == base.outcome_revision => {
+            Some(before) if before.scene.outcome_revision == base.outcome_revision => {
                 Arc::new(before.scene.with_positions(mesh, preview.embedding.to_vec()))
             }
             _ => Arc::new(base.with_positions(mesh, preview.embedding.to_vec())),

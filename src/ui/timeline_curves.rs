@@ -154,7 +154,9 @@ pub(super) fn curves_menu(ui: &mut egui::Ui, view: &mut TimelineView) {
         }
     });
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Which curves show"));
-    response.on_hover_text("Which curves show: those that the steps have numbers for, as many as there is room for, the first ones first.");
+    response.on_hover_text(
+        "Which curves show: those that the steps have numbers for, as many as there is room for, the first ones first.",
+    );
 }
 
 /// Shows as many of the curves as there is room for.
@@ -162,7 +164,8 @@ pub(super) fn curves(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
     let all = ui.available_rect_before_wrap().shrink2(egui::vec2(4.0, 0.0));
     let timeline = editor.session.timeline();
     let has_numbers = |curve: &Curve| (0..timeline.records().len()).any(|i| curve.value_at(timeline, i).is_some());
-    let wanted = CURVES.iter().zip(editor.timeline.curves_hidden).filter(|(curve, hidden)| !hidden && has_numbers(curve));
+    let wanted =
+        CURVES.iter().zip(editor.timeline.curves_hidden).filter(|(curve, hidden)| !hidden && has_numbers(curve));
     let wanted = wanted.map(|(curve, _)| curve);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few curves have room")]
     let room = (((all.width() + GAP) / (LEAST_WIDTH + GAP)) as usize).max(1);

@@ -86,7 +86,12 @@ fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
     }
     let Some(outcome) = session.outcome().filter(|_| session.is_current()) else {
         let tip = "The embedding does not belong to these settings and pins: press Solve";
-        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words: "not solved".to_owned(), tip: tip.into() });
+        return Some(Pill {
+            sign: Sign::Warning,
+            colour: theme.stale,
+            words: "not solved".to_owned(),
+            tip: tip.into(),
+        });
     };
     Some(of_step(theme, &outcome.step))
 }

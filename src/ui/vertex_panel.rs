@@ -66,7 +66,10 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
         if ui.button("Free").on_hover_text("Take its pin away").clicked() {
             requests.push(Request::Do(Action::Unpin(vec![vertex])));
         }
-    } else if embedding.is_some() && scene.new_vertex(vertex).is_none() && ui.button("Fix").on_hover_text("Pin it where it lies").clicked() {
+    } else if embedding.is_some()
+        && scene.new_vertex(vertex).is_none()
+        && ui.button("Fix").on_hover_text("Pin it where it lies").clicked()
+    {
         requests.push(Request::Do(Action::Fix(vec![vertex])));
     }
 }

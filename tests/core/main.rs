@@ -36,6 +36,7 @@ mod program;
 mod raster;
 mod reproduction;
 mod session;
+mod session_constraints;
 mod session_documents;
 mod session_drag;
 mod session_fuzz;
