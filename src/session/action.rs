@@ -97,6 +97,8 @@ pub enum Action {
     Step,
     /// Goes on until a stop condition holds or the method has ended.
     Run,
+    /// Lowers the distortion of a planar embedding, one-to-one throughout, constraints exact.
+    Relax,
     /// Stops what is going on in the background. The steps that there are stay.
     Cancel,
     /// Puts a step on the screen.

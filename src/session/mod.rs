@@ -2,12 +2,14 @@
 
 mod action;
 mod autosave;
+mod conflicts;
 mod document;
 mod errands;
 mod files;
 mod job;
 mod load;
 mod message;
+mod mirrored;
 mod open;
 mod opened;
 mod picture;
@@ -16,6 +18,7 @@ mod preview;
 mod project;
 mod recent;
 mod recovery;
+mod relax;
 mod run;
 mod save;
 mod solve;
@@ -38,4 +41,4 @@ pub use save::{Finished, SaveRequest};
 pub use solve::{Outcome, OutputFit, Placement};
 pub use state::{Busy, Session, Wake};
 pub use stop::{Stop, StopConditions};
-pub use timeline::{TIMELINE_BUDGET, Timeline};
+pub use timeline::{Standing, TIMELINE_BUDGET, Timeline};

@@ -14,7 +14,9 @@ impl Session {
         // What the screen shows is the preview, where there is one.
         let preview = self.preview().map(|preview| (self.document.frame(), preview.embedding.as_slice()));
         let (frame, shown) = preview.unwrap_or((outcome.frame, &outcome.step.solution.embedding));
-        let fresh = vertices.iter().filter(|v| !self.document.pins.contains_key(v));
+        // New vertices belong to one embedding alone: they cannot be pinned.
+        let count = self.model.as_ref().map_or(0, |model| model.mesh().vertex_count());
+        let fresh = vertices.iter().filter(|v| v.index() < count && !self.document.pins.contains_key(v));
         let place = |vertex: &VertexId| shown.get(vertex.index()).copied();
         let pin = |&vertex: &VertexId| Command::SetPin {
             vertex,

@@ -153,7 +153,7 @@ impl Session {
     }
 
     /// Takes steps of a run in the background. A run that is under way is given up.
-    fn spawn(&mut self, mut run: Run, goal: Goal) {
+    pub(super) fn spawn(&mut self, mut run: Run, goal: Goal) {
         self.running = None;
         self.solve_again = false;
         let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
@@ -189,7 +189,7 @@ impl Session {
         match &mut self.running {
             Some(running) => running.set_goal(|goal| match goal {
                 Goal::Steps(left) => Goal::Steps(left + 1),
-                Goal::Until(_) => Goal::Steps(1),
+                Goal::Until(_) | Goal::End => Goal::Steps(1),
             }),
             None => self.go_on(Goal::Steps(1)),
         }
@@ -322,9 +322,7 @@ impl Session {
             }),
             Err(SolveError::Cancelled) => None,
             Err(error) => {
-                self.forget_solve_message();
-                self.fail(Place::Embedding, error.to_string(), None);
-                self.solve_message = Some(self.next_message);
+                self.tell_solve_error(&error);
                 None
             }
         };
@@ -332,6 +330,27 @@ impl Session {
             self.solve();
         } else if let Some(goal) = goal {
             self.go_on(goal);
+        }
+    }
+
+    /// Says what went wrong; where constraints cannot be met, which.
+    fn tell_solve_error(&mut self, error: &SolveError) {
+        self.forget_solve_message();
+        self.fail(Place::Embedding, error.to_string(), None);
+        self.solve_message = Some(self.next_message);
+        if *error != SolveError::Unmet {
+            return;
+        }
+        self.ending = Some(Ending::Unmet);
+        let newest = self.timeline.newest().and_then(|newest| self.timeline.outcome(newest));
+        let unmet = newest.map(|newest| newest.step.unmet()).unwrap_or_default();
+        let remedy = if self.document.settings.new_vertices {
+            "move these pins"
+        } else {
+            "allow new vertices, or move these pins"
+        };
+        if let Some(message) = self.messages.last_mut() {
+            (message.vertices, message.remedy) = (unmet, Some(remedy.to_owned()));
         }
     }
 

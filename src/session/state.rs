@@ -5,8 +5,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::autosave::Autosave;
+use super::conflicts::Conflicts;
 use super::errands::Errands;
 use super::files::SaveJob;
+use super::mirrored::Undistorted;
 use super::open::OnTable;
 use super::opened::{OpenError, Opened};
 use super::preview::{Follow, FollowJob, VerdictJob};
@@ -77,6 +79,10 @@ pub struct Session {
     pub(super) resting: Option<Run>,
     /// Whether the document changed since the step under way began.
     pub(super) solve_again: bool,
+    /// What is known to be amiss with the constraints before they are solved for.
+    pub(super) conflicts: Conflicts,
+    /// What the targets are compared with.
+    pub(super) undistorted: Undistorted,
     pub(super) errands: Errands,
     /// Files being written, in the order they were asked for.
     pub(super) saving: Vec<SaveJob>,
@@ -122,6 +128,8 @@ impl Session {
             running: None,
             resting: None,
             solve_again: false,
+            conflicts: Conflicts::default(),
+            undistorted: Undistorted::default(),
             errands: Errands::default(),
             saving: Vec::new(),
             project_saves: ProjectSaves::default(),
@@ -271,6 +279,7 @@ impl Session {
             Action::Solve => self.solve(),
             Action::Step => self.step(),
             Action::Run => self.run_on(),
+            Action::Relax => self.relax(),
             Action::ShowStep(index) => {
                 if self.timeline.show(index) {
                     self.outcome_revision += 1;
@@ -313,6 +322,8 @@ impl Session {
         self.poll_errands();
         self.poll_running();
         self.poll_following();
+        self.refresh_conflicts();
+        self.poll_undistorted();
         self.poll_saving();
         self.poll_project_saves();
         self.poll_autosave(now);

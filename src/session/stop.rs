@@ -90,6 +90,8 @@ pub(super) enum Goal {
     Steps(usize),
     /// Until one of these holds.
     Until(StopConditions),
+    /// Until the run itself has come to its end.
+    End,
 }
 
 impl Goal {
@@ -105,6 +107,7 @@ impl Goal {
         match self {
             Self::Steps(left) => *left == 0,
             Self::Until(conditions) => conditions.reason(outcome, ending).is_some(),
+            Self::End => ending.is_some(),
         }
     }
 }

@@ -8,15 +8,35 @@ use std::sync::Arc;
 
 use super::Outcome;
 use crate::io::StepReport;
+use crate::solver::{Progress, Step};
 
 /// Bytes that the steps kept whole may take together.
 pub const TIMELINE_BUDGET: usize = 512_000_000;
+
+/// Where a step stands on the way to the constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// The numbers of a continuation or a relaxing.
+    pub progress: Option<Progress>,
+    /// Exact pins that are not on their targets.
+    pub unmet: usize,
+    /// Vertices that its mesh has beyond those of the mesh as given.
+    pub new_vertices: usize,
+}
+
+impl Standing {
+    fn of(step: &Step) -> Self {
+        let new_vertices = step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len());
+        Self { progress: step.progress, unmet: step.unmet().len(), new_vertices }
+    }
+}
 
 /// The steps of one run, in order.
 #[derive(Debug)]
 pub struct Timeline {
     budget: usize,
     records: Vec<StepReport>,
+    standings: Vec<Standing>,
     kept: BTreeMap<usize, Kept>,
     /// Sum over `kept`.
     bytes: usize,
@@ -47,6 +67,7 @@ impl Timeline {
         Self {
             budget,
             records: Vec::new(),
+            standings: Vec::new(),
             kept: BTreeMap::new(),
             bytes: 0,
             best: None,
@@ -59,6 +80,11 @@ impl Timeline {
     /// The numbers of every step.
     pub fn records(&self) -> &[StepReport] {
         &self.records
+    }
+
+    /// Where every step stands on the way to the constraints.
+    pub fn standings(&self) -> &[Standing] {
+        &self.standings
     }
 
     /// A step, where it is kept whole.
@@ -119,6 +145,7 @@ impl Timeline {
             self.best = Some(index);
         }
         self.records.push(record);
+        self.standings.push(Standing::of(&outcome.step));
         let bytes = outcome.bytes();
         self.bytes += bytes;
         self.kept.insert(index, Kept { outcome, bytes });

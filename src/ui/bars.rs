@@ -1,4 +1,5 @@
-//! Bars that the window shows by itself: work that a session before left, and faces that point inward.
+//! Bars that the window shows by itself: work that a session before left, faces that point inward, targets that look
+//! mirrored.
 
 use eframe::egui;
 
@@ -12,6 +13,8 @@ pub(super) fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mu
     if pane == Pane::Mesh {
         recovery(ui, editor, requests);
         inward(ui, editor, requests);
+    } else {
+        mirrored(ui, editor, requests);
     }
 }
 
@@ -46,6 +49,26 @@ fn inward(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             }
             if ui.small_button("Leave them").on_hover_text("It is meant so").clicked() {
                 requests.push(Request::LeaveFaces);
+            }
+        });
+    });
+}
+
+fn mirrored(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let is_left = editor.targets_left == Some(editor.session.opening_revision());
+    if is_left || editor.dragged_pin.is_some() || !editor.session.targets_look_mirrored() {
+        return;
+    }
+    let theme = theme_of(ui);
+    bar(ui, (theme.stale, icons::Sign::Warning), |ui| {
+        let words = "Are the targets mirrored? A reflection fits them much better than a rotation";
+        ui.add(egui::Label::new(words).wrap());
+        ui.horizontal_wrapped(|ui| {
+            if ui.small_button("Mirror them").on_hover_text("Mirror all targets left to right").clicked() {
+                requests.push(Request::Do(Action::MirrorTargets));
+            }
+            if ui.small_button("Leave the targets").on_hover_text("They are meant so").clicked() {
+                requests.push(Request::LeaveTargets);
             }
         });
     });

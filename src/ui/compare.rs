@@ -11,6 +11,7 @@ use super::{Editor, Shading};
 use crate::mesh::{TriMesh, VertexId};
 use crate::render::{GhostLayer, LineLayer};
 use crate::session::Outcome;
+use crate::solver::Step;
 use crate::view::{EdgeList, PlaneArrays};
 
 /// The boundary of the compared step, ready to be drawn over the one on the screen.
@@ -62,7 +63,7 @@ impl Editor {
     /// Makes the outline of the compared step where another one is wanted. Call once per frame.
     pub(super) fn refresh_ghost(&mut self) {
         let compared = self.session.timeline().compared();
-        let (Some(plane), Some(mesh), Some(step)) = (&self.plane_scene, &self.mesh_scene, compared) else {
+        let (Some(plane), Some(step)) = (&self.plane_scene, compared) else {
             self.ghost = None;
             return;
         };
@@ -71,11 +72,11 @@ impl Editor {
             return;
         }
         let other = self.session.compared().filter(|_| step != plane.outcome.step.index);
-        self.ghost = match (other, mesh.model.disk()) {
+        self.ghost = match (other, plane.mesh.model.disk()) {
             (Some(other), Some(disk)) => {
                 let embedding = &other.step.solution.embedding;
                 let position_of = |v: &VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
-                let boundary: Vec<DVec2> = disk.boundary_loop().iter().map(position_of).collect();
+                let boundary: Vec<DVec2> = other.step.mesh(disk).boundary_loop().iter().map(position_of).collect();
                 Some(Ghost::new(key, &boundary, &plane.arrays))
             }
             _ => None,
@@ -89,6 +90,21 @@ impl Editor {
             (shading, _) => shading.title().to_owned(),
         }
     }
+}
+
+/// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
+pub(super) fn places_in(base: &Step, step: &Step) -> Vec<DVec2> {
+    let embedding = &base.solution.embedding;
+    let Some(refinement) = &step.refinement else { return embedding.clone() };
+    if base.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
+        return embedding.clone();
+    }
+    let mut places = embedding[..refinement.old_vertex_count()].to_vec();
+    for new in refinement.new_vertices() {
+        let [a, b] = new.edge.map(|v| embedding[v.index()]);
+        places.push(a.lerp(b, new.at));
+    }
+    places
 }
 
 /// How far each face has moved between two embeddings: the mean of its corners.

@@ -56,7 +56,7 @@ impl Editor {
     }
 
     fn intent_on_mesh(&self) -> Intent {
-        match (self.pair, self.hovered) {
+        match (self.pair, self.vertex_to_pin()) {
             (Some(Half::Target(target)), Some(vertex)) => Intent::Join(vertex, target),
             (_, Some(vertex)) => self.first_half(vertex),
             (_, None) => Intent::Nothing,
@@ -65,7 +65,7 @@ impl Editor {
 
     fn intent_in_plane(&self, target: Option<DVec2>, modifiers: egui::Modifiers, grip: Option<VertexId>) -> Intent {
         let Some(target) = target else { return Intent::Nothing };
-        match (self.pair, self.hovered) {
+        match (self.pair, self.vertex_to_pin()) {
             (Some(Half::Vertex(vertex)), _) => Intent::Join(vertex, target),
             (Some(Half::Target(first)), Some(vertex)) => Intent::Join(vertex, first),
             (None, Some(vertex)) if grip == Some(vertex) => Intent::Select(vertex),
@@ -75,6 +75,16 @@ impl Editor {
             }
             _ => Intent::TakeTarget(target),
         }
+    }
+
+    /// The vertex under the pointer, where it can be pinned: new vertices belong to one embedding alone.
+    pub(super) fn vertex_to_pin(&self) -> Option<VertexId> {
+        self.hovered.filter(|&vertex| !self.is_new_vertex(vertex))
+    }
+
+    /// Whether the mesh on the screen has a vertex that the mesh as given does not have.
+    pub(super) fn is_new_vertex(&self, vertex: VertexId) -> bool {
+        self.mesh_scene().is_some_and(|scene| scene.new_vertex(vertex).is_some())
     }
 
     fn first_half(&self, vertex: VertexId) -> Intent {
@@ -144,7 +154,7 @@ impl Editor {
 
     /// Where a vertex of the mesh's pane is on the screen.
     fn on_mesh(&self, vertex: VertexId) -> Option<Pos2> {
-        let position = *self.mesh_scene()?.model.mesh().positions.get(vertex.index())?;
+        let position = *self.mesh_scene()?.mesh().positions.get(vertex.index())?;
         let rect = self.pane_rects[0]?;
         Some(pane::on_screen(rect, self.orbit?.pane_from_world(position, pane::size_of(rect))?))
     }

@@ -15,7 +15,7 @@ const MARKS_SHOWN: usize = 500;
 
 /// Ends of the two boundary edges of each crossing that is marked.
 pub(super) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2]; 2]> {
-    let (Some(verdict), Some(disk)) = (editor.shown_verdict(), scene.model.disk()) else { return Vec::new() };
+    let (Some(verdict), Some(disk)) = (editor.shown_verdict(), scene.disk()) else { return Vec::new() };
     let pairs = verdict.boundary_crossings.iter().take(MARKS_SHOWN);
     pairs.map(|edges| edges.map(|edge| disk.ends(edge))).collect()
 }

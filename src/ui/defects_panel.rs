@@ -5,6 +5,7 @@ use egui::RichText;
 
 use super::theme::theme_of;
 use super::{Defect, Editor, Request, keys_of};
+use crate::mesh::VertexId;
 use crate::session::Surface;
 
 /// Height of a row, points.
@@ -30,6 +31,12 @@ pub(super) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
         ui.label(
             "Every face lies the right way up and the boundary does not meet itself, decided in exact arithmetic.",
         );
+        unmet_list(ui, &outcome.step.unmet(), requests);
+        let new = outcome.new_vertex_count();
+        if new > 0 {
+            let noun = if new == 1 { "vertex" } else { "vertices" };
+            ui.label(format!("{new} new {noun} on old edges: the surface is the same, cut into more triangles."));
+        }
         return;
     }
     let rows = [
@@ -61,6 +68,21 @@ pub(super) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &m
     });
     ui.separator();
     list(ui, editor, requests);
+}
+
+/// The exact pins that are not on their targets, to jump from.
+fn unmet_list(ui: &mut egui::Ui, unmet: &[VertexId], requests: &mut Vec<Request>) {
+    if unmet.is_empty() {
+        return;
+    }
+    ui.colored_label(theme_of(ui).unmet, format!("Constraints not met: {}", unmet.len()));
+    ui.horizontal_wrapped(|ui| {
+        for &vertex in unmet {
+            if ui.link(vertex.to_string()).on_hover_text("Show this vertex").clicked() {
+                requests.push(Request::GoTo(vec![vertex]));
+            }
+        }
+    });
 }
 
 /// All defects, to jump from.

@@ -68,15 +68,17 @@ impl Editor {
     /// Puts another step on the screen: from where vertices are drawn now, if it is one of the same run.
     pub(super) fn take_plane_scene(&mut self, scene: PlaneScene) {
         let before = self.result_plane().cloned();
+        let count = scene.mesh.mesh().vertex_count();
+        self.selection.retain(|vertex| vertex.index() < count);
         self.plane_scene = Some(Arc::new(scene));
         self.ease.under_way = None;
         let (Some(before), Some(target)) = (before, self.plane_scene.clone()) else { return };
         let (from, to) = (&before.outcome, &target.outcome);
         let is_other_step = before.outcome_revision != target.outcome_revision;
         let is_same_run = from.settings == to.settings && from.pins == to.pins && from.step.index != to.step.index;
-        let same_count = before.positions().len() == target.positions().len();
+        let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
         let is_too_large = self.ease.too_large == Some(self.session.model_revision());
-        if self.ease.wanted && is_other_step && is_same_run && same_count && !is_too_large {
+        if self.ease.wanted && is_other_step && is_same_run && is_same_mesh && !is_too_large {
             let began = self.context.input(|input| input.time);
             let from = before.positions().to_vec();
             let cameras = self.camera_along(&target);
@@ -123,7 +125,7 @@ impl Editor {
         let Some(way) = &mut self.ease.under_way else { return };
         let now = self.context.input(|input| input.time);
         let share = (now - way.began) / SECONDS;
-        let (Some(target), Some(mesh)) = (&self.plane_scene, &self.mesh_scene) else {
+        let Some(target) = &self.plane_scene else {
             self.ease.under_way = None;
             return;
         };
@@ -135,7 +137,7 @@ impl Editor {
         // Slow at both ends.
         let eased = share * share * (3.0 - 2.0 * share);
         let positions = way.from.iter().zip(target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect();
-        way.drawn = Arc::new(target.with_positions(mesh.model.mesh(), positions));
+        way.drawn = Arc::new(target.with_positions(&target.mesh, positions));
         if way.cameras.is_some() && self.plane_camera != self.ease.framed {
             // Somebody has taken the camera.
             way.cameras = None;
@@ -145,7 +147,7 @@ impl Editor {
             (self.plane_camera, self.ease.framed) = (Some(camera), Some(camera));
         }
         if start.elapsed() > BUDGET {
-            self.ease.too_large = Some(mesh.model_revision);
+            self.ease.too_large = Some(target.mesh.model_revision);
             self.finish_ease();
         }
         self.context.request_repaint();

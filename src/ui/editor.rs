@@ -97,6 +97,8 @@ pub struct Editor {
     pub exports_shown: bool,
     /// The mesh, by its revision, whose faces may point inward.
     pub faces_left: Option<u64>,
+    /// What was opened, by the session's count, where the targets may look mirrored.
+    pub targets_left: Option<u64>,
     /// The question about unsaved work.
     pub unsaved: Unsaved,
     /// What is typed into "go to", where it shows.
@@ -114,6 +116,7 @@ pub struct Editor {
     /// The theme to put on, where it was asked for in this frame.
     pub theme_wanted: Option<egui::ThemePreference>,
     pub(super) context: egui::Context,
+    /// The mesh as given.
     pub(super) mesh_scene: Option<Arc<MeshScene>>,
     pub(super) mesh_scene_job: Option<Job<(), MeshScene>>,
     pub(super) plane_scene: Option<Arc<PlaneScene>>,
@@ -177,6 +180,7 @@ impl Editor {
             keys_shown: false,
             exports_shown: false,
             faces_left: None,
+            targets_left: None,
             unsaved: Unsaved::default(),
             go_to: None,
             timeline: TimelineView::default(),
@@ -202,9 +206,9 @@ impl Editor {
         }
     }
 
-    /// The mesh as drawn.
+    /// The mesh as drawn: that of the embedding on the screen, where there is one.
     pub fn mesh_scene(&self) -> Option<&Arc<MeshScene>> {
-        self.mesh_scene.as_ref()
+        self.drawn_plane().map(|plane| &plane.mesh).or(self.mesh_scene.as_ref())
     }
 
     /// The embedding as drawn.

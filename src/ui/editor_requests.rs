@@ -60,6 +60,7 @@ impl Editor {
             Request::ToggleExports => self.exports_shown = !self.exports_shown,
             Request::Answer(answer) => self.answer(answer),
             Request::LeaveFaces => self.faces_left = Some(self.session.model_revision()),
+            Request::LeaveTargets => self.targets_left = Some(self.session.opening_revision()),
             Request::AskGoTo => self.go_to = Some(String::new()),
             Request::ToggleKeys => self.keys_shown = !self.keys_shown,
             Request::SetTheme(theme) => self.theme_wanted = Some(theme),
@@ -124,7 +125,7 @@ impl Editor {
     }
 
     fn act(&mut self, action: Action) {
-        if matches!(action, Action::Step | Action::Run | Action::ShowStep(_)) {
+        if matches!(action, Action::Step | Action::Run | Action::Relax | Action::ShowStep(_)) {
             self.timeline.playing_since = None;
         }
         if matches!(action, Action::Open(_) | Action::OpenExample(_) | Action::Recover(_)) {

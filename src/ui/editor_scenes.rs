@@ -76,8 +76,12 @@ impl Editor {
             return;
         }
         let Some(outcome) = self.session.outcome() else { return };
-        let (model, outcome, waker) = (Arc::clone(&mesh_scene.model), Arc::clone(outcome), self.context.clone());
-        let work = move |_: &_| PlaneScene::new(model.mesh(), outcome, revision);
+        let (given, outcome, waker) = (Arc::clone(mesh_scene), Arc::clone(outcome), self.context.clone());
+        let before = self.plane_scene.as_ref().map(|scene| Arc::clone(&scene.mesh));
+        let work = move |_: &_| {
+            let mesh = MeshScene::of_step(&given, before, &outcome.step);
+            PlaneScene::new(mesh, outcome, revision)
+        };
         let job = Job::spawn("plane scene", move || waker.request_repaint(), work);
         self.plane_scene_job = job.ok().map(|job| (revision, job));
     }
@@ -92,9 +96,11 @@ impl Editor {
             moved_from: base.map(|base| base.step.index),
         };
         if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
-            let outcome = self.plane_scene.as_ref().map(|scene| scene.outcome.as_ref());
-            let base = base.map(AsRef::as_ref);
-            self.paint = Some(Paint::new(key, mesh_scene.model.mesh(), outcome, base));
+            let (mesh, outcome) = match &self.plane_scene {
+                Some(plane) => (plane.mesh.mesh(), Some(plane.outcome.as_ref())),
+                None => (mesh_scene.mesh(), None),
+            };
+            self.paint = Some(Paint::new(key, mesh, outcome, base.map(AsRef::as_ref)));
         }
     }
 }

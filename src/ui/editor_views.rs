@@ -7,18 +7,19 @@ use crate::mesh::VertexId;
 
 impl Editor {
     pub(super) fn frame(&mut self) {
-        let (Some(scene), Some(orbit)) = (&self.mesh_scene, &mut self.orbit) else { return };
-        let positions = &scene.model.mesh().positions;
+        let (Some(scene), Some(mut orbit)) = (self.mesh_scene(), self.orbit) else { return };
+        let positions = &scene.mesh().positions;
         let selected: Vec<VertexId> = self.selection.iter().copied().collect();
         let ball =
             if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
         orbit.frame(ball, self.mesh_pane_size);
+        self.orbit = Some(orbit);
         let Some(plane) = self.drawn_plane().cloned() else { return };
         let bounds = self.with_picture(plane.arrays.bounds());
         let Some(camera) = &mut self.plane_camera else { return };
         let wanted = if selected.is_empty() { bounds } else { grown_box(plane.positions(), &selected, bounds) };
         camera.frame(wanted, self.plane_pane_size);
-        if let Some(camera) = self.plane_camera.filter(|_| selected.is_empty() && !plane.is_stage()) {
+        if let Some(camera) = self.plane_camera.filter(|_| selected.is_empty() && plane.is_plain_result()) {
             self.set_framed(camera);
         }
     }
@@ -47,8 +48,10 @@ impl Editor {
 
     pub(super) fn go_to_defect(&mut self, place: usize) {
         self.defect = Some(place);
-        let (Some(scene), Some(defect)) = (self.mesh_scene.clone(), self.defects().get(place).copied()) else { return };
-        let vertices = defect.elements().into_iter().flatten().flat_map(|element| vertices_of(&scene.model, element));
+        let (Some(scene), Some(defect)) = (self.mesh_scene().cloned(), self.defects().get(place).copied()) else {
+            return;
+        };
+        let vertices = defect.elements().into_iter().flatten().flat_map(|element| vertices_of(&scene, element));
         self.go_to_vertices(vertices.collect());
     }
 }

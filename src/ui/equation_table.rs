@@ -28,8 +28,8 @@ fn equation_of(
     outcome: &Outcome,
     vertex: VertexId,
 ) -> Option<Result<(VertexEquation, WeightSource), NoEquation>> {
-    let disk = editor.session.model()?.disk()?;
     let step = &outcome.step;
+    let disk = step.mesh(editor.session.model()?.disk()?);
     let timeline = editor.session.timeline();
     let before = step.index.checked_sub(1).and_then(|index| timeline.outcome(index));
     let before = before.map(|before| before.step.solution.embedding.as_slice());
@@ -82,7 +82,7 @@ fn source_words(source: WeightSource, equation: &VertexEquation) -> &'static str
 
 /// Neighbour, k, d and share; a click on a neighbour goes on to it.
 fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests: &mut Vec<Request>) {
-    let count = editor.session.model().map_or(0, |model| model.mesh().vertex_count());
+    let count = editor.mesh_scene().map_or(0, |scene| scene.mesh().vertex_count());
     let theme = theme_of(ui);
     egui::Grid::new("equation").num_columns(4).spacing([10.0, 2.0]).striped(true).show(ui, |ui| {
         let heads = [

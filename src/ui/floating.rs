@@ -61,10 +61,10 @@ fn go_to_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
         let label = ui.label("Number of a vertex (12 or v12), an edge (e7) or a face (f3), from 0");
         let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(160.0)).labelled_by(label.id);
-        let model = editor.session.model();
+        let scene = editor.mesh_scene();
         let found = Element::parse(&text)
-            .zip(model)
-            .map(|(element, model)| vertices_of(model, element))
+            .zip(scene)
+            .map(|(element, scene)| vertices_of(scene, element))
             .filter(|vertices| !vertices.is_empty());
         if !text.trim().is_empty() && found.is_none() {
             ui.colored_label(super::theme::theme_of(ui).flipped, "This mesh has no such element");

@@ -15,14 +15,14 @@ use std::sync::Arc;
 use eframe::egui;
 use glam::DVec2;
 
-use super::scene::PlaneScene;
+use super::scene::{Part, PlaneScene};
 use super::theme::{Theme, theme_of};
 use super::{Editor, Request};
 use crate::geom::{Orientation, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
 use crate::session::{Job, Outcome, Poll};
-use crate::solver::{Outline, VirtualBoundary};
+use crate::solver::{Outline, Outside, VirtualBoundary};
 use crate::view::{EdgeList, FaceList, FacePaint, PlaneCamera};
 
 /// A stage of the virtual boundary.
@@ -82,8 +82,10 @@ pub struct HullView {
 pub struct HullScene {
     /// The outcome's revision and the stage.
     key: (u64, Stage),
-    /// The mesh at this stage; none where it is the result.
-    plane: Option<(Arc<PlaneScene>, Arc<FacePaint>)>,
+    /// The mesh at this stage, or with its outside; none where it is the result alone.
+    plane: Option<Arc<PlaneScene>>,
+    /// The faces' colours, where they are not the result's.
+    paint: Option<Arc<FacePaint>>,
     hull: Arc<EdgeList>,
     pocket_edges: Arc<EdgeList>,
     pockets: Arc<FaceList>,
@@ -94,11 +96,16 @@ pub struct HullScene {
 }
 
 impl HullScene {
-    fn new(disk: &DiskMesh, outcome: &Arc<Outcome>, key: (u64, Stage)) -> Self {
+    fn new(disk: &DiskMesh, result: &PlaneScene, stage: Stage) -> Self {
+        let (outcome, key) = (&result.outcome, (result.outcome_revision, stage));
+        if let Some(outside) = &outcome.step.outside {
+            return Self::of_outside(result, outside, key);
+        }
         let Some(stages) = &outcome.step.virtual_boundary else { return Self::of_free_boundary(disk, outcome, key) };
         let mut scene = Self {
             key,
             plane: None,
+            paint: None,
             hull: Arc::new(EdgeList::closed_loop(&stages.hull)),
             pocket_edges: Arc::new(EdgeList::new(Vec::new())),
             pockets: Arc::new(FaceList::new(Vec::new())),
@@ -119,9 +126,30 @@ impl HullScene {
         }
         let moved = Similarity::between(disk, &stages.solved, &outcome.step.solution.embedding).moved(positions);
         let flipped = flipped_faces(disk, positions);
-        let plane = PlaneScene::of_stage(disk.mesh(), Arc::clone(outcome), (key.0, moved));
-        scene.plane = Some((Arc::new(plane), Arc::new(FacePaint::plain(disk.face_count(), &flipped))));
+        scene.plane = Some(Arc::new(result.of_part(Part::Stage, moved)));
+        scene.paint = Some(Arc::new(FacePaint::plain(disk.face_count(), &flipped)));
         scene
+    }
+
+    /// A step that was made with the outside triangulated up to a frame: the result within it.
+    fn of_outside(result: &PlaneScene, outside: &Outside, key: (u64, Stage)) -> Self {
+        let embedding = result.positions();
+        let around: Vec<VertexId> =
+            (0..outside.frame.len()).map(|k| VertexId::from_index(embedding.len() + k)).collect();
+        let points = embedding.iter().chain(&outside.frame).copied().collect();
+        Self {
+            key,
+            plane: Some(Arc::new(result.of_part(Part::WithOutside, points))),
+            paint: None,
+            hull: Arc::new(EdgeList::closed_loop(&around)),
+            pocket_edges: Arc::new(EdgeList::new(sides_of(&outside.triangles))),
+            pockets: Arc::new(FaceList::new(outside.triangles.clone())),
+            caption: format!(
+                "{} triangles around the mesh, up to a frame: while none turns over, the boundary stays simple",
+                outside.triangles.len()
+            ),
+            has_stages: false,
+        }
     }
 
     /// A step that bent no boundary still has a hull.
@@ -132,6 +160,7 @@ impl HullScene {
         Self {
             key,
             plane: None,
+            paint: None,
             hull: Arc::new(EdgeList::closed_loop(&corners)),
             pocket_edges: Arc::new(EdgeList::new(Vec::new())),
             pockets: Arc::new(FaceList::new(Vec::new())),
@@ -142,7 +171,7 @@ impl HullScene {
 
     /// Faces of the mesh that are turned over at a stage before the result.
     pub fn flipped_count(&self) -> usize {
-        self.plane.as_ref().map_or(0, |(_, paint)| paint.flipped().len())
+        self.paint.as_ref().map_or(0, |paint| paint.flipped().len())
     }
 
     /// The faces beside the mesh.
@@ -227,25 +256,28 @@ impl Similarity {
 impl Editor {
     /// What the embedding's pane draws and picks in: the shown step's embedding, or a stage on the way to it.
     pub fn drawn_plane(&self) -> Option<&Arc<PlaneScene>> {
-        let stage = self.hull_scene().and_then(|scene| scene.plane.as_ref()).map(|(plane, _)| plane);
-        stage.or(self.result_plane())
+        self.hull_scene().and_then(|scene| scene.plane.as_ref()).or(self.result_plane())
     }
 
     /// The faces' colours at a stage that is not the result; there the distortion of the result says nothing.
     pub(super) fn stage_paint(&self) -> Option<&Arc<FacePaint>> {
-        self.hull_scene().and_then(|scene| scene.plane.as_ref()).map(|(_, paint)| paint)
+        self.hull_scene().and_then(|scene| scene.paint.as_ref())
     }
 
-    /// Hull and pockets of the shown step, where they are wanted and made.
+    /// Hull and pockets of the shown step, where they are wanted and made, and nothing follows a drag in its place.
     pub fn hull_scene(&self) -> Option<&Arc<HullScene>> {
         let revision = self.plane_scene.as_ref()?.outcome_revision;
-        self.hull.scene.as_ref().filter(|scene| self.hull.shown && scene.key.0 == revision)
+        let is_wanted = self.hull.shown && self.preview_plane().is_none();
+        self.hull.scene.as_ref().filter(|scene| is_wanted && scene.key.0 == revision)
     }
 
     /// Whether hull and pockets are drawn as they were asked for.
     pub fn hull_is_drawn(&self) -> bool {
         let shown = self.hull_scene().map(|scene| scene.key.1);
-        !self.hull.shown || self.plane_scene.is_none() || shown == Some(self.hull.stage)
+        !self.hull.shown
+            || self.plane_scene.is_none()
+            || self.preview_plane().is_some()
+            || shown == Some(self.hull.stage)
     }
 
     /// Makes the chosen stage in the background where it is not there yet.
@@ -265,13 +297,14 @@ impl Editor {
             self.hull.scene = None;
             return;
         }
-        let (Some(mesh), Some(plane)) = (&self.mesh_scene, &self.plane_scene) else { return };
+        let Some(plane) = &self.plane_scene else { return };
         let key = (plane.outcome_revision, self.hull.stage);
-        let Some(disk) = mesh.model.disk().filter(|_| self.hull.scene.as_ref().is_none_or(|s| s.key != key)) else {
+        let Some(disk) = plane.mesh.model.disk().filter(|_| self.hull.scene.as_ref().is_none_or(|s| s.key != key))
+        else {
             return;
         };
-        let (disk, outcome, waker) = (Arc::clone(disk), Arc::clone(&plane.outcome), self.context.clone());
-        let work = move |_: &_| HullScene::new(&disk, &outcome, key);
+        let (disk, plane, waker) = (Arc::clone(disk), Arc::clone(plane), self.context.clone());
+        let work = move |_: &_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1);
         self.hull.job = Job::spawn("hull", move || waker.request_repaint(), work).ok();
     }
 
@@ -295,7 +328,7 @@ impl Editor {
         let (Some(plane), Some(camera)) = (self.drawn_plane().cloned(), &mut self.plane_camera) else { return };
         let (bounds, seen) = (plane.arrays.bounds(), camera.visible(self.plane_pane_size));
         let is_seen = seen.min.cmple(bounds.min).all() && seen.max.cmpge(bounds.max).all();
-        if self.hull.cameras.is_none() && !is_seen && plane.is_stage() {
+        if self.hull.cameras.is_none() && !is_seen && !plane.is_plain_result() {
             let before = *camera;
             camera.frame(bounds, self.plane_pane_size);
             self.hull.cameras = Some([before, *camera]);

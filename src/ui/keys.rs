@@ -36,6 +36,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(CTRL, Key::E, "Export: mesh, layout, pictures, report", || Request::ToggleExports),
     bind(CTRL, Key::Q, "Quit", || Request::Quit),
     bind(CTRL, Key::Enter, "Solve again", || Request::Do(Action::Solve)),
+    bind(NONE, Key::R, "Relax: lower the distortion of a planar embedding", || Request::Do(Action::Relax)),
     bind(SHIFT, Key::D, "Previous defect", || Request::StepDefect(-1)),
     bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),
     bind(SHIFT, Key::Space, "Run, or pause the run", || Request::RunOrPause),

@@ -54,7 +54,7 @@ impl Magnifier {
         if pane.width() < 2.0 * side || pane.height() < 2.0 * side {
             return None;
         }
-        let shown = neighbourhood(editor, scene, defect)?;
+        let shown = neighbourhood(scene, defect)?;
         let camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
         let around = editor.plane_camera?;
         let extent = pane::size_of(pane);
@@ -163,9 +163,8 @@ fn place_for(pane: Rect, size: Vec2, looks_at: Rect) -> Rect {
 }
 
 /// The part of the plane around a defect.
-fn neighbourhood(editor: &Editor, plane: &PlaneScene, defect: Defect) -> Option<PlaneBox> {
-    let model = &editor.mesh_scene()?.model;
-    let disk = model.disk()?;
+fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<PlaneBox> {
+    let disk = plane.mesh.disk()?;
     let at = |v: crate::mesh::VertexId| plane.positions().get(v.index()).copied();
     let (center, reach) = match defect {
         Defect::Crossing(edges) => {
@@ -179,7 +178,8 @@ fn neighbourhood(editor: &Editor, plane: &PlaneScene, defect: Defect) -> Option<
             (at(vertex)?, bounds.size().max_element())
         }
         Defect::Flipped(face) => {
-            let corners: Vec<DVec2> = vertices_of(model, Element::Face(face)).into_iter().filter_map(at).collect();
+            let corners: Vec<DVec2> =
+                vertices_of(&plane.mesh, Element::Face(face)).into_iter().filter_map(at).collect();
             let bounds = PlaneBox::around(&corners);
             (bounds.center(), bounds.size().max_element())
         }

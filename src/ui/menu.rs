@@ -201,6 +201,7 @@ fn solve_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     item(ui, disk, "Take one step", Request::Do(Action::Step), requests);
     let (run, can_run) = if session.is_running() { ("Pause the run", true) } else { ("Run on", session.can_run()) };
     item(ui, can_run, run, Request::RunOrPause, requests);
+    item(ui, session.can_relax(), "Relax", Request::Do(Action::Relax), requests);
     ui.separator();
     let has_previous = shown.and_then(|shown| timeline.previous_kept(shown)).is_some();
     let has_next = shown.and_then(|shown| timeline.next_kept(shown)).is_some();

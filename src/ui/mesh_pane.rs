@@ -94,11 +94,11 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, scene: &MeshS
     if let Some(chosen) = super::boxes::drag_box(ui, response, editor, Pane::Mesh) {
         let size = pane::size_of(rect);
         let inside = |vertex: &VertexId| {
-            let position = scene.model.mesh().positions[vertex.index()];
+            let position = scene.mesh().positions[vertex.index()];
             let at = camera.pane_from_world(position, size).map(|at| pane::on_screen(rect, at));
             at.is_some_and(|at| chosen.contains(at)) && scene.picker.is_visible(*vertex, camera.eye())
         };
-        let count = scene.model.mesh().vertex_count();
+        let count = scene.mesh().vertex_count();
         requests.push(Request::AddToSelection((0..count).map(VertexId::from_index).filter(inside).collect()));
     }
     if response.clicked() {
@@ -119,6 +119,7 @@ pub(super) fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
     let select = if adds { Request::AddToSelection(vec![vertex]) } else { Request::Select(vec![vertex]) };
     match editor.tool {
         Tool::Select | Tool::Constrain => vec![select],
+        Tool::Fix if editor.is_new_vertex(vertex) => vec![select],
         Tool::Fix => vec![Request::Do(Action::Fix(vec![vertex])), select],
     }
 }
@@ -171,13 +172,28 @@ pub(super) fn style(editor: &Editor) -> Style {
     }
 }
 
+/// The vertices that are marked as new.
+pub(super) fn new_vertices(scene: &MeshScene) -> impl Iterator<Item = VertexId> {
+    let counts = scene.refinement.as_ref().map(|refinement| {
+        let first = refinement.old_vertex_count();
+        first..first + refinement.new_vertices().len().min(MARKS_SHOWN)
+    });
+    counts.into_iter().flatten().map(VertexId::from_index)
+}
+
+/// A small dot.
+pub(super) fn new_vertex_mark(painter: &egui::Painter, at: Pos2, theme: &Theme) {
+    painter.circle_filled(at, 2.5, theme.background);
+    painter.circle_filled(at, 1.75, theme.accent);
+}
+
 /// Pins, selection, hover and defects over the picture.
 fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: &OrbitCamera) {
     let theme = theme_of(ui);
     let painter = ui.painter_at(rect);
     let size = pane::size_of(rect);
     let eye = camera.eye();
-    let positions = &scene.model.mesh().positions;
+    let positions = &scene.mesh().positions;
     let place = |vertex: VertexId| -> Option<(Pos2, bool)> {
         let at = camera.pane_from_world(*positions.get(vertex.index())?, size)?;
         Some((pane::on_screen(rect, at), scene.picker.is_visible(vertex, eye)))
@@ -194,8 +210,19 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
             super::defect_marks::overwound_mark(&painter, at, theme);
         }
     }
+    for vertex in new_vertices(scene) {
+        if let Some((at, true)) = place(vertex) {
+            new_vertex_mark(&painter, at, theme);
+        }
+    }
+    let unmet = editor.unmet_shown();
     for pin in editor.pins_shown() {
         if let Some((at, true)) = place(pin.vertex) {
+            if unmet.contains(&pin.vertex) {
+                pins::unmet_mark(&painter, at, theme);
+            } else if editor.session.conflict_of(pin.vertex).is_some() {
+                pins::conflict_mark(&painter, at, theme);
+            }
             let is_strong = editor.selection.contains(&pin.vertex);
             let emphasis = if is_strong { Emphasis::Strong } else { Emphasis::Plain };
             pins::mark(&painter, at, theme, (pin.kind, emphasis));
@@ -206,9 +233,10 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
             pane::halo(&painter, at, theme.selection, 6.0);
         }
     }
-    if let Some((at, true)) = editor.hovered.and_then(place) {
+    if let (Some(vertex), Some((at, true))) = (editor.hovered, editor.hovered.and_then(place)) {
         pane::halo(&painter, at, theme.selection, if editor.tool == Tool::Fix { 7.0 } else { 5.0 });
         match editor.tool {
+            _ if editor.is_new_vertex(vertex) => {}
             Tool::Select => {}
             Tool::Fix => pins::mark(&painter, at, theme, (PinKind::Gauge, Emphasis::Plain)),
             Tool::Constrain => pins::ghost(&painter, at, theme),

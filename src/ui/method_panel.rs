@@ -4,7 +4,8 @@ use eframe::egui;
 use egui::{RichText, Role, WidgetInfo};
 
 use super::theme::theme_of;
-use super::{Editor, Request};
+use super::timeline_chips::residual_words;
+use super::{Editor, Request, keys_of};
 use crate::session::{Action, Outcome};
 use crate::solver::{BoundaryShape, FAMILIES, Family, Growth, METHODS, Method, Settings, Treatment};
 
@@ -46,6 +47,7 @@ pub(super) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             treatment_menu(ui, &mut chosen);
         });
     }
+    new_vertices_box(ui, &mut chosen);
     if chosen != settings {
         requests.push(Request::Do(Action::SetSettings(chosen)));
     }
@@ -73,6 +75,15 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
         let tip = "Solve again (Ctrl+Enter). A change of method, weights or pins solves by itself.";
         if solve.on_hover_text(tip).clicked() {
             requests.push(Request::Do(Action::Solve));
+        }
+        let relax = Request::Do(Action::Relax);
+        let tip = format!(
+            "Lower the distortion of a planar embedding: one-to-one throughout, constraints exact ({})",
+            keys_of(ui.ctx(), &relax)
+        );
+        let button = ui.add_enabled(editor.session.can_relax(), egui::Button::new("Relax"));
+        if button.on_hover_text(&tip).on_disabled_hover_text(tip).clicked() {
+            requests.push(relax);
         }
         if busy && editor.busy_for_long().is_some() && ui.button("Cancel").clicked() {
             requests.push(Request::Do(Action::Cancel));
@@ -159,6 +170,15 @@ fn treatment_menu(ui: &mut egui::Ui, settings: &mut Settings) {
     });
     menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Equations of pinned vertices"));
     menu.response.on_hover_text("What becomes of the equations of pinned vertices");
+}
+
+/// Whether edges may be split, where the method can.
+fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
+    if matches!(settings.method, Method::Auto | Method::Continuation | Method::Matchmaker) {
+        let tip = "Where the constraints cannot be met otherwise, split edges: the surface stays the same. Off: the best \
+                   planar embedding, and which constraints it does not meet";
+        ui.checkbox(&mut settings.new_vertices, "Allow new vertices").on_hover_text(tip);
+    }
 }
 
 /// What few people need: how long the iteration may go on, and how the virtual boundary does.
@@ -307,9 +327,9 @@ fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.monospace(value));
                 ui.end_row();
             };
-            row("Residual", "|Ax − b| / |b| of the linear solve", format!("{:.1e}", solution.residual));
+            row("Residual", "|Ax − b| / |b| of the linear solve", residual_words(solution.residual));
             let tip = "|A z| of all equations, pinned vertices included, relative to their terms";
-            row("Equation residual", tip, format!("{:.1e}", solution.equation_residual));
+            row("Equation residual", tip, residual_words(solution.equation_residual));
             let seconds = &solution.seconds;
             let phases = [
                 ("Assembly", seconds.assemble),

@@ -65,7 +65,7 @@ fn place_in(pane: Rect, looks_at: egui::Pos2) -> Option<Rect> {
 /// The inset over the mesh's pane.
 pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene) {
     let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.magnifier) else { return };
-    let (Some(around), Some(&position)) = (editor.orbit, scene.model.mesh().positions.get(vertex.index())) else {
+    let (Some(around), Some(&position)) = (editor.orbit, scene.mesh().positions.get(vertex.index())) else {
         return;
     };
     let Some(at) = around.pane_from_world(position, pane::size_of(rect)).map(|at| pane::on_screen(rect, at)) else {

@@ -10,6 +10,7 @@ use super::theme::theme_of;
 use super::{Editor, Request, pane};
 use crate::mesh::VertexId;
 use crate::session::Action;
+use crate::solver::Conflict;
 use crate::view::PlaneCamera;
 
 /// Side of the square around a pin that can be grabbed, points.
@@ -66,6 +67,14 @@ pub(super) fn pins_ui(
         let response = grip.widget(ui, editor);
         let strong = response.hovered() || editor.selection.contains(&pin.vertex);
         let emphasis = if strong { Emphasis::Strong } else { Emphasis::Plain };
+        let conflict = editor.session.conflict_of(pin.vertex);
+        if conflict.is_some() {
+            pins::conflict_mark(&ui.painter_at(rect), at, theme);
+        }
+        let response = match conflict {
+            Some(conflict) => response.on_hover_text(conflict_words(conflict)),
+            None => response,
+        };
         pins::mark(&ui.painter_at(rect), at, theme, (pin.kind, emphasis));
         // A mark that leaves the click to the pane leaves it what is said of it, too.
         if editor.pair.is_none() && (response.hovered() || response.dragged()) {
@@ -79,6 +88,11 @@ pub(super) fn pins_ui(
         }
         grip.drag(ui, &response, editor, requests);
     }
+}
+
+/// What is amiss with constraints before they are solved for.
+pub(super) fn conflict_words(conflict: &Conflict) -> String {
+    super::sentence(&conflict.words())
 }
 
 /// The vertex of the pin whose mark is under a place of the screen: of several the one on top, which takes the click.

@@ -81,6 +81,13 @@ impl Editor {
         own.chain(solver).collect()
     }
 
+    /// The exact pins that are not on their targets in the planar embedding on the screen, ascending.
+    pub fn unmet_shown(&self) -> Vec<VertexId> {
+        let outcome = self.plane_scene.as_ref().map(|scene| &scene.outcome);
+        let planar = outcome.filter(|outcome| outcome.step.verdict.planar && self.preview_plane().is_none());
+        planar.map(|outcome| outcome.step.unmet()).unwrap_or_default()
+    }
+
     /// The selected vertices that are pins of the user's.
     pub fn pins_selected(&self) -> impl Iterator<Item = VertexId> + '_ {
         let pins = &self.session.document().pins;
@@ -114,6 +121,16 @@ pub(super) fn mark(painter: &Painter, at: Pos2, theme: &Theme, (kind, emphasis):
         }
         PinKind::User(Hold::Weighted(weight)) => hollow_diamond(painter, at, theme, half_height(weight) + more),
     }
+}
+
+/// A ring around a pin's vertex that is not on its target.
+pub(super) fn unmet_mark(painter: &Painter, at: Pos2, theme: &Theme) {
+    painter.circle_stroke(at, DIAMOND + 4.0, Stroke::new(2.0, theme.unmet));
+}
+
+/// A thin ring around a pin that contradicts others on the mesh as it is.
+pub(super) fn conflict_mark(painter: &Painter, at: Pos2, theme: &Theme) {
+    painter.circle_stroke(at, DIAMOND + 3.0, Stroke::new(1.25, theme.stale));
 }
 
 /// What a click would place: a diamond that is not there yet.

@@ -4,6 +4,7 @@ use eframe::egui;
 use egui::{DragValue, RichText, Role, Sense, Vec2, WidgetInfo};
 use glam::DVec2;
 
+use super::pin_drag::conflict_words;
 use super::pins::{self, Emphasis, PinKind};
 use super::theme::theme_of;
 use super::{Editor, Purpose, Request, Tool, keys_of, picture_panel};
@@ -31,6 +32,7 @@ pub(super) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
     } else {
         table(ui, editor, requests);
         together(ui, editor, requests);
+        conflicts(ui, editor, requests);
         errors(ui, editor);
     }
     ui.separator();
@@ -99,14 +101,25 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
         (Hold::Fixed | Hold::Hard, Hold::Weighted(weight)) => {
             ui.weak(weight_words(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
         }
-        (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => {
-            ui.weak("exact");
-        }
+        (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => exact(ui, editor, vertex),
     }
     let free = ui.small_button("×").on_hover_text("Free this pin");
     free.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Free pin {vertex}")));
     if free.clicked() {
         requests.push(Request::Do(Action::Unpin(vec![vertex])));
+    }
+}
+
+/// What there is to say about a pin that is to be met exactly.
+fn exact(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId) {
+    let theme = theme_of(ui);
+    if editor.unmet_shown().contains(&vertex) {
+        let label = ui.colored_label(theme.unmet, "not met");
+        label.on_hover_text("The embedding on the screen is planar, but this vertex is not on its target");
+    } else if let Some(conflict) = editor.session.conflict_of(vertex) {
+        ui.colored_label(theme.stale, "conflict").on_hover_text(conflict_words(conflict));
+    } else {
+        ui.weak("exact");
     }
 }
 
@@ -226,6 +239,22 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             requests.push(Request::UnpinSelected);
         }
     });
+}
+
+/// Constraints that contradict each other on the mesh as it is, before anything is solved.
+fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let found = editor.session.conflicts();
+    let Some(first) = found.first() else { return };
+    ui.add_space(4.0);
+    let words = match found.iter().filter(|conflict| conflict.needs_new_vertices()).count() {
+        0 => "Targets too near to each other".to_owned(),
+        1 => "1 conflict needs new vertices".to_owned(),
+        count => format!("{count} conflicts need new vertices"),
+    };
+    let link = ui.link(RichText::new(words).color(theme_of(ui).stale));
+    if link.on_hover_text(conflict_words(first)).clicked() {
+        requests.push(Request::GoTo(first.vertices()));
+    }
 }
 
 /// How far the worst of the exact and of the weighted pins is from its target, in texture coordinates.

@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::compare;
 use super::hull;
 use super::magnifier::Magnifier;
-use super::mesh_pane::{boundary_line, clicked, cursor, style};
+use super::mesh_pane::{boundary_line, clicked, cursor, new_vertex_mark, new_vertices, style};
 use super::pane;
 use super::scene::{MeshScene, PlaneScene};
 use super::theme::{Theme, theme_of};
@@ -25,6 +25,7 @@ const MARKS_SHOWN: usize = 2000;
 /// Shows the pane and takes its gestures.
 pub(super) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Plane, requests);
+    super::bars::bars(ui, editor, Pane::Plane, requests);
     pane::message_bars(ui, editor, Place::Embedding, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
     editor.pane_rects[1] = Some(rect);
@@ -125,7 +126,7 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
         let size = pane::size_of(rect);
         let [a, b] = [chosen.left_bottom(), chosen.right_top()]
             .map(|corner| camera.embedding_from_pane(pane::in_pane(rect, corner), size));
-        let count = plane.outcome.step.solution.embedding.len();
+        let count = plane.mesh.mesh().vertex_count();
         let positions = plane.positions()[..count].iter().enumerate();
         let inside = positions.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
         let mut chosen: Vec<VertexId> = inside.map(|(i, _)| VertexId::from_index(i)).collect();
@@ -187,8 +188,15 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
         let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
         super::defect_marks::plane_marks(ui, rect, editor, (mesh, plane), &spot);
     }
+    for vertex in new_vertices(mesh) {
+        new_vertex_mark(&over, spot(vertex), theme);
+    }
     if !plane.is_stage() {
+        let unmet = editor.unmet_shown();
         for pin in editor.pins_shown() {
+            if unmet.contains(&pin.vertex) {
+                pins::unmet_mark(&over, spot(pin.vertex), theme);
+            }
             let target = pane::on_screen(rect, camera.pane_from_embedding(pin.target, size));
             pins::residual(&over, [spot(pin.vertex), target], theme, pin.kind);
         }

@@ -45,7 +45,8 @@ impl Editor {
             self.preview = None;
             return;
         };
-        let triangles = mesh.model.mesh();
+        // What follows the pointer is of the mesh as given, whatever the step on the screen is of.
+        let triangles = mesh.mesh();
         if preview.embedding.len() != triangles.vertex_count() {
             self.preview = None;
             return;
@@ -55,7 +56,10 @@ impl Editor {
         let before = self.preview.take().filter(|before| before.key.0 == key.0);
         let scene = match &before {
             Some(before) if before.key == key => Arc::clone(&before.scene),
-            _ => Arc::new(base.with_positions(triangles, preview.embedding.to_vec())),
+            Some(before) if before.scene.outcome_revision == base.outcome_revision => {
+                Arc::new(before.scene.with_positions(mesh, preview.embedding.to_vec()))
+            }
+            _ => Arc::new(base.with_positions(mesh, preview.embedding.to_vec())),
         };
         let same_faces = |before: &&PreviewScene| match (&before.verdict, &verdict) {
             (None, None) => true,

@@ -194,6 +194,8 @@ pub enum Request {
     Answer(Answer),
     /// Leaves faces that point inward as they are.
     LeaveFaces,
+    /// Leaves targets that look mirrored as they are.
+    LeaveTargets,
     /// Asks for an element to go to.
     AskGoTo,
     /// Shows or hides the list of keys.

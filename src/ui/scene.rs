@@ -5,19 +5,21 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::Shading;
-use super::compare::face_moves;
-use crate::mesh::{EdgeId, FaceId, TriMesh, VertexId};
+use super::compare::{face_moves, places_in};
+use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
-use crate::solver::FaceDistortion;
+use crate::solver::{FaceDistortion, Step};
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
 
-/// The mesh, ready to be drawn and picked in.
+/// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
 #[derive(Debug)]
 pub struct MeshScene {
-    /// The mesh that it was made from.
+    /// What was opened.
     pub model: Arc<Model>,
     /// Which mesh that was.
     pub model_revision: u64,
+    /// The mesh with new vertices that it is of; none where it is of the mesh as given.
+    pub refinement: Option<Arc<Refinement>>,
     /// Draw arrays.
     pub arrays: Arc<MeshArrays>,
     /// The boundary, where it is a disk.
@@ -29,25 +31,59 @@ pub struct MeshScene {
 }
 
 impl MeshScene {
-    /// Makes the scene of a mesh.
+    /// Makes the scene of a mesh as given.
     pub fn new(model: Arc<Model>, model_revision: u64) -> Self {
-        let TriMesh { positions, triangles, .. } = model.mesh();
-        let boundary =
-            model.disk().map_or_else(|| EdgeList::new(Vec::new()), |d| EdgeList::closed_loop(d.boundary_loop()));
+        Self::of(model, model_revision, None)
+    }
+
+    /// The scene of the mesh that a step's embedding is of: that of the mesh as given, that of the step shown before,
+    /// or one of its own.
+    pub(super) fn of_step(given: &Arc<Self>, before: Option<Arc<Self>>, step: &Step) -> Arc<Self> {
+        let Some(refinement) = &step.refinement else { return Arc::clone(given) };
+        let has_it = |scene: &Arc<Self>| scene.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement));
+        before.filter(has_it).unwrap_or_else(|| {
+            Arc::new(Self::of(Arc::clone(&given.model), given.model_revision, Some(Arc::clone(refinement))))
+        })
+    }
+
+    fn of(model: Arc<Model>, model_revision: u64, refinement: Option<Arc<Refinement>>) -> Self {
+        let disk = refinement.as_ref().map(|refinement| refinement.disk()).or(model.disk().map(AsRef::as_ref));
+        let boundary = disk.map_or_else(|| EdgeList::new(Vec::new()), |d| EdgeList::closed_loop(d.boundary_loop()));
+        let TriMesh { positions, triangles, .. } = disk.map_or(model.mesh(), |disk| disk.mesh());
         Self {
             model_revision,
             arrays: Arc::new(MeshArrays::new(positions, triangles)),
             boundary: Arc::new(boundary),
             picker: SurfacePicker::new(positions, triangles),
             sphere: Sphere::around(positions),
+            refinement,
             model,
         }
+    }
+
+    /// Its triangles.
+    pub fn mesh(&self) -> &TriMesh {
+        self.refinement.as_ref().map_or(self.model.mesh(), |refinement| refinement.disk().mesh())
+    }
+
+    /// The same as a disk, where it is one.
+    pub fn disk(&self) -> Option<&DiskMesh> {
+        let given = self.model.disk().map(AsRef::as_ref);
+        self.refinement.as_ref().map(|refinement| refinement.disk()).or(given)
+    }
+
+    /// What there is to say about a vertex that the mesh as given does not have.
+    pub fn new_vertex(&self, vertex: VertexId) -> Option<&NewVertex> {
+        let refinement = self.refinement.as_ref()?;
+        refinement.new_vertices().get(vertex.index().checked_sub(refinement.old_vertex_count())?)
     }
 }
 
 /// An embedding, ready to be drawn and picked in.
 #[derive(Debug)]
 pub struct PlaneScene {
+    /// The mesh that it is an embedding of.
+    pub mesh: Arc<MeshScene>,
     /// The solve that it was made from.
     pub outcome: Arc<Outcome>,
     /// Which solve that was.
@@ -58,48 +94,66 @@ pub struct PlaneScene {
     pub picker: Arc<PlanePicker>,
     /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
     positions: Option<Vec<DVec2>>,
-    is_stage: bool,
+    part: Part,
+}
+
+/// What of the way to an outcome a scene shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// The outcome itself.
+    Result,
+    /// The outcome with what lies around it.
+    WithOutside,
+    /// A stage before it.
+    Stage,
 }
 
 impl PlaneScene {
     /// Makes the scene of an embedding of `mesh`.
-    pub fn new(mesh: &TriMesh, outcome: Arc<Outcome>, outcome_revision: u64) -> Self {
+    pub fn new(mesh: Arc<MeshScene>, outcome: Arc<Outcome>, outcome_revision: u64) -> Self {
         let embedding = &outcome.step.solution.embedding;
         Self {
             outcome_revision,
-            arrays: Arc::new(PlaneArrays::new(embedding, &mesh.triangles)),
+            arrays: Arc::new(PlaneArrays::new(embedding, &mesh.mesh().triangles)),
             picker: Arc::new(PlanePicker::new(embedding)),
             positions: None,
-            is_stage: false,
+            part: Part::Result,
             outcome,
+            mesh,
         }
     }
 
-    /// Makes the scene of a stage on the way to an outcome: its revision, and where vertices lie.
-    pub(super) fn of_stage(
-        mesh: &TriMesh,
-        outcome: Arc<Outcome>,
-        (outcome_revision, positions): (u64, Vec<DVec2>),
-    ) -> Self {
+    /// The same mesh with other points than the outcome's embedding: at a stage on the way to it, or with its outside.
+    /// Points beyond the mesh's are drawn with, and not picked.
+    pub(super) fn of_part(&self, part: Part, positions: Vec<DVec2>) -> Self {
+        let mesh = self.mesh.mesh();
         Self {
-            outcome_revision,
+            mesh: Arc::clone(&self.mesh),
+            outcome: Arc::clone(&self.outcome),
+            outcome_revision: self.outcome_revision,
             arrays: Arc::new(PlaneArrays::new(&positions, &mesh.triangles)),
             picker: Arc::new(PlanePicker::new(&positions[..mesh.vertex_count()])),
             positions: Some(positions),
-            is_stage: true,
-            outcome,
+            part,
         }
     }
 
-    /// The same with vertices on their way to where they will lie. Picks them where they go.
-    pub(super) fn with_positions(&self, mesh: &TriMesh, positions: Vec<DVec2>) -> Self {
+    /// The vertices of `mesh`, this one's or the one as given, on their way to where they will lie. Picks them where they
+    /// are in this scene.
+    pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Vec<DVec2>) -> Self {
+        let picker = if Arc::ptr_eq(mesh, &self.mesh) {
+            Arc::clone(&self.picker)
+        } else {
+            Arc::new(PlanePicker::new(&self.positions()[..mesh.mesh().vertex_count()]))
+        };
         Self {
+            mesh: Arc::clone(mesh),
             outcome: Arc::clone(&self.outcome),
             outcome_revision: self.outcome_revision,
-            arrays: Arc::new(PlaneArrays::in_frame(&positions, &mesh.triangles, self.arrays.frame())),
-            picker: Arc::clone(&self.picker),
+            arrays: Arc::new(PlaneArrays::in_frame(&positions, &mesh.mesh().triangles, self.arrays.frame())),
+            picker,
             positions: Some(positions),
-            is_stage: false,
+            part: Part::Result,
         }
     }
 
@@ -110,7 +164,12 @@ impl PlaneScene {
 
     /// Whether this is a stage on the way to the result.
     pub fn is_stage(&self) -> bool {
-        self.is_stage
+        self.part == Part::Stage
+    }
+
+    /// Whether this is the result alone, without stages and outside.
+    pub(super) fn is_plain_result(&self) -> bool {
+        self.part == Part::Result
     }
 }
 
@@ -175,8 +234,8 @@ impl Paint {
             (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
             (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),
             (Shading::Move, Some(base)) => {
-                let [before, after] = [base, outcome].map(|outcome| outcome.step.solution.embedding.as_slice());
-                by_values(Scale::Move, &face_moves(mesh, before, after))
+                let before = places_in(&base.step, &outcome.step);
+                by_values(Scale::Move, &face_moves(mesh, &before, &outcome.step.solution.embedding))
             }
         }
     }
@@ -221,13 +280,13 @@ impl Element {
 }
 
 /// The vertices of an element; none where the mesh does not have it.
-pub(super) fn vertices_of(model: &Model, element: Element) -> Vec<VertexId> {
-    let mesh = model.mesh();
+pub(super) fn vertices_of(scene: &MeshScene, element: Element) -> Vec<VertexId> {
+    let mesh = scene.mesh();
     match element {
         Element::Vertex(vertex) if vertex.index() < mesh.vertex_count() => vec![vertex],
         Element::Vertex(_) => Vec::new(),
         Element::Face(face) => mesh.triangles.get(face.index()).map(|t| t.to_vec()).unwrap_or_default(),
-        Element::Edge(edge) => match model.disk() {
+        Element::Edge(edge) => match scene.disk() {
             Some(disk) if edge.index() < disk.edge_count() => disk.ends(edge).to_vec(),
             _ => Vec::new(),
         },

@@ -7,6 +7,8 @@ use egui::RichText;
 
 use super::theme::theme_of;
 use super::timeline::PRESS_SPACE;
+use super::timeline_chips::rung_words;
+use super::vertex_panel::new_vertex_words;
 use super::{Editor, Tool};
 
 /// Shows the bar.
@@ -25,7 +27,9 @@ pub(super) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
 }
 
 fn hint(editor: &Editor) -> Cow<'static, str> {
-    if editor.tool == Tool::Constrain && editor.dragged_pin.is_none() && editor.session.model().is_some() {
+    let is_over_new = editor.hovered.is_some_and(|vertex| editor.is_new_vertex(vertex));
+    let is_constraining = editor.tool == Tool::Constrain && editor.dragged_pin.is_none();
+    if is_constraining && !is_over_new && editor.session.model().is_some() {
         return editor.constrain_words().into();
     }
     fixed_hint(editor).into()
@@ -40,6 +44,9 @@ fn fixed_hint(editor: &Editor) -> &'static str {
     }
     if editor.session.is_held() && !editor.timeline.curves_shown() {
         return PRESS_SPACE;
+    }
+    if editor.tool != Tool::Select && editor.hovered.is_some_and(|vertex| editor.is_new_vertex(vertex)) {
+        return "A new vertex belongs to this embedding alone, and cannot be pinned.";
     }
     if editor.selected_pins() > 0 && editor.tool == Tool::Select {
         return "Drag a selected pin to move them all, arrows nudge by a pixel (Shift: ten), Delete frees them.";
@@ -58,13 +65,15 @@ fn numbers(editor: &Editor) -> String {
         let at = editor.session.document().frame().uv_from_plane(place);
         parts.push(format!("u {} v {}", short(at.x), short(at.y)));
     }
-    if let (Some(vertex), Some(model)) = (editor.hovered, editor.session.model()) {
+    if let (Some(vertex), Some(scene)) = (editor.hovered, editor.mesh_scene()) {
         parts.push(vertex.to_string());
-        if let Some(x) = model.mesh().positions.get(vertex.index()) {
+        parts.extend(scene.new_vertex(vertex).map(new_vertex_words));
+        if let Some(x) = scene.mesh().positions.get(vertex.index()) {
             parts.push(format!("({}, {}, {})", short(x.x), short(x.y), short(x.z)));
         }
     }
-    if let Some(outcome) = editor.session.outcome() {
+    if let Some(outcome) = editor.session.outcome().filter(|_| editor.session.preview().is_none()) {
+        parts.push(rung_words(outcome.step.rung.name()).to_owned());
         parts.push(format!("{:.0} ms", 1000.0 * (outcome.step.solution.seconds.total() + outcome.step.verify_seconds)));
     }
     parts.join("  ·  ")

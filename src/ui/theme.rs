@@ -31,6 +31,8 @@ pub struct Theme {
     pub selection: Color32,
     /// Planar and proved.
     pub planar: Color32,
+    /// A constraint that a planar embedding does not meet.
+    pub unmet: Color32,
     /// Something that is not up to date.
     pub stale: Color32,
     /// The one accent of controls.
@@ -78,6 +80,7 @@ pub const LIGHT: Theme = Theme {
     constraint: hex(0x0000_8FA3),
     selection: hex(0x00E0_A100),
     planar: hex(0x001F_8A4C),
+    unmet: hex(0x006B_4FBB),
     stale: hex(0x00B8_7A00),
     accent: hex(0x002F_5BD8),
     background: hex(0x00F4_F4F2),
@@ -115,6 +118,7 @@ pub const DARK: Theme = Theme {
     constraint: hex(0x002B_D4E6),
     selection: hex(0x00FF_D24A),
     planar: hex(0x004A_CB80),
+    unmet: hex(0x00B3_9DFF),
     stale: hex(0x00F0_B43C),
     accent: hex(0x007B_9BFF),
     background: hex(0x001E_1F22),

@@ -9,7 +9,8 @@ use super::theme::{Theme, theme_of};
 use super::timeline::ROW_HEIGHT;
 use super::{Editor, Request};
 use crate::io::StepReport;
-use crate::session::{Action, Timeline};
+use crate::session::{Action, Standing, Timeline};
+use crate::solver::Progress;
 
 /// Height of a step, points.
 const CHIP: f32 = 22.0;
@@ -31,13 +32,16 @@ pub(super) fn rung_words(rung: &str) -> &str {
     match rung {
         "iterate" => "mean value",
         "virtual-boundary" => "virtual boundary",
+        "matchmaker" => "new vertices",
         other => other,
     }
 }
 
 /// A step in words, without its place on the screen.
 fn name_of(record: &StepReport, timeline: &Timeline) -> String {
+    let unmet = timeline.standings()[record.index].unmet;
     let state = match record.defect_count() {
+        _ if record.planar && unmet > 0 => format!("planar, constraints not met: {unmet}"),
         _ if record.planar => "planar".to_owned(),
         1 => "1 defect".to_owned(),
         count => format!("{count} defects"),
@@ -56,7 +60,7 @@ fn label_of(records: &[StepReport], index: usize) -> String {
 /// Shows the steps.
 pub(super) fn chips(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let timeline = editor.session.timeline();
-    let places = places(ui, timeline.records());
+    let places = places(ui, timeline);
     let width = places.last().map_or(0.0, |place| place.1);
     let scrolls_to = timeline.shown().filter(|_| editor.timeline.scrolled_to != timeline.shown());
     ui.style_mut().always_scroll_the_only_direction = true;
@@ -79,18 +83,20 @@ pub(super) fn chips(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<R
 }
 
 /// Where each step lies: left and right end.
-fn places(ui: &egui::Ui, records: &[StepReport]) -> Vec<(f32, f32)> {
+fn places(ui: &egui::Ui, timeline: &Timeline) -> Vec<(f32, f32)> {
+    let records = timeline.records();
     let font = FontId::proportional(LETTERS);
     let width_of = |text: String| ui.painter().layout_no_wrap(text, font.clone(), Color32::PLACEHOLDER).size().x;
     // Figures are all of one width; only names are measured.
     let figure = width_of("0".to_owned());
     let mut left = 0.0;
     let mut places = Vec::with_capacity(records.len());
-    for (index, record) in records.iter().enumerate() {
+    for index in 0..records.len() {
         let label = label_of(records, index);
         let is_number = label.bytes().all(|byte| byte.is_ascii_digit());
         let letters = if is_number { figure * label.len() as f32 } else { width_of(label) };
-        let count = if record.planar { 0.0 } else { 3.0 + figure * record.defect_count().to_string().len() as f32 };
+        let number = Score::of(timeline, index).number();
+        let count = number.map_or(0.0, |number| 3.0 + figure * number.to_string().len() as f32);
         let right = left + 2.0 * PADDING + letters + 6.0 + SIGN + count;
         places.push((left, right));
         left = right + GAP;
@@ -115,7 +121,7 @@ fn chip(ui: &egui::Ui, rect: Rect, timeline: &Timeline, index: usize, requests: 
     };
     paint(ui.painter(), rect, theme, &look);
     let ink = if look.is_kept { theme.text } else { theme.weak_text };
-    write(ui.painter(), rect, theme, (&label_of(records, index), ink), record);
+    write(ui.painter(), rect, theme, (&label_of(records, index), ink), Score::of(timeline, index));
     if response.clicked() {
         let is_comparing = ui.input(|input| input.modifiers.matches_exact(Modifiers::SHIFT));
         let compared = (timeline.compared() != Some(index)).then_some(index);
@@ -124,7 +130,7 @@ fn chip(ui: &egui::Ui, rect: Rect, timeline: &Timeline, index: usize, requests: 
     }
     response.context_menu(|ui| chip_menu(ui, timeline, index, requests));
     let hint = if look.is_kept { "Click shows it, Shift+click compares." } else { "Only its numbers were kept." };
-    response.on_hover_ui(|ui| tip(ui, record, hint));
+    response.on_hover_ui(|ui| tip(ui, (record, &timeline.standings()[index]), hint));
 }
 
 /// How a step looks.
@@ -156,19 +162,52 @@ fn paint(painter: &egui::Painter, rect: Rect, theme: &Theme, look: &Look) {
     }
 }
 
-/// Number, rung, and a check mark or the number of defects.
-fn write(painter: &egui::Painter, rect: Rect, theme: &Theme, (label, ink): (&str, Color32), record: &StepReport) {
+/// How good a step is.
+#[derive(Clone, Copy)]
+enum Score {
+    /// Planar, and every constraint met.
+    Good,
+    /// Planar, with so many constraints not met.
+    Unmet(usize),
+    /// Not planar, with so many defects.
+    Bad(usize),
+}
+
+impl Score {
+    fn of(timeline: &Timeline, index: usize) -> Self {
+        let (record, unmet) = (&timeline.records()[index], timeline.standings()[index].unmet);
+        match record.planar {
+            false => Self::Bad(record.defect_count()),
+            true if unmet > 0 => Self::Unmet(unmet),
+            true => Self::Good,
+        }
+    }
+
+    /// The number behind the sign.
+    fn number(self) -> Option<usize> {
+        match self {
+            Self::Good => None,
+            Self::Unmet(count) | Self::Bad(count) => Some(count),
+        }
+    }
+}
+
+/// Number, rung, and a check mark, or the number of defects or of constraints that are not met.
+fn write(painter: &egui::Painter, rect: Rect, theme: &Theme, (label, ink): (&str, Color32), score: Score) {
     let font = FontId::proportional(LETTERS);
     let at = rect.left_center() + egui::vec2(PADDING, 0.0);
     let written = painter.text(at, Align2::LEFT_CENTER, label, font.clone(), ink);
     let middle = egui::pos2(written.right() + 6.0 + SIGN / 2.0, rect.center().y);
     let square = Rect::from_center_size(middle, egui::Vec2::splat(SIGN));
-    if record.planar {
-        icons::sign(painter, square, Sign::Good, theme.planar);
-    } else {
-        icons::sign(painter, square.shrink(0.5), Sign::Bad, theme.flipped);
+    let (sign, colour) = match score {
+        Score::Good => (Sign::Good, theme.planar),
+        Score::Unmet(_) => (Sign::Warning, theme.unmet),
+        Score::Bad(_) => (Sign::Bad, theme.flipped),
+    };
+    icons::sign(painter, if sign == Sign::Bad { square.shrink(0.5) } else { square }, sign, colour);
+    if let Some(number) = score.number() {
         let at = square.right_center() + egui::vec2(3.0, 0.0);
-        painter.text(at, Align2::LEFT_CENTER, record.defect_count().to_string(), font, theme.flipped);
+        painter.text(at, Align2::LEFT_CENTER, number.to_string(), font, colour);
     }
 }
 
@@ -187,10 +226,10 @@ fn chip_menu(ui: &mut egui::Ui, timeline: &Timeline, index: usize, requests: &mu
 }
 
 /// All numbers of a step.
-fn tip(ui: &mut egui::Ui, record: &StepReport, hint: &str) {
+fn tip(ui: &mut egui::Ui, (record, standing): (&StepReport, &Standing), hint: &str) {
     ui.strong(format!("Step {}: {}", record.index, rung_words(record.rung)));
     egui::Grid::new("numbers of a step").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
-        for (name, value) in numbers_of(record) {
+        for (name, value) in numbers_of(record, standing) {
             ui.label(name);
             ui.monospace(value);
             ui.end_row();
@@ -202,7 +241,12 @@ fn tip(ui: &mut egui::Ui, record: &StepReport, hint: &str) {
     ui.label(egui::RichText::new(hint).small().color(theme_of(ui).weak_text));
 }
 
-fn numbers_of(record: &StepReport) -> Vec<(&'static str, String)> {
+/// A residual; a step that solves no linear system has none.
+pub(super) fn residual_words(residual: f64) -> String {
+    if residual.is_nan() { "–".to_owned() } else { format!("{residual:.1e}") }
+}
+
+fn numbers_of(record: &StepReport, standing: &Standing) -> Vec<(&'static str, String)> {
     let mut numbers = vec![
         ("Flipped faces", record.flipped_faces.to_string()),
         ("Boundary crossings", record.boundary_crossings.to_string()),
@@ -211,9 +255,16 @@ fn numbers_of(record: &StepReport) -> Vec<(&'static str, String)> {
         ("Planar", if record.planar { "proved".to_owned() } else { "no".to_owned() }),
     ];
     numbers.extend(record.max_move.map(|moved| ("Largest move, in units of the plane", short(moved))));
-    numbers.push(("Residual", format!("{:.1e}", record.residual)));
-    numbers.push(("Equation residual", format!("{:.1e}", record.equation_residual)));
+    if let Some(Progress { energy, least_determinant, distance_left }) = standing.progress {
+        numbers.push(("Energy", format!("{energy:.4}")));
+        numbers.push(("Smallest determinant", short(least_determinant)));
+        numbers.push(("Distance left, in units of the plane", short(distance_left)));
+    }
+    numbers.push(("Residual", residual_words(record.residual)));
+    numbers.push(("Equation residual", residual_words(record.equation_residual)));
     let counts = [
+        ("Constraints not met", standing.unmet),
+        ("New vertices", standing.new_vertices),
         ("Boundary vertices bent", record.bent_vertices),
         ("Corners bounded", record.bounded_corners),
         ("Pivots replaced", record.replaced_pivots),

@@ -10,10 +10,10 @@ use super::timeline::TimelineView;
 use super::timeline_buttons::lasting_menu;
 use super::{Editor, Request};
 use crate::io::StepReport;
-use crate::session::{Action, Timeline};
+use crate::session::{Action, Standing, Timeline};
 
 /// How many curves there are.
-pub(super) const CURVE_COUNT: usize = 6;
+pub(super) const CURVE_COUNT: usize = 9;
 
 /// A curve is at least so wide, points.
 const LEAST_WIDTH: f32 = 118.0;
@@ -27,12 +27,15 @@ const MOST_POINTS: usize = 80;
 /// What stands for 0 where sizes are compared by their powers of ten.
 const LEAST_POWER: f64 = -17.0;
 
+/// Stands for a number that a step does not have.
+const NO_NUMBER: &str = "–";
+
 /// One number of each step.
 struct Curve {
     title: &'static str,
     about: &'static str,
     scale: CurveScale,
-    value: fn(&StepReport) -> Option<f64>,
+    value: fn(&StepReport, &Standing) -> Option<f64>,
     colour: fn(&Theme) -> Color32,
 }
 
@@ -50,45 +53,71 @@ const CURVES: [Curve; CURVE_COUNT] = [
         title: "Flipped",
         about: "flipped faces",
         scale: CurveScale::Count,
-        value: |record| Some(record.flipped_faces as f64),
+        value: |record, _| Some(record.flipped_faces as f64),
         colour: |theme| theme.flipped,
     },
     Curve {
         title: "Crossings",
         about: "pairs of boundary edges that cross",
         scale: CurveScale::Count,
-        value: |record| Some(record.boundary_crossings as f64),
+        value: |record, _| Some(record.boundary_crossings as f64),
         colour: |theme| theme.crossing,
     },
     Curve {
         title: "Largest move",
         about: "largest move of a vertex since the step before, in units of the plane; by powers of ten",
         scale: CurveScale::Powers,
-        value: |record| record.max_move,
+        value: |record, _| record.max_move,
         colour: |theme| theme.accent,
+    },
+    Curve {
+        title: "Distance left",
+        about: "largest distance of an exact pin from its target, in units of the plane; by powers of ten",
+        scale: CurveScale::Powers,
+        value: |_, standing| standing.progress.map(|progress| progress.distance_left),
+        colour: |theme| theme.unmet,
+    },
+    Curve {
+        title: "Energy",
+        about: "mean distortion that continuation and relaxing lower: 2 where nothing is distorted",
+        scale: CurveScale::Powers,
+        value: |_, standing| standing.progress.map(|progress| progress.energy),
+        colour: |theme| theme.constraint,
     },
     Curve {
         title: "Equation residual",
         about: "|A z| of all equations relative to their terms; by powers of ten",
         scale: CurveScale::Powers,
-        value: |record| Some(record.equation_residual),
+        value: |record, _| finite(record.equation_residual),
         colour: |theme| theme.accent,
     },
     Curve {
         title: "Overwound",
         about: "overwound vertices",
         scale: CurveScale::Count,
-        value: |record| Some(record.overwound_vertices as f64),
+        value: |record, _| Some(record.overwound_vertices as f64),
         colour: |theme| theme.overwound,
     },
     Curve {
         title: "Residual",
         about: "|Ax − b| / |b| of the step's linear solve; by powers of ten",
         scale: CurveScale::Powers,
-        value: |record| Some(record.residual),
+        value: |record, _| finite(record.residual),
         colour: |theme| theme.weak_text,
     },
+    Curve {
+        title: "Determinant",
+        about: "smallest determinant of a face's map, at equal total areas; by powers of ten",
+        scale: CurveScale::Powers,
+        value: |_, standing| standing.progress.map(|progress| progress.least_determinant),
+        colour: |theme| theme.planar,
+    },
 ];
+
+/// A number that a step has; one that solves no linear system has no residual.
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
 
 impl Curve {
     /// Where a value lies.
@@ -99,10 +128,15 @@ impl Curve {
         }
     }
 
+    /// The number of a step, where it has one.
+    fn value_at(&self, timeline: &Timeline, index: usize) -> Option<f64> {
+        (self.value)(timeline.records().get(index)?, timeline.standings().get(index)?)
+    }
+
     /// A value in words.
-    fn words(&self, record: &StepReport) -> String {
-        match ((self.value)(record), self.scale) {
-            (None, _) => String::new(),
+    fn words(&self, timeline: &Timeline, index: usize) -> String {
+        match (self.value_at(timeline, index), self.scale) {
+            (None, _) => NO_NUMBER.to_owned(),
             (Some(value), CurveScale::Count) => format!("{value:.0}"),
             (Some(value), CurveScale::Powers) if (0.01..1e4).contains(&value) => short(value),
             (Some(value), CurveScale::Powers) => format!("{value:.1e}"),
@@ -120,13 +154,19 @@ pub(super) fn curves_menu(ui: &mut egui::Ui, view: &mut TimelineView) {
         }
     });
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Which curves show"));
-    response.on_hover_text("Which curves show. As many as there is room for are drawn, the first ones first.");
+    response.on_hover_text(
+        "Which curves show: those that the steps have numbers for, as many as there is room for, the first ones first.",
+    );
 }
 
 /// Shows as many of the curves as there is room for.
 pub(super) fn curves(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let all = ui.available_rect_before_wrap().shrink2(egui::vec2(4.0, 0.0));
-    let wanted = CURVES.iter().zip(editor.timeline.curves_hidden).filter(|(_, hidden)| !hidden).map(|(curve, _)| curve);
+    let timeline = editor.session.timeline();
+    let has_numbers = |curve: &Curve| (0..timeline.records().len()).any(|i| curve.value_at(timeline, i).is_some());
+    let wanted =
+        CURVES.iter().zip(editor.timeline.curves_hidden).filter(|(curve, hidden)| !hidden && has_numbers(curve));
+    let wanted = wanted.map(|(curve, _)| curve);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few curves have room")]
     let room = (((all.width() + GAP) / (LEAST_WIDTH + GAP)) as usize).max(1);
     let shown: Vec<&Curve> = wanted.take(room).collect();
@@ -135,7 +175,7 @@ pub(super) fn curves(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
         let left = all.left() + place as f32 * (width + GAP);
         let rect = Rect::from_x_y_ranges(left..=left + width, all.y_range());
         ui.scope_builder(egui::UiBuilder::new().max_rect(rect).id_salt(curve.title), |ui| {
-            show_curve(ui, curve, editor.session.timeline(), requests);
+            show_curve(ui, curve, timeline, requests);
         });
     }
 }
@@ -146,8 +186,8 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
     ui.horizontal(|ui| {
         ui.label(RichText::new(curve.title).small().color(theme.weak_text)).on_hover_text(curve.about);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if let Some(record) = timeline.shown().and_then(|shown| records.get(shown)) {
-                ui.label(RichText::new(curve.words(record)).small().color(theme.text));
+            if let Some(shown) = timeline.shown() {
+                ui.label(RichText::new(curve.words(timeline, shown)).small().color(theme.text));
             }
         });
     });
@@ -163,8 +203,8 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
     if response.clicked() {
         requests.push(Request::Do(Action::ShowStep(index)));
     }
-    let words = curve.words(&records[index]);
-    let words = if words.is_empty() { "nothing to compare with yet".to_owned() } else { words };
+    let words = curve.words(timeline, index);
+    let words = if words == NO_NUMBER { "this step has no such number".to_owned() } else { words };
     response.on_hover_text_at_pointer(format!("Step {index}: {words}\n{}", curve.about));
 }
 
@@ -178,10 +218,10 @@ fn plot(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline) -> PlotResponse<(
     let theme = theme_of(ui);
     let records = timeline.records();
     let colour = (curve.colour)(theme);
-    let point = |record: &StepReport| (curve.value)(record).map(|v| [record.index as f64, curve.height_of(v)]);
-    let points: Vec<[f64; 2]> = records.iter().filter_map(point).collect();
+    let point = |index: usize| curve.value_at(timeline, index).map(|v| [index as f64, curve.height_of(v)]);
+    let points: Vec<[f64; 2]> = (0..records.len()).filter_map(point).collect();
     let shown = timeline.shown();
-    let at_shown = shown.and_then(|shown| records.get(shown)).and_then(point);
+    let at_shown = shown.and_then(point);
     let compared = timeline.compared();
     let few = records.len() <= MOST_POINTS;
     base(theme, curve, &points, records.len()).show(ui, move |plot| {

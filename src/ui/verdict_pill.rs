@@ -1,13 +1,16 @@
 //! The verdict at one glance, in the bar at the top; beside it, or in its place, what goes on in the background.
 
+use std::borrow::Cow;
+
 use eframe::egui;
 use egui::{RichText, Role, WidgetInfo};
 
 use super::icons::{self, Sign};
 use super::theme::{Theme, theme_of};
+use super::timeline_chips::rung_words;
 use super::{Editor, Request, Tab};
 use crate::session::{Action, Busy, Surface};
-use crate::solver::{Phase, Verdict};
+use crate::solver::{Phase, Step, Verdict};
 
 /// Side of the sign in the pill, points.
 const SIGN: f32 = 11.0;
@@ -17,7 +20,7 @@ struct Pill {
     sign: Sign,
     colour: egui::Color32,
     words: String,
-    tip: &'static str,
+    tip: Cow<'static, str>,
 }
 
 /// The truth at one glance: proved, wrong and how, being solved, or not up to date.
@@ -26,7 +29,12 @@ pub(super) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     if let Some(pill) = &pill
         && show_pill(ui, pill).clicked()
     {
-        requests.push(if editor.has_defects() { Request::StepDefect(1) } else { Request::ShowTab(Tab::Defects) });
+        let unmet = editor.unmet_shown();
+        requests.push(match editor.has_defects() {
+            true => Request::StepDefect(1),
+            false if unmet.is_empty() => Request::ShowTab(Tab::Defects),
+            false => Request::GoTo(unmet),
+        });
     }
     let Some(busy) = busy else { return };
     if ui.small_button("Stop").on_hover_text("Stop the work in the background").clicked() {
@@ -62,31 +70,51 @@ fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
         let count = diagnosis.faults.len();
         let words = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
         let tip = "The bars over the mesh say what is wrong and what to do";
-        return Some(Pill { sign: Sign::Bad, colour: theme.flipped, words, tip });
+        return Some(Pill { sign: Sign::Bad, colour: theme.flipped, words, tip: tip.into() });
     }
     if session.is_preview() || session.preview().is_some() {
         let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
         let words = preview_words(editor);
-        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words, tip });
+        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words, tip: tip.into() });
     }
     let more_to_come = session.is_running() && session.timeline().records().len() <= 1;
     let is_at_work = session.busy().is_some() || session.is_following();
     if more_to_come || (is_at_work && !session.is_current()) {
         let words = if session.outcome().is_some() && !more_to_come { "following…" } else { "solving…" };
         let tip = "The solve is on its way";
-        return Some(Pill { sign: Sign::Working, colour: theme.weak_text, words: words.to_owned(), tip });
+        return Some(Pill { sign: Sign::Working, colour: theme.weak_text, words: words.to_owned(), tip: tip.into() });
     }
     let Some(outcome) = session.outcome().filter(|_| session.is_current()) else {
         let tip = "The embedding does not belong to these settings and pins: press Solve";
-        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words: "not solved".to_owned(), tip });
+        return Some(Pill {
+            sign: Sign::Warning,
+            colour: theme.stale,
+            words: "not solved".to_owned(),
+            tip: tip.into(),
+        });
     };
-    Some(if outcome.step.verdict.planar {
-        let tip = "Exact arithmetic shows that no two faces overlap";
-        Pill { sign: Sign::Good, colour: theme.planar, words: "Planar: proved".to_owned(), tip }
-    } else {
-        let tip = "Not planar. Click for the next defect (D)";
-        Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&outcome.step.verdict), tip }
-    })
+    Some(of_step(theme, &outcome.step))
+}
+
+/// The verdict on a step that is up to date, and the rung that a planar one comes from.
+fn of_step(theme: &Theme, step: &Step) -> Pill {
+    let (unmet, rung) = (step.unmet().len(), rung_words(step.rung.name()));
+    if !step.verdict.planar {
+        let tip = "Not planar. Click for the next defect (D)".into();
+        return Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&step.verdict), tip };
+    }
+    if unmet > 0 {
+        let words = format!("Planar, constraints not met: {unmet} · {rung}");
+        let tip = "No two faces overlap, but exact pins are not on their targets. Click shows them".into();
+        return Pill { sign: Sign::Warning, colour: theme.unmet, words, tip };
+    }
+    let new = step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len());
+    let tip = match new {
+        0 => "Exact arithmetic shows that no two faces overlap".into(),
+        1 => "Exact arithmetic shows that no two faces overlap. The mesh has 1 new vertex".into(),
+        _ => format!("Exact arithmetic shows that no two faces overlap. The mesh has {new} new vertices").into(),
+    };
+    Pill { sign: Sign::Good, colour: theme.planar, words: format!("Planar: proved · {rung}"), tip }
 }
 
 /// What follows a drag, and what is known of it.
@@ -132,7 +160,7 @@ fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
     ui.painter().galley(at, galley, pill.colour);
     let name = format!("Verdict: {}", pill.words);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-    response.on_hover_text(pill.tip)
+    response.on_hover_text(pill.tip.as_ref())
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::status::short;
 use super::{Editor, Request, equation_table};
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, NewVertex, VertexId};
 use crate::session::Action;
 
 /// Shows the panel.
@@ -19,8 +19,8 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     if editor.selection.len() > 1 {
         ui.weak(format!("{} selected; this is the first", editor.selection.len()));
     }
-    let Some(model) = editor.session.model() else { return };
-    let Some(position) = model.mesh().positions.get(vertex.index()) else { return };
+    let Some(scene) = editor.mesh_scene() else { return };
+    let Some(position) = scene.mesh().positions.get(vertex.index()) else { return };
     ui.horizontal(|ui| {
         ui.strong(vertex.to_string());
         if ui.small_button("Copy").on_hover_text("Copy the number").clicked() {
@@ -30,6 +30,9 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             requests.push(Request::GoTo(vec![vertex]));
         }
     });
+    if let Some(new) = scene.new_vertex(vertex) {
+        ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
+    }
     let embedding = editor.session.outcome().map(|outcome| outcome.step.solution.embedding.as_slice());
     egui::Grid::new("vertex").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
         let mut row = |name: &str, value: String| {
@@ -46,7 +49,7 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             row("u", short(uv.x));
             row("v", short(uv.y));
         }
-        if let Some(disk) = model.disk() {
+        if let Some(disk) = scene.disk() {
             let valence = disk.outgoing(vertex).count();
             row("Valence", valence.to_string());
             let place = disk.boundary_place(vertex);
@@ -63,10 +66,22 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
         if ui.button("Free").on_hover_text("Take its pin away").clicked() {
             requests.push(Request::Do(Action::Unpin(vec![vertex])));
         }
-    } else if embedding.is_some() && ui.button("Fix").on_hover_text("Pin it where it lies").clicked() {
+    } else if embedding.is_some()
+        && scene.new_vertex(vertex).is_none()
+        && ui.button("Fix").on_hover_text("Pin it where it lies").clicked()
+    {
         requests.push(Request::Do(Action::Fix(vec![vertex])));
     }
 }
+
+/// Where a new vertex lies.
+pub(super) fn new_vertex_words(new: &NewVertex) -> String {
+    let [a, b] = new.edge;
+    format!("new vertex on edge {a}–{b}")
+}
+
+/// Why a new vertex takes no pin.
+pub(super) const NOT_TO_PIN: &str = "It belongs to this embedding alone, and cannot be pinned";
 
 /// An angle sum as a multiple of a full turn.
 fn turns(angle: f64) -> String {

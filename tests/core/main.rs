@@ -38,6 +38,7 @@ mod program;
 mod raster;
 mod reproduction;
 mod session;
+mod session_constraints;
 mod session_documents;
 mod session_drag;
 mod session_fuzz;

@@ -248,6 +248,11 @@ impl Window {
         label.trim_start_matches("Verdict: ").to_owned()
     }
 
+    /// Whether the pill says that the embedding is proved planar, with all constraints met.
+    pub(crate) fn is_proved(&self) -> bool {
+        self.verdict().starts_with("Planar: proved · ")
+    }
+
     /// All words painted in the last frame.
     pub(crate) fn words(&self) -> Vec<String> {
         let mut words = Vec::new();
@@ -298,7 +303,7 @@ impl Window {
     pub(crate) fn place_on_mesh(&self, vertex: VertexId) -> Pos2 {
         let editor = self.editor();
         let scene = editor.mesh_scene().expect("a mesh shows");
-        let position = scene.model.mesh().positions[vertex.index()];
+        let position = scene.mesh().positions[vertex.index()];
         let camera = editor.orbit.expect("a mesh shows");
         on_screen(self.mesh_view(), camera.pane_from_world(position, editor.mesh_pane_size).expect("before the eye"))
     }
@@ -316,7 +321,7 @@ impl Window {
         let camera = editor.orbit.expect("a mesh shows");
         let size = editor.mesh_pane_size;
         let mut best = (f64::INFINITY, VertexId::new(0));
-        for (i, position) in scene.model.mesh().positions.iter().enumerate() {
+        for (i, position) in scene.mesh().positions.iter().enumerate() {
             let vertex = VertexId::from_index(i);
             let Some(at) = camera.pane_from_world(*position, size) else { continue };
             let distance = at.distance(size / 2.0);

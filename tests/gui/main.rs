@@ -4,6 +4,7 @@
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod compare;
+mod constrained;
 mod constraints;
 mod defects;
 mod dialogs;
