@@ -18,8 +18,7 @@ use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, Refinement, VertexId}
 pub(in crate::solver) fn without_needless_vertices(mesh: &DiskMesh, matched: Matched) -> Matched {
     let mut removal = Removal::new(mesh, &matched);
     let old = matched.refinement.old_vertex_count();
-    let mut waiting: BTreeSet<VertexId> =
-        (old..matched.embedding.len()).map(VertexId::from_index).collect();
+    let mut waiting: BTreeSet<VertexId> = (old..matched.embedding.len()).map(VertexId::from_index).collect();
     while let Some(vertex) = waiting.pop_first() {
         if let Some(around) = removal.remove(vertex) {
             waiting.extend(around.into_iter().filter(|v| v.index() >= old));

@@ -23,11 +23,10 @@ impl TargetGraph {
     pub(super) fn new(targets: &[DVec2], frame: &[DVec2]) -> Option<Self> {
         let points: Vec<DVec2> = targets.iter().chain(frame).copied().collect();
         let triangles = delaunay_triangles(&points)?;
-        let is_positive =
-            |t: &[u32; 3]| {
-                let [a, b, c] = t.map(|corner| points[corner as usize]);
-                orientation(a, b, c) == Some(Orientation::CounterClockwise)
-            };
+        let is_positive = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|corner| points[corner as usize]);
+            orientation(a, b, c) == Some(Orientation::CounterClockwise)
+        };
         if !triangles.iter().all(is_positive) {
             return None;
         }
