@@ -12,7 +12,7 @@ use crate::io::{
     MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, SvgPage, TexturePicture,
     WeightedPinReport, WriteError, peak_memory_bytes, verdict_as_in_file,
 };
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, Refinement, VertexId};
 use crate::solver::{Hold, Pin, Verdict, distortion, verdict};
 
 /// A file to write.
@@ -31,6 +31,7 @@ pub struct SaveRequest {
 pub struct Finished<'a> {
     model: &'a Model,
     mesh: &'a DiskMesh,
+    refinement: Option<&'a Refinement>,
     /// As files have them, v up.
     coordinates: Vec<DVec2>,
     verdict: Verdict,
@@ -43,18 +44,19 @@ pub struct Finished<'a> {
 }
 
 impl<'a> Finished<'a> {
-    /// Takes the embedding to its final size, and proves and measures it there.
+    /// Takes the embedding to its final size, and proves and measures it there. `given` is the mesh as it was opened.
     ///
     /// `read_seconds` is what opening the mesh took, for the report.
     pub fn new(
-        (model, mesh): (&'a Model, &'a DiskMesh),
-        outcome: &Outcome,
+        (model, given): (&'a Model, &'a DiskMesh),
+        outcome: &'a Outcome,
         steps: Vec<StepReport>,
         fit: OutputFit,
         read_seconds: f64,
     ) -> Self {
         let start = Instant::now();
-        let (coordinates, placement, of_coordinates) = outcome.output(mesh, fit);
+        let (coordinates, placement, of_coordinates) = outcome.output(given, fit);
+        let mesh = outcome.step.mesh(given);
         let is_on_picture = matches!(placement, Placement::Pins | Placement::Picture);
         let is_as_solved = is_on_picture || coordinates == outcome.step.solution.embedding;
         let summary = if is_as_solved { outcome.distortion.summary } else { distortion(mesh, &coordinates).summary };
@@ -73,7 +75,7 @@ impl<'a> Finished<'a> {
         let settings = &outcome.settings;
         let report = Report {
             freebound: env!("CARGO_PKG_VERSION"),
-            mesh: MeshReport::new(model.path_words(), mesh),
+            mesh: MeshReport::new(model.path_words(), given),
             method: Some(settings.method.name()),
             family: settings.method.uses_family().then(|| settings.family.to_string()),
             pins: Some(pins),
@@ -82,11 +84,13 @@ impl<'a> Finished<'a> {
             steps,
             verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
             distortion: Some(summary),
-            new_vertices: 0,
+            new_vertices: outcome.new_vertex_count(),
+            split_edges: outcome.step.refinement.as_ref().map(|r| r.split_edges()).unwrap_or_default(),
             seconds: Seconds { read: read_seconds, solve, verify, write: 0.0, total: read_seconds + solve + verify },
             peak_memory_bytes: peak_memory_bytes(),
         };
-        Self { model, mesh, coordinates, verdict, aspect, picture: None, svg_fit: fit, report }
+        let refinement = outcome.step.refinement.as_deref();
+        Self { model, mesh, refinement, coordinates, verdict, aspect, picture: None, svg_fit: fit, report }
     }
 
     /// With a picture, which goes beside an OBJ file and on the mesh in a PNG file.
@@ -114,6 +118,7 @@ impl<'a> Finished<'a> {
         let output = Output {
             source: &self.model.source,
             mesh: self.mesh,
+            refinement: self.refinement,
             coordinates: &self.coordinates,
             verdict: &self.verdict,
             report: &self.report,
@@ -138,7 +143,7 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
     let settings = &outcome.settings;
     let held = settings.held(&outcome.pins);
     let (mut max_hard_error, mut max_weighted_error) = (None::<f64>, None::<f64>);
-    let mut weighted = Vec::new();
+    let (mut weighted, mut unmet) = (Vec::new(), Vec::new());
     for (&vertex, pin) in held.iter().filter(|_| settings.method.uses_pins()) {
         let written = coordinates[vertex.index()].distance(pin.target);
         let (largest, error) = match pin.hold {
@@ -146,7 +151,13 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
                 weighted.push(WeightedPinReport { vertex, weight, error: written });
                 (&mut max_weighted_error, written)
             }
-            Hold::Fixed | Hold::Hard => (&mut max_hard_error, written.max(solver_error(outcome, vertex, pin))),
+            Hold::Fixed | Hold::Hard => {
+                let error = written.max(solver_error(outcome, vertex, pin));
+                if error != 0.0 {
+                    unmet.push(vertex);
+                }
+                (&mut max_hard_error, error)
+            }
         };
         *largest = Some(largest.unwrap_or(0.0).max(error));
     }
@@ -156,6 +167,7 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
         max_error: max_hard_error.unwrap_or(0.0).max(max_weighted_error.unwrap_or(0.0)),
         max_hard_error,
         max_weighted_error,
+        unmet,
         weighted,
     }
 }

@@ -63,15 +63,17 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Measures the distortion of a step. `pins` are the user's that its run was begun with, in texture coordinates.
+    /// Measures the distortion of a step on `mesh`, the mesh as given. `pins` are the user's that its run was begun
+    /// with, in texture coordinates.
     pub fn new(mesh: &DiskMesh, settings: Settings, (frame, pins): (PictureFrame, Pins), step: Step) -> Self {
-        let distortion = distortion(mesh, &step.solution.embedding);
+        let distortion = distortion(step.mesh(mesh), &step.solution.embedding);
         Self { settings, frame, pins, step, distortion }
     }
 
-    /// Bytes of memory that it takes, the factors of a linear solve excepted: they are kept once, for the next solve.
+    /// Bytes of memory that it takes. The factors of a linear solve are kept once, for the next solve, and a mesh with
+    /// new vertices once for all steps on it: both are left out.
     pub fn bytes(&self) -> usize {
-        let Step { solution, verdict, virtual_boundary, .. } = &self.step;
+        let Step { solution, verdict, virtual_boundary, outside, .. } = &self.step;
         let pin_count = self.pins.len() + solution.pins.len();
         let stages = virtual_boundary.as_ref().map_or(0, |stages| {
             size_of_val(&*stages.before)
@@ -79,6 +81,8 @@ impl Outcome {
                 + size_of_val(&*stages.hull)
                 + size_of_val(&*stages.pockets)
         });
+        let outside =
+            outside.as_ref().map_or(0, |outside| size_of_val(&*outside.frame) + size_of_val(&*outside.triangles));
         size_of::<Self>()
             + size_of_val(&*solution.embedding)
             + size_of_val(&*self.distortion.faces)
@@ -87,16 +91,28 @@ impl Outcome {
             + size_of_val(&*verdict.overwound_vertices)
             + pin_count * size_of::<(VertexId, DVec2)>()
             + stages
+            + outside
     }
 
-    /// The texture coordinates that go into a file, where they lie, and the verdict on them. The user's pins keep their
-    /// places, exact ones to the last bit; without any, `fit` decides the size.
+    /// How many vertices its mesh has beyond those of the mesh as given.
+    pub fn new_vertex_count(&self) -> usize {
+        self.step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len())
+    }
+
+    /// Whether the picture is proved one-to-one, but exact pins are not on their targets yet.
+    pub fn is_planar_but_unmet(&self) -> bool {
+        self.step.verdict.planar && !self.step.unmet().is_empty()
+    }
+
+    /// The texture coordinates that go into a file, where they lie, and the verdict on them, which is that on the mesh
+    /// of the step. The user's pins keep their places, exact ones that are met to the last bit; without any, `fit`
+    /// decides the size. `mesh` is the mesh as given.
     ///
     /// Moving to the unit square rounds. Where that breaks what was planar, the scale is a power of two, so that less
     /// is rounded, and then nothing is moved, so that nothing is.
     pub fn output(&self, mesh: &DiskMesh, fit: OutputFit) -> (Vec<DVec2>, Placement, Verdict) {
         type Way = (fn(&mut [DVec2]), Placement);
-        let embedding = &self.step.solution.embedding;
+        let (embedding, mesh) = (&self.step.solution.embedding, self.step.mesh(mesh));
         if self.pins_in_use().next().is_some() {
             return self.as_it_lies(mesh, Placement::Pins);
         }
@@ -123,12 +139,15 @@ impl Outcome {
     }
 
     /// The texture coordinates of the embedding where it lies, the user's pins on their own numbers, and the verdict on
-    /// them in the plane.
+    /// them in the plane. `mesh` is the step's own.
     fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Vec<DVec2>, Placement, Verdict) {
         let embedding = &self.step.solution.embedding;
         let mut coordinates: Vec<DVec2> = embedding.iter().map(|&z| self.frame.uv_from_plane(z)).collect();
-        for (vertex, pin) in self.pins_in_use().filter(|(_, pin)| self.settings.is_exact(pin.hold)) {
-            coordinates[vertex.index()] = pin.target;
+        for (vertex, pin, error) in self.pin_errors().filter(|(_, pin, _)| self.settings.is_exact(pin.hold)) {
+            // A step on the way to the constraints has not met them yet.
+            if error == 0.0 {
+                coordinates[vertex.index()] = pin.target;
+            }
         }
         let upright: Vec<DVec2> = match self.frame.v_axis {
             VAxis::Up => coordinates.clone(),

@@ -23,9 +23,6 @@
 
 use glam::DVec2;
 
-/// A triangle that is thinner than this, height to longest side, is measured as if it were so thick.
-const THINNEST: f64 = 1e-7;
-
 /// A triangle with the shape that it is to have.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
@@ -63,15 +60,49 @@ fn inverse_chi(d: f64, epsilon: f64) -> (f64, f64) {
     (inverse, root)
 }
 
-fn value(p: f64, q: f64, epsilon: f64) -> f64 {
-    let d = p - q;
-    if epsilon == 0.0 && d <= 0.0 {
-        return f64::INFINITY;
+/// What a triangle's energy is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Energy {
+    /// f with this ε.
+    Foldover(f64),
+    /// ½ (tr(JᵀJ) + tr(J⁻ᵀJ⁻¹)), the symmetric Dirichlet energy: a barrier too, and dearer where a triangle is small.
+    SymmetricDirichlet,
+}
+
+impl Energy {
+    /// Whether it is infinite where a triangle is folded.
+    pub(super) fn is_barrier(self) -> bool {
+        matches!(self, Self::SymmetricDirichlet | Self::Foldover(0.0))
     }
+
+    fn value(self, p: f64, q: f64) -> f64 {
+        match self {
+            _ if self.is_barrier() && p <= q => f64::INFINITY,
+            Self::Foldover(epsilon) => foldover(p, q, epsilon),
+            Self::SymmetricDirichlet => (p + q) * (1.0 + (p - q).powi(-2)),
+        }
+    }
+
+    fn terms(self, p: f64, q: f64) -> Terms {
+        match self {
+            Self::Foldover(epsilon) => foldover_terms(p, q, epsilon),
+            Self::SymmetricDirichlet => symmetric_dirichlet_terms(p, q),
+        }
+    }
+}
+
+fn symmetric_dirichlet_terms(p: f64, q: f64) -> Terms {
+    let (d, s) = (p - q, p + q);
+    let (v, dv, ddv) = (1.0 + d.powi(-2), -2.0 * d.powi(-3), 6.0 * d.powi(-4));
+    Terms { p: v + s * dv, q: v - s * dv, pp: 2.0 * dv + s * ddv, pq: -s * ddv, qq: s * ddv - 2.0 * dv }
+}
+
+fn foldover(p: f64, q: f64, epsilon: f64) -> f64 {
+    let d = p - q;
     (p + q + 0.5 * (d * d + 1.0)) * inverse_chi(d, epsilon).0
 }
 
-fn terms(p: f64, q: f64, epsilon: f64) -> Terms {
+fn foldover_terms(p: f64, q: f64, epsilon: f64) -> Terms {
     let d = p - q;
     let (u, root) = inverse_chi(d, epsilon);
     let (du, ddu) = (-u / root, 2.0 / (root * root * root));
@@ -86,10 +117,11 @@ fn terms(p: f64, q: f64, epsilon: f64) -> Terms {
 }
 
 impl Element {
-    /// A triangle that is at rest in the shape `[a, b, c]`, counter-clockwise.
-    pub(super) fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], weight: f64) -> Self {
+    /// A triangle that is at rest in the shape `[a, b, c]`, counter-clockwise. One that is thinner than `thinnest`, height
+    /// to longest side, is measured as if it were so thick.
+    pub(super) fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], (weight, thinnest): (f64, f64)) -> Self {
         let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
-        let double_area = (b - a).perp_dot(c - a).max(THINNEST * longest);
+        let double_area = (b - a).perp_dot(c - a).max(thinnest * longest);
         let gradients = [c - b, a - c, b - a].map(|side| side.perp() / double_area);
         Self { corners, gradients, weight }
     }
@@ -110,26 +142,17 @@ impl Element {
         (z[1] - z[0]).perp_dot(z[2] - z[0]) * g.perp_dot(h)
     }
 
-    /// Its energy; infinite where ε = 0 and it is folded.
-    pub(super) fn energy(&self, z: [DVec2; 3], epsilon: f64) -> f64 {
+    /// Its energy, times its weight.
+    pub(super) fn energy(&self, z: [DVec2; 3], energy: Energy) -> f64 {
         let (alpha, beta) = self.derivatives(z);
-        self.weight * value(alpha.length_squared(), beta.length_squared(), epsilon)
-    }
-
-    /// The gradient of its energy, per corner.
-    pub(super) fn gradient(&self, z: [DVec2; 3], epsilon: f64) -> [DVec2; 3] {
-        let (alpha, beta) = self.derivatives(z);
-        let Terms { p, q, .. } = terms(alpha.length_squared(), beta.length_squared(), epsilon);
-        let (a, b) = (self.weight * p * alpha, self.weight * q * beta);
-        // d|α|² = 2 Re(ᾱ dα).
-        self.gradients.map(|g| a.rotate(g) + b.rotate(conjugate(g)))
+        self.weight * energy.value(alpha.length_squared(), beta.length_squared())
     }
 
     /// Gradient and Hessian of its energy, the Hessian made positive semidefinite.
-    pub(super) fn model(&self, z: [DVec2; 3], epsilon: f64) -> Model {
+    pub(super) fn model(&self, z: [DVec2; 3], energy: Energy) -> Model {
         let (alpha, beta) = self.derivatives(z);
         let (p, q) = (alpha.length_squared(), beta.length_squared());
-        let by = terms(p, q, epsilon);
+        let by = energy.terms(p, q);
         let w = self.weight;
         let along = |direction: DVec2| direction.try_normalize().unwrap_or(DVec2::X);
         let (e, f) = (along(alpha), along(beta));
@@ -205,7 +228,7 @@ mod tests {
     use super::*;
 
     fn element() -> Element {
-        Element::new([0, 1, 2], [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)], 0.7)
+        Element::new([0, 1, 2], [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)], (0.7, 1e-6))
     }
 
     const PLACES: [[DVec2; 3]; 3] = [
@@ -220,24 +243,27 @@ mod tests {
         z
     }
 
+    const FREE: Energy = Energy::Foldover(0.0);
+
     #[test]
     fn a_triangle_at_rest_has_the_least_energy() {
         let rest = [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)];
-        let element = element();
-        assert!((element.energy(rest, 0.0) - 2.0 * 0.7).abs() < 1e-14);
-        assert!((element.determinant(rest) - 1.0).abs() < 1e-14);
-        assert!(element.gradient(rest, 0.0).iter().all(|g| g.length() < 1e-14));
         let turned = rest.map(|z| DVec2::from_angle(1.0).rotate(z) + DVec2::new(3.0, 4.0));
-        assert!((element.energy(turned, 0.0) - 2.0 * 0.7).abs() < 1e-13);
+        let element = element();
+        assert!((element.determinant(rest) - 1.0).abs() < 1e-14);
+        for energy in [FREE, Energy::SymmetricDirichlet] {
+            assert!((element.energy(rest, energy) - 2.0 * 0.7).abs() < 1e-13);
+            assert!((element.energy(turned, energy) - 2.0 * 0.7).abs() < 1e-13);
+            assert!(element.model(rest, energy).gradient.iter().all(|g| g.abs() < 1e-13));
+        }
     }
 
     #[test]
     fn the_gradient_is_that_of_the_energy() {
-        for (z, epsilon) in PLACES.into_iter().zip([0.0, 0.3, 0.01]) {
-            let gradient = flat(element().gradient(z, epsilon));
-            assert_eq!(gradient, element().model(z, epsilon).gradient);
-            for (i, derivative) in gradient.iter().enumerate() {
-                let [after, before] = [1e-6, -1e-6].map(|h| element().energy(moved(z, i, h), epsilon));
+        let energies = [FREE, Energy::Foldover(0.3), Energy::Foldover(0.01), Energy::SymmetricDirichlet];
+        for (z, energy) in PLACES.into_iter().zip(energies).chain([(PLACES[0], energies[3])]) {
+            for (i, derivative) in element().model(z, energy).gradient.iter().enumerate() {
+                let [after, before] = [1e-6, -1e-6].map(|h| element().energy(moved(z, i, h), energy));
                 let difference = (after - before) / 2e-6;
                 assert!((difference - derivative).abs() < 1e-6 * (1.0 + derivative.abs()), "{difference} {derivative}");
             }
@@ -248,12 +274,14 @@ mod tests {
     fn the_hessian_is_that_of_the_energy_where_it_is_convex() {
         // Near to rest, where nothing had to be made positive.
         let z = [DVec2::new(0.01, 0.0), DVec2::new(2.02, 0.1), DVec2::new(0.4, 1.53)];
-        let model = element().model(z, 0.0);
-        for i in 0..6 {
-            let [after, before] = [1e-5, -1e-5].map(|h| flat(element().gradient(moved(z, i, h), 0.0)));
-            for j in 0..6 {
-                let difference = (after[j] - before[j]) / 2e-5;
-                assert!((difference - model.hessian[i][j]).abs() < 1e-7, "{i} {j}: {difference}");
+        for energy in [FREE, Energy::SymmetricDirichlet] {
+            let model = element().model(z, energy);
+            for i in 0..6 {
+                let [after, before] = [1e-5, -1e-5].map(|h| element().model(moved(z, i, h), energy).gradient);
+                for j in 0..6 {
+                    let difference = (after[j] - before[j]) / 2e-5;
+                    assert!((difference - model.hessian[i][j]).abs() < 1e-6, "{i} {j}: {difference}");
+                }
             }
         }
     }
@@ -271,8 +299,9 @@ mod tests {
     }
 
     #[test]
-    fn folded_triangles_have_infinite_energy_behind_the_barrier_and_a_finite_one_without() {
-        assert_eq!(element().energy(PLACES[1], 0.0), f64::INFINITY);
-        assert!(element().energy(PLACES[1], 1e-6).is_finite());
+    fn folded_triangles_have_infinite_energy_behind_a_barrier_and_a_finite_one_without() {
+        assert!(element().energy(PLACES[1], FREE).is_infinite());
+        assert!(element().energy(PLACES[1], Energy::SymmetricDirichlet).is_infinite());
+        assert!(element().energy(PLACES[1], Energy::Foldover(1e-6)).is_finite());
     }
 }

@@ -1,6 +1,7 @@
 //! The paper: weights, systems, methods, verdict and distortion. Knows no screen and no file.
 
 mod catalogue;
+mod conflicts;
 mod constrained_run;
 mod continuation;
 mod control;
@@ -16,9 +17,12 @@ mod left_kernel;
 mod matchmaker;
 mod membrane;
 mod method;
+mod outside;
 mod pins;
 pub mod plane_weights;
 mod prepared;
+mod relaxing;
+mod rest;
 mod run;
 mod scale;
 mod shape_preserving;
@@ -32,20 +36,22 @@ mod virtual_boundary;
 mod virtual_boundary_run;
 pub mod weights;
 
-pub use catalogue::{CatalogueEntry, FAMILIES, METHODS};
+pub use catalogue::{CatalogueEntry, Choice, FAMILIES, METHODS};
+pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use control::{Control, Phase};
 pub use convex::convex_boundary;
-pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Spread, distortion};
+pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
 pub use error::SolveError;
 pub use iterate::Iteration;
 pub use method::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
+pub use outside::Outside;
 pub use pins::{Hold, Pin, Pins, Places, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, hard_pins};
 pub use prepared::{Prepared, flatten};
 pub use run::{Ending, Run};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use shape_preserving::shape_preserving;
 pub use solution::{PhaseSeconds, Solution};
-pub use step::{Outside, Progress, Step, diameter, largest_move};
+pub use step::{Progress, Step, diameter, largest_move};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, verdict};
 pub use vertex_equation::{EquationTerm, NoEquation, VertexEquation, WeightSource, equation_of_step};

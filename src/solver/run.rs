@@ -21,6 +21,7 @@ use glam::DVec2;
 
 use super::constrained_run::{ConstrainedRun, Reached};
 use super::iterate::Iteration;
+use super::relaxing::{Relaxed, Relaxing};
 use super::scale::{complete_gauge, fit_gauge};
 use super::stall::Stall;
 use super::step::{Step, largest_move};
@@ -46,6 +47,9 @@ pub enum Ending {
     Unmet,
 }
 
+/// Rounds of relaxing after the boundary was bent to a convex polygon.
+const ROUNDS_AFTER_BENDING: usize = 20;
+
 /// A method under way on one mesh with one set of pins.
 #[derive(Debug)]
 pub struct Run {
@@ -55,6 +59,9 @@ pub struct Run {
     iteration: Option<Iteration>,
     virtual_boundary: Option<VirtualBoundaryRun>,
     constrained: Option<ConstrainedRun>,
+    relaxing: Option<Relaxing>,
+    /// Rounds of relaxing that may still follow a planar end.
+    relax_left: usize,
     stall: Stall,
     /// Iterations since the last linear solve.
     iterations: usize,
@@ -74,6 +81,10 @@ struct Latest {
     /// The pins in force.
     pins: Pins,
     has_simple_boundary: bool,
+    /// Whether it is proved planar.
+    planar: bool,
+    /// The mesh with new vertices that it is of.
+    refinement: Option<Arc<Refinement>>,
 }
 
 /// What a rung gave, before it is proved.
@@ -118,6 +129,8 @@ impl Run {
             iteration: None,
             virtual_boundary: None,
             constrained: None,
+            relaxing: None,
+            relax_left: settings.relax_rounds,
             stall: Stall::default(),
             iterations: 0,
             step_count: 0,
@@ -221,13 +234,44 @@ impl Run {
             embedding: step.solution.embedding.clone(),
             pins: step.solution.pins.clone(),
             has_simple_boundary: step.has_simple_boundary(),
+            planar: step.verdict.planar,
+            refinement: step.refinement.clone(),
         });
         if step.rung == Method::Iterate {
             self.iterations += 1;
         }
         self.stall.look_at(step);
+        if step.rung == Method::Relax {
+            self.relax_left = self.relax_left.saturating_sub(1);
+        } else {
+            self.relaxing = None;
+            // A boundary that had to be bent is not to stay a circle.
+            if self.settings.method == Method::Auto && step.bent_vertices > 0 {
+                self.relax_left = self.relax_left.max(ROUNDS_AFTER_BENDING);
+            }
+        }
         let is_solved = step.verdict.planar && step.unmet().is_empty();
-        self.ending = if is_solved { Some(Ending::Planar) } else { self.ending_of_method() };
+        let relaxes_on = self.relax_left > 0 && !self.relaxing.as_ref().is_some_and(Relaxing::has_converged);
+        self.ending = match (is_solved, relaxes_on) {
+            (true, true) => None,
+            (true, false) => Some(Ending::Planar),
+            (false, _) => self.ending_of_method(),
+        };
+    }
+
+    /// Lets rounds of relaxing follow: each lowers the distortion of a planar embedding, which keeps its exact pins and
+    /// stays one-to-one.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotPlanar`] where there is no planar embedding to begin with.
+    pub fn relax(&mut self, rounds: usize) -> Result<(), SolveError> {
+        if !self.latest.as_ref().is_some_and(|latest| latest.planar) {
+            return Err(SolveError::NotPlanar);
+        }
+        (self.relax_left, self.relaxing) = (rounds, None);
+        self.ending = (rounds == 0).then_some(Ending::Planar);
+        Ok(())
     }
 
     fn ending_of_method(&self) -> Option<Ending> {
@@ -257,6 +301,11 @@ impl Run {
     }
 
     fn next_raw(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        let is_planar = self.latest.as_ref().is_some_and(|latest| latest.planar);
+        let is_relaxed_by_hand = self.constrained.is_some() && self.ending == Some(Ending::Planar);
+        if is_planar && (is_relaxed_by_hand || (self.relax_left > 0 && self.is_met())) {
+            return self.relax_step(mesh, control);
+        }
         let is_stuck = || self.latest.is_some() && self.ending_of_iteration().is_some();
         let climbs_on = self.settings.method == Method::Auto && !self.may_bend_boundary();
         if self.settings.method.is_one_to_one() || self.constrained.is_some() || (climbs_on && is_stuck()) {
@@ -285,24 +334,53 @@ impl Run {
         }
     }
 
-    /// Rungs 4 and 5: planar embeddings on their way to the constraints.
-    fn constrained_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+    /// Whether the latest embedding meets the user's exact pins.
+    fn is_met(&self) -> bool {
+        let Some(latest) = &self.latest else { return false };
+        let exact = self.pins.iter().filter(|(_, pin)| self.settings.is_exact(pin.hold));
+        exact.into_iter().all(|(v, pin)| latest.embedding[v.index()] == pin.target)
+    }
+
+    /// One round of relaxing.
+    fn relax_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
         let start = Instant::now();
-        let run = self.constrained.get_or_insert_with(|| ConstrainedRun::new(&self.settings, &self.pins));
-        let reached = run.step(mesh, control)?;
-        let Reached { rung, embedding, progress, outside, refinement } = reached;
-        let seconds = PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
-        let solution = Solution {
+        let Some(latest) = &self.latest else { return Err(SolveError::NotPlanar) };
+        let refinement = latest.refinement.clone();
+        let mesh = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
+        let held = if self.pins.len() < 2 { Pins::new() } else { self.settings.held(&self.pins) };
+        let relaxing = self.relaxing.get_or_insert_with(|| Relaxing::new(mesh, latest.embedding.clone(), &held));
+        let Relaxed { mut embedding, progress, outside } = relaxing.round(mesh, control)?;
+        if held.is_empty() {
+            complete_gauge(mesh, &mut embedding, (&self.pins, self.settings.size));
+        }
+        let pins = if held.is_empty() { gauge_in(mesh, &embedding) } else { held };
+        let solution = self.one_to_one(embedding, pins, start);
+        let (progress, outside) = (Some(progress), Some(outside));
+        Ok(Raw { refinement, progress, outside, ..Raw::of(Method::Relax, Family::default(), solution) })
+    }
+
+    /// A solution that no linear system stands behind.
+    fn one_to_one(&self, embedding: Vec<DVec2>, pins: Pins, start: Instant) -> Solution {
+        Solution {
             embedding,
-            pins: self.settings.held(&self.pins),
+            pins,
             gauge_completed: self.pins.len() < 2,
             residual: f64::NAN,
             equation_residual: f64::NAN,
             replaced_pivots: 0,
             bounded_corners: 0,
             factor_bytes: 0,
-            seconds,
-        };
+            seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() },
+        }
+    }
+
+    /// Rungs 4 and 5: planar embeddings on their way to the constraints.
+    fn constrained_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
+        let start = Instant::now();
+        let run = self.constrained.get_or_insert_with(|| ConstrainedRun::new(&self.settings, &self.pins));
+        let reached = run.step(mesh, control)?;
+        let Reached { rung, embedding, progress, outside, refinement } = reached;
+        let solution = self.one_to_one(embedding, self.settings.held(&self.pins), start);
         Ok(Raw { refinement, progress, outside, ..Raw::of(rung, Family::default(), solution) })
     }
 

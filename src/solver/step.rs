@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Family, Method, Prepared, Solution, Verdict, VirtualBoundary};
+use super::{Family, Method, Outside, Prepared, Solution, Verdict, VirtualBoundary};
 use crate::mesh::{DiskMesh, Refinement, VertexId};
 
 /// Where a one-to-one embedding stands on its way: the numbers of continuation and relaxing.
@@ -16,15 +16,6 @@ pub struct Progress {
     pub least_determinant: f64,
     /// Largest distance of an exact pin from its target, in the plane.
     pub distance_left: f64,
-}
-
-/// The outside of an embedding up to a frame, triangulated: what keeps the boundary simple while vertices move.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outside {
-    /// The frame's points.
-    pub frame: Vec<DVec2>,
-    /// Triangles, counter-clockwise. Numbers beyond the step's mesh are the frame's points.
-    pub triangles: Vec<[VertexId; 3]>,
 }
 
 /// An embedding, what made it, and how good it is.

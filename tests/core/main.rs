@@ -5,6 +5,7 @@
 mod bad_input;
 mod check_cli;
 mod common;
+mod conflicts;
 mod constrained;
 mod convex;
 mod diagnosis;
@@ -28,6 +29,7 @@ mod mesh;
 mod natural;
 mod obj;
 mod obj_picture;
+mod obj_refined;
 mod obj_texture;
 mod obj_write;
 mod pins;

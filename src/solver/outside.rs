@@ -1,0 +1,70 @@
+//! The outside of an embedding, triangulated up to a frame: while none of its triangles folds, the boundary stays simple.
+//!
+//! The idea is the paper's virtual boundary (§5); kept up while vertices move as in Z. Jiang, S. Schaefer, D. Panozzo,
+//! "Simplicial complex augmentation framework for bijective maps", 2017.
+
+use glam::DVec2;
+
+use super::foldover_energy::Element;
+use crate::geom::outside_triangles;
+use crate::mesh::{DiskMesh, VertexId};
+
+/// Points on each side of the frame.
+const FRAME_POINTS: u32 = 8;
+
+/// Size of the frame, relative to everything within.
+const FRAME_SIZE: f64 = 2.0;
+
+/// Triangles that are thinner, height to longest side, are measured as if they were so thick: their size counts, not
+/// their shape.
+const THINNEST: f64 = 0.1;
+
+/// The outside of an embedding up to a frame, triangulated: what keeps the boundary simple while vertices move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outside {
+    /// The frame's points.
+    pub frame: Vec<DVec2>,
+    /// Triangles, counter-clockwise. Numbers beyond the step's mesh are the frame's points.
+    pub triangles: Vec<[VertexId; 3]>,
+}
+
+/// The frame around points: a square with its corners and points between them, counter-clockwise.
+fn frame_around(points: impl Iterator<Item = DVec2> + Clone) -> Vec<DVec2> {
+    let low = points.clone().fold(DVec2::INFINITY, DVec2::min);
+    let high = points.fold(DVec2::NEG_INFINITY, DVec2::max);
+    let (centre, half) = (low.midpoint(high), 0.5 * FRAME_SIZE * (high - low).max_element());
+    let corners = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::ONE, DVec2::new(-1.0, 1.0)];
+    let side = |k: usize| {
+        let (from, to) = (corners[k], corners[(k + 1) % 4]);
+        (0..FRAME_POINTS).map(move |i| from.lerp(to, f64::from(i) / f64::from(FRAME_POINTS)))
+    };
+    (0..4).flat_map(side).map(|z| centre + half * z).collect()
+}
+
+/// The outside of an embedding with a simple boundary, up to a frame around it and further points.
+pub(super) fn outside_of(
+    mesh: &DiskMesh,
+    embedding: &[DVec2],
+    further: impl Iterator<Item = DVec2> + Clone,
+) -> Option<Outside> {
+    let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|&v| embedding[v.index()]).collect();
+    let frame = frame_around(boundary.iter().copied().chain(further));
+    let vertex = |corner: u32| {
+        let corner = corner as usize;
+        let beyond = || VertexId::from_index(embedding.len() + corner - boundary.len());
+        mesh.boundary_loop().get(corner).copied().unwrap_or_else(beyond)
+    };
+    let triangles = outside_triangles(&boundary, &frame)?.into_iter().map(|t| t.map(vertex)).collect();
+    Some(Outside { frame, triangles })
+}
+
+/// The outside's energies, at rest as it lies.
+pub(super) fn outside_elements(outside: &Outside, points: &[DVec2], weight: f64) -> Vec<Element> {
+    let shape = |t: &[VertexId; 3]| t.map(|v| points[v.index()]);
+    let area = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a);
+    let total: f64 = outside.triangles.iter().map(|t| area(shape(t))).sum();
+    let element = |t: &[VertexId; 3]| {
+        Element::new(t.map(VertexId::number), shape(t), (weight * area(shape(t)) / total, THINNEST))
+    };
+    outside.triangles.iter().map(element).collect()
+}

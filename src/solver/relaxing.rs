@@ -1,0 +1,90 @@
+//! Relaxing: a planar embedding's distortion is lowered, one-to-one throughout, exact pins where they are.
+//!
+//! Each round triangulates the outside anew and takes a few Newton steps down the symmetric Dirichlet energy of mesh and
+//! outside (J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015). While some face is nearly
+//! without area, the foldover energy goes first, which is less steep there.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::foldover_energy::Energy;
+use super::membrane::{Limits, Membrane};
+use super::outside::outside_of;
+use super::rest::Rest;
+use super::{Control, Outside, Pins, Progress, SolveError, verdict};
+use crate::mesh::DiskMesh;
+
+/// Weight of the whole outside, that of the mesh being 1.
+const OUTSIDE_WEIGHT: f64 = 0.002;
+
+/// Newton steps of a round.
+const ROUND_STEPS: usize = 5;
+
+/// A round that gains a smaller share of the energy is the last.
+const TOLERANCE: f64 = 1e-3;
+
+/// Below this determinant the symmetric Dirichlet energy is too steep to begin with.
+const STEEP: f64 = 1e-3;
+
+/// A planar embedding that relaxes.
+pub(super) struct Relaxing {
+    rest: Rest,
+    pins: Pins,
+    embedding: Vec<DVec2>,
+    /// That of the round before, whose order of elimination is kept.
+    membrane: Option<Membrane>,
+    has_converged: bool,
+}
+
+/// A round's embedding.
+#[derive(Debug)]
+pub(super) struct Relaxed {
+    pub(super) embedding: Vec<DVec2>,
+    pub(super) progress: Progress,
+    pub(super) outside: Arc<Outside>,
+}
+
+impl std::fmt::Debug for Relaxing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Relaxing").field("has_converged", &self.has_converged).finish_non_exhaustive()
+    }
+}
+
+impl Relaxing {
+    /// Begins at a planar embedding of `mesh`; `pins` are held, exact ones where they lie.
+    pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
+        let rest = Rest::new(mesh);
+        Self { rest, pins: pins.clone(), embedding, membrane: None, has_converged: false }
+    }
+
+    /// Whether the last round gained next to nothing.
+    pub(super) fn has_converged(&self) -> bool {
+        self.has_converged
+    }
+
+    /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
+    pub(super) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Relaxed, SolveError> {
+        let outside = outside_of(mesh, &self.embedding, std::iter::empty()).ok_or(SolveError::NotPlanar)?;
+        let how = (OUTSIDE_WEIGHT, self.membrane.as_ref());
+        let (membrane, mut z) = self.rest.membrane(mesh, (&self.embedding, &outside), &self.pins, how)?;
+        let is_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
+        let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
+        let limits = Limits { unfolded, steps: ROUND_STEPS, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
+        let gain = membrane.descend(&mut z, limits, control)?.gain;
+        self.membrane = Some(membrane);
+        z.truncate(mesh.vertex_count());
+        let is_planar = verdict(mesh, &z).planar;
+        if is_planar {
+            self.embedding = z;
+        }
+        let is_still_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
+        self.has_converged = !is_planar || (gain < TOLERANCE && is_still_steep == is_steep);
+        let progress = Progress {
+            energy: self.rest.symmetric_dirichlet(mesh, &self.embedding),
+            least_determinant: self.rest.least_determinant(mesh, &self.embedding),
+            distance_left: 0.0,
+        };
+        Ok(Relaxed { embedding: self.embedding.clone(), progress, outside: Arc::new(outside) })
+    }
+}

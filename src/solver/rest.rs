@@ -1,0 +1,110 @@
+//! The faces as they lie in space, each laid into the plane: the shapes that an embedding's faces are measured by.
+
+use glam::{DVec2, DVec3};
+
+use super::foldover_energy::{Element, Energy};
+use super::membrane::{Membrane, Spring};
+use super::outside::outside_elements;
+use super::{Hold, Outside, Pins, SolveError};
+use crate::mesh::{DiskMesh, VertexId};
+
+/// Faces that are thinner, height to longest side, are measured as if they were so thick.
+const THINNEST: f64 = 1e-4;
+
+/// The faces as they lie in space, each laid into the plane.
+#[derive(Debug)]
+pub(super) struct Rest {
+    triangles: Vec<[DVec2; 3]>,
+    /// Share of each face in the surface.
+    shares: Vec<f64>,
+    area: f64,
+}
+
+impl Rest {
+    /// Lays every face into the plane.
+    pub(super) fn new(mesh: &DiskMesh) -> Self {
+        let triangles: Vec<[DVec2; 3]> = mesh.faces().map(|face| laid_flat(mesh.mesh().corners(face))).collect();
+        let areas = triangles.iter().map(|[a, b, c]| 0.5 * (*b - *a).perp_dot(*c - *a));
+        let area: f64 = areas.clone().sum();
+        let shares = areas.map(|part| part / area).collect();
+        Self { triangles, shares, area }
+    }
+
+    /// Mean over the surface of the symmetric Dirichlet energy, at equal total areas; 2 where nothing is distorted.
+    pub(super) fn symmetric_dirichlet(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+        let place = |element: &Element| element.corners.map(|corner| embedding[corner as usize]);
+        let elements = self.elements(mesh, embedding);
+        elements.iter().map(|element| element.energy(place(element), Energy::SymmetricDirichlet)).sum()
+    }
+
+    /// The smallest determinant of a face, at equal total areas.
+    pub(super) fn least_determinant(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+        let place = |element: &Element| element.corners.map(|corner| embedding[corner as usize]);
+        let elements = self.elements(mesh, embedding);
+        elements.iter().map(|element| element.determinant(place(element))).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Mesh and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
+    /// frame last. The mesh weighs 1, the outside `weight`. `similar` is one
+    /// made before for the same mesh and pins.
+    pub(super) fn membrane(
+        &self,
+        mesh: &DiskMesh,
+        (embedding, outside): (&[DVec2], &Outside),
+        pins: &Pins,
+        (weight, similar): (f64, Option<&Membrane>),
+    ) -> Result<(Membrane, Vec<DVec2>), SolveError> {
+        let mut points = embedding.to_vec();
+        points.extend(&outside.frame);
+        let mut elements = self.elements(mesh, embedding);
+        elements.extend(outside_elements(outside, &points, weight));
+        let springs = pins.iter().filter_map(|(vertex, pin)| match pin.hold {
+            Hold::Weighted(weight) => {
+                let stiffness = weight * weight * self.spring_unit(mesh, embedding);
+                Some(Spring { point: vertex.number(), target: pin.target, stiffness })
+            }
+            _ => None,
+        });
+        let count = u32::try_from(mesh.vertex_count()).expect("vertices fit");
+        let is_exact = |vertex: VertexId| pins.get(&vertex).is_some_and(|pin| pin.hold.is_exact());
+        let is_held = |point: u32| point >= count || is_exact(VertexId::new(point));
+        Ok((Membrane::new(points.len(), elements, springs.collect(), is_held, similar)?, points))
+    }
+
+    /// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.
+    fn spring_unit(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+        let length = |[a, b]: [VertexId; 2]| embedding[a.index()].distance(embedding[b.index()]);
+        let total: f64 = mesh.edges().map(|edge| length(mesh.ends(edge))).sum();
+        let mean = total / mesh.edge_count() as f64;
+        1.0 / (mean * mean * mesh.vertex_count() as f64)
+    }
+
+    /// The faces' energies, at rest when as large as the embedding is now.
+    fn elements(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<Element> {
+        let flat: f64 = mesh
+            .faces()
+            .map(|face| {
+                let [a, b, c] = mesh.face(face).map(|v| embedding[v.index()]);
+                0.5 * (b - a).perp_dot(c - a)
+            })
+            .sum();
+        let scale = (flat / self.area).sqrt();
+        let numbers = |face| mesh.face(face).map(VertexId::number);
+        mesh.faces()
+            .zip(&self.triangles)
+            .zip(&self.shares)
+            .map(|((face, shape), &share)| Element::new(numbers(face), shape.map(|z| scale * z), (share, THINNEST)))
+            .collect()
+    }
+}
+
+/// A triangle of space in the plane, its first side along the x-axis.
+fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
+    let (u, v) = (b - a, c - a);
+    let length = u.length();
+    if length == 0.0 {
+        return [DVec2::ZERO, DVec2::ZERO, DVec2::new(v.length(), 0.0)];
+    }
+    let along = u.dot(v) / length;
+    [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(along, u.cross(v).length() / length)]
+}
