@@ -5,12 +5,16 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::continuation::{Accepted, Continuation};
-use super::matchmaker::{Matched, matched};
+use super::matchmaker::{Matched, matched, without_needless_vertices};
+use super::relaxing::Relaxing;
 use super::{
     Conflict, Control, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step, check_pins, conflicts,
 };
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
+
+/// Rounds of relaxing before new vertices are looked at again.
+const ROUNDS_BEFORE_REMOVAL: usize = 10;
 
 /// Rungs 4 and 5 on the way.
 #[derive(Debug)]
@@ -28,6 +32,8 @@ enum Stage {
     Continuation(Box<Continuation>),
     /// Rung 5 is next, from a planar embedding.
     Matchmaker(Vec<DVec2>),
+    /// The constraints are met with new vertices, some of which may be needless once the embedding has relaxed.
+    Refined(Box<Matched>),
     /// There is no further step.
     End,
 }
@@ -40,6 +46,13 @@ pub(super) struct Reached {
     pub(super) progress: Option<Progress>,
     pub(super) outside: Option<Arc<Outside>>,
     pub(super) refinement: Option<Arc<Refinement>>,
+}
+
+impl Reached {
+    fn with_new_vertices(Matched { refinement, embedding }: Matched) -> Self {
+        let (rung, refinement) = (Method::Matchmaker, Some(Arc::new(refinement)));
+        Self { rung, embedding, progress: None, outside: None, refinement }
+    }
 }
 
 impl ConstrainedRun {
@@ -72,9 +85,24 @@ impl ConstrainedRun {
             }
             Stage::Matchmaker(start) => {
                 let Matched { refinement, embedding } = matched(mesh, start, &self.pins, control)?;
+                let found = without_needless_vertices(mesh, Matched { refinement, embedding });
+                self.stage = Stage::Refined(Box::new(found.clone()));
+                Ok(Reached::with_new_vertices(found))
+            }
+            Stage::Refined(found) => {
+                let Matched { refinement, embedding } = found.as_ref();
+                let disk = refinement.disk();
+                let mut relaxing = Relaxing::new(disk, embedding.clone(), &self.pins);
+                let mut relaxed = embedding.clone();
+                for _ in 0..ROUNDS_BEFORE_REMOVAL {
+                    relaxed = relaxing.round(disk, control)?.embedding;
+                    if relaxing.has_converged() {
+                        break;
+                    }
+                }
+                let found = Matched { refinement: refinement.clone(), embedding: relaxed };
                 self.stage = Stage::End;
-                let refinement = Some(Arc::new(refinement));
-                Ok(Reached { rung: Method::Matchmaker, embedding, progress: None, outside: None, refinement })
+                Ok(Reached::with_new_vertices(without_needless_vertices(mesh, found)))
             }
             Stage::End => Err(SolveError::Unmet),
         }

@@ -252,7 +252,8 @@ impl Run {
         }
         let is_solved = step.verdict.planar && step.unmet().is_empty();
         let relaxes_on = self.relax_left > 0 && !self.relaxing.as_ref().is_some_and(Relaxing::has_converged);
-        self.ending = match (is_solved, relaxes_on) {
+        let has_more = self.constrained.as_ref().is_some_and(|run| !run.is_exhausted());
+        self.ending = match (is_solved, relaxes_on || has_more) {
             (true, true) => None,
             (true, false) => Some(Ending::Planar),
             (false, _) => self.ending_of_method(),
@@ -318,7 +319,8 @@ impl Run {
     fn next_raw(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
         let is_planar = self.latest.as_ref().is_some_and(|latest| latest.planar);
         let is_relaxed_by_hand = self.constrained.is_some() && self.ending == Some(Ending::Planar);
-        if is_planar && (is_relaxed_by_hand || (self.relax_left > 0 && self.is_met())) {
+        let has_more = self.constrained.as_ref().is_some_and(|run| !run.is_exhausted());
+        if is_planar && !has_more && (is_relaxed_by_hand || (self.relax_left > 0 && self.is_met())) {
             return self.relax_step(mesh, control);
         }
         let is_stuck = || self.latest.is_some() && self.ending_of_iteration().is_some();

@@ -18,6 +18,8 @@ use crate::solver::{Control, Phase, SolveError};
 pub(super) struct Paths<'a> {
     pub(super) cells: Subdivision,
     graph: &'a TargetGraph,
+    /// Vertices of the graph before the frame's.
+    target_count: usize,
     /// The vertex of the subdivision for each vertex of the graph.
     vertices: Vec<u32>,
     /// For each directed edge of the graph that has a path the halfedge by which it leaves.
@@ -54,8 +56,9 @@ impl<'a> Paths<'a> {
             cells.roles[vertex as usize] = Role::End(end);
         }
         let lines = vec![Vec::new(); graph.edges.len()];
-        let mut paths = Self { cells, graph, vertices, departures: BTreeMap::new(), lines };
-        let corners: Vec<u32> = (0..).take(graph.points.len()).skip(graph.points.len() - frame).collect();
+        let target_count = graph.points.len() - frame;
+        let mut paths = Self { cells, graph, target_count, vertices, departures: BTreeMap::new(), lines };
+        let corners: Vec<u32> = (0..).take(graph.points.len()).skip(target_count).collect();
         for (k, &from) in corners.iter().enumerate() {
             let to = corners[(k + 1) % frame];
             let [tail, head] = [from, to].map(|end| paths.vertices[end as usize]);
@@ -68,7 +71,7 @@ impl<'a> Paths<'a> {
 
     /// Lays all paths.
     pub(super) fn lay_all(&mut self, router: &mut Router, control: Control<'_>) -> Result<(), SolveError> {
-        let mut is_connected: Vec<bool> = (0..self.graph.points.len()).map(|end| self.has_path(end)).collect();
+        let mut is_connected: Vec<bool> = (0..self.graph.points.len()).map(|end| end >= self.target_count).collect();
         let mut waiting = BinaryHeap::new();
         for end in (0..).take(is_connected.len()).filter(|&end| is_connected[end as usize]) {
             self.wait_at(end, &is_connected, &mut waiting);
@@ -92,10 +95,6 @@ impl<'a> Paths<'a> {
             self.lay_or_wait(edge, self.graph.edges[edge as usize][0], router, &mut waiting);
         }
         Ok(())
-    }
-
-    fn has_path(&self, end: usize) -> bool {
-        self.lines.iter().zip(&self.graph.edges).any(|(line, ends)| !line.is_empty() && ends.contains(&(end as u32)))
     }
 
     /// The edges from a connected end to others wait.

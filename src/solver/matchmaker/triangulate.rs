@@ -100,10 +100,10 @@ fn sides_of_corners(cells: &Subdivision, mesh: &DiskMesh, face: FaceId, corners:
 
 /// The triangulation of a convex polygon whose diagonals have the least sum, without flat triangles (dynamic
 /// programming). `None` where the sum is infinite.
-fn shortest_triangulation(
+pub(super) fn shortest_triangulation(
     count: usize,
     length: impl Fn(usize, usize) -> f64,
-    is_flat: impl Fn(usize, usize, usize) -> bool,
+    is_bad: impl Fn(usize, usize, usize) -> bool,
 ) -> Option<Vec<[usize; 3]>> {
     let at = |from: usize, to: usize| from * count + to;
     let mut cost = vec![0.0; count * count];
@@ -114,7 +114,7 @@ fn shortest_triangulation(
             let (mut best, mut best_middle) = (f64::INFINITY, from + 1);
             for k in from + 1..to {
                 let sum = cost[at(from, k)] + cost[at(k, to)];
-                if sum < best && !is_flat(from, k, to) {
+                if sum < best && !is_bad(from, k, to) {
                     (best, best_middle) = (sum, k);
                 }
             }
