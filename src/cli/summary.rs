@@ -4,7 +4,7 @@ use super::flatten::Solved;
 use crate::io::{PinsReport, Report};
 use crate::mesh::VertexId;
 use crate::session::{Finished, Placement};
-use crate::solver::{Conflict, Ending, Method, Step};
+use crate::solver::{Conflict, Ending, Method, SolveError, Step};
 
 /// Most vertices or conflicts that are named; the others are only counted.
 const NAMED: usize = 10;
@@ -58,7 +58,7 @@ pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
         let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
         let why = match ending {
             Ok(Ending::Planar | Ending::Done) => String::new(),
-            Ok(Ending::Unmet) => ", constraints not met".to_owned(),
+            Ok(Ending::Unmet) | Err(SolveError::Unmet) => ", constraints not met".to_owned(),
             Ok(Ending::Stalled) => ", which gets no better".to_owned(),
             Ok(Ending::Limit) => ", as many as it may take".to_owned(),
             Err(error) => format!("; the next gave nothing: {error}"),

@@ -59,7 +59,7 @@ pub(super) fn dome() -> TriMesh {
 const BUMPY_SPACING: f64 = 0.085;
 
 /// How many vertices the bumpy cap has at that spacing.
-const BUMPY_COUNT: f64 = 1763.0;
+const BUMPY_COUNT: f64 = 1280.0;
 
 /// A ball with bumps, open below about 130° from the pole, its rim wavy.
 pub(super) fn bumpy_cap() -> TriMesh {

@@ -6,7 +6,9 @@ use glam::DVec2;
 
 use super::continuation::{Accepted, Continuation};
 use super::matchmaker::{Matched, matched, without_needless_vertices};
-use super::{Control, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step};
+use super::{
+    Conflict, Control, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step, check_pins, conflicts,
+};
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
 
@@ -15,8 +17,19 @@ use crate::mesh::{DiskMesh, Refinement};
 pub(super) struct ConstrainedRun {
     settings: Settings,
     pins: Pins,
-    continuation: Option<Continuation>,
-    is_exhausted: bool,
+    stage: Stage,
+}
+
+#[derive(Debug)]
+enum Stage {
+    /// Nothing is done yet.
+    Begin,
+    /// Rung 4, which may still arrive.
+    Continuation(Box<Continuation>),
+    /// Rung 5 is next, from a planar embedding.
+    Matchmaker(Vec<DVec2>),
+    /// There is no further step.
+    End,
 }
 
 /// A planar embedding that one of the rungs came to.
@@ -32,38 +45,59 @@ pub(super) struct Reached {
 impl ConstrainedRun {
     /// Nothing done yet. `pins` are held as the treatment holds them.
     pub(super) fn new(settings: &Settings, pins: &Pins) -> Self {
-        Self { settings: *settings, pins: settings.held(pins), continuation: None, is_exhausted: false }
+        Self { settings: *settings, pins: settings.held(pins), stage: Stage::Begin }
     }
 
     /// Whether there is no further step.
     pub(super) fn is_exhausted(&self) -> bool {
-        self.is_exhausted
+        matches!(self.stage, Stage::End)
     }
 
     /// The next planar embedding.
     pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Reached, SolveError> {
-        if self.settings.method == Method::Matchmaker {
-            let start = fitted(planar_start(mesh, &self.settings, control)?, &self.pins);
-            let found = matched(mesh, &start, &self.pins, control)?;
-            let Matched { refinement, embedding } = without_needless_vertices(mesh, found);
-            self.is_exhausted = true;
-            let (rung, refinement) = (Method::Matchmaker, Some(Arc::new(refinement)));
-            return Ok(Reached { rung, embedding, progress: None, outside: None, refinement });
+        match &mut self.stage {
+            Stage::Begin => self.begin(mesh, control),
+            Stage::Continuation(continuation) => {
+                if let Some(Accepted { embedding, progress, outside }) = continuation.step(mesh, control)? {
+                    if continuation.has_arrived() {
+                        self.stage = Stage::End;
+                    }
+                    let (progress, outside) = (Some(progress), Some(outside));
+                    return Ok(Reached { rung: Method::Continuation, embedding, progress, outside, refinement: None });
+                }
+                let goes_on = self.settings.method == Method::Auto && self.settings.new_vertices;
+                let stuck = continuation.embedding().to_vec();
+                self.stage = if goes_on { Stage::Matchmaker(stuck) } else { Stage::End };
+                if goes_on { self.step(mesh, control) } else { Err(SolveError::Unmet) }
+            }
+            Stage::Matchmaker(start) => {
+                let found = matched(mesh, start, &self.pins, control)?;
+                let Matched { refinement, embedding } = without_needless_vertices(mesh, found);
+                self.stage = Stage::End;
+                let refinement = Some(Arc::new(refinement));
+                Ok(Reached { rung: Method::Matchmaker, embedding, progress: None, outside: None, refinement })
+            }
+            Stage::End => Err(SolveError::Unmet),
         }
-        let Some(continuation) = &mut self.continuation else {
-            let start = planar_start(mesh, &self.settings, control)?;
-            let embedding = fitted(start, &self.pins);
-            self.continuation = Some(Continuation::new(mesh, embedding.clone(), &self.pins));
-            let rung = Method::Continuation;
-            return Ok(Reached { rung, embedding, progress: None, outside: None, refinement: None });
+    }
+
+    /// The planar start, moved to where it fits the targets best.
+    fn begin(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Reached, SolveError> {
+        check_pins(mesh, &self.pins)?;
+        for conflict in conflicts(mesh, &self.pins) {
+            if let Conflict::TooNear { vertices: [first, second] } = conflict {
+                return Err(SolveError::TargetsTooNear { first, second });
+            }
+        }
+        let embedding = fitted(planar_start(mesh, &self.settings, control)?, &self.pins);
+        let continuation = Continuation::new(mesh, embedding.clone(), &self.pins);
+        let progress = Some(continuation.progress(mesh));
+        self.stage = match self.settings.method {
+            Method::Matchmaker => Stage::Matchmaker(embedding.clone()),
+            _ if continuation.has_arrived() => Stage::End,
+            _ => Stage::Continuation(Box::new(continuation)),
         };
-        if let Some(Accepted { embedding, progress, outside }) = continuation.step(mesh, control)? {
-            self.is_exhausted = continuation.has_arrived();
-            let (progress, outside) = (Some(progress), Some(outside));
-            return Ok(Reached { rung: Method::Continuation, embedding, progress, outside, refinement: None });
-        }
-        self.is_exhausted = true;
-        Err(SolveError::Unmet)
+        Ok(Reached { rung: Method::Continuation, embedding, progress, outside: None, refinement: None })
     }
 }
 

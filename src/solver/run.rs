@@ -47,8 +47,11 @@ pub enum Ending {
     Unmet,
 }
 
-/// Rounds of relaxing after the boundary was bent to a convex polygon.
+/// Rounds of relaxing that follow by themselves: after the boundary was bent to a convex polygon, and after rungs 4 and
+/// 5, whose first answer is not their best. More where springs have yet to pull, or paths were made straight.
 const ROUNDS_AFTER_BENDING: usize = 20;
+const ROUNDS_AFTER_CONTINUATION: usize = 3;
+const ROUNDS_AFTER_MATCHMAKER: usize = 30;
 
 /// A method under way on one mesh with one set of pins.
 #[derive(Debug)]
@@ -245,10 +248,7 @@ impl Run {
             self.relax_left = self.relax_left.saturating_sub(1);
         } else {
             self.relaxing = None;
-            // A boundary that had to be bent is not to stay a circle.
-            if self.settings.method == Method::Auto && step.bent_vertices > 0 {
-                self.relax_left = self.relax_left.max(ROUNDS_AFTER_BENDING);
-            }
+            self.relax_left = self.settings.relax_rounds.max(self.own_rounds_after(step));
         }
         let is_solved = step.verdict.planar && step.unmet().is_empty();
         let relaxes_on = self.relax_left > 0 && !self.relaxing.as_ref().is_some_and(Relaxing::has_converged);
@@ -257,6 +257,21 @@ impl Run {
             (true, false) => Some(Ending::Planar),
             (false, _) => self.ending_of_method(),
         };
+    }
+
+    /// Rounds of relaxing that follow a step though nobody asked for them.
+    fn own_rounds_after(&self, step: &Step) -> usize {
+        let is_pulled = || self.settings.held(&self.pins).values().any(|pin| !pin.hold.is_exact());
+        match step.rung {
+            // A boundary that had to be bent is not to stay a circle.
+            Method::VirtualBoundary if self.settings.method == Method::Auto && step.bent_vertices > 0 => {
+                ROUNDS_AFTER_BENDING
+            }
+            Method::Continuation if is_pulled() => ROUNDS_AFTER_BENDING,
+            Method::Continuation => ROUNDS_AFTER_CONTINUATION,
+            Method::Matchmaker => ROUNDS_AFTER_MATCHMAKER,
+            _ => 0,
+        }
     }
 
     /// Lets rounds of relaxing follow: each lowers the distortion of a planar embedding, which keeps its exact pins and

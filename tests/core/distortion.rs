@@ -1,7 +1,7 @@
 //! Distortion against closed forms.
 
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Distortion, DistortionSummary, distortion};
+use freebound::solver::{Distortion, DistortionSummary, FaceDistortion, distortion};
 use glam::{DMat2, DVec2, DVec3};
 
 /// Relative; sums over a few hundred faces of numbers that are each right to a few units of the last place.
@@ -178,7 +178,8 @@ fn a_collapsed_face_is_infinite_and_json_shows_null() {
     assert!(found.faces[0].angle.is_infinite() && found.faces[1].angle.is_finite());
     let json = serde_json::to_string(&found.summary).unwrap();
     let nulls = "{\"mean\":null,\"p99\":null,\"max\":null}";
-    assert_eq!(json, format!("{{\"angle\":{nulls},\"area\":{nulls},\"stretch_l2\":null,\"stretch_linf\":null}}"));
+    let sums = "\"stretch_l2\":null,\"stretch_linf\":null,\"symmetric_dirichlet\":{\"mean\":null}";
+    assert_eq!(json, format!("{{\"angle\":{nulls},\"area\":{nulls},{sums}}}"));
 }
 
 #[test]
@@ -195,7 +196,9 @@ fn nothing_is_ever_nan() {
         let Distortion { faces, summary } = distortion(&mesh, &embedding);
         let sums = [summary.angle, summary.area].map(|spread| [spread.mean, spread.p99, spread.max]).concat();
         let values = faces.iter().flat_map(|face| [face.angle, face.area, face.stretch_l2, face.stretch_linf]);
-        let all: Vec<f64> = values.chain(sums).chain([summary.stretch_l2, summary.stretch_linf]).collect();
+        let energies = faces.iter().map(FaceDistortion::symmetric_dirichlet).chain([summary.symmetric_dirichlet.mean]);
+        let stretches = [summary.stretch_l2, summary.stretch_linf];
+        let all: Vec<f64> = values.chain(sums).chain(stretches).chain(energies).collect();
         assert!(all.iter().all(|value| !value.is_nan()), "{embedding:?}: {all:?}");
     }
 }

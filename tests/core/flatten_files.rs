@@ -70,6 +70,8 @@ fn pins_stand_in_the_written_file_digit_for_digit() {
     let arguments = [
         "flatten",
         "in.obj",
+        "--method",
+        "natural",
         "-o",
         "out.obj",
         "--pin",

@@ -285,7 +285,10 @@ fn exact_constraints_are_met_to_the_last_bit_beside_weighted_ones_at_every_step(
     let mesh = disk(Example::Dome.mesh());
     let mut random = Random(8);
     let pins = mixed(9, |_| 1.0, &mesh, &mut random);
-    let mut run = freebound::solver::Run::new(Settings { max_steps: 5, ..Settings::default() }, pins.clone());
+    let mut run = freebound::solver::Run::new(
+        Settings { max_steps: 5, ..Settings::new(Method::Iterate, Family::default()) },
+        pins.clone(),
+    );
     let mut count = 0;
     run.finish(&mesh, Control::unattended(), |step| {
         count += 1;
