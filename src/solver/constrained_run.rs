@@ -6,10 +6,7 @@ use glam::DVec2;
 
 use super::continuation::{Accepted, Continuation};
 use super::matchmaker::{Matched, matched, without_needless_vertices};
-<<<<<<< HEAD
 use super::relaxing::Relaxing;
-=======
->>>>>>> part-match
 use super::{
     Conflict, Control, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step, check_pins, conflicts,
 };
@@ -87,7 +84,6 @@ impl ConstrainedRun {
                 if goes_on { self.step(mesh, control) } else { Err(SolveError::Unmet) }
             }
             Stage::Matchmaker(start) => {
-<<<<<<< HEAD
                 let Matched { refinement, embedding } = matched(mesh, start, &self.pins, control)?;
                 let found = without_needless_vertices(mesh, Matched { refinement, embedding });
                 self.stage = Stage::Refined(Box::new(found.clone()));
@@ -105,10 +101,6 @@ impl ConstrainedRun {
                     }
                 }
                 let found = Matched { refinement: refinement.clone(), embedding: relaxed };
-=======
-                let found = matched(mesh, start, &self.pins, control)?;
-                let Matched { refinement, embedding } = without_needless_vertices(mesh, found);
->>>>>>> part-match
                 self.stage = Stage::End;
                 Ok(Reached::with_new_vertices(without_needless_vertices(mesh, found)))
             }
