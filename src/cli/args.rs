@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Family, Growth, Hold, Method, Pin, Settings, Treatment};
+use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Pin, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -48,11 +49,11 @@ pub struct FlattenArguments {
     #[arg(short, long, value_name = "OBJ")]
     pub output: Option<PathBuf>,
     /// How to flatten.
-    #[arg(long, value_enum, default_value_t = MethodName::Auto)]
-    pub method: MethodName,
+    #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
+    pub method: Method,
     /// The shape of the boundary, for `--method convex`; a circle without it.
-    #[arg(long, value_enum)]
-    pub boundary: Option<BoundaryName>,
+    #[arg(long, value_parser = choice::<BoundaryShape>())]
+    pub boundary: Option<BoundaryShape>,
     /// The weights: conformal, mean-value, wachspress, power:P, and for `--method convex` uniform, shape-preserving;
     /// conformal without it.
     #[arg(long, value_parser = Family::from_str)]
@@ -71,21 +72,21 @@ pub struct FlattenArguments {
     pub picture: Option<PathBuf>,
     /// What becomes of the pinned vertices' equations. Without it: of two pins eliminated, of more kept, and kept in
     /// the iteration.
-    #[arg(long, value_enum)]
-    pub treatment: Option<TreatmentName>,
+    #[arg(long, value_parser = choice::<Treatment>())]
+    pub treatment: Option<Treatment>,
     /// The most mean-value iterations, for `auto` and `iterate`; 60 without it.
     #[arg(long, value_name = "N")]
     pub max_steps: Option<usize>,
     /// After a planar end, lower the distortion in at most this many rounds, one-to-one throughout, constraints kept.
     #[arg(long, value_name = "N")]
     pub relax: Option<usize>,
-    /// Do not split edges where the constraints cannot be met otherwise: keep the best planar embedding instead, and
-    /// name the constraints that are not met.
+    /// Do not split edges where the constraints cannot be met otherwise, for `auto` and `continuation`: keep the best
+    /// planar embedding instead, and name the constraints that are not met.
     #[arg(long)]
     pub no_new_vertices: bool,
     /// How the virtual boundary pins more of the boundary while it crosses itself, for `auto` and `virtual-boundary`.
-    #[arg(long, value_enum)]
-    pub growth: Option<GrowthName>,
+    #[arg(long, value_parser = choice::<Growth>())]
+    pub growth: Option<Growth>,
     /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface.
     #[arg(long, value_enum, default_value_t = Fit::Unit)]
     pub fit: Fit,
@@ -114,46 +115,42 @@ pub struct FlattenArguments {
 impl FlattenArguments {
     /// The solver's settings.
     pub fn settings(&self) -> Settings {
-        let method = match self.method {
-            MethodName::Auto => Method::Auto,
-            MethodName::Natural => Method::Natural,
-            MethodName::Iterate => Method::Iterate,
-            MethodName::VirtualBoundary => Method::VirtualBoundary,
-            MethodName::Convex => Method::Convex(match self.boundary {
-                Some(BoundaryName::Square) => BoundaryShape::Square,
-                Some(BoundaryName::Circle) | None => BoundaryShape::Circle,
-            }),
-            MethodName::Lscm => Method::Lscm,
-            MethodName::Levy => Method::Levy,
-            MethodName::Continuation => Method::Continuation,
-            MethodName::Matchmaker => Method::Matchmaker,
-        };
-        let treatment = self.treatment.map(|name| match name {
-            TreatmentName::Eliminate => Treatment::Eliminate,
-            TreatmentName::LeastSquares => Treatment::LeastSquares,
-            TreatmentName::Weighted => Treatment::Weighted,
-        });
-        let growth = match self.growth {
-            Some(GrowthName::One) => Growth::One,
-            Some(GrowthName::Double) | None => Growth::Double,
+        let method = match (self.method, self.boundary) {
+            (Method::Convex(_), Some(shape)) => Method::Convex(shape),
+            (method, _) => method,
         };
         let max_steps = self.max_steps.unwrap_or(Settings::MAX_STEPS);
         let (relax_rounds, new_vertices) = (self.relax.unwrap_or(0), !self.no_new_vertices);
         let base = Settings::new(method, self.family.unwrap_or_default());
-        Settings { treatment, max_steps, growth, relax_rounds, new_vertices, ..base }
+        Settings {
+            treatment: self.treatment,
+            max_steps,
+            growth: self.growth.unwrap_or_default(),
+            relax_rounds,
+            new_vertices,
+            ..base
+        }
     }
 
     /// An option that was given but means nothing to the method, and why.
     pub fn idle_option(&self) -> Option<(&'static str, &'static str)> {
         let method = self.settings().method;
         let is_convex = matches!(method, Method::Convex(_));
+        let splits = matches!(method, Method::Auto | Method::Continuation);
+        let of_family =
+            if method.is_one_to_one() { "it solves no weighted equations" } else { "its weights are its own" };
+        let of_splits = match method {
+            Method::Matchmaker => "it meets constraints by nothing else",
+            _ => "only auto and continuation make any",
+        };
         let cases = [
             (self.boundary.is_some(), is_convex, "--boundary", "only convex lays the boundary on a shape"),
-            (self.family.is_some(), method.uses_family(), "--family", "its weights are its own"),
+            (self.family.is_some(), method.uses_family(), "--family", of_family),
             (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary by itself"),
             (self.constraints.is_some(), method.uses_pins(), "--constraints", "it places the whole boundary by itself"),
             (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
             (self.max_steps.is_some(), method.iterates(), "--max-steps", "only auto and iterate do iterate"),
+            (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
             (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary pin more"),
         ];
         cases.into_iter().find(|(given, applies, ..)| *given && !applies).map(|(_, _, option, why)| (option, why))
@@ -177,58 +174,6 @@ pub struct CheckArguments {
     pub report: Option<PathBuf>,
 }
 
-/// Names of the methods.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum MethodName {
-    /// The ladder: from natural to matchmaker, until planar and all constraints are met
-    Auto,
-    /// Natural boundary (paper §3.3)
-    Natural,
-    /// Natural boundary, then mean-value iteration (paper §4)
-    Iterate,
-    /// Natural boundary, then a virtual boundary (paper §5)
-    VirtualBoundary,
-    /// Boundary on a convex shape (Tutte, Floater)
-    Convex,
-    /// Least-squares conformal map
-    Lscm,
-    /// Lévy's equations summed around vertices (paper §3.2)
-    Levy,
-    /// One-to-one all the way from a planar map to the constraints
-    Continuation,
-    /// Paths between the constraints, with new vertices where they need room
-    Matchmaker,
-}
-
-/// Names of the treatments of pinned vertices' equations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TreatmentName {
-    /// Leave them out (paper §3.3)
-    Eliminate,
-    /// Keep all, meet them as well as can be (paper §6)
-    LeastSquares,
-    /// Keep all, and let pins pull by their weights (paper §6)
-    Weighted,
-}
-
-/// Names of the ways to pin more of the boundary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum GrowthName {
-    /// Twice as many each time
-    Double,
-    /// One more each time (paper §5)
-    One,
-}
-
-/// Names of the convex shapes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum BoundaryName {
-    /// A circle
-    Circle,
-    /// A square
-    Square,
-}
-
 /// Size of an embedding that the user's pins do not fix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Fit {
@@ -236,6 +181,12 @@ pub enum Fit {
     Unit,
     /// The area of the surface
     True,
+}
+
+/// Takes one of a few choices by its name, and lists them with a line on each.
+fn choice<C: Choice>() -> impl TypedValueParser<Value = C> {
+    let values = C::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.about()));
+    PossibleValuesParser::new(values).map(|name| C::named(&name).expect("only these names pass"))
 }
 
 fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
@@ -252,7 +203,7 @@ fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
     };
     let (vertex, pin) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
     match pin.hold {
-        Hold::Weighted(weight) if !(weight.is_finite() && weight > 0.0) => {
+        Hold::Weighted(weight) if !pin.hold.is_valid() => {
             Err(format!("the weight {weight} of vertex {vertex} is not a positive number"))
         }
         _ => Ok((vertex, pin)),

@@ -67,6 +67,7 @@ fn report(mesh: MeshReport, start: Instant, read: f64) -> Report {
         verdict: None,
         distortion: None,
         new_vertices: 0,
+        split_edges: Vec::new(),
         seconds: Seconds { read, verify: total - read, total, ..Seconds::default() },
         peak_memory_bytes: peak_memory_bytes(),
     }

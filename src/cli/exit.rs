@@ -60,7 +60,7 @@ impl Failure {
             | Self::Picture(_)
             | Self::Texture(_)
             | Self::NotADisk { .. }
-            | Self::Solve(SolveError::NotFinite { .. }) => 3,
+            | Self::Solve(SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. }) => 3,
             Self::Solve(
                 SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
             )

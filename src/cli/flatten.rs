@@ -7,11 +7,12 @@ use std::time::Instant;
 use super::args::{Fit, FlattenArguments};
 use super::constraints::gather;
 use super::progress::{Progress, interrupted, is_interrupted};
+use super::summary::{ending_words, print_conflicts, print_summary, step_words};
 use super::{Failure, Status};
-use crate::io::{OutputKind, PinsReport, Report, StepReport, StepsFolder};
+use crate::io::{OutputKind, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
-use crate::session::{Document, Finished, Model, Outcome, OutputFit, PictureFile, Placement, Surface};
-use crate::solver::{Control, Ending, Method, Phase, Run, SolveError, Step};
+use crate::session::{Document, Finished, Model, Outcome, OutputFit, PictureFile, Surface};
+use crate::solver::{Control, Ending, Phase, Run, SolveError, Step, conflicts};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     if let Some((option, why)) = arguments.idle_option() {
@@ -80,9 +81,10 @@ impl HeadlessJob<'_> {
         let mesh = disk_of(model)?;
         let read_seconds = start.elapsed().as_secs_f64();
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
-        let Solved { outcome, records, ending } = self.solve(mesh, folder.as_mut(), progress)?;
+        let mut solved = self.solve(mesh, folder.as_mut(), progress)?;
         let [fit, svg_fit] = self.sizes;
-        let mut finished = Finished::new((model, mesh), &outcome, records, fit, read_seconds)
+        let records = std::mem::take(&mut solved.records);
+        let mut finished = Finished::new((model, mesh), &solved.outcome, records, fit, read_seconds)
             .with_picture(self.document.picture.clone())
             .with_svg_fit(svg_fit);
         progress.enter("writing");
@@ -103,8 +105,7 @@ impl HeadlessJob<'_> {
             None => {}
         }
         if self.report != Some(Path::new("-")) {
-            let end = ending_words(&outcome, &finished, &ending);
-            print_summary(&finished.report, &end);
+            print_summary(&finished.report, &ending_words(&solved, &finished));
         }
         Ok(if finished.verdict().planar && are_met(&finished.report) { Status::Fine } else { Status::FallsShort })
     }
@@ -120,7 +121,11 @@ impl HeadlessJob<'_> {
         let control = Control::new(interrupted(), &report_phase);
         let document = &self.document;
         let settings = document.run_settings();
-        let mut run = Run::new(settings, document.plane_pins());
+        let pins = document.plane_pins();
+        if settings.method.uses_pins() {
+            print_conflicts(&conflicts(mesh, &settings.held(&pins)));
+        }
+        let mut run = Run::new(settings, pins);
         let placed = |step: Step| Outcome::new(mesh, settings, (document.frame(), document.pins.clone()), step);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;
@@ -148,53 +153,11 @@ impl HeadlessJob<'_> {
 }
 
 /// A run at its end.
-struct Solved {
-    outcome: Outcome,
+pub(super) struct Solved {
+    pub(super) outcome: Outcome,
     records: Vec<StepReport>,
     /// Why it ended; the error of the rung that gave nothing, where it could not go on.
-    ending: Result<Ending, SolveError>,
-}
-
-/// A rung in words.
-fn rung_words(rung: Method) -> &'static str {
-    match rung {
-        Method::Natural => "natural boundary",
-        Method::Iterate => "iteration",
-        Method::VirtualBoundary => "virtual boundary",
-        other => other.name(),
-    }
-}
-
-/// What a step reached, for the line that follows the work.
-fn step_words(step: &Step) -> String {
-    let number = if step.rung == Method::Iterate { format!(" {}", step.index) } else { String::new() };
-    format!("{}{number}: {}", rung_words(step.rung), step.verdict.summary())
-}
-
-/// The verdict, and after how many steps and on which rung a run of several came to it.
-fn ending_words(outcome: &Outcome, finished: &Finished, ending: &Result<Ending, SolveError>) -> String {
-    let mut words = finished.verdict().summary();
-    let step = &outcome.step;
-    if outcome.settings.method.takes_steps() {
-        let count = finished.report.steps.len();
-        let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
-        let why = match ending {
-            Ok(Ending::Planar | Ending::Done) => String::new(),
-            Ok(Ending::Unmet) => ", constraints not met".to_owned(),
-            Ok(Ending::Stalled) => ", which gets no better".to_owned(),
-            Ok(Ending::Limit) => ", as many as it may take".to_owned(),
-            Err(error) => format!("; the next gave nothing: {error}"),
-        };
-        let steps = if count == 1 { "step" } else { "steps" };
-        let rung = rung_words(step.rung);
-        words = format!("{words} after {count} {steps} ({rung}{boundary}{why})");
-    }
-    if finished.report.placement == Some(Placement::Unmoved.name()) {
-        words += "; not moved into the unit square, whose numbers would fold it";
-    } else if step.verdict.planar && !finished.verdict().planar {
-        words += "; it was planar before it was brought to this size: try --fit true";
-    }
-    words
+    pub(super) ending: Result<Ending, SolveError>,
 }
 
 /// Writes a report to standard output, which must then hold nothing else.
@@ -219,23 +182,7 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
 
 /// Whether every constraint that is to be met exactly is.
 fn are_met(report: &Report) -> bool {
-    report.pins.as_ref().and_then(|pins| pins.max_hard_error).is_none_or(|error| error == 0.0)
-}
-
-/// What became of the user's pins.
-fn pins_words(pins: &PinsReport) -> Option<String> {
-    let hard = pins.max_hard_error.map(|error| {
-        let count = pins.count - pins.weighted.len();
-        let how = if error == 0.0 { "met exactly".to_owned() } else { format!("missed by up to {error:.1e}") };
-        format!("{count} hard {how}")
-    });
-    let worst = pins.weighted.iter().max_by(|a, b| a.error.total_cmp(&b.error));
-    let weighted = worst.map(|worst| {
-        let count = pins.weighted.len();
-        format!("{count} weighted met within {:.1e} (the farthest is vertex {})", worst.error, worst.vertex)
-    });
-    let parts: Vec<String> = hard.into_iter().chain(weighted).collect();
-    (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
+    report.pins.as_ref().is_none_or(|pins| pins.unmet.is_empty())
 }
 
 fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
@@ -244,33 +191,4 @@ fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
         .num_threads(count.into())
         .build_global()
         .map_err(|error| Failure::Usage(format!("cannot run {count} threads: {error}")))
-}
-
-fn print_summary(report: &Report, verdict: &str) {
-    let mesh = &report.mesh;
-    println!(
-        "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
-        mesh.path, mesh.vertices, mesh.faces, mesh.boundary_vertices, mesh.dividing_edges, mesh.ears
-    );
-    let family = report.family.as_deref().map(|family| format!(", {family} weights")).unwrap_or_default();
-    let residual = report.steps.last().map_or(0.0, |step| step.residual);
-    println!("{}{family}: {verdict}; residual {residual:.1e}", report.method.unwrap_or("check"));
-    if let Some(words) = report.pins.as_ref().and_then(pins_words) {
-        println!("{words}");
-    }
-    if let Some(distortion) = &report.distortion {
-        println!(
-            "angle distortion {:.3} mean, {:.3} p99; area {:.3} mean; stretch L² {:.3}, L∞ {:.3}",
-            distortion.angle.mean,
-            distortion.angle.p99,
-            distortion.area.mean,
-            distortion.stretch_l2,
-            distortion.stretch_linf
-        );
-    }
-    let seconds = &report.seconds;
-    println!(
-        "{:.3} s: read {:.3}, solve {:.3}, verify {:.3}, write {:.3}",
-        seconds.total, seconds.read, seconds.solve, seconds.verify, seconds.write
-    );
 }

@@ -9,6 +9,7 @@ mod figures;
 mod flatten;
 mod methods;
 mod progress;
+mod summary;
 
 use std::process::ExitCode;
 

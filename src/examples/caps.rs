@@ -55,10 +55,25 @@ pub(super) fn dome() -> TriMesh {
     cap(&rim(|_| 75_f64.to_radians()), 0.072, 0xd03e, &unproject)
 }
 
+/// Spacing of the vertices of the bumpy cap.
+const BUMPY_SPACING: f64 = 0.085;
+
+/// How many vertices the bumpy cap has at that spacing.
+const BUMPY_COUNT: f64 = 1763.0;
+
 /// A ball with bumps, open below about 130° from the pole, its rim wavy.
 pub(super) fn bumpy_cap() -> TriMesh {
+    bumpy(BUMPY_SPACING, 0xb3b7)
+}
+
+/// The bumpy cap with about so many vertices, which lie otherwise for each seed.
+pub fn bumpy_cap_of(vertices: usize, seed: u64) -> TriMesh {
+    bumpy(BUMPY_SPACING * (BUMPY_COUNT / vertices as f64).sqrt(), seed)
+}
+
+fn bumpy(spacing: f64, seed: u64) -> TriMesh {
     let rim = rim(|turn| (130.0 + 5.0 * (5.0 * TAU * turn).sin() + 3.0 * (2.0 * TAU * turn).cos()).to_radians());
-    cap(&rim, 0.085, 0xb3b7, &|p| {
+    cap(&rim, spacing, seed, &|p| {
         let x = unproject(p);
         x * bumps(x)
     })

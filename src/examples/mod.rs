@@ -25,6 +25,7 @@ mod sculpt;
 use crate::geom::Picture;
 use crate::mesh::TriMesh;
 
+pub use caps::bumpy_cap_of;
 pub use landmarks::{Landmark, face_landmarks};
 pub use portrait::portrait;
 

@@ -1,6 +1,7 @@
 //! The plane: exact predicates on points, segments and closed polygons, convex hulls, and pictures. Knows no mesh.
 
 mod crossings;
+mod delaunay;
 mod hull;
 mod orient;
 mod outside;
@@ -10,6 +11,7 @@ mod polygon;
 mod similarity;
 
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, segments_meet};
+pub use delaunay::delaunay_triangles;
 pub use hull::convex_hull;
 pub use orient::{Orientation, orientation};
 pub use outside::outside_triangles;

@@ -189,12 +189,10 @@ fn parse_line(text: &str) -> Result<(VertexId, Pin), ConstraintFault> {
         None => Hold::Hard,
         Some(word) => Hold::Weighted(number(word)?),
     };
-    if let Hold::Weighted(weight) = hold
-        && !(weight.is_finite() && weight > 0.0)
-    {
-        return Err(ConstraintFault::WeightNotPositive { vertex, weight });
+    match hold {
+        Hold::Weighted(weight) if !hold.is_valid() => Err(ConstraintFault::WeightNotPositive { vertex, weight }),
+        _ => Ok((vertex, Pin { target, hold })),
     }
-    Ok((vertex, Pin { target, hold }))
 }
 
 /// Writes pins as a constraint file; numbers read back bit for bit.

@@ -11,6 +11,7 @@ mod obj_line;
 mod obj_material;
 mod obj_parse;
 mod obj_read;
+mod obj_refined;
 mod obj_texture;
 mod obj_write;
 mod output;
@@ -30,6 +31,7 @@ pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, Texture
 pub use material::material_picture;
 pub use obj::{NO_TEXTURE, ObjMesh, Statement, Texture};
 pub use obj_read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
+pub use obj_refined::refined_obj;
 pub use obj_texture::TextureMesh;
 pub use obj_write::write_obj;
 pub use output::{Output, OutputKind, TexturePicture, layout_picture};

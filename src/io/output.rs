@@ -9,9 +9,9 @@ use super::obj_material::write_obj_with_picture;
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::Report;
 use super::svg::{SvgPage, write_svg};
-use super::{ObjMesh, WriteError, write_atomically, write_obj};
+use super::{ObjMesh, WriteError, refined_obj, write_atomically, write_obj};
 use crate::geom::Picture;
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, Refinement};
 use crate::solver::Verdict;
 
 /// Width and height of each half of a picture, pixels.
@@ -77,8 +77,10 @@ pub struct TexturePicture<'a> {
 pub struct Output<'a> {
     /// The file's contents as read.
     pub source: &'a ObjMesh,
-    /// Its triangles.
+    /// The mesh that the coordinates are of: its triangles, or the refinement's.
     pub mesh: &'a DiskMesh,
+    /// The mesh with its new vertices, where there are any.
+    pub refinement: Option<&'a Refinement>,
     /// One texture coordinate per vertex.
     pub coordinates: &'a [DVec2],
     /// The verdict on these coordinates.
@@ -119,17 +121,25 @@ impl Output<'_> {
     ///
     /// Where the file cannot be written; the error names it.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
-        if let (OutputKind::Obj, Some(picture)) = (kind, &self.picture) {
-            return write_obj_with_picture(path, (self.source, self.coordinates), picture);
-        }
-        write_atomically(path, |out| match kind {
-            OutputKind::Obj => write_obj(out, self.source, self.coordinates),
-            OutputKind::Svg => write_svg(out, self.mesh, (self.coordinates, self.verdict), self.svg_page),
-            OutputKind::Png => self.picture().write_png(out).map_err(io::Error::other),
-            OutputKind::Json => {
+        match kind {
+            OutputKind::Obj => self.write_obj(path),
+            OutputKind::Svg => {
+                write_atomically(path, |out| write_svg(out, self.mesh, (self.coordinates, self.verdict), self.svg_page))
+            }
+            OutputKind::Png => write_atomically(path, |out| self.picture().write_png(out).map_err(io::Error::other)),
+            OutputKind::Json => write_atomically(path, |out| {
                 serde_json::to_writer_pretty(&mut *out, self.report)?;
                 writeln!(out)
-            }
-        })
+            }),
+        }
+    }
+
+    fn write_obj(&self, path: &Path) -> Result<(), WriteError> {
+        let refined = self.refinement.map(|refinement| refined_obj(self.source, refinement));
+        let mesh = refined.as_ref().unwrap_or(self.source);
+        match &self.picture {
+            Some(picture) => write_obj_with_picture(path, (mesh, self.coordinates), picture),
+            None => write_atomically(path, |out| write_obj(out, mesh, self.coordinates)),
+        }
     }
 }

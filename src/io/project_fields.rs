@@ -2,12 +2,13 @@
 //! told with the line of its field.
 
 use std::fmt;
+use std::marker::PhantomData;
 use std::str::FromStr as _;
 
-use serde::de::{Error, Visitor};
+use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::solver::Family;
+use crate::solver::{Choice, Family, Hold};
 
 /// A family by its name.
 #[derive(Clone, Default)]
@@ -40,6 +41,37 @@ impl Visitor<'_> for FamilyVisitor {
     }
 }
 
+/// One of a few choices by its name.
+#[derive(Clone, Copy, Default)]
+pub(super) struct RawChoice<C>(pub(super) C);
+
+impl<C: Choice> Serialize for RawChoice<C> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0.name())
+    }
+}
+
+impl<'de, C: Choice> Deserialize<'de> for RawChoice<C> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_str(ChoiceVisitor(PhantomData))
+    }
+}
+
+struct ChoiceVisitor<C>(PhantomData<C>);
+
+impl<C: Choice> Visitor<'_> for ChoiceVisitor<C> {
+    type Value = RawChoice<C>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<&str> = C::ALL.iter().map(|choice| choice.name()).collect();
+        write!(f, "one of {}", names.join(", "))
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<RawChoice<C>, E> {
+        C::named(text).map(RawChoice).ok_or_else(|| E::invalid_value(Unexpected::Str(text), &self))
+    }
+}
+
 /// A weight: a positive number.
 #[derive(Clone, Copy)]
 pub(super) struct RawWeight(pub(super) f64);
@@ -66,7 +98,7 @@ impl Visitor<'_> for WeightVisitor {
     }
 
     fn visit_f64<E: Error>(self, weight: f64) -> Result<RawWeight, E> {
-        let is_weight = weight.is_finite() && weight > 0.0;
+        let is_weight = Hold::Weighted(weight).is_valid();
         is_weight.then_some(RawWeight(weight)).ok_or_else(|| E::custom(format!("the weight {weight} is not positive")))
     }
 

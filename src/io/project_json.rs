@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::FileStamp;
 use super::project::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
-use super::project_fields::{RawFamily, RawWeight};
+use super::project_fields::{RawChoice, RawFamily, RawWeight};
 use crate::geom::VAxis;
 use crate::mesh::VertexId;
 use crate::solver::{BoundaryShape, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
@@ -25,17 +25,21 @@ pub(super) struct RawProject {
     #[serde(default)]
     v_axis: RawVAxis,
     #[serde(default)]
-    method: RawMethod,
+    method: RawChoice<Method>,
     #[serde(default)]
-    boundary: RawBoundary,
+    boundary: RawChoice<BoundaryShape>,
     #[serde(default)]
     family: RawFamily,
     #[serde(default)]
-    treatment: Option<RawTreatment>,
+    treatment: Option<RawChoice<Treatment>>,
     #[serde(default)]
-    growth: RawGrowth,
+    growth: RawChoice<Growth>,
     #[serde(default = "usual_max_steps")]
     max_steps: usize,
+    #[serde(default)]
+    relax_rounds: usize,
+    #[serde(default = "usually_allowed")]
+    new_vertices: bool,
     #[serde(default)]
     pins: RawPins,
     #[serde(default)]
@@ -46,6 +50,10 @@ pub(super) struct RawProject {
 
 fn usual_max_steps() -> usize {
     Settings::MAX_STEPS
+}
+
+fn usually_allowed() -> bool {
+    true
 }
 
 #[derive(Serialize, Deserialize)]
@@ -100,45 +108,6 @@ enum RawVAxis {
     #[default]
     Up,
     Down,
-}
-
-#[derive(Clone, Copy, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum RawMethod {
-    #[default]
-    Auto,
-    Natural,
-    Iterate,
-    VirtualBoundary,
-    Convex,
-    Lscm,
-    Levy,
-    Continuation,
-    Matchmaker,
-}
-
-#[derive(Clone, Copy, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum RawBoundary {
-    #[default]
-    Circle,
-    Square,
-}
-
-#[derive(Clone, Copy, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum RawTreatment {
-    Eliminate,
-    LeastSquares,
-    Weighted,
-}
-
-#[derive(Clone, Copy, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum RawGrowth {
-    #[default]
-    Double,
-    One,
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -212,21 +181,17 @@ impl From<RawPins> for Vec<RawPin> {
 impl From<RawProject> for ProjectFile {
     fn from(raw: RawProject) -> Self {
         let settings = Settings {
-            method: method(raw.method, raw.boundary),
-            family: raw.family.0,
-            treatment: raw.treatment.map(|treatment| match treatment {
-                RawTreatment::Eliminate => Treatment::Eliminate,
-                RawTreatment::LeastSquares => Treatment::LeastSquares,
-                RawTreatment::Weighted => Treatment::Weighted,
-            }),
-            max_steps: raw.max_steps,
-            growth: match raw.growth {
-                RawGrowth::Double => Growth::Double,
-                RawGrowth::One => Growth::One,
+            method: match raw.method.0 {
+                Method::Convex(_) => Method::Convex(raw.boundary.0),
+                other => other,
             },
+            family: raw.family.0,
+            treatment: raw.treatment.map(|treatment| treatment.0),
+            max_steps: raw.max_steps,
+            growth: raw.growth.0,
             size: GaugeSize::default(),
-            relax_rounds: 0,
-            new_vertices: true,
+            relax_rounds: raw.relax_rounds,
+            new_vertices: raw.new_vertices,
         };
         Self {
             mesh: raw.mesh.0,
@@ -244,27 +209,13 @@ impl From<RawProject> for ProjectFile {
     }
 }
 
-fn method(name: RawMethod, boundary: RawBoundary) -> Method {
-    match name {
-        RawMethod::Auto => Method::Auto,
-        RawMethod::Natural => Method::Natural,
-        RawMethod::Iterate => Method::Iterate,
-        RawMethod::VirtualBoundary => Method::VirtualBoundary,
-        RawMethod::Convex => Method::Convex(match boundary {
-            RawBoundary::Circle => BoundaryShape::Circle,
-            RawBoundary::Square => BoundaryShape::Square,
-        }),
-        RawMethod::Lscm => Method::Lscm,
-        RawMethod::Levy => Method::Levy,
-        RawMethod::Continuation => Method::Continuation,
-        RawMethod::Matchmaker => Method::Matchmaker,
-    }
-}
-
 impl From<ProjectFile> for RawProject {
     fn from(project: ProjectFile) -> Self {
         let settings = project.settings;
-        let (method, boundary) = names_of(settings.method);
+        let boundary = match settings.method {
+            Method::Convex(shape) => shape,
+            _ => BoundaryShape::default(),
+        };
         Self {
             freebound_project: PROJECT_VERSION,
             mesh: RawSource(project.mesh),
@@ -274,39 +225,17 @@ impl From<ProjectFile> for RawProject {
                 VAxis::Up => RawVAxis::Up,
                 VAxis::Down => RawVAxis::Down,
             },
-            method,
-            boundary,
+            method: RawChoice(settings.method),
+            boundary: RawChoice(boundary),
             family: RawFamily(settings.family),
-            treatment: settings.treatment.map(|treatment| match treatment {
-                Treatment::Eliminate => RawTreatment::Eliminate,
-                Treatment::LeastSquares => RawTreatment::LeastSquares,
-                Treatment::Weighted => RawTreatment::Weighted,
-            }),
-            growth: match settings.growth {
-                Growth::Double => RawGrowth::Double,
-                Growth::One => RawGrowth::One,
-            },
+            treatment: settings.treatment.map(RawChoice),
+            growth: RawChoice(settings.growth),
             max_steps: settings.max_steps,
+            relax_rounds: settings.relax_rounds,
+            new_vertices: settings.new_vertices,
             pins: RawPins(project.pins),
             view: project.view,
             recovery: project.recovery,
         }
     }
-}
-
-fn names_of(method: Method) -> (RawMethod, RawBoundary) {
-    let name = match method {
-        Method::Auto => RawMethod::Auto,
-        Method::Natural => RawMethod::Natural,
-        Method::Iterate => RawMethod::Iterate,
-        Method::VirtualBoundary => RawMethod::VirtualBoundary,
-        Method::Convex(BoundaryShape::Circle) => RawMethod::Convex,
-        Method::Convex(BoundaryShape::Square) => return (RawMethod::Convex, RawBoundary::Square),
-        Method::Lscm => RawMethod::Lscm,
-        Method::Levy => RawMethod::Levy,
-        // Relaxing is a rung: it is never chosen.
-        Method::Continuation | Method::Relax => RawMethod::Continuation,
-        Method::Matchmaker => RawMethod::Matchmaker,
-    };
-    (name, RawBoundary::Circle)
 }

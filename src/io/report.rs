@@ -38,6 +38,8 @@ pub struct Report {
     pub distortion: Option<DistortionSummary>,
     /// Vertices that the mesh did not have before.
     pub new_vertices: usize,
+    /// The edges that they lie on, by their ends.
+    pub split_edges: Vec<[VertexId; 2]>,
     /// Where the time went.
     pub seconds: Seconds,
     /// Most memory that the process held, where the system tells.
@@ -90,7 +92,9 @@ pub struct PinsReport {
     /// The same of those that pull by a weight.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_weighted_error: Option<f64>,
-    /// Each of these.
+    /// Vertices that are to be met exactly and are not.
+    pub unmet: Vec<VertexId>,
+    /// Each of those that pull by a weight.
     pub weighted: Vec<WeightedPinReport>,
 }
 
@@ -122,7 +126,7 @@ pub struct StepReport {
     pub turning_number: Option<i64>,
     /// Largest move of a vertex since the step before.
     pub max_move: Option<f64>,
-    /// ‖Ax − b‖ / ‖b‖ of the linear solve.
+    /// ‖Ax − b‖ / ‖b‖ of the linear solve; null where there is none, as in the next.
     pub residual: f64,
     /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sum of their terms' sizes.
     pub equation_residual: f64,
@@ -138,6 +142,13 @@ pub struct StepReport {
     pub seconds: f64,
     /// Proved one-to-one.
     pub planar: bool,
+    /// Mean energy of the faces' maps, 2 where nothing is distorted; null but in continuation and relaxing, as the
+    /// next two are.
+    pub energy: Option<f64>,
+    /// Smallest determinant of a face's map, at equal total areas.
+    pub least_determinant: Option<f64>,
+    /// Largest distance of an exact pin from its target, in the plane.
+    pub distance_left: Option<f64>,
     /// What else there is to say about the step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
@@ -155,7 +166,7 @@ fn quoted(text: &str) -> String {
 
 impl StepReport {
     /// Names of the fields, as heads of a table's columns.
-    pub const COLUMNS: [&str; 16] = [
+    pub const COLUMNS: [&str; 19] = [
         "rung",
         "index",
         "flipped_faces",
@@ -171,11 +182,14 @@ impl StepReport {
         "factor_bytes",
         "seconds",
         "planar",
+        "energy",
+        "least_determinant",
+        "distance_left",
         "note",
     ];
 
     /// The fields as cells of a table, in the order of [`Self::COLUMNS`]; empty where there is nothing to say.
-    pub fn cells(&self) -> [String; 16] {
+    pub fn cells(&self) -> [String; 19] {
         [
             self.rung.to_owned(),
             self.index.to_string(),
@@ -192,6 +206,9 @@ impl StepReport {
             self.factor_bytes.to_string(),
             cell(self.seconds),
             self.planar.to_string(),
+            self.energy.map(cell).unwrap_or_default(),
+            self.least_determinant.map(cell).unwrap_or_default(),
+            self.distance_left.map(cell).unwrap_or_default(),
             self.note.as_deref().map(quoted).unwrap_or_default(),
         ]
     }
@@ -215,6 +232,9 @@ impl StepReport {
             factor_bytes: solution.factor_bytes,
             seconds: step.seconds(),
             planar: verdict.planar,
+            energy: step.progress.map(|progress| progress.energy),
+            least_determinant: step.progress.map(|progress| progress.least_determinant),
+            distance_left: step.progress.map(|progress| progress.distance_left),
             note: step.note.clone(),
         }
     }

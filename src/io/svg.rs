@@ -77,13 +77,13 @@ pub fn write_svg(
 }
 
 /// Draws a step as [`write_svg`] does; one of the virtual boundary with the outline it was solved with (the hull, as a
-/// red line) and the pockets (green).
+/// red line) and the pockets (green). `mesh` is the mesh as given; new vertices are the step's own.
 ///
 /// # Errors
 ///
 /// If `out` cannot be written.
 pub fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io::Result<()> {
-    let embedding = &step.solution.embedding;
+    let (embedding, mesh) = (&step.solution.embedding, step.mesh(mesh));
     let outside = step.virtual_boundary.as_deref().map(|stages| {
         // The step's embedding may have been turned and scaled since it was solved; the outside goes with it.
         let fit = Similarity::between(&stages.solved[..embedding.len()], embedding);

@@ -85,6 +85,24 @@ impl Analysis {
         Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
     }
 
+    /// The same kind of analysis for another pattern of the same order, in the order of elimination that this one has
+    /// where that is kept: for patterns that differ in a few places, whose best order is nearly the same.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Analysis::new`].
+    pub fn of_similar(&self, pattern: &SparsityPattern) -> Result<Self, LinalgError> {
+        match &self.shared.symbolic {
+            Symbolic::Llt(llt) if self.shared.pattern.order() == pattern.major_dim() => {
+                let pattern = Pattern::checked(pattern)?;
+                let symbolic = Symbolic::Llt(LltAnalysis::new(&pattern, &llt.order())?);
+                Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
+            }
+            Symbolic::Llt(_) => Self::new(Kind::Hermitian, pattern),
+            Symbolic::Lu(_) => Self::new(Kind::General, pattern),
+        }
+    }
+
     /// Factors a matrix of the analysed pattern. The LU looks at `cancel` at every supernode, the Cholesky
     /// factorization only before and after.
     ///

@@ -51,6 +51,12 @@ impl LltAnalysis {
         Ok(Self { symbolic })
     }
 
+    /// The order of elimination.
+    pub(super) fn order(&self) -> Order {
+        let natural = || (0..).take(self.symbolic.nrows()).collect();
+        Order::from_new_to_old(self.symbolic.perm().map_or_else(natural, |perm| perm.arrays().0.to_vec()))
+    }
+
     /// Factors A, or −A where the diagonal is negative.
     pub(super) fn factor<T: Scalar>(&self, pattern: &Pattern, matrix: &CscMatrix<T>) -> Result<Llt<T>, LinalgError> {
         let n = pattern.order();

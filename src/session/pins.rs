@@ -29,7 +29,7 @@ impl Session {
     /// Pins a vertex, or places its pin anew.
     pub(super) fn place(&mut self, vertex: VertexId, pin: Pin) {
         let count = self.model.as_ref().map_or(0, |model| model.mesh().vertex_count());
-        if vertex.index() < count && pin.target.is_finite() && can_hold(pin.hold) && self.takes_pins() {
+        if vertex.index() < count && pin.target.is_finite() && pin.hold.is_valid() && self.takes_pins() {
             self.edit(vec![Command::SetPin { vertex, pin: Some(pin) }]);
         }
     }
@@ -75,7 +75,7 @@ impl Session {
     }
 
     fn holds(&self, vertices: &[VertexId], hold: Hold) -> Vec<Command> {
-        if !can_hold(hold) {
+        if !hold.is_valid() {
             return Vec::new();
         }
         let command = |&vertex: &VertexId| {
@@ -113,11 +113,6 @@ impl Session {
         self.fail(Place::Embedding, text, Some("choose another method to pin vertices"));
         false
     }
-}
-
-/// Whether a pin can be held so: a weight is a positive number.
-fn can_hold(hold: Hold) -> bool {
-    !matches!(hold, Hold::Weighted(weight) if !(weight.is_finite() && weight > 0.0))
 }
 
 /// The gauge pins as pins of the user's, each where it lies; the user's own stay what they are.

@@ -12,7 +12,7 @@ use crate::io::{
     MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, SvgPage, TexturePicture,
     WeightedPinReport, WriteError, peak_memory_bytes, verdict_as_in_file,
 };
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, Refinement, VertexId};
 use crate::solver::{Hold, Pin, Verdict, distortion, verdict};
 
 /// A file to write.
@@ -31,6 +31,7 @@ pub struct SaveRequest {
 pub struct Finished<'a> {
     model: &'a Model,
     mesh: &'a DiskMesh,
+    refinement: Option<&'a Refinement>,
     /// As files have them, v up.
     coordinates: Vec<DVec2>,
     verdict: Verdict,
@@ -84,10 +85,12 @@ impl<'a> Finished<'a> {
             verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
             distortion: Some(summary),
             new_vertices: outcome.new_vertex_count(),
+            split_edges: outcome.step.refinement.as_ref().map(|r| r.split_edges()).unwrap_or_default(),
             seconds: Seconds { read: read_seconds, solve, verify, write: 0.0, total: read_seconds + solve + verify },
             peak_memory_bytes: peak_memory_bytes(),
         };
-        Self { model, mesh, coordinates, verdict, aspect, picture: None, svg_fit: fit, report }
+        let refinement = outcome.step.refinement.as_deref();
+        Self { model, mesh, refinement, coordinates, verdict, aspect, picture: None, svg_fit: fit, report }
     }
 
     /// With a picture, which goes beside an OBJ file and on the mesh in a PNG file.
@@ -115,6 +118,7 @@ impl<'a> Finished<'a> {
         let output = Output {
             source: &self.model.source,
             mesh: self.mesh,
+            refinement: self.refinement,
             coordinates: &self.coordinates,
             verdict: &self.verdict,
             report: &self.report,
@@ -139,7 +143,7 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
     let settings = &outcome.settings;
     let held = settings.held(&outcome.pins);
     let (mut max_hard_error, mut max_weighted_error) = (None::<f64>, None::<f64>);
-    let mut weighted = Vec::new();
+    let (mut weighted, mut unmet) = (Vec::new(), Vec::new());
     for (&vertex, pin) in held.iter().filter(|_| settings.method.uses_pins()) {
         let written = coordinates[vertex.index()].distance(pin.target);
         let (largest, error) = match pin.hold {
@@ -147,7 +151,13 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
                 weighted.push(WeightedPinReport { vertex, weight, error: written });
                 (&mut max_weighted_error, written)
             }
-            Hold::Fixed | Hold::Hard => (&mut max_hard_error, written.max(solver_error(outcome, vertex, pin))),
+            Hold::Fixed | Hold::Hard => {
+                let error = written.max(solver_error(outcome, vertex, pin));
+                if error != 0.0 {
+                    unmet.push(vertex);
+                }
+                (&mut max_hard_error, error)
+            }
         };
         *largest = Some(largest.unwrap_or(0.0).max(error));
     }
@@ -157,6 +167,7 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
         max_error: max_hard_error.unwrap_or(0.0).max(max_weighted_error.unwrap_or(0.0)),
         max_hard_error,
         max_weighted_error,
+        unmet,
         weighted,
     }
 }

@@ -1,4 +1,99 @@
-//! Methods and families as a person meets them: name, one line, source.
+//! What can be chosen, as a person meets it: methods and families with name, one line and source; boundary shapes,
+//! treatments and growths with name and one line. The command line, reports and project files all have it from here.
+
+use super::{BoundaryShape, Growth, Method, Treatment};
+
+/// One of a few things to choose by name.
+pub trait Choice: Copy + Send + Sync + 'static {
+    /// All there are, in the order of menus.
+    const ALL: &'static [Self];
+
+    /// The name on the command line, in reports and in project files.
+    fn name(self) -> &'static str;
+
+    /// What it does, in one line.
+    fn about(self) -> &'static str;
+
+    /// The one with this name.
+    fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|choice| choice.name() == name)
+    }
+}
+
+/// The methods; that of a convex boundary with a circle, whose shape is a choice of its own. Relaxing is a rung only.
+impl Choice for Method {
+    const ALL: &'static [Self] = &[
+        Self::Auto,
+        Self::Natural,
+        Self::Iterate,
+        Self::VirtualBoundary,
+        Self::Convex(BoundaryShape::Circle),
+        Self::Lscm,
+        Self::Levy,
+        Self::Continuation,
+        Self::Matchmaker,
+    ];
+
+    fn name(self) -> &'static str {
+        Method::name(self)
+    }
+
+    fn about(self) -> &'static str {
+        METHODS.iter().find(|entry| entry.name == self.name()).map_or("", |entry| entry.about)
+    }
+}
+
+impl Choice for BoundaryShape {
+    const ALL: &'static [Self] = &[Self::Circle, Self::Square];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Circle => "circle",
+            Self::Square => "square",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Circle => "a circle",
+            Self::Square => "a square",
+        }
+    }
+}
+
+impl Choice for Treatment {
+    const ALL: &'static [Self] = &[Self::Eliminate, Self::LeastSquares, Self::Weighted];
+
+    fn name(self) -> &'static str {
+        Treatment::name(self)
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Eliminate => "leave them out (paper §3.3)",
+            Self::LeastSquares => "keep all, meet them as well as can be (paper §6)",
+            Self::Weighted => "keep all, and let pins pull by their weights (paper §6)",
+        }
+    }
+}
+
+impl Choice for Growth {
+    const ALL: &'static [Self] = &[Self::Double, Self::One];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Double => "double",
+            Self::One => "one",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Double => "twice as many each time",
+            Self::One => "one more each time (paper §5)",
+        }
+    }
+}
 
 /// One thing to choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,3 +202,27 @@ pub const FAMILIES: &[CatalogueEntry] = &[
         source: "Floater 1997",
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_told_apart<C: Choice + PartialEq + std::fmt::Debug>() {
+        for &choice in C::ALL {
+            assert_eq!(C::named(choice.name()), Some(choice), "a name of its own");
+            assert!(!choice.about().is_empty(), "{choice:?}");
+        }
+        assert_eq!(C::named("relax"), None);
+    }
+
+    #[test]
+    fn every_choice_has_a_name_of_its_own_and_a_line_on_it() {
+        assert_told_apart::<Method>();
+        assert_told_apart::<BoundaryShape>();
+        assert_told_apart::<Treatment>();
+        assert_told_apart::<Growth>();
+        let listed: Vec<&str> = METHODS.iter().map(|entry| entry.name).collect();
+        let chosen: Vec<&str> = Method::ALL.iter().map(|method| method.name()).collect();
+        assert_eq!(listed, chosen, "one order for all");
+    }
+}

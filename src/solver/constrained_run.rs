@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::continuation::{Accepted, Continuation};
+use super::matchmaker::{Matched, matched};
 use super::{Control, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step};
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
@@ -41,6 +42,13 @@ impl ConstrainedRun {
 
     /// The next planar embedding.
     pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Reached, SolveError> {
+        if self.settings.method == Method::Matchmaker {
+            let start = fitted(planar_start(mesh, &self.settings, control)?, &self.pins);
+            let Matched { refinement, embedding } = matched(mesh, &start, &self.pins, control)?;
+            self.is_exhausted = true;
+            let (rung, refinement) = (Method::Matchmaker, Some(Arc::new(refinement)));
+            return Ok(Reached { rung, embedding, progress: None, outside: None, refinement });
+        }
         let Some(continuation) = &mut self.continuation else {
             let start = planar_start(mesh, &self.settings, control)?;
             let embedding = fitted(start, &self.pins);

@@ -11,6 +11,7 @@
 //! area         σ₁ σ₂ = A′ / A                  1 where the area is kept
 //! stretch L²   √((1/σ₁² + 1/σ₂²) / 2)          root mean square length on the surface of unit vectors of the plane
 //! stretch L∞   1/σ₂                            the greatest such length
+//! symmetric    |J|² + |J⁻¹|², the sum of all σ² and 1/σ²: Dirichlet's energy both ways, 4 where nothing is distorted
 //!
 //! with J = (a b; c d):    σ₁ = (|(a + d, c − b)| + |(a − d, b + c)|) / 2,    σ₁ σ₂ = |ad − bc|
 //! ```
@@ -53,6 +54,15 @@ pub struct FaceDistortion {
     pub stretch_linf: f64,
 }
 
+impl FaceDistortion {
+    /// Symmetric Dirichlet energy |J|² + |J⁻¹|², at least 4.
+    pub fn symmetric_dirichlet(&self) -> f64 {
+        // |J⁻¹|² is twice the squared mean stretch, and |J| = |J⁻¹| · det J; a face of area zero has no J.
+        let forth = if self.area > 0.0 { self.stretch_l2 * self.area } else { 0.0 };
+        2.0 * (self.stretch_l2.powi(2) + forth.powi(2))
+    }
+}
+
 /// Distortion of an embedding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distortion {
@@ -73,6 +83,15 @@ pub struct DistortionSummary {
     pub stretch_l2: f64,
     /// Greatest stretch from the plane to the surface.
     pub stretch_linf: f64,
+    /// Symmetric Dirichlet energy: |J|² + |J⁻¹|².
+    pub symmetric_dirichlet: Mean,
+}
+
+/// The mean of a quantity over the surface; an infinite one is shown as `null` in JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Mean {
+    /// Mean, weighted by area on the surface.
+    pub mean: f64,
 }
 
 /// How a quantity is spread over the surface. Infinite values are shown as `null` in JSON.
@@ -193,7 +212,10 @@ fn summary(faces: &[FaceDistortion], weights: &[f64]) -> DistortionSummary {
         },
     );
     let stretch_linf = weighted(|face| face.stretch_linf).into_iter().map(|(value, _)| value).fold(1.0, f64::max);
-    DistortionSummary { angle, area, stretch_l2, stretch_linf }
+    // A quarter is 1 where nothing is distorted, as all other values are.
+    let quarter = mean(&weighted(|face| face.symmetric_dirichlet() / 4.0));
+    let symmetric_dirichlet = Mean { mean: 4.0 * quarter };
+    DistortionSummary { angle, area, stretch_l2, stretch_linf, symmetric_dirichlet }
 }
 
 /// The mean of values with positive weights; 1 where there are none.

@@ -97,6 +97,10 @@ pub enum SolveError {
     #[error("the constraints cannot be met without new vertices: the best planar embedding is the step before")]
     Unmet,
 
+    /// Paths match the targets, but the faces between them are too fine.
+    #[error("64-bit numbers cannot hold the faces between the targets apart: move targets that are near to each other")]
+    TooFine,
+
     /// Relaxing was asked for where faces overlap.
     #[error("only a planar embedding can be relaxed: make it planar first")]
     NotPlanar,

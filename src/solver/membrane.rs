@@ -82,19 +82,19 @@ pub(super) struct Limits {
 pub(super) struct Descent {
     /// Smallest determinant.
     pub(super) least_determinant: f64,
-    /// Steps taken.
-    pub(super) steps: usize,
-    /// Whether it ended because no step lowers the energy by much.
-    pub(super) converged: bool,
+    /// The share of the energy that was gained since the triangles were unfolded.
+    pub(super) gain: f64,
 }
 
 impl Membrane {
-    /// Plans the energy of `elements` over points of which some are held.
+    /// Plans the energy of `elements` over points of which some are held. `similar` is one over the same points, most of
+    /// whose elements are the same: its order of elimination is kept.
     pub(super) fn new(
         point_count: usize,
         elements: Vec<Element>,
         springs: Vec<Spring>,
         is_held: impl Fn(u32) -> bool,
+        similar: Option<&Self>,
     ) -> Result<Self, SolveError> {
         let mut unknown_of = vec![HELD; point_count];
         let mut unknowns = Vec::new();
@@ -129,7 +129,11 @@ impl Membrane {
         let column_length = neighbours.0.windows(2).map(|pair| number(2 * (pair[1] - pair[0]))).collect();
         let diagonal = (0..number(unknowns.len())).map(|unknown| place(unknown, unknown)).collect();
         let pattern = block_pattern(&neighbours);
-        let analysis = Analysis::new(Kind::Hermitian, &pattern).map_err(of_the_system)?;
+        let analysis = match similar {
+            Some(similar) => similar.analysis.of_similar(&pattern),
+            None => Analysis::new(Kind::Hermitian, &pattern),
+        };
+        let analysis = analysis.map_err(of_the_system)?;
         Ok(Self { elements, springs, unknown_of, unknowns, pattern, slots, column_length, diagonal, analysis })
     }
 
@@ -155,11 +159,11 @@ impl Membrane {
         self.elements.par_iter().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
     }
 
-    /// The longest step along a direction that folds nothing.
-    fn longest_step(&self, z: &[DVec2], direction: &[DVec2]) -> f64 {
+    /// The longest step along a direction that folds none of the first `count` elements.
+    pub(super) fn longest_step(&self, z: &[DVec2], direction: &[DVec2], count: usize) -> f64 {
         let of =
             |element: &Element| Element::longest_step(Self::corners(element, z), Self::corners(element, direction));
-        self.elements.par_iter().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
+        self.elements[..count].par_iter().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
     }
 
     /// Gradient by unknown, and Hessian. Where points are moved by `shift`, the gradient is that of the model there.
@@ -245,7 +249,7 @@ impl Membrane {
     /// Newton's direction: how far each point goes.
     fn direction(
         &self,
-        (gradient, mut hessian): (Vec<f64>, CscMatrix<f64>),
+        (gradient, mut hessian): (&[f64], CscMatrix<f64>),
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
         let factor = self.factor(&mut hessian, control)?;
@@ -258,72 +262,75 @@ impl Membrane {
         Ok(direction)
     }
 
-    /// Moves held points by `shift`, and the others as the model of the energy says they follow.
-    pub(super) fn follow(&self, z: &mut [DVec2], shift: &[DVec2], control: Control<'_>) -> Result<(), SolveError> {
-        let direction = self.direction(self.linearise(z, Energy::Foldover(0.0), Some(shift)), control)?;
-        for ((z, direction), shift) in z.iter_mut().zip(direction).zip(shift) {
-            *z += direction + *shift;
+    /// How the others follow, to first order, where held points are moved by `shift`: the moves of all points.
+    pub(super) fn response(
+        &self,
+        z: &[DVec2],
+        shift: &[DVec2],
+        control: Control<'_>,
+    ) -> Result<Vec<DVec2>, SolveError> {
+        let (gradient, hessian) = self.linearise(z, Energy::Foldover(0.0), Some(shift));
+        let mut moves = self.direction((&gradient, hessian), control)?;
+        for (move_, shift) in moves.iter_mut().zip(shift) {
+            *move_ += *shift;
         }
-        Ok(())
+        Ok(moves)
     }
 
     /// Lowers the energy step by step.
     pub(super) fn descend(&self, z: &mut [DVec2], limits: Limits, control: Control<'_>) -> Result<Descent, SolveError> {
         let mut trial = z.to_vec();
-        let (mut last_epsilon, mut last_ratio) = (0.0_f64, 1.0_f64);
-        for steps in 0..limits.steps {
+        let mut unfolded_energies: Option<[f64; 2]> = None;
+        for _ in 0..limits.steps {
             control.enter(Phase::Solve)?;
             let least = self.least_determinant(z);
             if least > 0.0 && limits.until_unfolded {
-                return Ok(Descent { least_determinant: least, steps, converged: false });
+                break;
             }
             let [floor, share] = EPSILON_SQUARED;
-            let mut epsilon = if least > 0.0 { 0.0 } else { (floor + share * least * least).sqrt() };
-            if std::env::var_os("FB_G").is_some() && least <= 0.0 {
-                if steps > 0 && last_epsilon > 0.0 {
-                    let sigma = (1.0 - last_ratio).max(0.1);
-                    let root = least.hypot(last_epsilon);
-                    epsilon = (last_epsilon * (1.0 - sigma * root / (least.abs() + root))).max(1e-6);
-                }
-                last_epsilon = epsilon;
-            }
+            let epsilon = (floor + share * least * least).sqrt();
             let energy = if least > 0.0 { limits.unfolded } else { Energy::Foldover(epsilon) };
-            let (gradient, hessian) = self.linearise(z, energy, None);
-            let before = self.energy(z, energy);
-            let slope_of = |direction: &[DVec2]| -> f64 {
-                let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
-                self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum()
-            };
-            let direction = self.direction((gradient.clone(), hessian), control)?;
-            let slope = slope_of(&direction);
-            let longest = if energy.is_barrier() { STEP_SHARE * self.longest_step(z, &direction) } else { 1.0 };
-            let mut step = longest.min(1.0);
-            let mut gained = 0.0;
-            for _ in 0..HALVINGS {
-                for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
-                    *trial = *z + step * *direction;
-                }
-                gained = before - self.energy(&trial, energy);
-                if gained >= -DECREASE * step * slope {
+            let Some([before, after]) = self.newton_step(z, &mut trial, energy, control)? else { break };
+            if energy.is_barrier() {
+                let [first, _] = unfolded_energies.unwrap_or([before, before]);
+                unfolded_energies = Some([first, after]);
+                if before - after < limits.tolerance * before {
                     break;
                 }
-                step *= 0.5;
-            }
-            if std::env::var_os("FB_TRACE").is_some() {
-                eprintln!(
-                    "   {steps} eps {epsilon:.2e} least {least:.3e} E {before:.6e} gained {gained:.3e} step {step:.3e} slope {slope:.2e}"
-                );
-            }
-            if !(gained > 0.0) {
-                return Ok(Descent { least_determinant: least, steps, converged: true });
-            }
-            last_ratio = 1.0 - gained / before;
-            z.copy_from_slice(&trial);
-            if energy.is_barrier() && gained < limits.tolerance * before {
-                return Ok(Descent { least_determinant: self.least_determinant(z), steps: steps + 1, converged: true });
             }
         }
-        Ok(Descent { least_determinant: self.least_determinant(z), steps: limits.steps, converged: false })
+        let gain = unfolded_energies.map_or(0.0, |[first, last]| 1.0 - last / first);
+        Ok(Descent { least_determinant: self.least_determinant(z), gain })
+    }
+
+    /// One step with line search. Returns the energies before and after, `None` where no step lowers it.
+    fn newton_step(
+        &self,
+        z: &mut [DVec2],
+        trial: &mut [DVec2],
+        energy: Energy,
+        control: Control<'_>,
+    ) -> Result<Option<[f64; 2]>, SolveError> {
+        let before = self.energy(z, energy);
+        let (gradient, hessian) = self.linearise(z, energy, None);
+        let direction = self.direction((&gradient, hessian), control)?;
+        let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
+        let slope: f64 = self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum();
+        let all = self.elements.len();
+        let longest = if energy.is_barrier() { STEP_SHARE * self.longest_step(z, &direction, all) } else { 1.0 };
+        let mut step = longest.min(1.0);
+        for _ in 0..HALVINGS {
+            for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
+                *trial = *z + step * *direction;
+            }
+            let after = self.energy(trial, energy);
+            if before - after >= -DECREASE * step * slope && after < before {
+                z.copy_from_slice(trial);
+                return Ok(Some([before, after]));
+            }
+            step *= 0.5;
+        }
+        Ok(None)
     }
 }
 

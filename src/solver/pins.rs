@@ -38,6 +38,14 @@ impl Hold {
     pub const fn is_exact(self) -> bool {
         !matches!(self, Self::Weighted(_))
     }
+
+    /// Whether a pin can be held so: a weight is a positive number.
+    pub const fn is_valid(self) -> bool {
+        match self {
+            Self::Fixed | Self::Hard => true,
+            Self::Weighted(weight) => weight.is_finite() && weight > 0.0,
+        }
+    }
 }
 
 impl Pin {
@@ -98,7 +106,7 @@ pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
             return Err(SolveError::TargetNotFinite { vertex });
         }
         if let Hold::Weighted(weight) = *hold {
-            if !(weight.is_finite() && weight > 0.0) {
+            if !hold.is_valid() {
                 return Err(SolveError::WeightNotPositive { vertex, weight });
             }
             continue;

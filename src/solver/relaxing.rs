@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::foldover_energy::Energy;
-use super::membrane::Limits;
+use super::membrane::{Limits, Membrane};
 use super::outside::outside_of;
 use super::rest::Rest;
 use super::{Control, Outside, Pins, Progress, SolveError, verdict};
@@ -28,12 +28,12 @@ const TOLERANCE: f64 = 1e-3;
 const STEEP: f64 = 1e-3;
 
 /// A planar embedding that relaxes.
-#[derive(Debug)]
 pub(super) struct Relaxing {
     rest: Rest,
     pins: Pins,
     embedding: Vec<DVec2>,
-    energy: f64,
+    /// That of the round before, whose order of elimination is kept.
+    membrane: Option<Membrane>,
     has_converged: bool,
 }
 
@@ -45,12 +45,17 @@ pub(super) struct Relaxed {
     pub(super) outside: Arc<Outside>,
 }
 
+impl std::fmt::Debug for Relaxing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Relaxing").field("has_converged", &self.has_converged).finish_non_exhaustive()
+    }
+}
+
 impl Relaxing {
     /// Begins at a planar embedding of `mesh`; `pins` are held, exact ones where they lie.
     pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
         let rest = Rest::new(mesh);
-        let energy = rest.symmetric_dirichlet(mesh, &embedding);
-        Self { rest, pins: pins.clone(), embedding, energy, has_converged: false }
+        Self { rest, pins: pins.clone(), embedding, membrane: None, has_converged: false }
     }
 
     /// Whether the last round gained next to nothing.
@@ -58,25 +63,28 @@ impl Relaxing {
         self.has_converged
     }
 
-    /// One round. The embedding stays as it is where rounding keeps it from being better and planar.
+    /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
     pub(super) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Relaxed, SolveError> {
         let outside = outside_of(mesh, &self.embedding, std::iter::empty()).ok_or(SolveError::NotPlanar)?;
-        let (membrane, mut z) = self.rest.membrane(mesh, (&self.embedding, &outside), &self.pins, OUTSIDE_WEIGHT)?;
+        let how = (OUTSIDE_WEIGHT, self.membrane.as_ref());
+        let (membrane, mut z) = self.rest.membrane(mesh, (&self.embedding, &outside), &self.pins, how)?;
         let is_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let limits = Limits { unfolded, steps: ROUND_STEPS, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
-        membrane.descend(&mut z, limits, control)?;
+        let gain = membrane.descend(&mut z, limits, control)?.gain;
+        self.membrane = Some(membrane);
         z.truncate(mesh.vertex_count());
-        let energy = self.rest.symmetric_dirichlet(mesh, &z);
-        let is_better = energy < self.energy || (is_steep && energy.is_finite());
-        if is_better && verdict(mesh, &z).planar {
-            self.has_converged = !is_steep && self.energy - energy < TOLERANCE * self.energy;
-            (self.energy, self.embedding) = (energy, z);
-        } else {
-            self.has_converged = true;
+        let is_planar = verdict(mesh, &z).planar;
+        if is_planar {
+            self.embedding = z;
         }
-        let least_determinant = self.rest.least_determinant(mesh, &self.embedding);
-        let progress = Progress { energy: self.energy, least_determinant, distance_left: 0.0 };
+        let is_still_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
+        self.has_converged = !is_planar || (gain < TOLERANCE && is_still_steep == is_steep);
+        let progress = Progress {
+            energy: self.rest.symmetric_dirichlet(mesh, &self.embedding),
+            least_determinant: self.rest.least_determinant(mesh, &self.embedding),
+            distance_left: 0.0,
+        };
         Ok(Relaxed { embedding: self.embedding.clone(), progress, outside: Arc::new(outside) })
     }
 }

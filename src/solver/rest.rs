@@ -45,13 +45,14 @@ impl Rest {
     }
 
     /// Mesh and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
-    /// frame last. The mesh weighs 1, the outside `weight`.
+    /// frame last. The mesh weighs 1, the outside `weight`. `similar` is one
+    /// made before for the same mesh and pins.
     pub(super) fn membrane(
         &self,
         mesh: &DiskMesh,
         (embedding, outside): (&[DVec2], &Outside),
         pins: &Pins,
-        weight: f64,
+        (weight, similar): (f64, Option<&Membrane>),
     ) -> Result<(Membrane, Vec<DVec2>), SolveError> {
         let mut points = embedding.to_vec();
         points.extend(&outside.frame);
@@ -67,7 +68,7 @@ impl Rest {
         let count = u32::try_from(mesh.vertex_count()).expect("vertices fit");
         let is_exact = |vertex: VertexId| pins.get(&vertex).is_some_and(|pin| pin.hold.is_exact());
         let is_held = |point: u32| point >= count || is_exact(VertexId::new(point));
-        Ok((Membrane::new(points.len(), elements, springs.collect(), is_held)?, points))
+        Ok((Membrane::new(points.len(), elements, springs.collect(), is_held, similar)?, points))
     }
 
     /// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.

@@ -1,7 +1,7 @@
 //! Distortion against closed forms.
 
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Distortion, distortion};
+use freebound::solver::{Distortion, DistortionSummary, distortion};
 use glam::{DMat2, DVec2, DVec3};
 
 /// Relative; sums over a few hundred faces of numbers that are each right to a few units of the last place.
@@ -86,6 +86,22 @@ fn a_shear_has_the_golden_ratio() {
     let golden = f64::midpoint(1.0, 5_f64.sqrt());
     let found = distortion(&grid(3, tilted), &flat(3, |p| DVec2::new(p.x + p.y, p.y)));
     assert_uniform(&found, golden, 1.0 / golden);
+}
+
+#[test]
+fn the_symmetric_energy_adds_squares_of_singular_values_and_of_their_inverses() {
+    let of = |summary: DistortionSummary| summary.symmetric_dirichlet.mean;
+    assert_near(of(distortion(&grid(5, tilted), &flat(5, |p| p * 7.0)).summary), 4.0, TOLERANCE);
+    // Singular values 6 and 1/6 at equal areas, in skew directions.
+    let map = DMat2::from_angle(0.3) * DMat2::from_diagonal(DVec2::new(4.0, 1.0 / 9.0)) * DMat2::from_angle(-1.1);
+    let squares = 36.0 + 1.0 / 36.0;
+    assert_near(of(distortion(&grid(7, tilted), &flat(7, |p| map * p)).summary), 2.0 * squares, TOLERANCE);
+    // Two thirds of the surface are made four times as wide; squared lengths are multiplied by 1/3.
+    let stretched = |x: f64| if x <= 1.0 { x } else { 1.0 + 4.0 * (x - 1.0) };
+    let mesh = grid(3, |p| DVec3::new(3.0 * p.x, p.y, 0.0));
+    let found = distortion(&mesh, &flat(3, |p| DVec2::new(stretched((3.0 * p.x).round()), p.y))).summary;
+    let [left, right] = [1.0, 16.0_f64].map(|wide| (wide + 1.0) / 3.0 + 3.0 * (1.0 / wide + 1.0));
+    assert_near(of(found), (left + 2.0 * right) / 3.0, TOLERANCE);
 }
 
 #[test]

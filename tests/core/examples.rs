@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
 
-use freebound::examples::{Example, Landmark, face_landmarks, portrait};
-use freebound::mesh::TriMesh;
+use freebound::examples::{Example, Landmark, bumpy_cap_of, face_landmarks, portrait};
+use freebound::mesh::{DiskMesh, TriMesh};
 use glam::{DVec2, DVec3};
 
 /// The landmarks, found once.
@@ -166,6 +166,18 @@ fn the_examples_look_outwards() {
             let [a, b, c] = mesh.corners(f);
             let outwards = (a + b + c) / 3.0 - inside;
             assert!(mesh.double_area_vector(f).dot(outwards) > 0.0, "{}: {f}", example.name());
+        }
+    }
+}
+
+#[test]
+fn bumpy_caps_of_other_sizes_are_disks_with_about_so_many_vertices() {
+    for vertices in [200, 800] {
+        let caps = [1, 2].map(|seed| bumpy_cap_of(vertices, seed));
+        assert_ne!(caps[0].positions, caps[1].positions, "each seed has its own");
+        for cap in caps {
+            let count = DiskMesh::try_from(cap).expect("a disk").vertex_count();
+            assert!((count as f64 / vertices as f64 - 1.0).abs() < 0.1, "{count} and not {vertices}");
         }
     }
 }

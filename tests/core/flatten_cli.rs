@@ -72,7 +72,7 @@ fn a_mesh_that_comes_out_planar_ends_with_0_and_a_folded_one_with_4() {
 fn wrong_use_ends_with_2_and_says_what_to_do() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str); 31] = [
+    let cases: [(&[&str], &str); 35] = [
         (&["--family", "uniform"], "convex"),
         (&["--family", "power:x"], "power:P"),
         (&["--method", "best"], "natural"),
@@ -100,6 +100,10 @@ fn wrong_use_ends_with_2_and_says_what_to_do() {
         (&["--method", "iterate", "--growth", "one"], "--growth"),
         (&["--method", "levy", "--growth", "double"], "--growth"),
         (&["--growth", "two"], "double"),
+        (&["--method", "relax"], "continuation"),
+        (&["--method", "continuation", "--family", "mean-value"], "--family"),
+        (&["--method", "matchmaker", "--no-new-vertices"], "--no-new-vertices"),
+        (&["--method", "natural", "--no-new-vertices"], "--no-new-vertices"),
         (&["--boundary", "square"], "--boundary"),
         (&["--method", "lscm", "--family", "mean-value"], "--family"),
         (&["--steps"], "--steps"),
@@ -165,13 +169,14 @@ fn the_report_is_one_json_object_with_the_fields_of_the_design() {
             "verdict",
             "distortion",
             "new_vertices",
+            "split_edges",
             "seconds",
             "peak_memory_bytes",
         ],
     );
     assert_keys(&report["mesh"], &["path", "vertices", "faces", "boundary_vertices", "dividing_edges", "ears"]);
-    assert_keys(&report["pins"], &["treatment", "count", "max_error", "weighted"]);
-    // The last five are not in the design.
+    assert_keys(&report["pins"], &["treatment", "count", "max_error", "unmet", "weighted"]);
+    // The last eight are not in the design.
     assert_keys(
         &report["steps"][0],
         &[
@@ -190,6 +195,9 @@ fn the_report_is_one_json_object_with_the_fields_of_the_design() {
             "factor_bytes",
             "bent_vertices",
             "planar",
+            "energy",
+            "least_determinant",
+            "distance_left",
         ],
     );
     assert_keys(
@@ -204,7 +212,8 @@ fn the_report_is_one_json_object_with_the_fields_of_the_design() {
             "mirrored",
         ],
     );
-    assert_keys(&report["distortion"], &["angle", "area", "stretch_l2", "stretch_linf"]);
+    assert_keys(&report["distortion"], &["angle", "area", "stretch_l2", "stretch_linf", "symmetric_dirichlet"]);
+    assert_keys(&report["distortion"]["symmetric_dirichlet"], &["mean"]);
     assert_keys(&report["distortion"]["angle"], &["mean", "p99", "max"]);
     assert_keys(&report["distortion"]["area"], &["mean", "p99", "max"]);
     assert_keys(&report["seconds"], &["read", "solve", "verify", "write", "total"]);
@@ -278,7 +287,7 @@ fn the_same_run_writes_the_same_bytes_and_the_number_of_threads_changes_no_verdi
 fn all_methods_run_and_say_their_names() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str, Option<&str>); 11] = [
+    let cases: [(&[&str], &str, Option<&str>); 13] = [
         (&["--method", "natural", "--family", "power:0.5"], "natural", Some("power:0.5")),
         (&["--method", "natural", "--family", "wachspress"], "natural", Some("wachspress")),
         (&[], "auto", Some("conformal")),
@@ -287,6 +296,8 @@ fn all_methods_run_and_say_their_names() {
         (&["--method", "lscm"], "lscm", None),
         (&["--method", "levy"], "levy", None),
         (&["--method", "convex"], "convex", Some("conformal")),
+        (&["--method", "continuation"], "continuation", None),
+        (&["--method", "matchmaker"], "matchmaker", None),
         (&["--method", "convex", "--family", "uniform"], "convex", Some("uniform")),
         (&["--method", "convex", "--family", "shape-preserving"], "convex", Some("shape-preserving")),
         (&["--method", "convex", "--boundary", "square", "--family", "mean-value"], "convex", Some("mean-value")),
@@ -300,7 +311,8 @@ fn all_methods_run_and_say_their_names() {
         assert_eq!(report["verdict"]["planar"] == true, run.status == Some(0), "{options:?}");
     }
     let listed = program.run(&["methods"]).expect(0).stdout;
-    let methods = ["auto", "natural", "iterate", "virtual-boundary", "convex", "lscm", "levy"];
+    let methods =
+        ["auto", "natural", "iterate", "virtual-boundary", "convex", "lscm", "levy", "continuation", "matchmaker"];
     let families = ["conformal", "mean-value", "wachspress", "power:P", "uniform", "shape-preserving"];
     let names: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
     for name in methods.iter().chain(&families) {

@@ -93,12 +93,15 @@ fn every_choice_of_method_comes_back() {
         Method::Convex(BoundaryShape::Square),
         Method::Lscm,
         Method::Levy,
+        Method::Continuation,
+        Method::Matchmaker,
     ];
     let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
     for (index, method) in methods.into_iter().enumerate() {
         let mut project = ProjectFile::of_mesh(ProjectSource::Example("dome".to_owned()));
         let family = families[index % families.len()];
-        project.settings = Settings { treatment: treatments[index % 4], ..Settings::new(method, family) };
+        let (treatment, new_vertices) = (treatments[index % 4], index % 3 != 1);
+        project.settings = Settings { treatment, new_vertices, relax_rounds: index, ..Settings::new(method, family) };
         project.write(&path, PathStyle::Relative).unwrap();
         assert_eq!(ProjectFile::read(&path).unwrap(), project);
     }
@@ -289,6 +292,10 @@ fn faults_of_a_project_name_line_and_field() {
         ("{\n\"freebound_project\": 1,\n\"mesh\": {},\n\"pins\": []\n}".to_owned(), "line 3, mesh: name either"),
         ("{\n\"freebound_project\": 1\n}".to_owned(), "line 3, the project: missing field `mesh`"),
         (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"max_steps\": -3}}"), "line 4, max_steps: "),
+        (
+            format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"method\": \"best\"\n}}"),
+            "line 4, method: invalid value: string \"best\", expected one of auto, natural",
+        ),
         (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"pins\": ["), "line 4, pins[0]: EOF"),
     ];
     for (text, expected) in cases {

@@ -1,0 +1,82 @@
+//! One run with a limit of time, and what it came to.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::{Duration, Instant};
+
+use freebound::mesh::DiskMesh;
+use freebound::solver::{Control, Pins, Run, Settings, SolveError, Step};
+
+/// The longest that a run may take.
+const LIMIT: Duration = Duration::from_mins(2);
+
+/// What a run came to.
+pub(crate) struct Outcome {
+    /// Why it ended, in words.
+    pub(crate) ending: String,
+    /// The first step that is planar with all exact pins on their targets, and the seconds until it was there.
+    pub(crate) solved: Option<(f64, Step)>,
+    /// The last step.
+    pub(crate) last: Option<Step>,
+    /// How many steps there were.
+    pub(crate) steps: usize,
+    /// Seconds in all.
+    pub(crate) seconds: f64,
+}
+
+impl Outcome {
+    /// Runs the method of the settings to its end, or to the limit.
+    pub(crate) fn of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Self {
+        let cancel = AtomicBool::new(false);
+        let silent = |_| {};
+        let control = Control::new(&cancel, &silent);
+        let start = Instant::now();
+        let mut found = Self { ending: String::new(), solved: None, last: None, steps: 0, seconds: 0.0 };
+        let ending = within(LIMIT, &cancel, || {
+            let mut run = Run::new(settings, pins.clone());
+            let take = |step: Step| {
+                found.steps += 1;
+                if found.solved.is_none() && step.verdict.planar && step.unmet().is_empty() {
+                    found.solved = Some((start.elapsed().as_secs_f64(), step.clone()));
+                }
+                found.last = Some(step);
+            };
+            catch_unwind(AssertUnwindSafe(|| run.finish(mesh, control, take)))
+        });
+        found.seconds = start.elapsed().as_secs_f64();
+        found.ending = match ending {
+            Ok(Ok(ending)) => format!("{ending:?}").to_lowercase(),
+            Ok(Err(SolveError::Cancelled)) => format!("over {} s", LIMIT.as_secs()),
+            Ok(Err(error)) => error.to_string(),
+            Err(_) => "panic".to_owned(),
+        };
+        found
+    }
+
+    /// New vertices of the solved step.
+    pub(crate) fn new_vertices(&self) -> Option<usize> {
+        let (_, step) = self.solved.as_ref()?;
+        Some(step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len()))
+    }
+
+    /// Seconds until the solved step, or until the run gave up.
+    pub(crate) fn seconds_to_solve(&self) -> f64 {
+        self.solved.as_ref().map_or(self.seconds, |&(seconds, _)| seconds)
+    }
+}
+
+/// Does some work, and raises a flag when it takes too long.
+fn within<R>(limit: Duration, flag: &AtomicBool, work: impl FnOnce() -> R) -> R {
+    std::thread::scope(|scope| {
+        let (done, wait) = sync_channel::<()>(0);
+        scope.spawn(move || {
+            if wait.recv_timeout(limit) == Err(RecvTimeoutError::Timeout) {
+                flag.store(true, Ordering::Relaxed);
+            }
+        });
+        let result = work();
+        drop(done);
+        result
+    })
+}

@@ -1,0 +1,130 @@
+//! What a person reads: the line that follows the work, and the lines that sum it up.
+
+use super::flatten::Solved;
+use crate::io::{PinsReport, Report};
+use crate::mesh::VertexId;
+use crate::session::{Finished, Placement};
+use crate::solver::{Conflict, Ending, Method, Step};
+
+/// Most vertices or conflicts that are named; the others are only counted.
+const NAMED: usize = 10;
+
+/// Vertices by name, the first ones where there are many.
+fn listed(vertices: &[VertexId]) -> String {
+    let mut names: Vec<String> = vertices.iter().take(NAMED).map(ToString::to_string).collect();
+    if vertices.len() > NAMED {
+        names.push(format!("and {} more", vertices.len() - NAMED));
+    }
+    names.join(", ")
+}
+
+/// Says on standard error which constraints contradict each other, before any work is done on them.
+pub(super) fn print_conflicts(conflicts: &[Conflict]) {
+    for conflict in conflicts.iter().take(NAMED) {
+        eprintln!("freebound: {}", conflict.words());
+    }
+    if conflicts.len() > NAMED {
+        eprintln!("freebound: and {} more conflicts like these", conflicts.len() - NAMED);
+    }
+}
+
+/// A rung in words.
+fn rung_words(rung: Method) -> &'static str {
+    match rung {
+        Method::Natural => "natural boundary",
+        Method::Iterate => "iteration",
+        Method::VirtualBoundary => "virtual boundary",
+        Method::Matchmaker => "new vertices",
+        Method::Relax => "relaxed",
+        other => other.name(),
+    }
+}
+
+/// What a step reached, for the line that follows the work.
+pub(super) fn step_words(step: &Step) -> String {
+    let number = if step.rung == Method::Iterate { format!(" {}", step.index) } else { String::new() };
+    let left = step.progress.map(|progress| progress.distance_left).filter(|&distance| distance > 0.0);
+    let left = left.map(|distance| format!(", {distance:.2e} from the targets")).unwrap_or_default();
+    format!("{}{number}: {}{left}", rung_words(step.rung), step.verdict.summary())
+}
+
+/// The verdict, and after how many steps and on which rung a run of several came to it.
+pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
+    let mut words = finished.verdict().summary();
+    let Solved { outcome, ending, .. } = solved;
+    let step = &outcome.step;
+    if outcome.settings.method.takes_steps() {
+        let count = finished.report.steps.len();
+        let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
+        let why = match ending {
+            Ok(Ending::Planar | Ending::Done) => String::new(),
+            Ok(Ending::Unmet) => ", constraints not met".to_owned(),
+            Ok(Ending::Stalled) => ", which gets no better".to_owned(),
+            Ok(Ending::Limit) => ", as many as it may take".to_owned(),
+            Err(error) => format!("; the next gave nothing: {error}"),
+        };
+        let steps = if count == 1 { "step" } else { "steps" };
+        let rung = rung_words(step.rung);
+        words = format!("{words} after {count} {steps} ({rung}{boundary}{why})");
+    }
+    if finished.report.placement == Some(Placement::Unmoved.name()) {
+        words += "; not moved into the unit square, whose numbers would fold it";
+    } else if step.verdict.planar && !finished.verdict().planar {
+        words += "; it was planar before it was brought to this size: try --fit true";
+    }
+    words
+}
+
+/// What became of the user's pins.
+fn pins_words(pins: &PinsReport) -> Option<String> {
+    let hard = pins.max_hard_error.map(|error| {
+        let count = pins.count - pins.weighted.len();
+        if error == 0.0 {
+            return format!("{count} hard met exactly");
+        }
+        format!("{count} hard missed by up to {error:.1e}, {} not met: {}", pins.unmet.len(), listed(&pins.unmet))
+    });
+    let worst = pins.weighted.iter().max_by(|a, b| a.error.total_cmp(&b.error));
+    let weighted = worst.map(|worst| {
+        let count = pins.weighted.len();
+        format!("{count} weighted met within {:.1e} (the farthest is vertex {})", worst.error, worst.vertex)
+    });
+    let parts: Vec<String> = hard.into_iter().chain(weighted).collect();
+    (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
+}
+
+/// Prints what a run came to.
+pub(super) fn print_summary(report: &Report, verdict: &str) {
+    let mesh = &report.mesh;
+    println!(
+        "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
+        mesh.path, mesh.vertices, mesh.faces, mesh.boundary_vertices, mesh.dividing_edges, mesh.ears
+    );
+    let family = report.family.as_deref().map(|family| format!(", {family} weights")).unwrap_or_default();
+    // Where there is no linear system, there is no residual.
+    let residual = report.steps.last().map(|step| step.residual).filter(|residual| residual.is_finite());
+    let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
+    println!("{}{family}: {verdict}{residual}", report.method.unwrap_or("check"));
+    if report.new_vertices > 0 {
+        println!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len());
+    }
+    if let Some(words) = report.pins.as_ref().and_then(pins_words) {
+        println!("{words}");
+    }
+    if let Some(distortion) = &report.distortion {
+        println!(
+            "angle distortion {:.3} mean, {:.3} p99; area {:.3} mean; stretch L² {:.3}, L∞ {:.3}; symmetric Dirichlet energy {:.3}",
+            distortion.angle.mean,
+            distortion.angle.p99,
+            distortion.area.mean,
+            distortion.stretch_l2,
+            distortion.stretch_linf,
+            distortion.symmetric_dirichlet.mean
+        );
+    }
+    let seconds = &report.seconds;
+    println!(
+        "{:.3} s: read {:.3}, solve {:.3}, verify {:.3}, write {:.3}",
+        seconds.total, seconds.read, seconds.solve, seconds.verify, seconds.write
+    );
+}

@@ -1,0 +1,171 @@
+//! New vertices (rung 5 of the ladder): an embedding that meets any distinct targets, on a mesh whose edges are split
+//! where the paths between the targets need room.
+//!
+//! The mesh lies in an outside up to a frame. Paths on it, which do not cross, match the edges of a triangulation of
+//! targets and frame. What a path cuts is triangulated again with new vertices on the old edges; then all paths are
+//! straightened, and each region between three of them is a triangle in the plane. It always ends, because a region in
+//! one piece always has a way through.
+//!
+//! Sources: I. Eckstein, V. Surazhsky, C. Gotsman, "Texture mapping with hard constraints", 2001; V. Kraevoy,
+//! A. Sheffer, C. Gotsman, "Matchmaker: constructing constrained texture maps", 2003. Theirs route on the edges of the
+//! mesh; here ways lead through the faces too, so that new vertices are on old edges only.
+
+mod paths;
+mod router;
+mod straighten;
+mod subdivision;
+mod target_graph;
+mod triangulate;
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use self::paths::Paths;
+use self::router::Router;
+use self::straighten::{Weights, held_places, straightened};
+use self::subdivision::Subdivision;
+use self::target_graph::TargetGraph;
+use self::triangulate::{Parts, split_collapsing_edges, triangulate};
+use super::{Control, Pins, SolveError, verdict};
+use crate::geom::outside_triangles;
+use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, TriMesh, VertexId};
+
+/// Size of the frame, relative to everything within.
+const FRAME_SIZE: f64 = 2.0;
+
+/// Length that a new vertex counts for, in mean lengths of an edge.
+const CROSSING: f64 = 0.5;
+
+/// A planar embedding of a refined mesh that meets all exact pins to the last bit.
+#[derive(Clone, Debug)]
+pub(super) struct Matched {
+    pub(super) refinement: Refinement,
+    pub(super) embedding: Vec<DVec2>,
+}
+
+/// The mesh within its outside, as it lies at the start.
+struct Surroundings {
+    /// Faces of the mesh first, then those of the outside; the frame's corners last.
+    disk: DiskMesh,
+    places: Vec<DVec2>,
+    frame: [DVec2; 4],
+}
+
+/// Finds new vertices and an embedding with which all exact pins are met.
+///
+/// `start` is a planar embedding of the mesh, as near to the targets as can be: paths are short there.
+///
+/// # Errors
+///
+/// Targets that coincide, a start that is not planar, faces too fine for 64-bit numbers, or the caller's wish to stop.
+pub(super) fn matched(
+    mesh: &DiskMesh,
+    start: &[DVec2],
+    pins: &Pins,
+    control: Control<'_>,
+) -> Result<Matched, SolveError> {
+    let exact = || pins.iter().filter(|(_, pin)| pin.hold.is_exact());
+    let targets: Vec<DVec2> = exact().map(|(_, pin)| pin.target).collect();
+    let surroundings = Surroundings::new(mesh, start, &targets)?;
+    let graph = TargetGraph::new(&targets, &surroundings.frame).ok_or(SolveError::TooFine)?;
+    let corners = (mesh.vertex_count()..).take(surroundings.frame.len()).map(VertexId::from_index);
+    let vertices = exact().map(|(&v, _)| v).chain(corners).map(VertexId::number).collect();
+    let cells = Subdivision::new(&surroundings.disk, &surroundings.places);
+    let mut paths = Paths::new(cells, &graph, vertices, surroundings.frame.len());
+    paths.lay_all(&mut Router::new(CROSSING * mean_edge_length(mesh, start)), control)?;
+    let Paths { mut cells, lines, .. } = paths;
+    split_collapsing_edges(&mut cells, &graph);
+    let parts = triangulate(&mut cells, &graph, &surroundings.disk);
+    let held = held_places(&cells, &graph, &lines);
+    let whole = surroundings.refined(&cells, &parts);
+    let refined = refined(mesh, &surroundings.disk, &cells, &parts);
+    for weights in [Weights::MeanValue, Weights::Uniform] {
+        let places = straightened(&whole, &cells, &held, weights, control)?;
+        let embedding: Vec<DVec2> = refined.vertices.iter().map(|&v| places[v as usize]).collect();
+        if verdict(refined.refinement.disk(), &embedding).planar {
+            return Ok(Matched { refinement: refined.refinement, embedding });
+        }
+    }
+    Err(SolveError::TooFine)
+}
+
+/// Mean length of an edge in an embedding.
+fn mean_edge_length(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+    let length = |edge| {
+        let [a, b] = mesh.ends(edge).map(|v| embedding[v.index()]);
+        a.distance(b)
+    };
+    mesh.edges().map(length).sum::<f64>() / mesh.edge_count() as f64
+}
+
+impl Surroundings {
+    fn new(mesh: &DiskMesh, start: &[DVec2], targets: &[DVec2]) -> Result<Self, SolveError> {
+        let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| start[v.index()]).collect();
+        let within = || boundary.iter().chain(targets);
+        let low = within().copied().fold(DVec2::INFINITY, DVec2::min);
+        let high = within().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let (centre, half) = (low.midpoint(high), 0.5 * FRAME_SIZE * (high - low).max_element());
+        let frame = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::ONE, DVec2::new(-1.0, 1.0)]
+            .map(|corner| centre + half * corner);
+        let outside = outside_triangles(&boundary, &frame).ok_or(SolveError::NotPlanar)?;
+        let vertex = |corner: u32| {
+            let corner = corner as usize;
+            let beyond = || VertexId::from_index(start.len() + corner - boundary.len());
+            mesh.boundary_loop().get(corner).copied().unwrap_or_else(beyond)
+        };
+        let triangles = mesh.mesh().triangles.iter().copied().chain(outside.into_iter().map(|t| t.map(vertex)));
+        let places: Vec<DVec2> = start.iter().chain(&frame).copied().collect();
+        let disk = disk_in_plane(&places, triangles.collect()).ok_or(SolveError::NotPlanar)?;
+        Ok(Self { disk, places, frame })
+    }
+
+    /// Mesh and outside, cut into parts.
+    fn refined(&self, cells: &Subdivision, parts: &Parts) -> DiskMesh {
+        let of_face = |face: FaceId| match parts.get(&face) {
+            Some(parts) => parts.iter().map(|t| t.map(VertexId::new)).collect(),
+            None => vec![self.disk.face(face)],
+        };
+        let triangles = self.disk.faces().flat_map(of_face).collect();
+        disk_in_plane(&cells.places, triangles).expect("the parts of a disk's faces are a disk")
+    }
+}
+
+/// A disk by its triangles, which lie in the plane.
+fn disk_in_plane(places: &[DVec2], triangles: Vec<[VertexId; 3]>) -> Option<DiskMesh> {
+    let positions = places.iter().map(|z| z.extend(0.0)).collect();
+    DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).ok()
+}
+
+/// The mesh with its new vertices, and which vertex of the subdivision each of its vertices is.
+struct Refined {
+    refinement: Refinement,
+    vertices: Vec<u32>,
+}
+
+/// Takes the mesh out of the subdivision of mesh and outside.
+fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts) -> Refined {
+    let is_of_mesh = |edge: &EdgeId| {
+        let h = whole.halfedge(*edge);
+        [h, whole.twin(h)].iter().any(|h: &HalfedgeId| h.index() < 3 * mesh.face_count())
+    };
+    let mut vertices: Vec<u32> = mesh.vertices().map(VertexId::number).collect();
+    let mut new_vertices = Vec::new();
+    let mut number_of_point = BTreeMap::new();
+    for edge in whole.edges().filter(is_of_mesh) {
+        let [a, b] = whole.ends(edge);
+        let points = cells.points(edge.number());
+        for (place, &point) in points.iter().enumerate() {
+            let share = (place + 1) as f64 / (points.len() + 1) as f64;
+            let at = if a < b { share } else { 1.0 - share };
+            number_of_point.insert(point, VertexId::from_index(vertices.len()));
+            vertices.push(point);
+            new_vertices.push(NewVertex { edge: [a.min(b), a.max(b)], at });
+        }
+    }
+    let renumbered = |v: u32| number_of_point.get(&v).copied().unwrap_or(VertexId::new(v));
+    let of_mesh = parts.range(..FaceId::from_index(mesh.face_count()));
+    let parts = of_mesh.map(|(&face, parts)| (face, parts.iter().map(|t| t.map(renumbered)).collect())).collect();
+    let refinement = Refinement::new(mesh, new_vertices, &parts).expect("the parts of a disk's faces are a disk");
+    Refined { refinement, vertices }
+}

@@ -1,0 +1,215 @@
+//! The shortest way between two ends that crosses no path.
+//!
+//! A way goes along old edges through free old vertices, and through cells from one piece of an edge, at its middle, to
+//! another. It is found by A* (Hart, Nilsson, Raphael 1968): all lengths are those in the plane, and more. Since a way
+//! straight through a cell is never longer than one around, no cell is crossed twice.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use glam::DVec2;
+
+use super::subdivision::{NONE, Role, Subdivision};
+
+/// One part of a way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Move {
+    /// Out of a cell through this halfedge of it.
+    Cross(u32),
+    /// Through a cell to the tail of this halfedge of it.
+    Reach(u32),
+    /// Along a halfedge.
+    Along(u32),
+}
+
+/// Where a way may leave one of its ends, or come to it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Sector {
+    /// Halfedges that leave the end, and whose cells may be entered there.
+    pub(super) corners: Vec<u32>,
+    /// Halfedges that leave the end, and that a way may run along.
+    pub(super) edges: Vec<u32>,
+}
+
+impl Sector {
+    /// Everything around a vertex.
+    pub(super) fn around(cells: &Subdivision, vertex: u32) -> Self {
+        let all: Vec<u32> = cells.around(vertex).collect();
+        Self { corners: all.clone(), edges: all }
+    }
+
+    /// From one halfedge counter-clockwise to another; all around where they are the same.
+    pub(super) fn between(cells: &Subdivision, begin: u32, end: u32) -> Self {
+        let mut corners = vec![begin];
+        let mut h = cells.rotated(begin);
+        while h != end {
+            corners.push(h);
+            h = cells.rotated(h);
+        }
+        let edges = corners[1..].to_vec();
+        Self { corners, edges }
+    }
+}
+
+/// An end of a way: a vertex, and where it may be left.
+#[derive(Clone, Debug)]
+pub(super) struct Terminal {
+    pub(super) vertex: u32,
+    pub(super) sector: Sector,
+}
+
+/// A way from one end to another.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Way {
+    pub(super) length: f64,
+    pub(super) moves: Vec<Move>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Reached {
+    /// Length so far and at least to the goal.
+    bound: f64,
+    length: f64,
+    node: u32,
+}
+
+impl Eq for Reached {}
+
+impl Ord for Reached {
+    /// The greatest is the one to go on from.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.bound.total_cmp(&self.bound).then(other.node.cmp(&self.node))
+    }
+}
+
+impl PartialOrd for Reached {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// What is known of a node: the run that knows it, its length, where it is reached from and by which move.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    run: u32,
+    length: f64,
+    from: u32,
+    by: Move,
+}
+
+/// Searches ways. Nodes are crossings (twice the halfedge) and vertices (twice the vertex and one).
+#[derive(Debug)]
+pub(super) struct Router {
+    known: Vec<Known>,
+    run: u32,
+    heap: BinaryHeap<Reached>,
+    /// Length that a crossing counts for on an edge that no path crosses yet.
+    crossing: f64,
+}
+
+impl Router {
+    /// A router to which a new point is worth so much length.
+    pub(super) fn new(crossing: f64) -> Self {
+        Self { known: Vec::new(), run: 0, heap: BinaryHeap::new(), crossing }
+    }
+
+    /// The shortest way. `None` where there is none at all.
+    pub(super) fn way(&mut self, cells: &Subdivision, start: &Terminal, goal: &Terminal) -> Option<Way> {
+        self.run += 1;
+        self.heap.clear();
+        let size = 2 * cells.halfedge_count().max(cells.vertex_count());
+        self.known.resize(size, Known { run: 0, length: 0.0, from: NONE, by: Move::Along(NONE) });
+        let begin = 2 * start.vertex + 1;
+        self.reach(cells, goal, (begin, begin, Move::Along(NONE)));
+        while let Some(Reached { length, node, .. }) = self.heap.pop() {
+            if node == 2 * goal.vertex + 1 {
+                return Some(Way { length, moves: self.moves(begin, node) });
+            }
+            if length > self.known[node as usize].length {
+                continue;
+            }
+            if node % 2 == 0 {
+                self.from_crossing(cells, node / 2, goal);
+            } else if node == begin {
+                self.from_vertex(cells, node, &start.sector, goal);
+            } else {
+                self.from_vertex(cells, node, &Sector::around(cells, node / 2), goal);
+            }
+        }
+        None
+    }
+
+    /// Goes on from a vertex.
+    fn from_vertex(&mut self, cells: &Subdivision, node: u32, sector: &Sector, goal: &Terminal) {
+        for &h in sector.edges.iter().filter(|&&h| cells.path(h).is_none()) {
+            let head = cells.head(h);
+            let is_open = if head == goal.vertex {
+                goal.sector.edges.contains(&cells.twin(h))
+            } else {
+                cells.roles[head as usize] == Role::Free
+            };
+            if is_open {
+                self.reach(cells, goal, (2 * head + 1, node, Move::Along(h)));
+            }
+        }
+        for &corner in &sector.corners {
+            let across = cells.cell(cells.next(corner)).take_while(|&h| h != cells.previous(corner));
+            for h in across.filter(|&h| cells.path(h).is_none()) {
+                self.reach(cells, goal, (2 * h, node, Move::Cross(h)));
+            }
+        }
+    }
+
+    /// Goes on from the far side of a halfedge.
+    fn from_crossing(&mut self, cells: &Subdivision, crossed: u32, goal: &Terminal) {
+        let (node, entry) = (2 * crossed, cells.twin(crossed));
+        for h in cells.cell(entry).skip(1) {
+            if cells.path(h).is_none() {
+                self.reach(cells, goal, (2 * h, node, Move::Cross(h)));
+            }
+            let tail = cells.tail(h);
+            let is_open = if tail == goal.vertex {
+                goal.sector.corners.contains(&h)
+            } else {
+                cells.roles[tail as usize] == Role::Free
+            };
+            // The ends of the entry lie on one line with it.
+            if is_open && h != cells.next(entry) {
+                self.reach(cells, goal, (2 * tail + 1, node, Move::Reach(h)));
+            }
+        }
+    }
+
+    /// Takes note of a node, reached from another.
+    fn reach(&mut self, cells: &Subdivision, goal: &Terminal, (node, from, by): (u32, u32, Move)) {
+        let (here, there) = (position(cells, node), position(cells, from));
+        let cost = if node % 2 == 0 { self.crossing * (1 + cells.crowd(node / 2)) as f64 } else { 0.0 };
+        let before = if node == from { 0.0 } else { self.known[from as usize].length };
+        let length = before + here.distance(there) + cost;
+        let known = &mut self.known[node as usize];
+        if known.run == self.run && known.length <= length {
+            return;
+        }
+        *known = Known { run: self.run, length, from, by };
+        let bound = length + here.distance(cells.places[goal.vertex as usize]);
+        self.heap.push(Reached { bound, length, node });
+    }
+
+    /// The moves to a node, in order.
+    fn moves(&self, begin: u32, mut node: u32) -> Vec<Move> {
+        let mut moves = Vec::new();
+        while node != begin {
+            let known = &self.known[node as usize];
+            moves.push(known.by);
+            node = known.from;
+        }
+        moves.reverse();
+        moves
+    }
+}
+
+/// Where a node lies: a vertex, or the middle of a piece of an edge.
+fn position(cells: &Subdivision, node: u32) -> DVec2 {
+    let (at, half) = (|v: u32| cells.places[v as usize], node / 2);
+    if node % 2 == 0 { at(cells.tail(half)).midpoint(at(cells.head(half))) } else { at(half) }
+}

@@ -1,0 +1,259 @@
+//! The faces of a mesh, cut into cells by paths.
+//!
+//! A path runs along edges of the mesh, its *old* edges, or crosses them at new points and the faces between them in
+//! straight *chords*. A new point has one chord on either side of its edge, so no cell has more than one piece of an old
+//! edge: it is a convex polygon of six corners at most, and every triangulation of it has positive triangles.
+//!
+//! Halfedges as in [`DiskMesh`]; the outer face is a cell as well.
+
+use glam::DVec2;
+
+use crate::mesh::DiskMesh;
+
+/// No path, no old edge, no face.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// What a vertex is to the paths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// On no path.
+    Free,
+    /// An end of paths: a vertex of the target graph.
+    End(u32),
+    /// In the middle of a path: an edge of the target graph.
+    Within(u32),
+}
+
+/// A subdivision of the plane into cells.
+#[derive(Debug)]
+pub(super) struct Subdivision {
+    next: Vec<u32>,
+    previous: Vec<u32>,
+    twin: Vec<u32>,
+    tail: Vec<u32>,
+    /// For each halfedge the old edge that it is a piece of; none for a chord.
+    old_edge: Vec<u32>,
+    /// For each halfedge the old face that it lies in or at; none outside.
+    face: Vec<u32>,
+    /// For each halfedge the path that runs along it.
+    path: Vec<u32>,
+    /// For each vertex a halfedge that leaves it.
+    outgoing: Vec<u32>,
+    /// For each vertex what it is to the paths.
+    pub(super) roles: Vec<Role>,
+    /// Where each vertex lies in the plane. Points on an edge are spread evenly.
+    pub(super) places: Vec<DVec2>,
+    /// For each vertex beyond the old ones the old edge that it lies on.
+    edge_of_point: Vec<u32>,
+    /// Ends of the old edges.
+    ends: Vec<[u32; 2]>,
+    /// New points on each old edge, from its first end.
+    points: Vec<Vec<u32>>,
+}
+
+impl Subdivision {
+    /// The faces of a mesh as they lie in the plane, with no path.
+    pub(super) fn new(mesh: &DiskMesh, places: &[DVec2]) -> Self {
+        let halfedges = || mesh.halfedges();
+        let mut outgoing = vec![NONE; mesh.vertex_count()];
+        for h in halfedges() {
+            outgoing[mesh.tail(h).index()] = h.number();
+        }
+        Self {
+            next: halfedges().map(|h| mesh.next(h).number()).collect(),
+            previous: halfedges().map(|h| mesh.previous(h).number()).collect(),
+            twin: halfedges().map(|h| mesh.twin(h).number()).collect(),
+            tail: halfedges().map(|h| mesh.tail(h).number()).collect(),
+            old_edge: halfedges().map(|h| mesh.edge_of(h).number()).collect(),
+            face: halfedges().map(|h| mesh.face_of(h).map_or(NONE, crate::mesh::FaceId::number)).collect(),
+            path: vec![NONE; mesh.halfedge_count()],
+            outgoing,
+            roles: vec![Role::Free; mesh.vertex_count()],
+            places: places.to_vec(),
+            edge_of_point: Vec::new(),
+            ends: mesh.edges().map(|e| mesh.ends(e).map(crate::mesh::VertexId::number)).collect(),
+            points: vec![Vec::new(); mesh.edge_count()],
+        }
+    }
+
+    pub(super) fn halfedge_count(&self) -> usize {
+        self.twin.len()
+    }
+
+    pub(super) fn vertex_count(&self) -> usize {
+        self.places.len()
+    }
+
+    pub(super) fn old_vertex_count(&self) -> usize {
+        self.vertex_count() - self.edge_of_point.len()
+    }
+
+    pub(super) fn next(&self, h: u32) -> u32 {
+        self.next[h as usize]
+    }
+
+    pub(super) fn previous(&self, h: u32) -> u32 {
+        self.previous[h as usize]
+    }
+
+    pub(super) fn twin(&self, h: u32) -> u32 {
+        self.twin[h as usize]
+    }
+
+    pub(super) fn tail(&self, h: u32) -> u32 {
+        self.tail[h as usize]
+    }
+
+    pub(super) fn head(&self, h: u32) -> u32 {
+        self.tail(self.twin(h))
+    }
+
+    /// The old face that a halfedge lies in or at; none outside.
+    pub(super) fn face(&self, h: u32) -> u32 {
+        self.face[h as usize]
+    }
+
+    /// The path along a halfedge.
+    pub(super) fn path(&self, h: u32) -> Option<u32> {
+        let path = self.path[h as usize];
+        (path != NONE).then_some(path)
+    }
+
+    /// The old edge that a point lies on, and none for an old vertex.
+    pub(super) fn edge_of_point(&self, vertex: u32) -> Option<u32> {
+        (vertex as usize).checked_sub(self.old_vertex_count()).map(|point| self.edge_of_point[point])
+    }
+
+    /// New points on an old edge, from its first end.
+    pub(super) fn points(&self, old_edge: u32) -> &[u32] {
+        &self.points[old_edge as usize]
+    }
+
+    /// How many new points lie on the old edge that a halfedge is a piece of.
+    pub(super) fn crowd(&self, h: u32) -> usize {
+        match self.old_edge[h as usize] {
+            NONE => 0,
+            edge => self.points(edge).len(),
+        }
+    }
+
+    /// The next halfedge around a tail, counter-clockwise.
+    pub(super) fn rotated(&self, h: u32) -> u32 {
+        self.twin(self.previous(h))
+    }
+
+    /// All halfedges that leave a vertex, counter-clockwise.
+    pub(super) fn around(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
+        let first = self.outgoing[vertex as usize];
+        let mut at = Some(first);
+        std::iter::from_fn(move || {
+            let here = at?;
+            at = Some(self.rotated(here)).filter(|&h| h != first);
+            Some(here)
+        })
+    }
+
+    /// The halfedges of a cell, from one of them.
+    pub(super) fn cell(&self, h: u32) -> impl Iterator<Item = u32> + '_ {
+        let mut at = Some(h);
+        std::iter::from_fn(move || {
+            let here = at?;
+            at = Some(self.next(here)).filter(|&next| next != h);
+            Some(here)
+        })
+    }
+
+    /// The halfedge of a cell that leaves a vertex.
+    pub(super) fn corner_at(&self, cell: u32, vertex: u32) -> Option<u32> {
+        self.cell(cell).find(|&h| self.tail(h) == vertex)
+    }
+
+    /// Says that a path runs along a halfedge.
+    pub(super) fn set_path(&mut self, h: u32, path: u32) {
+        let twin = self.twin(h);
+        self.path[h as usize] = path;
+        self.path[twin as usize] = path;
+    }
+
+    fn add_halfedge(&mut self, tail: u32, like: u32, old_edge: u32) -> u32 {
+        let h = number(self.twin.len());
+        self.next.push(NONE);
+        self.previous.push(NONE);
+        self.twin.push(NONE);
+        self.tail.push(tail);
+        self.old_edge.push(old_edge);
+        self.face.push(self.face[like as usize]);
+        self.path.push(self.path[like as usize]);
+        h
+    }
+
+    fn join(&mut self, first: u32, second: u32) {
+        self.next[first as usize] = second;
+        self.previous[second as usize] = first;
+    }
+
+    fn pair(&mut self, one: u32, other: u32) {
+        self.twin[one as usize] = other;
+        self.twin[other as usize] = one;
+    }
+
+    /// Splits a piece of an old edge by a new point. The halfedge keeps its tail, and so does its twin.
+    pub(super) fn split_edge(&mut self, h: u32, role: Role) -> u32 {
+        let (twin, old_edge) = (self.twin(h), self.old_edge[h as usize]);
+        let point = self.add_point(h, old_edge, role);
+        let (ahead, back) = (self.add_halfedge(point, h, old_edge), self.add_halfedge(point, twin, old_edge));
+        for (piece, rest) in [(h, ahead), (twin, back)] {
+            let next = self.next(piece);
+            self.join(rest, next);
+            self.join(piece, rest);
+        }
+        self.pair(h, back);
+        self.pair(twin, ahead);
+        self.outgoing.push(ahead);
+        point
+    }
+
+    /// A new point between the ends of a piece, and all points of its old edge spread evenly.
+    fn add_point(&mut self, h: u32, old_edge: u32, role: Role) -> u32 {
+        let point = number(self.vertex_count());
+        let [low, high] = self.ends[old_edge as usize];
+        let ends = [self.tail(h), self.head(h)];
+        let points = &mut self.points[old_edge as usize];
+        // The point before the new one is an end of the piece, or the piece begins at the first end.
+        let before = points.iter().position(|p| ends.contains(p));
+        let at = match before {
+            _ if ends.contains(&low) => 0,
+            Some(place) => place + 1,
+            None => points.len(),
+        };
+        points.insert(at, point);
+        self.places.push(DVec2::ZERO);
+        let parts = (points.len() + 1) as f64;
+        for (place, &p) in points.iter().enumerate() {
+            let share = (place + 1) as f64 / parts;
+            self.places[p as usize] = self.places[low as usize].lerp(self.places[high as usize], share);
+        }
+        self.roles.push(role);
+        self.edge_of_point.push(old_edge);
+        point
+    }
+
+    /// Cuts a cell by a chord between the tails of two of its halfedges. Returns the chord from the first to the second.
+    pub(super) fn split_cell(&mut self, from: u32, to: u32) -> u32 {
+        let (chord, back) =
+            (self.add_halfedge(self.tail(from), from, NONE), self.add_halfedge(self.tail(to), from, NONE));
+        self.path[chord as usize] = NONE;
+        self.path[back as usize] = NONE;
+        let (before_from, before_to) = (self.previous(from), self.previous(to));
+        self.join(before_from, chord);
+        self.join(chord, to);
+        self.join(before_to, back);
+        self.join(back, from);
+        self.pair(chord, back);
+        chord
+    }
+}
+
+fn number(index: usize) -> u32 {
+    u32::try_from(index).expect("a subdivision has fewer than 2^32 elements")
+}
