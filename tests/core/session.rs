@@ -324,9 +324,12 @@ impl Walk {
         assert!(self.session.is_current() || failed(&self.session), "{:?}", self.session);
         let Some(outcome) = self.session.outcome() else { return };
         let model = self.session.model().expect("what is solved is open");
-        assert_eq!(outcome.step.solution.embedding.len(), model.mesh().vertex_count());
+        let count = model.mesh().vertex_count() + outcome.new_vertex_count();
+        assert_eq!(outcome.step.solution.embedding.len(), count);
         assert!(outcome.step.solution.embedding.iter().all(|z| z.is_finite()));
-        if outcome.settings.method.uses_pins() {
+        // A step on the way to the constraints is planar, and meets them at the end.
+        let is_on_its_way = outcome.step.rung.is_one_to_one() && outcome.is_planar_but_unmet();
+        if outcome.settings.method.uses_pins() && !is_on_its_way {
             for (vertex, pin) in &outcome.pins {
                 assert_eq!(outcome.step.solution.embedding[vertex.index()], pin.target);
             }

@@ -98,7 +98,7 @@ fn relaxing_lowers_the_energy_and_keeps_the_constraints() {
     let relaxed = &timeline.records()[before + 1..];
     assert!(!relaxed.is_empty() && relaxed.iter().all(|record| record.rung == "relax" && record.planar));
     let energies: Vec<f64> =
-        timeline.standings()[before..].iter().map(|standing| standing.progress.expect("numbers").energy).collect();
+        timeline.standings()[before + 1..].iter().map(|standing| standing.progress.expect("numbers").energy).collect();
     assert!(energies.is_sorted_by(|a, b| a >= b) && energies.last() < energies.first(), "{energies:?}");
     assert_eq!(session.stopped(), Some(Stop::Planar), "it comes to rest where it was");
 }

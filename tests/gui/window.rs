@@ -332,7 +332,7 @@ fn is_scrolled(role: Role, name: &str) -> bool {
         || name.contains(" of pin ")
         || std::path::Path::new(&name).extension().is_some_and(|e| e == "obj");
     let in_panel =
-        ["Numbers of the solve", "Solve", "Free", "Fix", "Free all", "Frame", "Copy", "More"].contains(&name);
+        ["Numbers of the solve", "Solve", "Relax", "Free", "Fix", "Free all", "Frame", "Copy", "More"].contains(&name);
     role == Role::Label || role == Role::ScrollBar || role == Role::Link || listed || in_panel
 }
 
