@@ -120,8 +120,8 @@ impl ConstrainedRun {
         let continuation = Continuation::new(mesh, embedding.clone(), &self.pins);
         let progress = Some(continuation.progress(mesh));
         self.stage = match self.settings.method {
-            Method::Matchmaker => Stage::Matchmaker(embedding.clone()),
             _ if continuation.has_arrived() => Stage::End,
+            Method::Matchmaker => Stage::Matchmaker(embedding.clone()),
             _ => Stage::Continuation(Box::new(continuation)),
         };
         Ok(Reached { rung: Method::Continuation, embedding, progress, outside: None, refinement: None })

@@ -191,7 +191,8 @@ impl Fuzz {
             assert!(index < steps, "{index} of {steps}");
         }
         if let Some(outcome) = self.session.outcome() {
-            assert_eq!(outcome.step.solution.embedding.len(), count);
+            let new_vertices = outcome.step.refinement.as_ref().map_or(0, |refined| refined.new_vertices().len());
+            assert_eq!(outcome.step.solution.embedding.len(), count + new_vertices);
         }
     }
 

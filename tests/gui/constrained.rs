@@ -52,7 +52,7 @@ fn twisted() -> Window {
 #[test]
 fn the_pill_names_the_rung_that_the_picture_comes_from() {
     let mut window = twisted();
-    assert_eq!(window.verdict(), "Planar: proved · continuation");
+    assert_eq!(window.verdict(), "Planar: proved · relax");
     assert!(window.controls().iter().any(|(_, name, _)| name.ends_with(": continuation, planar")));
     assert!(window.shows("Distance left"), "its curve: {:?}", window.words());
     window.key(Key::Home);
