@@ -13,8 +13,12 @@ use super::{
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
 
-/// Rounds of relaxing before new vertices are looked at again.
+/// Rounds of relaxing before new vertices are looked at again, and how often they are at most.
 const ROUNDS_BEFORE_REMOVAL: usize = 10;
+const REMOVALS: usize = 4;
+
+/// Another look at the new vertices is worthwhile where the last one took out so great a part of them.
+const WORTHWHILE: f64 = 0.05;
 
 /// Rungs 4 and 5 on the way.
 #[derive(Debug)]
@@ -33,7 +37,7 @@ enum Stage {
     /// Rung 5 is next, from a planar embedding.
     Matchmaker(Vec<DVec2>),
     /// The constraints are met with new vertices, some of which may be needless once the embedding has relaxed.
-    Refined(Box<Matched>),
+    Refined(Box<Matched>, usize),
     /// There is no further step.
     End,
 }
@@ -86,10 +90,10 @@ impl ConstrainedRun {
             Stage::Matchmaker(start) => {
                 let Matched { refinement, embedding } = matched(mesh, start, &self.pins, control)?;
                 let found = without_needless_vertices(mesh, Matched { refinement, embedding });
-                self.stage = Stage::Refined(Box::new(found.clone()));
+                self.stage = Stage::Refined(Box::new(found.clone()), REMOVALS);
                 Ok(Reached::with_new_vertices(found))
             }
-            Stage::Refined(found) => {
+            Stage::Refined(found, looks_left) => {
                 let Matched { refinement, embedding } = found.as_ref();
                 let disk = refinement.disk();
                 let mut relaxing = Relaxing::new(disk, embedding.clone(), &self.pins);
@@ -100,9 +104,16 @@ impl ConstrainedRun {
                         break;
                     }
                 }
+                let before = refinement.new_vertices().len();
                 let found = Matched { refinement: refinement.clone(), embedding: relaxed };
-                self.stage = Stage::End;
-                Ok(Reached::with_new_vertices(without_needless_vertices(mesh, found)))
+                let found = without_needless_vertices(mesh, found);
+                let taken_out = before - found.refinement.new_vertices().len();
+                let is_worthwhile = taken_out as f64 > WORTHWHILE * before as f64 && *looks_left > 1;
+                self.stage = match is_worthwhile {
+                    true => Stage::Refined(Box::new(found.clone()), *looks_left - 1),
+                    false => Stage::End,
+                };
+                Ok(Reached::with_new_vertices(found))
             }
             Stage::End => Err(SolveError::Unmet),
         }

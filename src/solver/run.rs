@@ -395,7 +395,11 @@ impl Run {
     fn constrained_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
         let start = Instant::now();
         let run = self.constrained.get_or_insert_with(|| ConstrainedRun::new(&self.settings, &self.pins));
-        let reached = run.step(mesh, control)?;
+        let reached = run.step(mesh, control);
+        if matches!(reached, Err(SolveError::Unmet)) {
+            self.ending = Some(Ending::Unmet);
+        }
+        let reached = reached?;
         let Reached { rung, embedding, progress, outside, refinement } = reached;
         let solution = self.one_to_one(embedding, self.settings.held(&self.pins), start);
         Ok(Raw { refinement, progress, outside, ..Raw::of(rung, Family::default(), solution) })

@@ -31,6 +31,7 @@ const LETTERS: f32 = 12.0;
 pub(super) fn rung_words(rung: &str) -> &str {
     match rung {
         "iterate" => "mean value",
+        "relax" => "relaxed",
         "virtual-boundary" => "virtual boundary",
         "matchmaker" => "new vertices",
         other => other,

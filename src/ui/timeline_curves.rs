@@ -138,6 +138,7 @@ impl Curve {
         match (self.value_at(timeline, index), self.scale) {
             (None, _) => NO_NUMBER.to_owned(),
             (Some(value), CurveScale::Count) => format!("{value:.0}"),
+            (Some(0.0), CurveScale::Powers) => "0".to_owned(),
             (Some(value), CurveScale::Powers) if (0.01..1e4).contains(&value) => short(value),
             (Some(value), CurveScale::Powers) => format!("{value:.1e}"),
         }

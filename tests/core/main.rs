@@ -7,6 +7,7 @@ mod check_cli;
 mod common;
 mod conflicts;
 mod constrained;
+mod continuation;
 mod convex;
 mod diagnosis;
 mod disk_oracle;

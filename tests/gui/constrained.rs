@@ -52,7 +52,7 @@ fn twisted() -> Window {
 #[test]
 fn the_pill_names_the_rung_that_the_picture_comes_from() {
     let mut window = twisted();
-    assert_eq!(window.verdict(), "Planar: proved · relax");
+    assert_eq!(window.verdict(), "Planar: proved · relaxed");
     assert!(window.controls().iter().any(|(_, name, _)| name.ends_with(": continuation, planar")));
     assert!(window.shows("Distance left"), "its curve: {:?}", window.words());
     window.key(Key::Home);
@@ -102,7 +102,7 @@ fn relax_is_a_button_a_key_and_an_entry() {
     window.click("Relax");
     let relaxed = step_count(&window);
     assert!(relaxed > count);
-    assert_eq!(window.verdict(), "Planar: proved · relax");
+    assert_eq!(window.verdict(), "Planar: proved · relaxed");
     window.key(Key::R);
     window.menu(&["Solve"]);
     assert!(window.has_button("Relax"));

@@ -64,7 +64,7 @@ fn shortcuts_do_what_the_table_says() {
         let done = match request {
             Request::Do(Action::Undo | Action::Redo) => document(&window).pins.is_empty(),
             Request::Do(Action::Solve) => editor.session.is_current() && steps(&window) == (1, Some(0)),
-            Request::Do(Action::Relax) => steps(&window).0 > 3 && window.verdict() == "Planar: proved · relax",
+            Request::Do(Action::Relax) => steps(&window).0 > 3 && window.verdict() == "Planar: proved · relaxed",
             Request::Do(Action::Step) => steps(&window) == (4, Some(3)),
             // It is planar: there is nothing to run for.
             Request::RunOrPause => steps(&window).0 == 3 && !editor.session.is_running(),

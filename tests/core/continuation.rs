@@ -1,0 +1,189 @@
+//! The ladder with constraints: whatever the targets, it ends planar with the exact ones met; every step of continuation
+//! and relaxing is planar; what is stopped goes on where it was.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use freebound::examples::Example;
+use freebound::mesh::{DiskMesh, VertexId};
+use freebound::solver::{Control, Ending, Family, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step};
+use glam::DVec2;
+use proptest::prelude::*;
+
+use crate::common::{Random, grid};
+use crate::shapes::{finger, irregular_cube};
+
+/// All steps of a run and why it ended.
+fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Result<(Vec<Step>, Ending), SolveError> {
+    let mut steps = Vec::new();
+    let ending = Run::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step))?;
+    Ok((steps, ending))
+}
+
+fn one_to_one(method: Method) -> Settings {
+    Settings::new(method, Family::default())
+}
+
+/// A small disk of one of three kinds.
+fn small_disk(kind: u32, random: &mut Random) -> DiskMesh {
+    match kind % 3 {
+        0 => DiskMesh::try_from(grid(2 + random.below(4), 2 + random.below(4))).unwrap(),
+        1 => irregular_cube(3, random),
+        _ => finger(4, 6, random),
+    }
+}
+
+/// Pins at random places of the unit square, every fourth of them with a weight.
+fn random_pins(mesh: &DiskMesh, count: u32, random: &mut Random) -> Pins {
+    let vertex_count = u32::try_from(mesh.vertex_count()).unwrap();
+    let mut pins = Pins::new();
+    for k in 0..count {
+        let target = DVec2::new(random.unit(), random.unit());
+        let pin = if k % 4 == 3 { Pin::weighted(target, 1.0) } else { Pin::hard(target) };
+        pins.insert(VertexId::new(random.below(vertex_count)), pin);
+    }
+    pins
+}
+
+/// Four vertices of the dome that are to turn by a right angle about the middle, and four of its boundary that stay.
+fn swirl() -> (DiskMesh, Pins) {
+    let mesh = DiskMesh::try_from(Example::Dome.mesh()).unwrap();
+    let (steps, _) = steps_of(&mesh, Settings::default(), &Pins::new()).unwrap();
+    let flat = &steps.last().unwrap().solution.embedding;
+    let boundary = mesh.boundary_loop();
+    let middle = boundary.iter().map(|v| flat[v.index()]).sum::<DVec2>() / boundary.len() as f64;
+    let radius = boundary.iter().map(|v| flat[v.index()].distance(middle)).fold(f64::INFINITY, f64::min);
+    let nearest = |z: DVec2| {
+        mesh.vertices().min_by(|a, b| flat[a.index()].distance(z).total_cmp(&flat[b.index()].distance(z))).unwrap()
+    };
+    let inner = (0..4).map(|k| nearest(middle + 0.35 * radius * DVec2::from_angle(f64::from(k) * 1.57)));
+    let turned = inner.map(|v| (v, Pin::hard(middle + (flat[v.index()] - middle).perp())));
+    let outer = (0..4).map(|k| boundary[k * boundary.len() / 4]);
+    let pins = turned.chain(outer.map(|v| (v, Pin::hard(flat[v.index()])))).collect();
+    (mesh, pins)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 48, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_set_of_constraints_ends_planar_with_the_exact_ones_met(kind in 0_u32..3, count in 1_u32..24, seed in 1_u32..) {
+        let mut random = Random(seed.into());
+        let mesh = small_disk(kind, &mut random);
+        let pins = random_pins(&mesh, count, &mut random);
+        let (steps, ending) = steps_of(&mesh, Settings::default(), &pins).unwrap();
+        let last = steps.last().unwrap();
+        prop_assert_eq!(ending, Ending::Planar);
+        prop_assert!(last.verdict.planar && !last.verdict.mirrored && last.unmet().is_empty());
+        for (v, pin) in pins.iter().filter(|(_, pin)| pin.hold.is_exact()) {
+            prop_assert_eq!(last.solution.embedding[v.index()], pin.target);
+        }
+        let is_planar = |step: &Step| step.verdict.planar || !step.rung.is_one_to_one();
+        prop_assert!(steps.iter().all(is_planar));
+    }
+}
+
+#[test]
+fn continuation_turns_the_inside_while_the_boundary_stays_and_needs_no_new_vertices() {
+    let (mesh, pins) = swirl();
+    let (steps, ending) = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap();
+    assert_eq!(ending, Ending::Planar);
+    assert!(steps.iter().all(|step| step.verdict.planar && step.refinement.is_none()));
+    let left: Vec<f64> = steps.iter().map(|step| step.progress.unwrap().distance_left).collect();
+    assert!(left[0] > 0.0 && left.last() == Some(&0.0) && left.is_sorted_by(|a, b| a >= b), "{left:?}");
+    assert!(steps.iter().all(|step| step.progress.unwrap().least_determinant > 0.0));
+}
+
+#[test]
+fn relaxing_lowers_the_energy_round_by_round_and_moves_no_exact_pin() {
+    let (mesh, pins) = swirl();
+    let settings = Settings { relax_rounds: 8, ..one_to_one(Method::Continuation) };
+    let (steps, _) = steps_of(&mesh, settings, &pins).unwrap();
+    let arrived = steps.iter().rposition(|step| step.rung == Method::Continuation).unwrap();
+    assert!(steps.len() > arrived + 1);
+    let energies: Vec<f64> = steps[arrived..].iter().map(|step| step.progress.unwrap().energy).collect();
+    assert!(energies.is_sorted_by(|a, b| a > b), "{energies:?}");
+    assert!(steps[arrived..].iter().all(|step| step.unmet().is_empty() && step.verdict.planar));
+}
+
+#[test]
+fn a_weighted_constraint_pulls_the_nearer_the_heavier_it_is() {
+    let mesh = DiskMesh::try_from(Example::Dome.mesh()).unwrap();
+    let (_, pins) = swirl();
+    let weighed = |weight: f64| -> f64 {
+        let some = pins.iter().enumerate();
+        let pins: Pins =
+            some.map(|(k, (&v, pin))| (v, if k == 0 { Pin::weighted(pin.target, weight) } else { *pin })).collect();
+        let settings = Settings { relax_rounds: 20, ..one_to_one(Method::Continuation) };
+        let (steps, ending) = steps_of(&mesh, settings, &pins).unwrap();
+        assert_eq!(ending, Ending::Planar);
+        let (v, pin) = pins.iter().find(|(_, pin)| !pin.hold.is_exact()).unwrap();
+        steps.last().unwrap().solution.embedding[v.index()].distance(pin.target)
+    };
+    let distances = [1e-3, 1.0, 100.0].map(weighed);
+    assert!(distances.is_sorted_by(|a, b| a > b), "{distances:?}");
+    assert!(distances[2] < 0.01 * distances[0], "{distances:?}");
+}
+
+#[test]
+fn a_step_that_is_cancelled_anywhere_leaves_the_way_as_it_was() {
+    let (mesh, pins) = swirl();
+    let (whole, _) = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap();
+    let mut run = Run::new(one_to_one(Method::Continuation), pins);
+    let mut steps: Vec<Step> = Vec::new();
+    for allowed in 0.. {
+        if run.ending().is_some() {
+            break;
+        }
+        let (flag, phases) = (AtomicBool::new(false), AtomicUsize::new(0));
+        let report = |_: Phase| {
+            if phases.fetch_add(1, Ordering::Relaxed) == allowed % 5 {
+                flag.store(true, Ordering::Relaxed);
+            }
+        };
+        match run.step(&mesh, Control::new(&flag, &report)) {
+            Ok(step) => steps.push(step),
+            Err(error) => {
+                assert_eq!(error, SolveError::Cancelled);
+                steps.push(run.step(&mesh, Control::unattended()).unwrap());
+            }
+        }
+    }
+    assert!(steps.iter().all(|step| step.verdict.planar) && steps.last().unwrap().unmet().is_empty());
+    assert!(whole.last().unwrap().unmet().is_empty());
+}
+
+#[test]
+fn the_same_run_gives_the_same_bits() {
+    let (mesh, pins) = swirl();
+    let [a, b] = [(); 2].map(|()| steps_of(&mesh, Settings::default(), &pins).unwrap().0);
+    assert_eq!(a.len(), b.len());
+    assert!(a.iter().zip(&b).all(|(a, b)| a.solution.embedding == b.solution.embedding));
+}
+
+#[test]
+fn without_leave_for_new_vertices_what_cannot_be_met_is_named_and_the_rest_is_planar() {
+    let mesh = DiskMesh::try_from(grid(4, 4)).unwrap();
+    let face = mesh.face(mesh.faces().nth(12).unwrap());
+    let corners = face.map(|v| mesh.position(v).truncate());
+    let turned = [(face[0], corners[1]), (face[1], corners[0]), (face[2], corners[2])];
+    let pins: Pins = turned.into_iter().map(|(v, target)| (v, Pin::hard(target))).collect();
+    let mut run = Run::new(Settings { new_vertices: false, ..Settings::default() }, pins.clone());
+    let mut last = None;
+    let error = run.finish(&mesh, Control::unattended(), |step| last = Some(step)).unwrap_err();
+    assert_eq!(error, SolveError::Unmet);
+    assert_eq!(run.ending(), Some(Ending::Unmet));
+    let last = last.unwrap();
+    assert!(last.verdict.planar && !last.unmet().is_empty() && last.refinement.is_none());
+    let (steps, ending) = steps_of(&mesh, Settings::default(), &pins).unwrap();
+    assert_eq!((ending, steps.last().unwrap().unmet()), (Ending::Planar, Vec::new()));
+    assert!(steps.last().unwrap().refinement.is_some());
+}
+
+#[test]
+fn targets_that_nearly_coincide_are_an_error_that_names_them() {
+    let mesh = DiskMesh::try_from(grid(4, 4)).unwrap();
+    let places = [DVec2::ZERO, DVec2::new(1e-12, 0.0), DVec2::ONE];
+    let pins: Pins = places.iter().enumerate().map(|(v, &z)| (VertexId::from_index(6 * v), Pin::hard(z))).collect();
+    let error = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap_err();
+    assert_eq!(error, SolveError::TargetsTooNear { first: VertexId::new(0), second: VertexId::new(6) });
+}
