@@ -83,7 +83,7 @@ fn row(path: &Path) -> Result<[String; 13], String> {
     let file = read_mesh(&mesh_of(path)).map_err(|error| error.to_string())?;
     let mesh = DiskMesh::try_from(file.polygons.triangulate()).map_err(|error| error.to_string())?;
     let pins = Constraints::read(path, mesh.vertex_count()).map_err(|error| error.to_string())?.pins;
-    let settings = Settings { relax_rounds: RELAX_ROUNDS, ..Settings::default() };
+    let settings = Settings { relax_rounds: Some(RELAX_ROUNDS), ..Settings::default() };
     let found = Outcome::of(&mesh, settings, &pins);
     let shown = found.solved.as_ref().map(|(_, step)| step).or(found.last.as_ref());
     let relaxed = found.last.as_ref().filter(|step| step.verdict.planar);

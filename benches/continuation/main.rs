@@ -2,7 +2,7 @@
 //!
 //! Words behind `--` choose the parts: `corpus` (the constrained problems of `../shared/corpus`), `synthetic` (bumpy caps
 //! with displaced, swirled, stretched and permuted pins), `size` (time and memory by the number of faces); all of them
-//! without any. `quick` takes few and small cases.
+//! without any. `quick` takes few and small cases; `steps` shows every step.
 //!
 //! A run that takes longer than two minutes is stopped and says so; one that fails is a row like any other.
 
@@ -14,14 +14,19 @@ mod outcome;
 mod size;
 mod synthetic;
 
+use std::sync::atomic::Ordering;
+
 use common::arguments;
 use common::machine::print_machine;
+use outcome::SHOWS_STEPS;
 
 fn main() {
     print_machine();
     let arguments = arguments();
     let is_quick = arguments.iter().any(|word| word == "quick");
-    let chosen: Vec<&str> = arguments.iter().map(String::as_str).filter(|&word| word != "quick").collect();
+    SHOWS_STEPS.store(arguments.iter().any(|word| word == "steps"), Ordering::Relaxed);
+    let words = arguments.iter().map(String::as_str);
+    let chosen: Vec<&str> = words.filter(|word| !["quick", "steps"].contains(word)).collect();
     for (name, run) in [("corpus", corpus::run as fn(bool)), ("synthetic", synthetic::run), ("size", size::run)] {
         if chosen.is_empty() || chosen.contains(&name) {
             run(is_quick);

@@ -11,6 +11,9 @@ use freebound::solver::{Control, Pins, Run, Settings, SolveError, Step};
 /// The longest that a run may take.
 const LIMIT: Duration = Duration::from_mins(2);
 
+/// Whether every step is shown.
+pub(crate) static SHOWS_STEPS: AtomicBool = AtomicBool::new(false);
+
 /// What a run came to.
 pub(crate) struct Outcome {
     /// Why it ended, in words.
@@ -37,6 +40,9 @@ impl Outcome {
             let mut run = Run::new(settings, pins.clone());
             let take = |step: Step| {
                 found.steps += 1;
+                if SHOWS_STEPS.load(Ordering::Relaxed) {
+                    show(&step);
+                }
                 if found.solved.is_none() && step.verdict.planar && step.unmet().is_empty() {
                     found.solved = Some((start.elapsed().as_secs_f64(), step.clone()));
                 }
@@ -64,6 +70,14 @@ impl Outcome {
     pub(crate) fn seconds_to_solve(&self) -> f64 {
         self.solved.as_ref().map_or(self.seconds, |&(seconds, _)| seconds)
     }
+}
+
+/// A step in a line.
+fn show(step: &Step) {
+    let progress = step.progress.map_or_else(String::new, |progress| {
+        format!(", energy {:.4}, distance left {:.3e}", progress.energy, progress.distance_left)
+    });
+    println!("    {} {}: {:.3} s, {}{progress}", step.index, step.rung.name(), step.seconds(), step.verdict.summary());
 }
 
 /// Does some work, and raises a flag when it takes too long.

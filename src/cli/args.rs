@@ -120,7 +120,7 @@ impl FlattenArguments {
             (method, _) => method,
         };
         let max_steps = self.max_steps.unwrap_or(Settings::MAX_STEPS);
-        let (relax_rounds, new_vertices) = (self.relax.unwrap_or(0), !self.no_new_vertices);
+        let (relax_rounds, new_vertices) = (self.relax, !self.no_new_vertices);
         let base = Settings::new(method, self.family.unwrap_or_default());
         Settings {
             treatment: self.treatment,
@@ -136,12 +136,12 @@ impl FlattenArguments {
     pub fn idle_option(&self) -> Option<(&'static str, &'static str)> {
         let method = self.settings().method;
         let is_convex = matches!(method, Method::Convex(_));
-        let splits = matches!(method, Method::Auto | Method::Continuation);
+        let splits = method == Method::Auto;
         let of_family =
             if method.is_one_to_one() { "it solves no weighted equations" } else { "its weights are its own" };
         let of_splits = match method {
             Method::Matchmaker => "it meets constraints by nothing else",
-            _ => "only auto and continuation make any",
+            _ => "only auto goes on to them",
         };
         let cases = [
             (self.boundary.is_some(), is_convex, "--boundary", "only convex lays the boundary on a shape"),

@@ -3,8 +3,7 @@
 use glam::DVec2;
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 
-/// Coordinates nearer to zero than this are beyond what the triangulation can represent and are taken as zero.
-const LEAST_COORDINATE: f64 = 1e-40;
+use super::spade_points::spade_points;
 
 /// Triangulates the convex hull of points, triangles counter-clockwise, corners by their places in the list.
 ///
@@ -14,9 +13,7 @@ const LEAST_COORDINATE: f64 = 1e-40;
 ///
 /// If there are 2³² points or more.
 pub fn delaunay_triangles(points: &[DVec2]) -> Option<Vec<[u32; 3]>> {
-    let seen = |x: f64| if x.abs() < LEAST_COORDINATE { 0.0 } else { x };
-    let places = points.iter().map(|z| Point2::new(seen(z.x), seen(z.y))).collect();
-    let triangulation = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(places).ok()?;
+    let triangulation = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(spade_points(points.iter())).ok()?;
     if triangulation.num_vertices() != points.len() {
         return None;
     }

@@ -9,6 +9,7 @@ mod picture;
 mod picture_frame;
 mod polygon;
 mod similarity;
+mod spade_points;
 
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, segments_meet};
 pub use delaunay::delaunay_triangles;

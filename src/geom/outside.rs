@@ -6,6 +6,8 @@
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
+use super::spade_points::spade_points;
+
 /// Triangulates the region between a simple polygon, counter-clockwise, and the convex hull of polygon and frame.
 ///
 /// Corners of the frame, which must lie outside the polygon's hull, are numbered after those of the polygon. Triangles
@@ -17,7 +19,7 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 /// If there are 2³² points or more.
 pub fn outside_triangles(polygon: &[DVec2], frame: &[DVec2]) -> Option<Vec<[u32; 3]>> {
     let count = polygon.len();
-    let points: Vec<Point2<f64>> = polygon.iter().chain(frame).map(|z| Point2::new(z.x, z.y)).collect();
+    let points = spade_points(polygon.iter().chain(frame));
     let sides = (0..count).map(|k| [k, (k + 1) % count]).collect();
     let mut conflicts = 0;
     let total = points.len();

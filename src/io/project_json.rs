@@ -37,7 +37,7 @@ pub(super) struct RawProject {
     #[serde(default = "usual_max_steps")]
     max_steps: usize,
     #[serde(default)]
-    relax_rounds: usize,
+    relax_rounds: Option<usize>,
     #[serde(default = "usually_allowed")]
     new_vertices: bool,
     #[serde(default)]

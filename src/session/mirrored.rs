@@ -57,7 +57,11 @@ impl Session {
             let settings = Settings::new(Method::Natural, Family::Conformal);
             flatten(&disk, &settings, &Pins::new(), control).map(|solution| solution.embedding)
         };
-        self.undistorted.job = Job::spawn("undistorted", self.waker(), work).ok().map(|job| (revision, job));
+        self.undistorted = match Job::spawn("undistorted", self.waker(), work) {
+            Ok(job) => Undistorted { embedding: self.undistorted.embedding.take(), job: Some((revision, job)) },
+            // Without a thread nobody asks.
+            Err(_) => Undistorted { embedding: Some((revision, None)), job: None },
+        };
     }
 }
 

@@ -8,7 +8,7 @@ use super::continuation::{Accepted, Continuation};
 use super::matchmaker::{Matched, matched, without_needless_vertices};
 use super::relaxing::Relaxing;
 use super::{
-    Conflict, Control, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step, check_pins, conflicts,
+    Conflict, Control, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step, check_pins, conflicts, verdict,
 };
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
@@ -34,6 +34,8 @@ enum Stage {
     Begin,
     /// Rung 4, which may still arrive.
     Continuation(Box<Continuation>),
+    /// Rung 4 cannot arrive, and new vertices are not wanted.
+    Stuck,
     /// Rung 5 is next, from a planar embedding.
     Matchmaker(Vec<DVec2>),
     /// The constraints are met with new vertices, some of which may be needless once the embedding has relaxed.
@@ -75,17 +77,34 @@ impl ConstrainedRun {
         match &mut self.stage {
             Stage::Begin => self.begin(mesh, control),
             Stage::Continuation(continuation) => {
-                if let Some(Accepted { embedding, progress, outside }) = continuation.step(mesh, control)? {
-                    if continuation.has_arrived() {
-                        self.stage = Stage::End;
+                match continuation.step(mesh, control) {
+                    Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+                    Ok(Some(Accepted { embedding, progress, outside })) => {
+                        if continuation.has_arrived() {
+                            self.stage = Stage::End;
+                        }
+                        let (progress, outside) = (Some(progress), Some(outside));
+                        let rung = Method::Continuation;
+                        return Ok(Reached { rung, embedding, progress, outside, refinement: None });
                     }
-                    let (progress, outside) = (Some(progress), Some(outside));
-                    return Ok(Reached { rung: Method::Continuation, embedding, progress, outside, refinement: None });
+                    // What cannot be solved is stuck, too.
+                    Ok(None) | Err(_) => {}
                 }
-                let goes_on = self.settings.method == Method::Auto && self.settings.new_vertices;
-                let stuck = continuation.embedding().to_vec();
-                self.stage = if goes_on { Stage::Matchmaker(stuck) } else { Stage::End };
-                if goes_on { self.step(mesh, control) } else { Err(SolveError::Unmet) }
+                let is_crushed = continuation.go_back_to_sound();
+                let (embedding, progress) = (continuation.embedding().to_vec(), Some(continuation.progress(mesh)));
+                if self.settings.method == Method::Auto && self.settings.new_vertices {
+                    self.stage = Stage::Matchmaker(embedding);
+                    return self.step(mesh, control);
+                }
+                self.stage = Stage::Stuck;
+                if !is_crushed {
+                    return self.step(mesh, control);
+                }
+                Ok(Reached { rung: Method::Continuation, embedding, progress, outside: None, refinement: None })
+            }
+            Stage::Stuck => {
+                self.stage = Stage::End;
+                Err(SolveError::Unmet)
             }
             Stage::Matchmaker(start) => {
                 let Matched { refinement, embedding } = matched(mesh, start, &self.pins, control)?;
@@ -122,12 +141,8 @@ impl ConstrainedRun {
     /// The planar start, moved to where it fits the targets best.
     fn begin(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Reached, SolveError> {
         check_pins(mesh, &self.pins)?;
-        for conflict in conflicts(mesh, &self.pins) {
-            if let Conflict::TooNear { vertices: [first, second] } = conflict {
-                return Err(SolveError::TargetsTooNear { first, second });
-            }
-        }
-        let embedding = fitted(planar_start(mesh, &self.settings, control)?, &self.pins);
+        check_distances(mesh, &self.pins)?;
+        let embedding = fitted(mesh, planar_start(mesh, &self.settings, control)?, &self.pins);
         let continuation = Continuation::new(mesh, embedding.clone(), &self.pins);
         let progress = Some(continuation.progress(mesh));
         self.stage = match self.settings.method {
@@ -139,23 +154,43 @@ impl ConstrainedRun {
     }
 }
 
+/// Checks that no two exact targets are so near that numbers between them run out.
+pub(super) fn check_distances(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
+    for conflict in conflicts(mesh, pins) {
+        if let Conflict::TooNear { vertices: [first, second] } = conflict {
+            return Err(SolveError::TargetsTooNear { first, second });
+        }
+    }
+    Ok(())
+}
+
 /// A planar embedding without the constraints, by the ladder.
 fn planar_start(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Vec<DVec2>, SolveError> {
     let unconstrained = Settings { size: settings.size, ..Settings::default() };
-    let mut last: Option<Step> = None;
-    Run::new(unconstrained, Pins::new()).finish(mesh, control, |step| last = Some(step))?;
-    match last {
-        Some(step) if step.verdict.planar => Ok(step.solution.embedding),
-        _ => Err(SolveError::LadderExhausted),
+    let mut planar: Option<Step> = None;
+    let result = Run::new(unconstrained, Pins::new()).finish(mesh, control, |step| {
+        if step.verdict.planar {
+            planar = Some(step);
+        }
+    });
+    match (result, planar) {
+        (Err(SolveError::Cancelled), _) => Err(SolveError::Cancelled),
+        (_, Some(step)) => Ok(step.solution.embedding),
+        (Err(error), None) => Err(error),
+        (Ok(_), None) => Err(SolveError::LadderExhausted),
     }
 }
 
-/// An embedding moved by the similarity that fits the pins best; by a shift alone where none does.
-fn fitted(embedding: Vec<DVec2>, pins: &Pins) -> Vec<DVec2> {
+/// An embedding moved by the similarity that fits the pins best; by a shift alone where none does, or where rounding
+/// would fold it; not at all where even that would.
+fn fitted(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Vec<DVec2> {
     let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v.index()], pin.target]).collect();
-    if let Some(similarity) = Similarity::fitting(&pairs) {
-        return embedding.into_iter().map(|z| similarity.apply(z)).collect();
+    let is_planar = |embedding: &Vec<DVec2>| verdict(mesh, embedding).planar;
+    let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Vec<_>>();
+    if let Some(embedding) = Similarity::fitting(&pairs).map(fit).filter(is_planar) {
+        return embedding;
     }
     let shift = pairs.iter().map(|[is, wanted]| *wanted - *is).sum::<DVec2>() / pairs.len().max(1) as f64;
-    embedding.into_iter().map(|z| z + shift).collect()
+    let shifted = embedding.iter().map(|&z| z + shift).collect();
+    if is_planar(&shifted) { shifted } else { embedding }
 }

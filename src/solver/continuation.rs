@@ -5,6 +5,7 @@
 //! response: how all points follow, to first order of the energy, where the pins go to their targets
 //! jump:     all of the way at once; what folds is unfolded with the pins held           tried once
 //! advance:  as far along the response as no face folds and the boundary stays simple    then again and again
+//! loosen:   where little of the way is free, springs instead of pins: they pass around each other
 //! settle:   outside triangulated anew, a few Newton steps down the energy
 //! ```
 //!
@@ -23,7 +24,7 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::outside_of;
 use super::rest::Rest;
-use super::{Control, Outside, Pins, Places, Progress, SolveError, verdict};
+use super::{Control, Hold, Outside, Pin, Pins, Places, Progress, SolveError, verdict};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -37,14 +38,26 @@ const SMALLEST_ADVANCE: f64 = 1e-4;
 
 /// Newton steps to unfold a jump, and to settle.
 const UNFOLD_STEPS: usize = 6;
-const SETTLE_STEPS: usize = 6;
+const SETTLE_STEPS: usize = 4;
 
 /// The least share of the energy that a Newton step must gain to be followed by another.
-const TOLERANCE: f64 = 1e-4;
+const TOLERANCE: f64 = 1e-3;
 
-/// It is stuck where so many steps shorten the way by less than this factor.
+/// It is stuck where so many steps shorten the way by less than this factor, after so many steps in all, and where all
+/// but so little of the way is behind it and the rest cannot be gone.
 const PATIENCE: usize = 10;
 const SHORTER: f64 = 0.9;
+const MOST_STEPS: usize = 200;
+const HARDLY_ANY: f64 = 1e-6;
+
+/// Where less of the way than this can be gone, pins in each other's way are let loose: springs draw them to their
+/// targets, and they pass around each other.
+const NARROW: f64 = 0.25;
+const LOOSE_WEIGHT: f64 = 30.0;
+const LOOSE_STEPS: usize = 10;
+
+/// An embedding whose energy is more than so many times the lowest is crushed, and nothing to go on from.
+const CRUSHED: f64 = 10.0;
 
 /// A one-to-one embedding on its way.
 pub(super) struct Continuation {
@@ -57,6 +70,10 @@ pub(super) struct Continuation {
     settled: Option<Settled>,
     /// Whether to try all of the way at once.
     jumps: bool,
+    /// Whether the latest step let the pins loose.
+    is_loose: bool,
+    /// The latest embedding that was not crushed, and the lowest energy so far.
+    sound: (Vec<DVec2>, f64),
 }
 
 struct Settled {
@@ -82,7 +99,15 @@ impl Continuation {
     /// Begins at a planar embedding, wherever it lies.
     pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
         let (rest, pins) = (Rest::new(mesh), pins.clone());
-        Self { rest, pins, embedding, way_left: Vec::new(), settled: None, jumps: true }
+        let sound = (embedding.clone(), rest.symmetric_dirichlet(mesh, &embedding));
+        Self { rest, pins, embedding, way_left: Vec::new(), settled: None, jumps: true, is_loose: false, sound }
+    }
+
+    /// Goes back to the latest embedding that is not crushed, where the present one is. Returns whether it is.
+    pub(super) fn go_back_to_sound(&mut self) -> bool {
+        let is_crushed = self.embedding != self.sound.0;
+        (self.embedding, self.settled) = (self.sound.0.clone(), None);
+        is_crushed
     }
 
     /// The present embedding, one-to-one.
@@ -127,27 +152,64 @@ impl Continuation {
             shift[v.index()] = *target - settled.points[v.index()];
         }
         let moves = settled.membrane.response(&settled.points, &shift, control)?;
-        let gone = match std::mem::take(&mut self.jumps) {
-            true if self.jump(mesh, &settled, (&targets, &moves), control)? => true,
-            _ => self.advance(mesh, &settled, (&targets, &moves), control)?,
-        };
-        // A cancelled step leaves the embedding as it was, and finds its surroundings again.
+        let jumped = self.jumps && self.jump(mesh, &settled, (&targets, &moves), control)?;
+        self.jumps = false;
+        let gone = jumped || self.loosen_or_advance(mesh, &settled, (&targets, &moves), control)?;
         if !gone {
             return Ok(None);
         }
         let progress = self.progress(mesh);
+        if progress.energy <= CRUSHED * self.sound.1 {
+            self.sound = (self.embedding.clone(), self.sound.1.min(progress.energy));
+        }
         self.way_left.push(progress.distance_left);
         let outside = self.settled.as_ref().map_or(settled.outside, |settled| Arc::clone(&settled.outside));
         Ok((!self.is_stuck()).then(|| Accepted { embedding: self.embedding.clone(), progress, outside }))
     }
 
-    /// Whether many steps have hardly shortened the way.
+    /// Whether there is no sense in going on.
     fn is_stuck(&self) -> bool {
-        match self.way_left.as_slice() {
-            [.., now] if *now == 0.0 => false,
-            way @ [.., now] if way.len() > PATIENCE => *now > SHORTER * way[way.len() - 1 - PATIENCE],
-            _ => false,
+        let way = &self.way_left;
+        let is_short_of_all = || matches!(way[..], [first, .., now] if now <= HARDLY_ANY * first);
+        let has_hardly_gone = || match way.len().checked_sub(PATIENCE + 1) {
+            Some(before) => way[way.len() - 1] > SHORTER * way[before],
+            None => false,
+        };
+        !self.has_arrived() && (way.len() >= MOST_STEPS || is_short_of_all() || has_hardly_gone())
+    }
+
+    /// Goes on along the response, or lets the pins loose where it is narrow.
+    fn loosen_or_advance(
+        &mut self,
+        mesh: &DiskMesh,
+        settled: &Settled,
+        (targets, moves): (&Places, &[DVec2]),
+        control: Control<'_>,
+    ) -> Result<bool, SolveError> {
+        let longest = settled.membrane.longest_step(&settled.points, moves, mesh.face_count());
+        let loosens = longest < NARROW && !self.is_loose;
+        self.is_loose = loosens && self.loosen(mesh, targets, control)?;
+        Ok(self.is_loose || self.advance(mesh, settled, (targets, moves, longest), control)?)
+    }
+
+    /// Lowers the energy with springs in the place of exact pins. Returns whether that is planar.
+    fn loosen(&mut self, mesh: &DiskMesh, targets: &Places, control: Control<'_>) -> Result<bool, SolveError> {
+        let loose = self.pins.iter().map(|(&v, pin)| match pin.hold {
+            Hold::Weighted(_) => (v, *pin),
+            _ => (v, Pin::weighted(pin.target, LOOSE_WEIGHT)),
+        });
+        let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied()) else { return Ok(false) };
+        let around = (self.embedding.as_slice(), &outside);
+        let (membrane, mut z) = self.rest.membrane(mesh, around, &loose.collect(), (OUTSIDE_WEIGHT, None))?;
+        let unfolded = Energy::Foldover(0.0);
+        let limits = Limits { unfolded, steps: LOOSE_STEPS, until_unfolded: false, tolerance: TOLERANCE };
+        membrane.descend(&mut z, limits, control)?;
+        z.truncate(mesh.vertex_count());
+        let is_planar = verdict(mesh, &z).planar;
+        if is_planar {
+            (self.embedding, self.settled) = (z, None);
         }
+        Ok(is_planar)
     }
 
     /// Triangulates the outside of an embedding, and plans the energy of both. `None` where its boundary is not simple.
@@ -184,10 +246,9 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        (targets, moves): (&Places, &[DVec2]),
+        (targets, moves, longest): (&Places, &[DVec2], f64),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
-        let longest = membrane.longest_step(points, moves, mesh.face_count());
         let mut share = (ADVANCE_SHARE * longest).min(1.0);
         while share > SMALLEST_ADVANCE {
             let mut z = moved(points, moves, share, targets);

@@ -75,38 +75,32 @@ impl Energy {
         matches!(self, Self::SymmetricDirichlet | Self::Foldover(0.0))
     }
 
-    fn value(self, p: f64, q: f64) -> f64 {
+    /// Its value by s = p + q and d = p − q.
+    fn value(self, s: f64, d: f64) -> f64 {
         match self {
-            _ if self.is_barrier() && p <= q => f64::INFINITY,
-            Self::Foldover(epsilon) => foldover(p, q, epsilon),
-            Self::SymmetricDirichlet => (p + q) * (1.0 + (p - q).powi(-2)),
+            _ if self.is_barrier() && d <= 0.0 => f64::INFINITY,
+            Self::Foldover(epsilon) => (s + 0.5 * (d * d + 1.0)) * inverse_chi(d, epsilon).0,
+            Self::SymmetricDirichlet => s * (1.0 + d.powi(-2)),
         }
     }
 
-    fn terms(self, p: f64, q: f64) -> Terms {
+    fn terms(self, s: f64, d: f64) -> Terms {
         match self {
-            Self::Foldover(epsilon) => foldover_terms(p, q, epsilon),
-            Self::SymmetricDirichlet => symmetric_dirichlet_terms(p, q),
+            Self::Foldover(epsilon) => foldover_terms(s, d, epsilon),
+            Self::SymmetricDirichlet => symmetric_dirichlet_terms(s, d),
         }
     }
 }
 
-fn symmetric_dirichlet_terms(p: f64, q: f64) -> Terms {
-    let (d, s) = (p - q, p + q);
+fn symmetric_dirichlet_terms(s: f64, d: f64) -> Terms {
     let (v, dv, ddv) = (1.0 + d.powi(-2), -2.0 * d.powi(-3), 6.0 * d.powi(-4));
     Terms { p: v + s * dv, q: v - s * dv, pp: 2.0 * dv + s * ddv, pq: -s * ddv, qq: s * ddv - 2.0 * dv }
 }
 
-fn foldover(p: f64, q: f64, epsilon: f64) -> f64 {
-    let d = p - q;
-    (p + q + 0.5 * (d * d + 1.0)) * inverse_chi(d, epsilon).0
-}
-
-fn foldover_terms(p: f64, q: f64, epsilon: f64) -> Terms {
-    let d = p - q;
+fn foldover_terms(s: f64, d: f64, epsilon: f64) -> Terms {
     let (u, root) = inverse_chi(d, epsilon);
     let (du, ddu) = (-u / root, 2.0 / (root * root * root));
-    let n = p + q + 0.5 * (d * d + 1.0);
+    let n = s + 0.5 * (d * d + 1.0);
     Terms {
         p: (1.0 + d) * u + n * du,
         q: (1.0 - d) * u - n * du,
@@ -145,14 +139,15 @@ impl Element {
     /// Its energy, times its weight.
     pub(super) fn energy(&self, z: [DVec2; 3], energy: Energy) -> f64 {
         let (alpha, beta) = self.derivatives(z);
-        self.weight * energy.value(alpha.length_squared(), beta.length_squared())
+        self.weight * energy.value(alpha.length_squared() + beta.length_squared(), self.determinant(z))
     }
 
     /// Gradient and Hessian of its energy, the Hessian made positive semidefinite.
     pub(super) fn model(&self, z: [DVec2; 3], energy: Energy) -> Model {
         let (alpha, beta) = self.derivatives(z);
         let (p, q) = (alpha.length_squared(), beta.length_squared());
-        let by = energy.terms(p, q);
+        // The determinant, which p − q equals but for rounding: folded or not is decided by it alone.
+        let by = energy.terms(p + q, self.determinant(z));
         let w = self.weight;
         let along = |direction: DVec2| direction.try_normalize().unwrap_or(DVec2::X);
         let (e, f) = (along(alpha), along(beta));

@@ -226,8 +226,9 @@ pub struct Settings {
     pub growth: Growth,
     /// How large the embedding is where the user's pins do not say.
     pub size: GaugeSize,
-    /// The most rounds of relaxing after a planar end; none where nobody asks for any.
-    pub relax_rounds: usize,
+    /// The most rounds of relaxing after a planar end; where nobody says, a few after rungs 4 and 5 and after the boundary
+    /// was bent, else none.
+    pub relax_rounds: Option<usize>,
     /// Whether edges may be split where the constraints cannot be met otherwise.
     pub new_vertices: bool,
 }
@@ -241,7 +242,7 @@ impl Default for Settings {
             max_steps: Self::MAX_STEPS,
             growth: Growth::default(),
             size: GaugeSize::default(),
-            relax_rounds: 0,
+            relax_rounds: None,
             new_vertices: true,
         }
     }

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::equations::length_scale;
 use super::foldover_energy::{Element, Energy};
 use super::membrane::{Membrane, Spring};
 use super::outside::outside_elements;
@@ -23,18 +24,21 @@ pub(super) struct Rest {
 impl Rest {
     /// Lays every face into the plane.
     pub(super) fn new(mesh: &DiskMesh) -> Self {
-        let triangles: Vec<[DVec2; 3]> = mesh.faces().map(|face| laid_flat(mesh.mesh().corners(face))).collect();
+        let scale = length_scale(mesh);
+        let flat = |face| laid_flat(mesh.mesh().corners(face).map(|x| scale * x));
+        let triangles: Vec<[DVec2; 3]> = mesh.faces().map(flat).collect();
         let areas = triangles.iter().map(|[a, b, c]| 0.5 * (*b - *a).perp_dot(*c - *a));
         let area: f64 = areas.clone().sum();
         let shares = areas.map(|part| part / area).collect();
         Self { triangles, shares, area }
     }
 
-    /// Mean over the surface of the symmetric Dirichlet energy, at equal total areas; 2 where nothing is distorted.
+    /// Mean over the surface of the symmetric Dirichlet energy |J|² + |J⁻¹|², at equal total areas; 4 where nothing is
+    /// distorted.
     pub(super) fn symmetric_dirichlet(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
         let place = |element: &Element| element.corners.map(|corner| embedding[corner as usize]);
         let elements = self.elements(mesh, embedding);
-        elements.iter().map(|element| element.energy(place(element), Energy::SymmetricDirichlet)).sum()
+        2.0 * elements.iter().map(|element| element.energy(place(element), Energy::SymmetricDirichlet)).sum::<f64>()
     }
 
     /// The smallest determinant of a face, at equal total areas.

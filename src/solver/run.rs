@@ -19,7 +19,7 @@ use std::time::Instant;
 
 use glam::DVec2;
 
-use super::constrained_run::{ConstrainedRun, Reached};
+use super::constrained_run::{ConstrainedRun, Reached, check_distances};
 use super::iterate::Iteration;
 use super::relaxing::{Relaxed, Relaxing};
 use super::scale::{complete_gauge, fit_gauge};
@@ -30,6 +30,7 @@ use super::{
     Control, Family, Method, Outside, Phase, PhaseSeconds, Pins, Prepared, Progress, Settings, Solution, SolveError,
     fixed_pins, flatten, gauge_pins, verdict,
 };
+use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
 
 /// Why a run has come to its end.
@@ -52,6 +53,9 @@ pub enum Ending {
 const ROUNDS_AFTER_BENDING: usize = 20;
 const ROUNDS_AFTER_CONTINUATION: usize = 3;
 const ROUNDS_AFTER_MATCHMAKER: usize = 30;
+
+/// The most mean-value iterations of a ladder that has other ways to the constraints.
+const ITERATIONS_WITH_CONSTRAINTS: usize = 8;
 
 /// A method under way on one mesh with one set of pins.
 #[derive(Debug)]
@@ -123,6 +127,7 @@ impl Raw {
 impl Run {
     /// A run that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
+        let pins = if settings.method.uses_pins() { pins } else { Pins::new() };
         let is_default = settings.family == Family::default() && pins.is_empty();
         Self {
             may_start_again: settings.method == Method::Auto && !is_default,
@@ -133,7 +138,7 @@ impl Run {
             virtual_boundary: None,
             constrained: None,
             relaxing: None,
-            relax_left: settings.relax_rounds,
+            relax_left: settings.relax_rounds.unwrap_or(0),
             stall: Stall::default(),
             iterations: 0,
             step_count: 0,
@@ -209,7 +214,10 @@ impl Run {
         let proved_mesh = raw.refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
         let verdict = verdict(proved_mesh, &raw.solution.embedding);
         let verify_seconds = start.elapsed().as_secs_f64();
-        let max_move = self.latest.as_ref().map(|latest| largest_move(&latest.embedding, &raw.solution.embedding));
+        // New vertices have no place before, or another one's.
+        let old = mesh.vertex_count();
+        let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &raw.solution.embedding[..old]);
+        let max_move = self.latest.as_ref().map(moved);
         let step = Step {
             rung: raw.rung,
             family: raw.family,
@@ -248,9 +256,11 @@ impl Run {
             self.relax_left = self.relax_left.saturating_sub(1);
         } else {
             self.relaxing = None;
-            self.relax_left = self.settings.relax_rounds.max(self.own_rounds_after(step));
+            self.relax_left = self.settings.relax_rounds.unwrap_or_else(|| self.own_rounds_after(step));
         }
-        let is_solved = step.verdict.planar && step.unmet().is_empty();
+        // A mirror image is one-to-one, but not what the ladder is for.
+        let is_upright = !step.verdict.mirrored || self.settings.method != Method::Auto;
+        let is_solved = step.verdict.planar && is_upright && step.unmet().is_empty();
         let relaxes_on = self.relax_left > 0 && !self.relaxing.as_ref().is_some_and(Relaxing::has_converged);
         let has_more = self.constrained.as_ref().is_some_and(|run| !run.is_exhausted());
         self.ending = match (is_solved, relaxes_on || has_more) {
@@ -303,7 +313,10 @@ impl Run {
     }
 
     fn ending_of_iteration(&self) -> Option<Ending> {
-        if self.stall.is_reached() {
+        // With constraints the iteration seldom arrives, and continuation always begins anew.
+        let gives_way = self.settings.method == Method::Auto && !self.may_bend_boundary();
+        let is_enough = gives_way && (self.stall.is_suspected() || self.iterations >= ITERATIONS_WITH_CONSTRAINTS);
+        if is_enough || self.stall.is_reached() {
             Some(Ending::Stalled)
         } else {
             (self.iterations >= self.settings.max_steps).then_some(Ending::Limit)
@@ -325,6 +338,9 @@ impl Run {
         }
         let is_stuck = || self.latest.is_some() && self.ending_of_iteration().is_some();
         let climbs_on = self.settings.method == Method::Auto && !self.may_bend_boundary();
+        if climbs_on && self.latest.is_none() {
+            check_distances(mesh, &self.settings.held(&self.pins))?;
+        }
         if self.settings.method.is_one_to_one() || self.constrained.is_some() || (climbs_on && is_stuck()) {
             return self.constrained_step(mesh, control);
         }
@@ -332,7 +348,7 @@ impl Run {
             return match self.linear(mesh, control) {
                 Err(error) if self.has_rung_left_after(&error) => {
                     self.say(format!("the natural boundary gave nothing: {error}"));
-                    self.last_rungs(mesh, control)
+                    if climbs_on { self.constrained_step(mesh, control) } else { self.last_rungs(mesh, control) }
                 }
                 other => other,
             };
@@ -343,9 +359,9 @@ impl Run {
             return self.last_rungs(mesh, control);
         }
         match self.iterate(mesh, control) {
-            Err(error) if climbs && error != SolveError::Cancelled => {
+            Err(error) if (climbs || climbs_on) && self.ending.is_none() && error != SolveError::Cancelled => {
                 self.say(format!("the iteration gave nothing: {error}"));
-                self.last_rungs(mesh, control)
+                if climbs_on { self.constrained_step(mesh, control) } else { self.last_rungs(mesh, control) }
             }
             other => other,
         }
@@ -366,9 +382,15 @@ impl Run {
         let mesh = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
         let held = if self.pins.len() < 2 { Pins::new() } else { self.settings.held(&self.pins) };
         let relaxing = self.relaxing.get_or_insert_with(|| Relaxing::new(mesh, latest.embedding.clone(), &held));
-        let Relaxed { mut embedding, progress, outside } = relaxing.round(mesh, control)?;
+        let Relaxed { mut embedding, progress, mut outside } = relaxing.round(mesh, control)?;
         if held.is_empty() {
+            let before = embedding.clone();
             complete_gauge(mesh, &mut embedding, (&self.pins, self.settings.size));
+            let pairs: Vec<[DVec2; 2]> = before.into_iter().zip(&embedding).map(|(a, b)| [a, *b]).collect();
+            if let Some(similarity) = Similarity::fitting(&pairs) {
+                let frame = outside.frame.iter().map(|&z| similarity.apply(z)).collect();
+                outside = Arc::new(Outside { frame, triangles: outside.triangles.clone() });
+            }
         }
         let pins = if held.is_empty() { gauge_in(mesh, &embedding) } else { held };
         let solution = self.one_to_one(embedding, pins, start);
@@ -433,7 +455,8 @@ impl Run {
             error,
             SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. }
         );
-        of_the_system && self.settings.method.bends_boundary() && self.may_bend_boundary()
+        let has_rung = self.settings.method.bends_boundary() && self.may_bend_boundary();
+        of_the_system && (has_rung || self.settings.method == Method::Auto)
     }
 
     fn linear(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {

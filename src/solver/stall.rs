@@ -33,6 +33,11 @@ impl Stall {
         self.is_still = step.max_move.is_some_and(|moved| moved <= limit);
     }
 
+    /// Whether the last step is no better than one before it.
+    pub(super) fn is_suspected(&self) -> bool {
+        self.steps_since > 0
+    }
+
     /// Whether the iteration gets no better.
     pub(super) fn is_reached(&self) -> bool {
         self.steps_since >= LONG_PATIENCE || (self.steps_since >= PATIENCE && self.is_still)

@@ -10,7 +10,7 @@ use crate::mesh::{DiskMesh, Refinement, VertexId};
 /// Where a one-to-one embedding stands on its way: the numbers of continuation and relaxing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Mean over the surface of ½ tr(JᵀJ)/det J + ½ (det J + 1/det J): 2 where nothing is distorted.
+    /// Mean over the surface of the symmetric Dirichlet energy |J|² + |J⁻¹|²: 4 where nothing is distorted.
     pub energy: f64,
     /// Smallest determinant of a face's map, at equal total areas.
     pub least_determinant: f64,

@@ -174,7 +174,7 @@ fn treatment_menu(ui: &mut egui::Ui, settings: &mut Settings) {
 
 /// Whether edges may be split, where the method can.
 fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
-    if matches!(settings.method, Method::Auto | Method::Continuation | Method::Matchmaker) {
+    if settings.method == Method::Auto {
         let tip = "Where the constraints cannot be met otherwise, split edges: the surface stays the same. Off: the best \
                    planar embedding, and which constraints it does not meet";
         ui.checkbox(&mut settings.new_vertices, "Allow new vertices").on_hover_text(tip);

@@ -79,7 +79,7 @@ const CURVES: [Curve; CURVE_COUNT] = [
     },
     Curve {
         title: "Energy",
-        about: "mean distortion that continuation and relaxing lower: 2 where nothing is distorted",
+        about: "mean symmetric Dirichlet energy: 4 where nothing is distorted",
         scale: CurveScale::Powers,
         value: |_, standing| standing.progress.map(|progress| progress.energy),
         colour: |theme| theme.constraint,

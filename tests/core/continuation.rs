@@ -96,7 +96,7 @@ fn continuation_turns_the_inside_while_the_boundary_stays_and_needs_no_new_verti
 #[test]
 fn relaxing_lowers_the_energy_round_by_round_and_moves_no_exact_pin() {
     let (mesh, pins) = swirl();
-    let settings = Settings { relax_rounds: 8, ..one_to_one(Method::Continuation) };
+    let settings = Settings { relax_rounds: Some(8), ..one_to_one(Method::Continuation) };
     let (steps, _) = steps_of(&mesh, settings, &pins).unwrap();
     let arrived = steps.iter().rposition(|step| step.rung == Method::Continuation).unwrap();
     assert!(steps.len() > arrived + 1);
@@ -113,7 +113,7 @@ fn a_weighted_constraint_pulls_the_nearer_the_heavier_it_is() {
         let some = pins.iter().enumerate();
         let pins: Pins =
             some.map(|(k, (&v, pin))| (v, if k == 0 { Pin::weighted(pin.target, weight) } else { *pin })).collect();
-        let settings = Settings { relax_rounds: 20, ..one_to_one(Method::Continuation) };
+        let settings = Settings { relax_rounds: Some(20), ..one_to_one(Method::Continuation) };
         let (steps, ending) = steps_of(&mesh, settings, &pins).unwrap();
         assert_eq!(ending, Ending::Planar);
         let (v, pin) = pins.iter().find(|(_, pin)| !pin.hold.is_exact()).unwrap();
@@ -186,4 +186,57 @@ fn targets_that_nearly_coincide_are_an_error_that_names_them() {
     let pins: Pins = places.iter().enumerate().map(|(v, &z)| (VertexId::from_index(6 * v), Pin::hard(z))).collect();
     let error = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap_err();
     assert_eq!(error, SolveError::TargetsTooNear { first: VertexId::new(0), second: VertexId::new(6) });
+}
+
+#[test]
+fn three_pinned_corners_on_a_line_are_met_by_new_vertices() {
+    let mesh = DiskMesh::try_from(grid(3, 3)).unwrap();
+    let face = mesh.face(mesh.faces().nth(8).unwrap());
+    let pins: Pins = face.into_iter().zip([8.0, 10.0, 40.0]).map(|(v, x)| (v, Pin::hard(DVec2::new(x, 0.0)))).collect();
+    let (steps, ending) = steps_of(&mesh, Settings::default(), &pins).unwrap();
+    assert_eq!(ending, Ending::Planar);
+    assert!(steps.last().unwrap().refinement.is_some() && steps.last().unwrap().unmet().is_empty());
+}
+
+#[test]
+fn pins_that_no_continuation_reaches_do_not_keep_it_busy_for_ever() {
+    let mesh = DiskMesh::try_from(grid(3, 3)).unwrap();
+    let face = mesh.face(mesh.faces().nth(8).unwrap());
+    let pins: Pins =
+        face.into_iter().zip([30.0, 49.0, 45.0]).map(|(v, x)| (v, Pin::hard(DVec2::new(x, 0.0)))).collect();
+    let mut last = None;
+    let mut run = Run::new(one_to_one(Method::Continuation), pins);
+    let error = run.finish(&mesh, Control::unattended(), |step| last = Some(step)).unwrap_err();
+    assert_eq!(error, SolveError::Unmet);
+    let last = last.unwrap();
+    // What is left is not what was crushed in vain.
+    assert!(last.verdict.planar && last.progress.unwrap().energy < 100.0, "{:?}", last.progress);
+}
+
+#[test]
+fn targets_far_from_the_origin_or_at_any_scale_are_met() {
+    let (mesh, pins) = swirl();
+    for (scale, offset) in [(1.0, 1e6), (1e-9, 0.0), (1e100, 0.0), (1e-100, 0.0)] {
+        let moved = |pin: &Pin| Pin::hard(pin.target * scale + offset);
+        let pins: Pins = pins.iter().map(|(&v, pin)| (v, moved(pin))).collect();
+        let (steps, ending) = steps_of(&mesh, Settings::default(), &pins).unwrap();
+        assert_eq!(ending, Ending::Planar, "{scale} {offset}");
+        assert!(steps.last().unwrap().unmet().is_empty());
+    }
+}
+
+#[test]
+fn pins_that_are_in_each_others_way_pass_around_each_other() {
+    let (mesh, _) = swirl();
+    let (steps, _) = steps_of(&mesh, Settings::default(), &Pins::new()).unwrap();
+    let flat = &steps.last().unwrap().solution.embedding;
+    // Two neighbours of a place in the middle change sides, head on; the boundary's four stay.
+    let (_, pins) = swirl();
+    let inner: Vec<VertexId> = pins.keys().copied().filter(|&v| mesh.boundary_place(v).is_none()).collect();
+    let mut pins: Pins = pins.into_iter().filter(|(v, _)| mesh.boundary_place(*v).is_some()).collect();
+    pins.insert(inner[0], Pin::hard(flat[inner[2].index()]));
+    pins.insert(inner[2], Pin::hard(flat[inner[0].index()]));
+    let (steps, ending) = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap();
+    assert_eq!(ending, Ending::Planar);
+    assert!(steps.iter().all(|step| step.verdict.planar));
 }

@@ -149,10 +149,11 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
     let ending = run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     assert_eq!(ending, Ending::Planar);
     let rungs: Vec<Method> = steps.iter().map(|step| step.rung).collect();
-    assert_eq!(rungs[..5], [&[Method::Natural][..], &[Method::Iterate; 4]].concat());
+    let tried = rungs.iter().position(|&rung| rung == Method::Continuation).unwrap();
+    assert!(rungs[0] == Method::Natural && tried > 1 && rungs[1..tried].iter().all(|&rung| rung == Method::Iterate));
     assert!(!rungs.contains(&Method::VirtualBoundary));
     let is_met = |step: &Step| pins.iter().all(|(v, at)| step.solution.embedding[v.index()] == at.target);
-    assert!(steps[..5].iter().all(is_met) && steps.last().is_some_and(|step| step.verdict.planar && is_met(step)));
+    assert!(steps[..tried].iter().all(is_met) && steps.last().is_some_and(|step| step.verdict.planar && is_met(step)));
 }
 
 /// A run whose every step is first cancelled at each of its phases in turn, then let through.

@@ -83,7 +83,11 @@ pub(super) fn matched(
     let whole = surroundings.refined(&cells, &parts);
     let refined = refined(mesh, &surroundings.disk, &cells, &parts);
     for weights in [Weights::MeanValue, Weights::Uniform] {
-        let places = straightened(&whole, &cells, &held, weights, control)?;
+        let places = match straightened(&whole, &cells, &held, weights, control) {
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+            Err(_) => continue,
+            Ok(places) => places,
+        };
         let embedding: Vec<DVec2> = refined.vertices.iter().map(|&v| places[v as usize]).collect();
         if verdict(refined.refinement.disk(), &embedding).planar {
             return Ok(Matched { refinement: refined.refinement, embedding });
