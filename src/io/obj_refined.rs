@@ -26,7 +26,9 @@ pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
             triangles.push(disk.face(face));
         }
         if triangles.as_flattened().iter().any(|corner| corner.index() >= old_count) {
-            triangles.iter().for_each(|triangle| polygons.push(triangle));
+            for triangle in &triangles {
+                polygons.push(triangle);
+            }
         } else {
             polygons.push(source.polygons.face(polygon));
         }

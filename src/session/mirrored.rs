@@ -22,8 +22,11 @@ const MUCH_BETTER: f64 = 0.5;
 pub(super) struct Undistorted {
     /// None where it cannot be flattened.
     embedding: Option<(u64, Option<Vec<DVec2>>)>,
-    job: Option<(u64, Job<(), Result<Vec<DVec2>, SolveError>>)>,
+    job: Option<(u64, FlatJob)>,
 }
+
+/// Flattens in the background.
+type FlatJob = Job<(), Result<Vec<DVec2>, SolveError>>;
 
 impl Session {
     /// Whether the targets of the document look mirrored: known only some time after there are enough of them.

@@ -76,66 +76,56 @@ impl ConstrainedRun {
     pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Reached, SolveError> {
         match &mut self.stage {
             Stage::Begin => self.begin(mesh, control),
-            Stage::Continuation(continuation) => {
-                match continuation.step(mesh, control) {
-                    Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
-                    Ok(Some(Accepted { embedding, progress, outside })) => {
-                        if continuation.has_arrived() {
-                            self.stage = Stage::End;
-                        }
-                        let (progress, outside) = (Some(progress), Some(outside));
-                        let rung = Method::Continuation;
-                        return Ok(Reached { rung, embedding, progress, outside, refinement: None });
-                    }
-                    // What cannot be solved is stuck, too.
-                    Ok(None) | Err(_) => {}
-                }
-                let is_crushed = continuation.go_back_to_sound();
-                let (embedding, progress) = (continuation.embedding().to_vec(), Some(continuation.progress(mesh)));
-                if self.settings.method == Method::Auto && self.settings.new_vertices {
-                    self.stage = Stage::Matchmaker(embedding);
-                    return self.step(mesh, control);
-                }
-                self.stage = Stage::Stuck;
-                if !is_crushed {
-                    return self.step(mesh, control);
-                }
-                Ok(Reached { rung: Method::Continuation, embedding, progress, outside: None, refinement: None })
-            }
+            Stage::Continuation(_) => self.go_on(mesh, control),
             Stage::Stuck => {
                 self.stage = Stage::End;
                 Err(SolveError::Unmet)
             }
             Stage::Matchmaker(start) => {
-                let Matched { refinement, embedding } = matched(mesh, start, &self.pins, control)?;
-                let found = without_needless_vertices(mesh, Matched { refinement, embedding });
+                let found = without_needless_vertices(mesh, matched(mesh, start, &self.pins, control)?);
                 self.stage = Stage::Refined(Box::new(found.clone()), REMOVALS);
                 Ok(Reached::with_new_vertices(found))
             }
             Stage::Refined(found, looks_left) => {
-                let Matched { refinement, embedding } = found.as_ref();
-                let disk = refinement.disk();
-                let mut relaxing = Relaxing::new(disk, embedding.clone(), &self.pins);
-                let mut relaxed = embedding.clone();
-                for _ in 0..ROUNDS_BEFORE_REMOVAL {
-                    relaxed = relaxing.round(disk, control)?.embedding;
-                    if relaxing.has_converged() {
-                        break;
-                    }
-                }
-                let before = refinement.new_vertices().len();
-                let found = Matched { refinement: refinement.clone(), embedding: relaxed };
-                let found = without_needless_vertices(mesh, found);
+                let before = found.refinement.new_vertices().len();
+                let found = without_needless_vertices(mesh, relaxed(found, &self.pins, control)?);
                 let taken_out = before - found.refinement.new_vertices().len();
                 let is_worthwhile = taken_out as f64 > WORTHWHILE * before as f64 && *looks_left > 1;
-                self.stage = match is_worthwhile {
-                    true => Stage::Refined(Box::new(found.clone()), *looks_left - 1),
-                    false => Stage::End,
-                };
+                let next = || Stage::Refined(Box::new(found.clone()), *looks_left - 1);
+                self.stage = if is_worthwhile { next() } else { Stage::End };
                 Ok(Reached::with_new_vertices(found))
             }
             Stage::End => Err(SolveError::Unmet),
         }
+    }
+
+    /// One step of continuation; where it is stuck, what comes then.
+    fn go_on(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Reached, SolveError> {
+        let Stage::Continuation(continuation) = &mut self.stage else { return Err(SolveError::Unmet) };
+        let rung = Method::Continuation;
+        match continuation.step(mesh, control) {
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+            Ok(Some(Accepted { embedding, progress, outside })) => {
+                if continuation.has_arrived() {
+                    self.stage = Stage::End;
+                }
+                let (progress, outside) = (Some(progress), Some(outside));
+                return Ok(Reached { rung, embedding, progress, outside, refinement: None });
+            }
+            // What cannot be solved is stuck, too.
+            Ok(None) | Err(_) => {}
+        }
+        let is_crushed = continuation.go_back_to_sound();
+        let (embedding, progress) = (continuation.embedding().to_vec(), Some(continuation.progress(mesh)));
+        if self.settings.method == Method::Auto && self.settings.new_vertices {
+            self.stage = Stage::Matchmaker(embedding);
+            return self.step(mesh, control);
+        }
+        self.stage = Stage::Stuck;
+        if !is_crushed {
+            return self.step(mesh, control);
+        }
+        Ok(Reached { rung, embedding, progress, outside: None, refinement: None })
     }
 
     /// The planar start, moved to where it fits the targets best.
@@ -152,6 +142,20 @@ impl ConstrainedRun {
         };
         Ok(Reached { rung: Method::Continuation, embedding, progress, outside: None, refinement: None })
     }
+}
+
+/// The same with its embedding relaxed.
+fn relaxed(found: &Matched, pins: &Pins, control: Control<'_>) -> Result<Matched, SolveError> {
+    let disk = found.refinement.disk();
+    let mut relaxing = Relaxing::new(disk, found.embedding.clone(), pins);
+    let mut embedding = found.embedding.clone();
+    for _ in 0..ROUNDS_BEFORE_REMOVAL {
+        embedding = relaxing.round(disk, control)?.embedding;
+        if relaxing.has_converged() {
+            break;
+        }
+    }
+    Ok(Matched { refinement: found.refinement.clone(), embedding })
 }
 
 /// Checks that no two exact targets are so near that numbers between them run out.

@@ -54,6 +54,10 @@ const HARDLY_ANY: f64 = 1e-6;
 /// targets, and they pass around each other.
 const NARROW: f64 = 0.25;
 const LOOSE_WEIGHT: f64 = 30.0;
+
+/// Weights of the springs, one after another, by which a second try begins.
+const TIGHTENING: [f64; 4] = [3.0, 10.0, 30.0, 100.0];
+
 const LOOSE_STEPS: usize = 10;
 
 /// An embedding whose energy is more than so many times the lowest is crushed, and nothing to go on from.
@@ -72,6 +76,8 @@ pub(super) struct Continuation {
     jumps: bool,
     /// Whether the latest step let the pins loose.
     is_loose: bool,
+    /// Where a second try begins, until it does.
+    start: Option<Vec<DVec2>>,
     /// The latest embedding that was not crushed, and the lowest energy so far.
     sound: (Vec<DVec2>, f64),
 }
@@ -100,7 +106,8 @@ impl Continuation {
     pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
         let (rest, pins) = (Rest::new(mesh), pins.clone());
         let sound = (embedding.clone(), rest.symmetric_dirichlet(mesh, &embedding));
-        Self { rest, pins, embedding, way_left: Vec::new(), settled: None, jumps: true, is_loose: false, sound }
+        let start = Some(embedding.clone());
+        Self { rest, pins, embedding, way_left: Vec::new(), settled: None, jumps: true, is_loose: false, start, sound }
     }
 
     /// Goes back to the latest embedding that is not crushed, where the present one is. Returns whether it is.
@@ -137,8 +144,38 @@ impl Continuation {
         self.targets().iter().all(|(v, target)| self.embedding[v.index()] == *target)
     }
 
-    /// Goes on as far as can be at once. `None` where nothing goes any more.
+    /// Goes on as far as can be at once; where it is stuck, once again from the beginning with springs that are tightened
+    /// step by step, which find other ways around each other. `None` where nothing goes any more.
     pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Accepted>, SolveError> {
+        match self.go_on(mesh, control) {
+            Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
+            Ok(None) | Err(_) if self.start.is_some() => self.begin_again(mesh, control),
+            other => other,
+        }
+    }
+
+    fn begin_again(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Accepted>, SolveError> {
+        let Some(start) = self.start.take() else { return Ok(None) };
+        let targets = self.targets();
+        let stopped_at = std::mem::replace(&mut self.embedding, start);
+        let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied()) else { return Ok(None) };
+        for weight in TIGHTENING {
+            if let Err(error) = self.loosen(mesh, (&targets, weight), control) {
+                let start = std::mem::replace(&mut self.embedding, stopped_at);
+                if error == SolveError::Cancelled {
+                    // As if nothing had been tried: the steps before are forgotten only when it has begun.
+                    self.start = Some(start);
+                }
+                return Err(error);
+            }
+        }
+        (self.settled, self.is_loose) = (None, true);
+        self.way_left.clear();
+        let progress = self.progress(mesh);
+        Ok(Some(Accepted { embedding: self.embedding.clone(), progress, outside: Arc::new(outside) }))
+    }
+
+    fn go_on(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Accepted>, SolveError> {
         let targets = self.targets();
         let settled = match self.settled.take() {
             Some(settled) => settled,
@@ -188,15 +225,20 @@ impl Continuation {
     ) -> Result<bool, SolveError> {
         let longest = settled.membrane.longest_step(&settled.points, moves, mesh.face_count());
         let loosens = longest < NARROW && !self.is_loose;
-        self.is_loose = loosens && self.loosen(mesh, targets, control)?;
+        self.is_loose = loosens && self.loosen(mesh, (targets, LOOSE_WEIGHT), control)?;
         Ok(self.is_loose || self.advance(mesh, settled, (targets, moves, longest), control)?)
     }
 
     /// Lowers the energy with springs in the place of exact pins. Returns whether that is planar.
-    fn loosen(&mut self, mesh: &DiskMesh, targets: &Places, control: Control<'_>) -> Result<bool, SolveError> {
+    fn loosen(
+        &mut self,
+        mesh: &DiskMesh,
+        (targets, weight): (&Places, f64),
+        control: Control<'_>,
+    ) -> Result<bool, SolveError> {
         let loose = self.pins.iter().map(|(&v, pin)| match pin.hold {
             Hold::Weighted(_) => (v, *pin),
-            _ => (v, Pin::weighted(pin.target, LOOSE_WEIGHT)),
+            _ => (v, Pin::weighted(pin.target, weight)),
         });
         let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied()) else { return Ok(false) };
         let around = (self.embedding.as_slice(), &outside);

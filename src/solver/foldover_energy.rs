@@ -17,7 +17,7 @@
 //! ```
 //!
 //! So f is a function of p and q alone, and its Hessian in (α, β) falls into three parts that are known in closed form:
-//! 2 f_p along iα, 2 f_q along iβ, and a 2×2 matrix in the directions of α and β. Where they are not positive they are
+//! 2 ∂f/∂p along iα, 2 ∂f/∂q along iβ, and a 2×2 matrix in the directions of α and β. Where they are not positive they are
 //! made so, which makes a descent direction of Newton's (A. Shtengel et al., "Geometric optimization via composite
 //! majorization", 2017; B. Smith et al., "Analytic eigensystems for isotropic distortion energies", 2019).
 
@@ -148,30 +148,31 @@ impl Element {
         let (p, q) = (alpha.length_squared(), beta.length_squared());
         // The determinant, which p − q equals but for rounding: folded or not is decided by it alone.
         let by = energy.terms(p + q, self.determinant(z));
-        let w = self.weight;
         let along = |direction: DVec2| direction.try_normalize().unwrap_or(DVec2::X);
-        let (e, f) = (along(alpha), along(beta));
+        let (to_alpha, to_beta) = (along(alpha), along(beta));
         // How a move of the corners changes α and β along these directions and across them.
-        let on_alpha = |e: DVec2| flat(self.gradients.map(|g| 0.5 * e.rotate(g)));
-        let on_beta = |f: DVec2| flat(self.gradients.map(|g| 0.5 * f.rotate(conjugate(g))));
-        let rows = [on_alpha(e), on_beta(f), on_alpha(e.perp()), on_beta(f.perp())];
+        let on_alpha = |by: DVec2| flat(self.gradients.map(|g| 0.5 * by.rotate(g)));
+        let on_beta = |by: DVec2| flat(self.gradients.map(|g| 0.5 * by.rotate(conjugate(g))));
+        let rows = [on_alpha(to_alpha), on_beta(to_beta), on_alpha(to_alpha.perp()), on_beta(to_beta.perp())];
         let [[aa, ab], [_, bb]] =
             positive([2.0 * by.p + 4.0 * p * by.pp, 4.0 * (p * q).sqrt() * by.pq, 2.0 * by.q + 4.0 * q * by.qq]);
         let (across_alpha, across_beta) = ((2.0 * by.p).max(0.0), (2.0 * by.q).max(0.0));
         let mut hessian = [[0.0; 6]; 6];
         for (i, row) in hessian.iter_mut().enumerate() {
             let scaled = [
-                w * (aa * rows[0][i] + ab * rows[1][i]),
-                w * (ab * rows[0][i] + bb * rows[1][i]),
-                w * across_alpha * rows[2][i],
-                w * across_beta * rows[3][i],
+                aa * rows[0][i] + ab * rows[1][i],
+                ab * rows[0][i] + bb * rows[1][i],
+                across_alpha * rows[2][i],
+                across_beta * rows[3][i],
             ];
             for (j, entry) in row.iter_mut().enumerate() {
-                *entry = scaled.iter().zip(&rows).map(|(s, row)| s * row[j]).sum();
+                *entry = self.weight * scaled.iter().zip(&rows).map(|(by, row)| by * row[j]).sum::<f64>();
             }
         }
-        let (a, b) = (w * by.p * alpha, w * by.q * beta);
-        Model { gradient: flat(self.gradients.map(|g| a.rotate(g) + b.rotate(conjugate(g)))), hessian }
+        // d|α|² = 2 Re(ᾱ dα).
+        let (by_alpha, by_beta) = (self.weight * by.p * alpha, self.weight * by.q * beta);
+        let gradient = self.gradients.map(|g| by_alpha.rotate(g) + by_beta.rotate(conjugate(g)));
+        Model { gradient: flat(gradient), hessian }
     }
 
     /// The longest step along a direction that leaves the triangle unfolded, in multiples of the direction; it must be

@@ -66,8 +66,24 @@ impl Relaxing {
     /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
     pub(super) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Relaxed, SolveError> {
         let outside = outside_of(mesh, &self.embedding, std::iter::empty()).ok_or(SolveError::NotPlanar)?;
+        match self.descend(mesh, &outside, control) {
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+            Ok(()) => {}
+            // Where rounding leaves no direction, it is as low as it gets.
+            Err(_) => self.has_converged = true,
+        }
+        let progress = Progress {
+            energy: self.rest.symmetric_dirichlet(mesh, &self.embedding),
+            least_determinant: self.rest.least_determinant(mesh, &self.embedding),
+            distance_left: 0.0,
+        };
+        Ok(Relaxed { embedding: self.embedding.clone(), progress, outside: Arc::new(outside) })
+    }
+
+    /// Goes down the energy of mesh and outside, to what is planar there.
+    fn descend(&mut self, mesh: &DiskMesh, outside: &Outside, control: Control<'_>) -> Result<(), SolveError> {
         let how = (OUTSIDE_WEIGHT, self.membrane.as_ref());
-        let (membrane, mut z) = self.rest.membrane(mesh, (&self.embedding, &outside), &self.pins, how)?;
+        let (membrane, mut z) = self.rest.membrane(mesh, (&self.embedding, outside), &self.pins, how)?;
         let is_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let limits = Limits { unfolded, steps: ROUND_STEPS, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
@@ -80,11 +96,6 @@ impl Relaxing {
         }
         let is_still_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
         self.has_converged = !is_planar || (gain < TOLERANCE && is_still_steep == is_steep);
-        let progress = Progress {
-            energy: self.rest.symmetric_dirichlet(mesh, &self.embedding),
-            least_determinant: self.rest.least_determinant(mesh, &self.embedding),
-            distance_left: 0.0,
-        };
-        Ok(Relaxed { embedding: self.embedding.clone(), progress, outside: Arc::new(outside) })
+        Ok(())
     }
 }

@@ -64,7 +64,7 @@ impl Rest {
         elements.extend(outside_elements(outside, &points, weight));
         let springs = pins.iter().filter_map(|(vertex, pin)| match pin.hold {
             Hold::Weighted(weight) => {
-                let stiffness = weight * weight * self.spring_unit(mesh, embedding);
+                let stiffness = weight * weight * spring_unit(mesh, embedding);
                 Some(Spring { point: vertex.number(), target: pin.target, stiffness })
             }
             _ => None,
@@ -73,14 +73,6 @@ impl Rest {
         let is_exact = |vertex: VertexId| pins.get(&vertex).is_some_and(|pin| pin.hold.is_exact());
         let is_held = |point: u32| point >= count || is_exact(VertexId::new(point));
         Ok((Membrane::new(points.len(), elements, springs.collect(), is_held, similar)?, points))
-    }
-
-    /// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.
-    fn spring_unit(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
-        let length = |[a, b]: [VertexId; 2]| embedding[a.index()].distance(embedding[b.index()]);
-        let total: f64 = mesh.edges().map(|edge| length(mesh.ends(edge))).sum();
-        let mean = total / mesh.edge_count() as f64;
-        1.0 / (mean * mean * mesh.vertex_count() as f64)
     }
 
     /// The faces' energies, at rest when as large as the embedding is now.
@@ -102,13 +94,21 @@ impl Rest {
     }
 }
 
+/// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.
+fn spring_unit(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+    let length = |[a, b]: [VertexId; 2]| embedding[a.index()].distance(embedding[b.index()]);
+    let total: f64 = mesh.edges().map(|edge| length(mesh.ends(edge))).sum();
+    let mean = total / mesh.edge_count() as f64;
+    1.0 / (mean * mean * mesh.vertex_count() as f64)
+}
+
 /// A triangle of space in the plane, its first side along the x-axis.
 fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
-    let (u, v) = (b - a, c - a);
-    let length = u.length();
+    let (first, second) = (b - a, c - a);
+    let length = first.length();
     if length == 0.0 {
-        return [DVec2::ZERO, DVec2::ZERO, DVec2::new(v.length(), 0.0)];
+        return [DVec2::ZERO, DVec2::ZERO, DVec2::new(second.length(), 0.0)];
     }
-    let along = u.dot(v) / length;
-    [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(along, u.cross(v).length() / length)]
+    let along = first.dot(second) / length;
+    [DVec2::ZERO, DVec2::new(length, 0.0), DVec2::new(along, first.cross(second).length() / length)]
 }

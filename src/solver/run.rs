@@ -315,7 +315,7 @@ impl Run {
     fn ending_of_iteration(&self) -> Option<Ending> {
         // With constraints the iteration seldom arrives, and continuation always begins anew.
         let gives_way = self.settings.method == Method::Auto && !self.may_bend_boundary();
-        let is_enough = gives_way && (self.stall.is_suspected() || self.iterations >= ITERATIONS_WITH_CONSTRAINTS);
+        let is_enough = gives_way && (self.stall.is_slow() || self.iterations >= ITERATIONS_WITH_CONSTRAINTS);
         if is_enough || self.stall.is_reached() {
             Some(Ending::Stalled)
         } else {

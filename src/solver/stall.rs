@@ -11,18 +11,23 @@ const LONG_PATIENCE: usize = 12;
 /// A move of every vertex below this share of the embedding's diameter is hardly any.
 const STILL: f64 = 1e-3;
 
+/// A step that leaves more than this part of the defects makes for a slow iteration.
+const SLOW: f64 = 0.9;
+
 /// Watches the steps of a run for improvement.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stall {
     best: Option<usize>,
     steps_since: usize,
     is_still: bool,
+    is_slow: bool,
 }
 
 impl Stall {
     /// Takes in a step.
     pub(super) fn look_at(&mut self, step: &Step) {
         let count = step.defect_count();
+        self.is_slow = self.best.is_some_and(|best| count as f64 > SLOW * best as f64);
         if self.best.is_none_or(|best| count < best) {
             self.best = Some(count);
             self.steps_since = 0;
@@ -33,9 +38,9 @@ impl Stall {
         self.is_still = step.max_move.is_some_and(|moved| moved <= limit);
     }
 
-    /// Whether the last step is no better than one before it.
-    pub(super) fn is_suspected(&self) -> bool {
-        self.steps_since > 0
+    /// Whether the last step is hardly better than one before it, or no better.
+    pub(super) fn is_slow(&self) -> bool {
+        self.is_slow
     }
 
     /// Whether the iteration gets no better.

@@ -128,19 +128,19 @@ impl Router {
             if length > self.known[node as usize].length {
                 continue;
             }
-            if node % 2 == 0 {
-                self.from_crossing(cells, node / 2, goal);
+            if node.is_multiple_of(2) {
+                self.leave_crossing(cells, node / 2, goal);
             } else if node == begin {
-                self.from_vertex(cells, node, &start.sector, goal);
+                self.leave_vertex(cells, node, &start.sector, goal);
             } else {
-                self.from_vertex(cells, node, &Sector::around(cells, node / 2), goal);
+                self.leave_vertex(cells, node, &Sector::around(cells, node / 2), goal);
             }
         }
         None
     }
 
     /// Goes on from a vertex.
-    fn from_vertex(&mut self, cells: &Subdivision, node: u32, sector: &Sector, goal: &Terminal) {
+    fn leave_vertex(&mut self, cells: &Subdivision, node: u32, sector: &Sector, goal: &Terminal) {
         for &h in sector.edges.iter().filter(|&&h| cells.path(h).is_none()) {
             let head = cells.head(h);
             let is_open = if head == goal.vertex {
@@ -161,7 +161,7 @@ impl Router {
     }
 
     /// Goes on from the far side of a halfedge.
-    fn from_crossing(&mut self, cells: &Subdivision, crossed: u32, goal: &Terminal) {
+    fn leave_crossing(&mut self, cells: &Subdivision, crossed: u32, goal: &Terminal) {
         let (node, entry) = (2 * crossed, cells.twin(crossed));
         for h in cells.cell(entry).skip(1) {
             if cells.path(h).is_none() {
@@ -183,7 +183,7 @@ impl Router {
     /// Takes note of a node, reached from another.
     fn reach(&mut self, cells: &Subdivision, goal: &Terminal, (node, from, by): (u32, u32, Move)) {
         let (here, there) = (position(cells, node), position(cells, from));
-        let cost = if node % 2 == 0 { self.crossing * (1 + cells.crowd(node / 2)) as f64 } else { 0.0 };
+        let cost = if node.is_multiple_of(2) { self.crossing * (1 + cells.crowd(node / 2)) as f64 } else { 0.0 };
         let before = if node == from { 0.0 } else { self.known[from as usize].length };
         let length = before + here.distance(there) + cost;
         let known = &mut self.known[node as usize];
@@ -211,5 +211,5 @@ impl Router {
 /// Where a node lies: a vertex, or the middle of a piece of an edge.
 fn position(cells: &Subdivision, node: u32) -> DVec2 {
     let (at, half) = (|v: u32| cells.places[v as usize], node / 2);
-    if node % 2 == 0 { at(cells.tail(half)).midpoint(at(cells.head(half))) } else { at(half) }
+    if node.is_multiple_of(2) { at(cells.tail(half)).midpoint(at(cells.head(half))) } else { at(half) }
 }
