@@ -347,7 +347,7 @@ impl Session {
         let remedy = if self.document.settings.new_vertices {
             "move these pins"
         } else {
-            "let Auto make new vertices, or move these pins"
+            "allow new vertices, or move these pins"
         };
         if let Some(message) = self.messages.last_mut() {
             (message.vertices, message.remedy) = (unmet, Some(remedy.to_owned()));

@@ -90,12 +90,16 @@ impl Relaxing {
         let gain = membrane.descend(&mut z, limits, control)?.gain;
         self.membrane = Some(membrane);
         z.truncate(mesh.vertex_count());
-        let is_planar = verdict(mesh, &z).planar;
-        if is_planar {
+        // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
+        let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
+        let energy_of = |embedding: &[DVec2]| self.rest.symmetric_dirichlet(mesh, embedding);
+        let is_better = is_drawn || energy_of(&z) <= energy_of(&self.embedding);
+        let is_taken = is_better && verdict(mesh, &z).planar;
+        if is_taken {
             self.embedding = z;
         }
         let is_still_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
-        self.has_converged = !is_planar || (gain < TOLERANCE && is_still_steep == is_steep);
+        self.has_converged = !is_taken || (gain < TOLERANCE && is_still_steep == is_steep);
         Ok(())
     }
 }
