@@ -1,7 +1,9 @@
 //! Bumpy caps whose pins are displaced at random, swirled, stretched, or permuted.
 //!
 //! Targets begin where the pins lie in a planar embedding without constraints. Its *size* is the longer side of the box
-//! around it.
+//! around it. Pins that are displaced, swirled or stretched lie far from each other, as those of the constrained sets of
+//! real meshes do: each is the vertex farthest from those before, the first one is any. Pins that are permuted lie
+//! anywhere.
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
@@ -63,8 +65,18 @@ impl Cap {
         Ok(Self { mesh, embedding: step.solution.embedding })
     }
 
-    /// Pins on so many different vertices, chosen at random.
+    /// Pins on so many different vertices.
     pub(crate) fn pins(&self, count: usize, change: Change, random: &mut Random) -> Pins {
+        let vertices = match change {
+            Change::Permuted => self.vertices_anywhere(count, random),
+            _ => self.vertices_apart(count, random),
+        };
+        let places: Vec<DVec2> = vertices.iter().map(|v| self.embedding[v.index()]).collect();
+        let targets = self.changed(&places, change, random);
+        hard_pins(vertices.into_iter().zip(targets))
+    }
+
+    fn vertices_anywhere(&self, count: usize, random: &mut Random) -> Vec<VertexId> {
         let mut vertices: Vec<VertexId> = Vec::new();
         while vertices.len() < count {
             let vertex = VertexId::from_index(below(random, self.mesh.vertex_count()));
@@ -72,9 +84,21 @@ impl Cap {
                 vertices.push(vertex);
             }
         }
-        let places: Vec<DVec2> = vertices.iter().map(|v| self.embedding[v.index()]).collect();
-        let targets = self.changed(&places, change, random);
-        hard_pins(vertices.into_iter().zip(targets))
+        vertices
+    }
+
+    fn vertices_apart(&self, count: usize, random: &mut Random) -> Vec<VertexId> {
+        let mut vertices = vec![VertexId::from_index(below(random, self.mesh.vertex_count()))];
+        let mut nearest = vec![f64::INFINITY; self.embedding.len()];
+        while vertices.len() < count {
+            let latest = self.embedding[vertices[vertices.len() - 1].index()];
+            for (distance, z) in nearest.iter_mut().zip(&self.embedding) {
+                *distance = distance.min(z.distance(latest));
+            }
+            let farthest = self.mesh.vertices().max_by(|a, b| nearest[a.index()].total_cmp(&nearest[b.index()]));
+            vertices.extend(farthest);
+        }
+        vertices
     }
 
     fn changed(&self, places: &[DVec2], change: Change, random: &mut Random) -> Vec<DVec2> {

@@ -51,14 +51,13 @@ const MOST_STEPS: usize = 200;
 const HARDLY_ANY: f64 = 1e-6;
 
 /// Where less of the way than this can be gone, pins in each other's way are let loose: springs draw them to their
-/// targets, and they pass around each other.
+/// targets, by a greater weight each time, and they pass around each other.
 const NARROW: f64 = 0.25;
-const LOOSE_WEIGHT: f64 = 30.0;
+const LOOSE_WEIGHTS: [f64; 5] = [30.0, 100.0, 300.0, 1000.0, 3000.0];
+const LOOSE_STEPS: usize = 10;
 
 /// Weights of the springs, one after another, by which a second try begins.
-const TIGHTENING: [f64; 4] = [3.0, 10.0, 30.0, 100.0];
-
-const LOOSE_STEPS: usize = 10;
+const TIGHTENING: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 /// An embedding whose energy is more than so many times the lowest is crushed, and nothing to go on from.
 const CRUSHED: f64 = 10.0;
@@ -74,7 +73,8 @@ pub(super) struct Continuation {
     settled: Option<Settled>,
     /// Whether to try all of the way at once.
     jumps: bool,
-    /// Whether the latest step let the pins loose.
+    /// How often pins were let loose, and whether by the latest step.
+    loosened: usize,
     is_loose: bool,
     /// Where a second try begins, until it does.
     start: Option<Vec<DVec2>>,
@@ -107,7 +107,18 @@ impl Continuation {
         let (rest, pins) = (Rest::new(mesh), pins.clone());
         let sound = (embedding.clone(), rest.symmetric_dirichlet(mesh, &embedding));
         let start = Some(embedding.clone());
-        Self { rest, pins, embedding, way_left: Vec::new(), settled: None, jumps: true, is_loose: false, start, sound }
+        Self {
+            rest,
+            pins,
+            embedding,
+            way_left: Vec::new(),
+            settled: None,
+            jumps: true,
+            loosened: 0,
+            is_loose: false,
+            start,
+            sound,
+        }
     }
 
     /// Goes back to the latest embedding that is not crushed, where the present one is. Returns whether it is.
@@ -224,8 +235,12 @@ impl Continuation {
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let longest = settled.membrane.longest_step(&settled.points, moves, mesh.face_count());
-        let loosens = longest < NARROW && !self.is_loose;
-        self.is_loose = loosens && self.loosen(mesh, (targets, LOOSE_WEIGHT), control)?;
+        let weight = LOOSE_WEIGHTS.get(self.loosened).filter(|_| longest < NARROW && !self.is_loose);
+        self.is_loose = match weight {
+            Some(&weight) => self.loosen(mesh, (targets, weight), control)?,
+            None => false,
+        };
+        self.loosened += usize::from(weight.is_some());
         Ok(self.is_loose || self.advance(mesh, settled, (targets, moves, longest), control)?)
     }
 

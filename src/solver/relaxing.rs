@@ -18,8 +18,10 @@ use crate::mesh::DiskMesh;
 /// Weight of the whole outside, that of the mesh being 1.
 const OUTSIDE_WEIGHT: f64 = 0.002;
 
-/// Newton steps of a round.
+/// Newton steps of a round, and of one that begins with a face nearly without area: there a step hardly more than
+/// doubles an area.
 const ROUND_STEPS: usize = 5;
+const STEEP_ROUND_STEPS: usize = 25;
 
 /// A round that gains a smaller share of the energy is the last.
 const TOLERANCE: f64 = 1e-3;
@@ -86,7 +88,8 @@ impl Relaxing {
         let (membrane, mut z) = self.rest.membrane(mesh, (&self.embedding, outside), &self.pins, how)?;
         let is_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
-        let limits = Limits { unfolded, steps: ROUND_STEPS, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
+        let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };
+        let limits = Limits { unfolded, steps, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
         let gain = membrane.descend(&mut z, limits, control)?.gain;
         self.membrane = Some(membrane);
         z.truncate(mesh.vertex_count());

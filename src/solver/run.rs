@@ -50,7 +50,7 @@ pub enum Ending {
 
 /// Rounds of relaxing that follow by themselves: after the boundary was bent to a convex polygon, and after rungs 4 and
 /// 5, whose first answer is not their best. More where springs have yet to pull, or paths were made straight.
-const ROUNDS_AFTER_BENDING: usize = 20;
+const ROUNDS_AFTER_BENDING: usize = 30;
 const ROUNDS_AFTER_CONTINUATION: usize = 3;
 const ROUNDS_AFTER_MATCHMAKER: usize = 30;
 
