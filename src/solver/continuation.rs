@@ -23,7 +23,7 @@ use glam::DVec2;
 
 use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
-use super::outside::outside_of;
+use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::Rest;
 use super::{Control, Hold, Outside, Pin, Pins, Places, Progress, SolveError, verdict};
 use crate::mesh::DiskMesh;
@@ -106,7 +106,7 @@ impl Continuation {
     /// Begins at a planar embedding, wherever it lies.
     pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
         let (rest, pins) = (Rest::new(mesh), pins.clone());
-        let sound = (embedding.clone(), rest.symmetric_dirichlet(mesh, &embedding));
+        let sound = (embedding.clone(), rest.progress(mesh, &embedding, 0.0).energy);
         let start = Some(embedding.clone());
         Self {
             rest,
@@ -144,11 +144,7 @@ impl Continuation {
     pub(super) fn progress(&self, mesh: &DiskMesh) -> Progress {
         let targets = self.targets();
         let left = targets.iter().map(|(v, target)| self.embedding[v.index()].distance(*target));
-        Progress {
-            energy: self.rest.symmetric_dirichlet(mesh, &self.embedding),
-            least_determinant: self.rest.least_determinant(mesh, &self.embedding),
-            distance_left: left.fold(0.0, f64::max),
-        }
+        self.rest.progress(mesh, &self.embedding, left.fold(0.0, f64::max))
     }
 
     /// Whether every exact pin is on its target.
@@ -170,7 +166,9 @@ impl Continuation {
         let Some(start) = self.start.take() else { return Ok(None) };
         let targets = self.targets();
         let stopped_at = std::mem::replace(&mut self.embedding, start);
-        let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied()) else { return Ok(None) };
+        let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied(), FRAME_POINTS) else {
+            return Ok(None);
+        };
         for weight in TIGHTENING {
             if let Err(error) = self.loosen(mesh, (&targets, weight), control) {
                 let start = std::mem::replace(&mut self.embedding, stopped_at);
@@ -256,7 +254,9 @@ impl Continuation {
             Hold::Weighted(_) => (v, *pin),
             _ => (v, Pin::weighted(pin.target, weight)),
         });
-        let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied()) else { return Ok(false) };
+        let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied(), FRAME_POINTS) else {
+            return Ok(false);
+        };
         let around = (self.embedding.as_slice(), &outside);
         let (membrane, mut z) = self.rest.membrane(mesh, around, &loose.collect(), (OUTSIDE_WEIGHT, None))?;
         let unfolded = Energy::Foldover(0.0);
@@ -277,7 +277,9 @@ impl Continuation {
         embedding: &[DVec2],
         (targets, similar): (&Places, Option<&Membrane>),
     ) -> Result<Option<Settled>, SolveError> {
-        let Some(outside) = outside_of(mesh, embedding, targets.values().copied()) else { return Ok(None) };
+        let Some(outside) = outside_of(mesh, embedding, targets.values().copied(), FRAME_POINTS) else {
+            return Ok(None);
+        };
         let how = (OUTSIDE_WEIGHT, similar);
         let (membrane, points) = self.rest.membrane(mesh, (embedding, &outside), &self.pins, how)?;
         Ok(Some(Settled { membrane, points, outside: Arc::new(outside) }))

@@ -9,8 +9,8 @@ use super::foldover_energy::Element;
 use crate::geom::outside_triangles;
 use crate::mesh::{DiskMesh, VertexId};
 
-/// Points on each side of the frame.
-const FRAME_POINTS: u32 = 8;
+/// Points on each side of a frame that vertices move within.
+pub(super) const FRAME_POINTS: u32 = 8;
 
 /// Size of the frame, relative to everything within.
 const FRAME_SIZE: f64 = 2.0;
@@ -28,27 +28,29 @@ pub struct Outside {
     pub triangles: Vec<[VertexId; 3]>,
 }
 
-/// The frame around points: a square with its corners and points between them, counter-clockwise.
-fn frame_around(points: impl Iterator<Item = DVec2> + Clone) -> Vec<DVec2> {
+/// The frame around points: a square with so many points on each side, one corner of it among them, counter-clockwise.
+fn frame_around(points: impl Iterator<Item = DVec2> + Clone, per_side: u32) -> Vec<DVec2> {
     let low = points.clone().fold(DVec2::INFINITY, DVec2::min);
     let high = points.fold(DVec2::NEG_INFINITY, DVec2::max);
     let (centre, half) = (low.midpoint(high), 0.5 * FRAME_SIZE * (high - low).max_element());
     let corners = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::ONE, DVec2::new(-1.0, 1.0)];
     let side = |k: usize| {
         let (from, to) = (corners[k], corners[(k + 1) % 4]);
-        (0..FRAME_POINTS).map(move |i| from.lerp(to, f64::from(i) / f64::from(FRAME_POINTS)))
+        (0..per_side).map(move |i| from.lerp(to, f64::from(i) / f64::from(per_side)))
     };
     (0..4).flat_map(side).map(|z| centre + half * z).collect()
 }
 
-/// The outside of an embedding with a simple boundary, up to a frame around it and further points.
+/// The outside of an embedding with a simple boundary, up to a frame around it and further points, which has so many
+/// points on each side.
 pub(super) fn outside_of(
     mesh: &DiskMesh,
     embedding: &[DVec2],
     further: impl Iterator<Item = DVec2> + Clone,
+    per_side: u32,
 ) -> Option<Outside> {
     let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|&v| embedding[v.index()]).collect();
-    let frame = frame_around(boundary.iter().copied().chain(further));
+    let frame = frame_around(boundary.iter().copied().chain(further), per_side);
     let vertex = |corner: u32| {
         let corner = corner as usize;
         let beyond = || VertexId::from_index(embedding.len() + corner - boundary.len());

@@ -10,7 +10,7 @@ use glam::DVec2;
 
 use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
-use super::outside::outside_of;
+use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::Rest;
 use super::{Control, Outside, Pins, Progress, SolveError, verdict};
 use crate::mesh::DiskMesh;
@@ -34,6 +34,8 @@ pub(super) struct Relaxing {
     rest: Rest,
     pins: Pins,
     embedding: Vec<DVec2>,
+    /// How distorted the embedding is.
+    progress: Progress,
     /// That of the round before, whose order of elimination is kept.
     membrane: Option<Membrane>,
     has_converged: bool,
@@ -57,7 +59,8 @@ impl Relaxing {
     /// Begins at a planar embedding of `mesh`; `pins` are held, exact ones where they lie.
     pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
         let rest = Rest::new(mesh);
-        Self { rest, pins: pins.clone(), embedding, membrane: None, has_converged: false }
+        let progress = rest.progress(mesh, &embedding, 0.0);
+        Self { rest, pins: pins.clone(), embedding, progress, membrane: None, has_converged: false }
     }
 
     /// Whether the last round gained next to nothing.
@@ -67,26 +70,22 @@ impl Relaxing {
 
     /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
     pub(super) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Relaxed, SolveError> {
-        let outside = outside_of(mesh, &self.embedding, std::iter::empty()).ok_or(SolveError::NotPlanar)?;
+        let outside =
+            outside_of(mesh, &self.embedding, std::iter::empty(), FRAME_POINTS).ok_or(SolveError::NotPlanar)?;
         match self.descend(mesh, &outside, control) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             Ok(()) => {}
             // Where rounding leaves no direction, it is as low as it gets.
             Err(_) => self.has_converged = true,
         }
-        let progress = Progress {
-            energy: self.rest.symmetric_dirichlet(mesh, &self.embedding),
-            least_determinant: self.rest.least_determinant(mesh, &self.embedding),
-            distance_left: 0.0,
-        };
-        Ok(Relaxed { embedding: self.embedding.clone(), progress, outside: Arc::new(outside) })
+        Ok(Relaxed { embedding: self.embedding.clone(), progress: self.progress, outside: Arc::new(outside) })
     }
 
     /// Goes down the energy of mesh and outside, to what is planar there.
     fn descend(&mut self, mesh: &DiskMesh, outside: &Outside, control: Control<'_>) -> Result<(), SolveError> {
         let how = (OUTSIDE_WEIGHT, self.membrane.as_ref());
         let (membrane, mut z) = self.rest.membrane(mesh, (&self.embedding, outside), &self.pins, how)?;
-        let is_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
+        let is_steep = self.progress.least_determinant < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };
         let limits = Limits { unfolded, steps, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
@@ -95,13 +94,13 @@ impl Relaxing {
         z.truncate(mesh.vertex_count());
         // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
-        let energy_of = |embedding: &[DVec2]| self.rest.symmetric_dirichlet(mesh, embedding);
-        let is_better = is_drawn || energy_of(&z) <= energy_of(&self.embedding);
+        let progress = self.rest.progress(mesh, &z, 0.0);
+        let is_better = is_drawn || progress.energy <= self.progress.energy;
         let is_taken = is_better && verdict(mesh, &z).planar;
         if is_taken {
-            self.embedding = z;
+            (self.embedding, self.progress) = (z, progress);
         }
-        let is_still_steep = self.rest.least_determinant(mesh, &self.embedding) < STEEP;
+        let is_still_steep = self.progress.least_determinant < STEEP;
         self.has_converged = !is_taken || (gain < TOLERANCE && is_still_steep == is_steep);
         Ok(())
     }

@@ -6,7 +6,7 @@ use super::equations::length_scale;
 use super::foldover_energy::{Element, Energy};
 use super::membrane::{Membrane, Spring};
 use super::outside::outside_elements;
-use super::{Hold, Outside, Pins, SolveError};
+use super::{Hold, Outside, Pins, Progress, SolveError};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Faces that are thinner, height to longest side, are measured as if they were so thick.
@@ -33,24 +33,17 @@ impl Rest {
         Self { triangles, shares, area }
     }
 
-    /// Mean over the surface of the symmetric Dirichlet energy |J|² + |J⁻¹|², at equal total areas; 4 where nothing is
-    /// distorted.
-    pub(super) fn symmetric_dirichlet(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
-        let place = |element: &Element| element.corners.map(|corner| embedding[corner as usize]);
+    /// How distorted an embedding is whose pins have so far to go.
+    pub(super) fn progress(&self, mesh: &DiskMesh, embedding: &[DVec2], distance_left: f64) -> Progress {
         let elements = self.elements(mesh, embedding);
-        2.0 * elements.iter().map(|element| element.energy(place(element), Energy::SymmetricDirichlet)).sum::<f64>()
-    }
-
-    /// The smallest determinant of a face, at equal total areas.
-    pub(super) fn least_determinant(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
-        let place = |element: &Element| element.corners.map(|corner| embedding[corner as usize]);
-        let elements = self.elements(mesh, embedding);
-        elements.iter().map(|element| element.determinant(place(element))).fold(f64::INFINITY, f64::min)
+        let placed = || elements.iter().map(|element| (element, element.corners.map(|c| embedding[c as usize])));
+        let half: f64 = placed().map(|(element, z)| element.energy(z, Energy::SymmetricDirichlet)).sum();
+        let least_determinant = placed().map(|(element, z)| element.determinant(z)).fold(f64::INFINITY, f64::min);
+        Progress { energy: 2.0 * half, least_determinant, distance_left }
     }
 
     /// Mesh and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
-    /// frame last. The mesh weighs 1, the outside `weight`. `similar` is one
-    /// made before for the same mesh and pins.
+    /// frame last. The mesh weighs 1, the outside `weight`. `similar` is one made before for the same mesh and pins.
     pub(super) fn membrane(
         &self,
         mesh: &DiskMesh,
@@ -62,9 +55,11 @@ impl Rest {
         points.extend(&outside.frame);
         let mut elements = self.elements(mesh, embedding);
         elements.extend(outside_elements(outside, &points, weight));
+        let is_pulled = pins.values().any(|pin| !pin.hold.is_exact());
+        let unit = if is_pulled { spring_unit(mesh, embedding) } else { 0.0 };
         let springs = pins.iter().filter_map(|(vertex, pin)| match pin.hold {
             Hold::Weighted(weight) => {
-                let stiffness = weight * weight * spring_unit(mesh, embedding);
+                let stiffness = weight * weight * unit;
                 Some(Spring { point: vertex.number(), target: pin.target, stiffness })
             }
             _ => None,
@@ -96,10 +91,17 @@ impl Rest {
 
 /// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.
 fn spring_unit(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
-    let length = |[a, b]: [VertexId; 2]| embedding[a.index()].distance(embedding[b.index()]);
-    let total: f64 = mesh.edges().map(|edge| length(mesh.ends(edge))).sum();
-    let mean = total / mesh.edge_count() as f64;
+    let mean = mean_edge_length(mesh, embedding);
     1.0 / (mean * mean * mesh.vertex_count() as f64)
+}
+
+/// Mean length of an edge in an embedding.
+pub(super) fn mean_edge_length(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+    let length = |edge| {
+        let [a, b] = mesh.ends(edge).map(|v| embedding[v.index()]);
+        a.distance(b)
+    };
+    mesh.edges().map(length).sum::<f64>() / mesh.edge_count() as f64
 }
 
 /// A triangle of space in the plane, its first side along the x-axis.

@@ -2,6 +2,9 @@
 //!
 //! ```text
 //! auto              natural → iterate → natural again → iterate → virtual boundary      until planar
+//!  with constraints natural → iterate → continuation → new vertices                     until planar and met
+//! continuation      planar without the constraints → continuation                       until met, or stuck
+//! matchmaker        planar without the constraints → new vertices                       until met
 //! iterate           natural → iterate                                                   until planar, stalled or at the limit
 //! virtual-boundary  natural → virtual boundary                                          until planar
 //! others            one linear solve
@@ -200,7 +203,8 @@ impl Run {
         }
     }
 
-    /// Takes the method's next step; where the method has ended, one more mean-value iteration.
+    /// Takes the method's next step; where the method has ended, one more mean-value iteration, or, after rungs 4 and 5, a
+    /// round of relaxing.
     ///
     /// # Errors
     ///

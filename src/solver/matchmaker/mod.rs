@@ -29,12 +29,10 @@ use self::straighten::{Weights, held_places, straightened};
 use self::subdivision::Subdivision;
 use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
-use super::{Control, Pins, SolveError, verdict};
-use crate::geom::outside_triangles;
+use super::outside::outside_of;
+use super::rest::mean_edge_length;
+use super::{Control, Outside, Pins, SolveError, verdict};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, TriMesh, VertexId};
-
-/// Size of the frame, relative to everything within.
-const FRAME_SIZE: f64 = 2.0;
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
 const CROSSING: f64 = 0.5;
@@ -51,7 +49,7 @@ struct Surroundings {
     /// Faces of the mesh first, then those of the outside; the frame's corners last.
     disk: DiskMesh,
     places: Vec<DVec2>,
-    frame: [DVec2; 4],
+    frame: Vec<DVec2>,
 }
 
 /// Finds new vertices and an embedding with which all exact pins are met.
@@ -96,31 +94,11 @@ pub(super) fn matched(
     Err(SolveError::TooFine)
 }
 
-/// Mean length of an edge in an embedding.
-fn mean_edge_length(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
-    let length = |edge| {
-        let [a, b] = mesh.ends(edge).map(|v| embedding[v.index()]);
-        a.distance(b)
-    };
-    mesh.edges().map(length).sum::<f64>() / mesh.edge_count() as f64
-}
-
 impl Surroundings {
     fn new(mesh: &DiskMesh, start: &[DVec2], targets: &[DVec2]) -> Result<Self, SolveError> {
-        let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| start[v.index()]).collect();
-        let within = || boundary.iter().chain(targets);
-        let low = within().copied().fold(DVec2::INFINITY, DVec2::min);
-        let high = within().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let (centre, half) = (low.midpoint(high), 0.5 * FRAME_SIZE * (high - low).max_element());
-        let frame = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::ONE, DVec2::new(-1.0, 1.0)]
-            .map(|corner| centre + half * corner);
-        let outside = outside_triangles(&boundary, &frame).ok_or(SolveError::NotPlanar)?;
-        let vertex = |corner: u32| {
-            let corner = corner as usize;
-            let beyond = || VertexId::from_index(start.len() + corner - boundary.len());
-            mesh.boundary_loop().get(corner).copied().unwrap_or_else(beyond)
-        };
-        let triangles = mesh.mesh().triangles.iter().copied().chain(outside.into_iter().map(|t| t.map(vertex)));
+        let Outside { frame, triangles } =
+            outside_of(mesh, start, targets.iter().copied(), 1).ok_or(SolveError::NotPlanar)?;
+        let triangles = mesh.mesh().triangles.iter().copied().chain(triangles);
         let places: Vec<DVec2> = start.iter().chain(&frame).copied().collect();
         let disk = disk_in_plane(&places, triangles.collect()).ok_or(SolveError::NotPlanar)?;
         Ok(Self { disk, places, frame })
