@@ -20,12 +20,12 @@ const ARROWS: [(&str, &[&str]); 12] = [
     ("cli", &["geom", "mesh", "linalg", "examples", "solver", "io", "session", "view"]),
 ];
 
-fn source_folder() -> PathBuf {
+pub(super) fn source_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
 }
 
 /// All Rust files under a folder, by name.
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
+pub(super) fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut paths: Vec<PathBuf> =
         fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
     paths.sort();

@@ -17,6 +17,7 @@ mod figures;
 mod flat;
 mod flatten_cli;
 mod flatten_files;
+mod house;
 mod iterate;
 mod ladder;
 mod layers;
