@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 
 use super::FileStamp;
 use super::project::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
-use super::project_fields::{RawChoice, RawFamily, RawWeight};
+use super::project_fields::RawWeight;
 use crate::geom::VAxis;
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
 
 /// The fields of a project file, in their order.
 #[derive(Serialize, Deserialize)]
@@ -25,15 +25,15 @@ pub(super) struct RawProject {
     #[serde(default)]
     v_axis: RawVAxis,
     #[serde(default)]
-    method: RawChoice<Method>,
+    method: Method,
     #[serde(default)]
-    boundary: RawChoice<BoundaryShape>,
+    boundary: BoundaryShape,
     #[serde(default)]
-    family: RawFamily,
+    family: Family,
     #[serde(default)]
-    treatment: Option<RawChoice<Treatment>>,
+    treatment: Option<Treatment>,
     #[serde(default)]
-    growth: RawChoice<Growth>,
+    growth: Growth,
     #[serde(default = "usual_max_steps")]
     max_steps: usize,
     #[serde(default)]
@@ -181,14 +181,14 @@ impl From<RawPins> for Vec<RawPin> {
 impl From<RawProject> for ProjectFile {
     fn from(raw: RawProject) -> Self {
         let settings = Settings {
-            method: match raw.method.0 {
-                Method::Convex(_) => Method::Convex(raw.boundary.0),
+            method: match raw.method {
+                Method::Convex(_) => Method::Convex(raw.boundary),
                 other => other,
             },
-            family: raw.family.0,
-            treatment: raw.treatment.map(|treatment| treatment.0),
+            family: raw.family,
+            treatment: raw.treatment,
             max_steps: raw.max_steps,
-            growth: raw.growth.0,
+            growth: raw.growth,
             size: GaugeSize::default(),
             relax_rounds: raw.relax_rounds,
             new_vertices: raw.new_vertices,
@@ -225,11 +225,11 @@ impl From<ProjectFile> for RawProject {
                 VAxis::Up => RawVAxis::Up,
                 VAxis::Down => RawVAxis::Down,
             },
-            method: RawChoice(settings.method),
-            boundary: RawChoice(boundary),
-            family: RawFamily(settings.family),
-            treatment: settings.treatment.map(RawChoice),
-            growth: RawChoice(settings.growth),
+            method: settings.method,
+            boundary,
+            family: settings.family,
+            treatment: settings.treatment,
+            growth: settings.growth,
             max_steps: settings.max_steps,
             relax_rounds: settings.relax_rounds,
             new_vertices: settings.new_vertices,

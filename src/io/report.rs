@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
-use crate::solver::{DistortionSummary, Step, Verdict};
+use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
 
 /// Everything that a run has to say. Field names are part of the interface.
 #[derive(Debug, Serialize)]
@@ -12,12 +12,12 @@ pub struct Report {
     pub freebound: &'static str,
     /// The input.
     pub mesh: MeshReport,
-    /// Method by its name on the command line; absent where texture coordinates were only checked.
+    /// Method; absent where texture coordinates were only checked.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub method: Option<&'static str>,
-    /// Family by its name on the command line, where the method has a choice.
+    pub method: Option<Method>,
+    /// Family, where the method has a choice.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub family: Option<String>,
+    pub family: Option<Family>,
     /// Pinned vertices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pins: Option<PinsReport>,
@@ -81,7 +81,7 @@ impl MeshReport {
 #[derive(Debug, Serialize)]
 pub struct PinsReport {
     /// How the pinned vertices' equations are treated in the step that is written.
-    pub treatment: &'static str,
+    pub treatment: Treatment,
     /// Pins of the user's.
     pub count: usize,
     /// Largest distance of a pinned vertex from its target, in texture coordinates, as all errors here.
@@ -113,7 +113,7 @@ pub struct WeightedPinReport {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StepReport {
     /// The rung's method.
-    pub rung: &'static str,
+    pub rung: Method,
     /// Place in the run.
     pub index: usize,
     /// Flipped faces.
@@ -191,7 +191,7 @@ impl StepReport {
     /// The fields as cells of a table, in the order of [`Self::COLUMNS`]; empty where there is nothing to say.
     pub fn cells(&self) -> [String; 19] {
         [
-            self.rung.to_owned(),
+            self.rung.name().to_owned(),
             self.index.to_string(),
             self.flipped_faces.to_string(),
             self.boundary_crossings.to_string(),
@@ -217,7 +217,7 @@ impl StepReport {
     pub fn of(step: &Step) -> Self {
         let Step { solution, verdict, .. } = step;
         Self {
-            rung: step.rung.name(),
+            rung: step.rung,
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
             boundary_crossings: verdict.boundary_crossings.len() + verdict.unlisted_crossings,

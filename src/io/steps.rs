@@ -11,7 +11,7 @@ use super::WriteError;
 use super::report::StepReport;
 use super::svg::write_step_svg;
 use crate::mesh::DiskMesh;
-use crate::solver::Step;
+use crate::solver::{Choice as _, Step};
 
 /// Name of the table.
 const TABLE: &str = "steps.csv";

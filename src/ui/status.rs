@@ -7,7 +7,6 @@ use egui::RichText;
 
 use super::theme::theme_of;
 use super::timeline::PRESS_SPACE;
-use super::timeline_chips::rung_words;
 use super::vertex_panel::new_vertex_words;
 use super::{Editor, Tool};
 
@@ -73,7 +72,7 @@ fn numbers(editor: &Editor) -> String {
         }
     }
     if let Some(outcome) = editor.session.outcome().filter(|_| editor.session.preview().is_none()) {
-        parts.push(rung_words(outcome.step.rung.name()).to_owned());
+        parts.push(outcome.step.rung.as_short_rung().to_owned());
         parts.push(format!("{:.0} ms", 1000.0 * (outcome.step.solution.seconds.total() + outcome.step.verify_seconds)));
     }
     parts.join("  ·  ")

@@ -7,7 +7,6 @@ use egui::{RichText, Role, WidgetInfo};
 
 use super::icons::{self, Sign};
 use super::theme::{Theme, theme_of};
-use super::timeline_chips::rung_words;
 use super::{Editor, Request, Tab};
 use crate::session::{Action, Busy, Surface};
 use crate::solver::{Phase, Step, Verdict};
@@ -98,7 +97,7 @@ fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
 
 /// The verdict on a step that is up to date, and the rung that a planar one comes from.
 fn of_step(theme: &Theme, step: &Step) -> Pill {
-    let (unmet, rung) = (step.unmet().len(), rung_words(step.rung.name()));
+    let (unmet, rung) = (step.unmet().len(), step.rung.as_short_rung());
     if !step.verdict.planar {
         let tip = "Not planar. Click for the next defect (D)".into();
         return Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&step.verdict), tip };

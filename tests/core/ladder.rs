@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{
-    Control, Ending, Family, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step, hard_pins, verdict,
+    Choice as _, Control, Ending, Family, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step, hard_pins, verdict,
 };
 use glam::DVec2;
 
