@@ -3,12 +3,20 @@
 use eframe::egui;
 use egui::{Frame, Margin, Panel, Rect, Sense, Vec2};
 
-use super::mesh_pane::mesh_pane_ui;
-use super::plane_pane::plane_pane_ui;
+use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
-use super::timeline::{CURVES_FROM, timeline_ui};
-use super::{Editor, Intent, Pane, Request, constrain, floating, keys, menu, side_panel, status, tools, unsaved};
+use super::{Editor, Intent, Pane, Request};
 use crate::session::Action;
+use crate::ui::panels::floating;
+use crate::ui::panels::menu;
+use crate::ui::panels::side_panel;
+use crate::ui::panels::status;
+use crate::ui::panels::tools;
+use crate::ui::panels::unsaved;
+use crate::ui::panes::constrain;
+use crate::ui::panes::mesh_pane::mesh_pane_ui;
+use crate::ui::panes::plane_pane::plane_pane_ui;
+use crate::ui::timeline::{CURVES_FROM, timeline_ui};
 
 /// Width of the bar between the panes that can be grabbed, points.
 const SPLITTER: f32 = 6.0;

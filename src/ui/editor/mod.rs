@@ -1,0 +1,335 @@
+//! The editor's state: the session, and everything about the window that is not part of the document.
+//!
+//! | file | what |
+//! |---|---|
+//! | `request.rs`, `requests.rs` | what a person asks of the window, and what it does |
+//! | `purpose.rs` | files that are asked for |
+//! | `scene.rs`, `scenes.rs` | what the panes draw, and the jobs that prepare it |
+//! | `preview.rs` | the embedding that follows a dragged pin |
+//! | `steps.rs`, `ease.rs` | moves along the timeline, and the way between two steps |
+//! | `views.rs`, `framing.rs` | what the cameras look at |
+//! | `project_view.rs` | how the window looks, for the project file |
+//! | `picture.rs` | the picture in both panes |
+//! | `nudge.rs` | pins moved by arrow keys |
+//! | `defect.rs` | one thing wrong with an embedding |
+
+mod defect;
+mod ease;
+mod framing;
+pub(super) mod nudge;
+mod picture;
+mod preview;
+mod project_view;
+pub(super) mod purpose;
+mod request;
+mod requests;
+pub(super) mod scene;
+mod scenes;
+mod steps;
+mod views;
+
+pub use defect::Defect;
+pub use ease::Ease;
+pub use nudge::Nudge;
+pub use picture::PictureView;
+pub use purpose::Purpose;
+pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
+pub use scene::{Element, MeshScene, Paint, PaintKey, PlaneScene};
+
+use eframe::egui;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use glam::DVec2;
+
+use crate::mesh::VertexId;
+use crate::session::{Busy, Job, OutputFit, RecentFiles, Session};
+use crate::solver::Hold;
+use crate::ui::panels::dialogs::Dialogs;
+use crate::ui::panels::exports::PaneShot;
+use crate::ui::panes::compare::Ghost;
+use crate::ui::{
+    Defect, Ease, Half, HullView, Intent, Pane, PictureView, PinDrag, Shading, Tab, TimelineView, Tool, Unsaved,
+};
+use crate::view::{OrbitCamera, PlaneCamera};
+use preview::PreviewScene;
+use scene::{MeshScene, Paint, PlaneScene};
+
+/// A solve shorter than this shows no progress: it would only flicker.
+const PATIENCE: Duration = Duration::from_millis(250);
+
+/// How often the session is asked whether a copy for recovery is due.
+const COPY_INTERVAL: Duration = Duration::from_secs(5);
+
+/// Everything the window knows.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the window")]
+pub struct Editor {
+    /// The document and the work on it.
+    pub session: Session,
+    /// The tool in hand.
+    pub tool: Tool,
+    /// How faces are coloured.
+    pub shading: Shading,
+    /// Whether the wireframe shows.
+    pub wireframe: bool,
+    /// The tab that is open.
+    pub tab: Tab,
+    /// Whether the panels at the right show; where nobody said, a narrow window does without.
+    pub panels_wanted: Option<bool>,
+    /// Whether the window is wide enough for the panels.
+    pub window_is_wide: bool,
+    /// The pane in full size, if one is.
+    pub full: Option<Pane>,
+    /// Share of the width that the mesh's pane has.
+    pub split: f32,
+    /// Hull and pockets of the virtual boundary.
+    pub hull: HullView,
+    /// The way between steps.
+    pub ease: Ease,
+    /// Whether an inset magnifies a defect.
+    pub magnifier: bool,
+    /// Selected vertices.
+    pub selection: BTreeSet<VertexId>,
+    /// The vertex under the pointer, in whichever pane.
+    pub hovered: Option<VertexId>,
+    /// The pane under the pointer.
+    pub pane_under_pointer: Option<Pane>,
+    /// The pointer in the plane of the embedding.
+    pub pointer_in_embedding: Option<DVec2>,
+    /// The pin being dragged.
+    pub dragged_pin: Option<VertexId>,
+    /// From where the pointer grabbed it to its middle, points.
+    pub grab_offset: egui::Vec2,
+    /// What else is known of that drag.
+    pub drag: PinDrag,
+    /// The half of a pair that the constrain tool has placed.
+    pub pair: Option<Half>,
+    /// What a click of that tool would do.
+    pub intent: Intent,
+    /// How the next constraint is held.
+    pub hold: Hold,
+    /// Whether arrow keys are moving pins.
+    pub nudging: bool,
+    /// The picture.
+    pub picture: PictureView,
+    /// The box being drawn with Ctrl, from its first corner, in window points.
+    pub selection_box: Option<(Pane, egui::Pos2)>,
+    /// Camera of the mesh's pane.
+    pub orbit: Option<OrbitCamera>,
+    /// Camera of the embedding's pane.
+    pub plane_camera: Option<PlaneCamera>,
+    /// Size of the mesh's pane, points.
+    pub mesh_pane_size: DVec2,
+    /// Size of the embedding's pane, points.
+    pub plane_pane_size: DVec2,
+    /// Where the panes of mesh and embedding lie, points; `None` where one does not show.
+    pub pane_rects: [Option<egui::Rect>; 2],
+    /// The defect shown last, by place in [`Editor::defects`].
+    pub defect: Option<usize>,
+    /// Whether the list of keys shows.
+    pub keys_shown: bool,
+    /// Whether the list of what can be exported shows.
+    pub exports_shown: bool,
+    /// The mesh, by its revision, whose faces may point inward.
+    pub faces_left: Option<u64>,
+    /// What was opened, by the session's count, where the targets may look mirrored.
+    pub targets_left: Option<u64>,
+    /// The question about unsaved work.
+    pub unsaved: Unsaved,
+    /// What is typed into "go to", where it shows.
+    pub go_to: Option<String>,
+    /// The timeline under the panes.
+    pub timeline: TimelineView,
+    /// Size of coordinates in files.
+    pub fit: OutputFit,
+    /// Whether there is a graphics card to draw with.
+    pub has_gpu: bool,
+    /// File dialogs.
+    pub dialogs: Dialogs,
+    /// Whether the person asked to quit.
+    pub quit: bool,
+    /// The theme to put on, where it was asked for in this frame.
+    pub theme_wanted: Option<egui::ThemePreference>,
+    pub(super) context: egui::Context,
+    /// The mesh as given.
+    pub(super) mesh_scene: Option<Arc<MeshScene>>,
+    mesh_scene_job: Option<Job<(), MeshScene>>,
+    pub(super) plane_scene: Option<Arc<PlaneScene>>,
+    plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
+    pub(super) paint: Option<Paint>,
+    pub(super) preview: Option<PreviewScene>,
+    pub(super) shot: Option<PaneShot>,
+    pub(super) window_title: String,
+    /// What was opened last, by the session's count.
+    pub(super) opening: Option<u64>,
+    /// The plane's camera that it was saved with, until there is an embedding to look at.
+    plane_camera_wanted: Option<Vec<f64>>,
+    /// When the session was last told how the person looks at it.
+    view_kept: Option<Instant>,
+    pub(super) ghost: Option<Ghost>,
+    pub(super) busy_since: Option<Instant>,
+}
+
+impl std::fmt::Debug for Editor {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Editor").field("session", &self.session).field("tool", &self.tool).finish_non_exhaustive()
+    }
+}
+
+impl Editor {
+    /// An empty window. `context` is woken when the background has news.
+    pub fn new(context: &egui::Context, recent: RecentFiles) -> Self {
+        let waker = context.clone();
+        Self {
+            session: Session::new(Arc::new(move || waker.request_repaint()), recent),
+            tool: Tool::default(),
+            shading: Shading::default(),
+            wireframe: false,
+            tab: Tab::default(),
+            panels_wanted: None,
+            window_is_wide: true,
+            full: None,
+            split: 0.5,
+            hull: HullView::default(),
+            ease: Ease::default(),
+            magnifier: true,
+            selection: BTreeSet::new(),
+            hovered: None,
+            pane_under_pointer: None,
+            pointer_in_embedding: None,
+            dragged_pin: None,
+            grab_offset: egui::Vec2::ZERO,
+            drag: PinDrag::default(),
+            pair: None,
+            intent: Intent::default(),
+            hold: Hold::Hard,
+            nudging: false,
+            picture: PictureView::default(),
+            selection_box: None,
+            orbit: None,
+            plane_camera: None,
+            mesh_pane_size: DVec2::new(400.0, 400.0),
+            plane_pane_size: DVec2::new(400.0, 400.0),
+            pane_rects: [None; 2],
+            defect: None,
+            keys_shown: false,
+            exports_shown: false,
+            faces_left: None,
+            targets_left: None,
+            unsaved: Unsaved::default(),
+            go_to: None,
+            timeline: TimelineView::default(),
+            fit: OutputFit::default(),
+            has_gpu: false,
+            dialogs: Dialogs::default(),
+            quit: false,
+            theme_wanted: None,
+            context: context.clone(),
+            mesh_scene: None,
+            mesh_scene_job: None,
+            plane_scene: None,
+            plane_scene_job: None,
+            paint: None,
+            preview: None,
+            shot: None,
+            window_title: String::new(),
+            opening: None,
+            plane_camera_wanted: None,
+            view_kept: None,
+            ghost: None,
+            busy_since: None,
+        }
+    }
+
+    /// The mesh as drawn: that of the embedding on the screen, where there is one.
+    pub fn mesh_scene(&self) -> Option<&Arc<MeshScene>> {
+        self.drawn_plane().map(|plane| &plane.mesh).or(self.mesh_scene.as_ref())
+    }
+
+    /// The embedding as drawn.
+    pub fn plane_scene(&self) -> Option<&Arc<PlaneScene>> {
+        self.plane_scene.as_ref()
+    }
+
+    /// The faces' colours.
+    pub fn paint(&self) -> Option<&Paint> {
+        self.paint.as_ref()
+    }
+
+    /// What goes on in the background, once it has taken long enough to be worth a word.
+    pub fn busy_for_long(&self) -> Option<Busy> {
+        self.session.busy().filter(|_| self.busy_since.is_some_and(|since| since.elapsed() >= PATIENCE))
+    }
+
+    /// Everything that is wrong with the embedding on the screen: flipped faces, crossings, overwound vertices.
+    pub fn defects(&self) -> Vec<Defect> {
+        let Some(outcome) = self.session.outcome() else { return Vec::new() };
+        let verdict = &outcome.step.verdict;
+        let flipped = verdict.flipped_faces.iter().map(|&face| Defect::Flipped(face));
+        let crossings = verdict.boundary_crossings.iter().map(|&edges| Defect::Crossing(edges));
+        let overwound = verdict.overwound_vertices.iter().map(|&vertex| Defect::Overwound(vertex));
+        flipped.chain(crossings).chain(overwound).collect()
+    }
+
+    /// Takes in what the background has finished. Call at the start of each frame.
+    pub fn poll(&mut self) {
+        self.refresh_view();
+        self.session.poll();
+        self.go_on_after_saving();
+        self.go_on_playing();
+        self.poll_mesh_scene();
+        self.poll_plane_scene();
+        self.refresh_picture();
+        self.refresh_preview();
+        self.poll_shot();
+        self.go_on_easing();
+        self.poll_hull_scene();
+        self.refresh_ghost();
+        self.refresh_paint();
+        match (self.session.busy(), self.busy_since) {
+            (Some(_), None) => self.busy_since = Some(Instant::now()),
+            (None, Some(_)) => self.busy_since = None,
+            _ => {}
+        }
+        let scenes_pending = self.mesh_scene_job.is_some() || self.plane_scene_job.is_some() || self.is_making_hull();
+        if self.session.busy().is_some() || scenes_pending || self.dialogs.is_open() {
+            self.context.request_repaint_after(Duration::from_millis(100));
+        }
+        if self.session.has_unsaved_work() {
+            // Copies for recovery are made while nobody moves the mouse as well.
+            self.context.request_repaint_after(COPY_INTERVAL);
+        }
+        if let Some(choice) = self.dialogs.poll() {
+            self.take_choice(choice);
+        }
+    }
+
+    /// Whether the panels at the right show.
+    pub fn panels_shown(&self) -> bool {
+        self.panels_wanted.unwrap_or(self.window_is_wide)
+    }
+
+    /// Whether the mesh's pane does not show.
+    pub fn mesh_hidden(&self) -> bool {
+        self.full == Some(Pane::Plane)
+    }
+
+    /// How many selected vertices are pins of the user's.
+    pub fn selected_pins(&self) -> usize {
+        self.pins_selected().count()
+    }
+
+    /// How many defects are listed.
+    pub fn defect_count(&self) -> usize {
+        self.session.outcome().map_or(0, |outcome| {
+            let verdict = &outcome.step.verdict;
+            verdict.flipped_faces.len() + verdict.boundary_crossings.len() + verdict.overwound_vertices.len()
+        })
+    }
+
+    /// Whether there is a defect to go to.
+    pub fn has_defects(&self) -> bool {
+        self.defect_count() > 0
+    }
+}
