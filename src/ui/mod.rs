@@ -21,8 +21,8 @@ mod timeline;
 mod window;
 
 pub use editor::{
-    Defect, Ease, Editor, Element, MeshScene, Nudge, Paint, PaintKey, Pane, PictureView, PlaneScene, Purpose, Request,
-    Shading, StepTarget, Tab, Tool,
+    Defect, Ease, Editor, Element, Host, Layout, Look, MeshScene, Nudge, Opened, Paint, PaintKey, Pane, PlaneScene,
+    Purpose, Request, Shading, StepTarget, Tab, Tool,
 };
 pub use keys::{BINDINGS, Binding, keys_of};
 pub use panels::{Answer, Choice, Dialogs, Unsaved, sentence};

@@ -79,7 +79,7 @@ impl Editor {
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
         let is_too_large = self.ease.too_large == Some(self.session.model_revision());
         if self.ease.wanted && is_other_step && is_same_run && is_same_mesh && !is_too_large {
-            let began = self.context.input(|input| input.time);
+            let began = self.host.now();
             let from = before.positions().to_vec();
             let cameras = self.camera_along(&target);
             self.ease.under_way = Some(Way { from, began, drawn: target, cameras });
@@ -123,7 +123,7 @@ impl Editor {
     /// Moves vertices on. Call once per frame.
     pub(super) fn go_on_easing(&mut self) {
         let Some(way) = &mut self.ease.under_way else { return };
-        let now = self.context.input(|input| input.time);
+        let now = self.host.now();
         let share = (now - way.began) / SECONDS;
         let Some(target) = &self.plane_scene else {
             self.ease.under_way = None;
@@ -150,7 +150,7 @@ impl Editor {
             self.ease.too_large = Some(target.mesh.model_revision);
             self.finish_ease();
         }
-        self.context.request_repaint();
+        self.host.context().request_repaint();
     }
 
     /// Puts everything where it was going.

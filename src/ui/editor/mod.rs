@@ -9,14 +9,22 @@
 //! | `steps.rs`, `ease.rs` | moves along the timeline, and the way between two steps |
 //! | `views.rs`, `framing.rs` | what the cameras look at |
 //! | `project_view.rs` | how the window looks, for the project file |
-//! | `picture.rs` | the picture in both panes |
+//! | `look.rs` | how faces show: shading, wireframe, picture, colours |
+//! | `picture.rs` | where the picture lies in the plane |
+//! | `layout.rs` | what of the window is open |
+//! | `opened.rs` | what the window keeps of the open document |
+//! | `host.rs` | egui's context and the graphics card |
 //! | `nudge.rs` | pins moved by arrow keys |
 //! | `defect.rs` | one thing wrong with an embedding |
 
 mod defect;
 mod ease;
 mod framing;
+mod host;
+mod layout;
+mod look;
 pub(super) mod nudge;
+mod opened;
 mod picture;
 mod preview;
 mod project_view;
@@ -30,8 +38,11 @@ mod views;
 
 pub use defect::Defect;
 pub use ease::Ease;
+pub use host::Host;
+pub use layout::Layout;
+pub use look::Look;
 pub use nudge::Nudge;
-pub use picture::PictureView;
+pub use opened::Opened;
 pub use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
 pub use scene::{Element, MeshScene, Paint, PaintKey, PlaneScene};
@@ -56,9 +67,6 @@ use crate::view::{OrbitCamera, PlaneCamera};
 use preview::PreviewScene;
 use scene::{MeshScene, Paint, PlaneScene};
 
-/// A solve shorter than this shows no progress: it would only flicker.
-const PATIENCE: Duration = Duration::from_millis(250);
-
 /// How often the session is asked whether a copy for recovery is due.
 const COPY_INTERVAL: Duration = Duration::from_secs(5);
 
@@ -67,28 +75,20 @@ const COPY_INTERVAL: Duration = Duration::from_secs(5);
 pub struct Editor {
     /// The document and the work on it.
     pub session: Session,
+    /// How faces show.
+    pub look: Look,
+    /// What of the window is open.
+    pub layout: Layout,
+    /// What the window keeps of the open document.
+    pub opened: Opened,
+    /// What shows the window.
+    pub host: Host,
     /// The tool in hand.
     pub tool: Tool,
-    /// How faces are coloured.
-    pub shading: Shading,
-    /// Whether the wireframe shows.
-    pub wireframe: bool,
-    /// The tab that is open.
-    pub tab: Tab,
-    /// Whether the panels at the right show; where nobody said, a narrow window does without.
-    pub panels_wanted: Option<bool>,
-    /// Whether the window is wide enough for the panels.
-    pub window_is_wide: bool,
-    /// The pane in full size, if one is.
-    pub full: Option<Pane>,
-    /// Share of the width that the mesh's pane has.
-    pub split: f32,
     /// Hull and pockets of the virtual boundary.
     pub hull: HullView,
     /// The way between steps.
     pub ease: Ease,
-    /// Whether an inset magnifies a defect.
-    pub magnifier: bool,
     /// Selected vertices.
     pub selection: BTreeSet<VertexId>,
     /// The vertex under the pointer, in whichever pane.
@@ -111,8 +111,6 @@ pub struct Editor {
     pub hold: Hold,
     /// Whether arrow keys are moving pins.
     pub nudging: bool,
-    /// The picture.
-    pub picture: PictureView,
     /// The box being drawn with Ctrl, from its first corner, in window points.
     pub selection_box: Option<(Pane, egui::Pos2)>,
     /// Camera of the mesh's pane.
@@ -127,48 +125,26 @@ pub struct Editor {
     pub pane_rects: [Option<egui::Rect>; 2],
     /// The defect shown last, by place in [`Editor::defects`].
     pub defect: Option<usize>,
-    /// Whether the list of keys shows.
-    pub keys_shown: bool,
-    /// Whether the list of what can be exported shows.
-    pub exports_shown: bool,
-    /// The mesh, by its revision, whose faces may point inward.
-    pub faces_left: Option<u64>,
-    /// What was opened, by the session's count, where the targets may look mirrored.
-    pub targets_left: Option<u64>,
     /// The question about unsaved work.
     pub unsaved: Unsaved,
-    /// What is typed into "go to", where it shows.
-    pub go_to: Option<String>,
     /// The timeline under the panes.
     pub timeline: TimelineView,
     /// Size of coordinates in files.
     pub fit: OutputFit,
-    /// Whether there is a graphics card to draw with.
-    pub has_gpu: bool,
     /// File dialogs.
     pub dialogs: Dialogs,
     /// Whether the person asked to quit.
     pub quit: bool,
-    /// The theme to put on, where it was asked for in this frame.
-    pub theme_wanted: Option<egui::ThemePreference>,
-    pub(super) context: egui::Context,
     /// The mesh as given.
     pub(super) mesh_scene: Option<Arc<MeshScene>>,
     mesh_scene_job: Option<Job<(), MeshScene>>,
     pub(super) plane_scene: Option<Arc<PlaneScene>>,
     plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
-    pub(super) paint: Option<Paint>,
     pub(super) preview: Option<PreviewScene>,
     pub(super) shot: Option<PaneShot>,
-    pub(super) window_title: String,
-    /// What was opened last, by the session's count.
-    pub(super) opening: Option<u64>,
     /// The plane's camera that it was saved with, until there is an embedding to look at.
     plane_camera_wanted: Option<Vec<f64>>,
-    /// When the session was last told how the person looks at it.
-    view_kept: Option<Instant>,
     pub(super) ghost: Option<Ghost>,
-    pub(super) busy_since: Option<Instant>,
 }
 
 impl std::fmt::Debug for Editor {
@@ -183,17 +159,13 @@ impl Editor {
         let waker = context.clone();
         Self {
             session: Session::new(Arc::new(move || waker.request_repaint()), recent),
+            look: Look::default(),
+            layout: Layout::default(),
+            opened: Opened::default(),
+            host: Host::new(context),
             tool: Tool::default(),
-            shading: Shading::default(),
-            wireframe: false,
-            tab: Tab::default(),
-            panels_wanted: None,
-            window_is_wide: true,
-            full: None,
-            split: 0.5,
             hull: HullView::default(),
             ease: Ease::default(),
-            magnifier: true,
             selection: BTreeSet::new(),
             hovered: None,
             pane_under_pointer: None,
@@ -205,7 +177,6 @@ impl Editor {
             intent: Intent::default(),
             hold: Hold::Hard,
             nudging: false,
-            picture: PictureView::default(),
             selection_box: None,
             orbit: None,
             plane_camera: None,
@@ -213,32 +184,19 @@ impl Editor {
             plane_pane_size: DVec2::new(400.0, 400.0),
             pane_rects: [None; 2],
             defect: None,
-            keys_shown: false,
-            exports_shown: false,
-            faces_left: None,
-            targets_left: None,
             unsaved: Unsaved::default(),
-            go_to: None,
             timeline: TimelineView::default(),
             fit: OutputFit::default(),
-            has_gpu: false,
             dialogs: Dialogs::default(),
             quit: false,
-            theme_wanted: None,
-            context: context.clone(),
             mesh_scene: None,
             mesh_scene_job: None,
             plane_scene: None,
             plane_scene_job: None,
-            paint: None,
             preview: None,
             shot: None,
-            window_title: String::new(),
-            opening: None,
             plane_camera_wanted: None,
-            view_kept: None,
             ghost: None,
-            busy_since: None,
         }
     }
 
@@ -252,14 +210,9 @@ impl Editor {
         self.plane_scene.as_ref()
     }
 
-    /// The faces' colours.
-    pub fn paint(&self) -> Option<&Paint> {
-        self.paint.as_ref()
-    }
-
     /// What goes on in the background, once it has taken long enough to be worth a word.
     pub fn busy_for_long(&self) -> Option<Busy> {
-        self.session.busy().filter(|_| self.busy_since.is_some_and(|since| since.elapsed() >= PATIENCE))
+        self.session.busy().filter(|_| self.host.is_busy_for_long())
     }
 
     /// Everything that is wrong with the embedding on the screen: flipped faces, crossings, overwound vertices.
@@ -280,39 +233,25 @@ impl Editor {
         self.go_on_playing();
         self.poll_mesh_scene();
         self.poll_plane_scene();
-        self.refresh_picture();
+        self.look.refresh_picture(self.session.document());
         self.refresh_preview();
         self.poll_shot();
         self.go_on_easing();
         self.poll_hull_scene();
         self.refresh_ghost();
         self.refresh_paint();
-        match (self.session.busy(), self.busy_since) {
-            (Some(_), None) => self.busy_since = Some(Instant::now()),
-            (None, Some(_)) => self.busy_since = None,
-            _ => {}
-        }
+        self.host.note_work(self.session.busy().is_some(), Instant::now());
         let scenes_pending = self.mesh_scene_job.is_some() || self.plane_scene_job.is_some() || self.is_making_hull();
         if self.session.busy().is_some() || scenes_pending || self.dialogs.is_open() {
-            self.context.request_repaint_after(Duration::from_millis(100));
+            self.host.context().request_repaint_after(Duration::from_millis(100));
         }
         if self.session.has_unsaved_work() {
             // Copies for recovery are made while nobody moves the mouse as well.
-            self.context.request_repaint_after(COPY_INTERVAL);
+            self.host.context().request_repaint_after(COPY_INTERVAL);
         }
         if let Some(choice) = self.dialogs.poll() {
             self.take_choice(choice);
         }
-    }
-
-    /// Whether the panels at the right show.
-    pub fn panels_shown(&self) -> bool {
-        self.panels_wanted.unwrap_or(self.window_is_wide)
-    }
-
-    /// Whether the mesh's pane does not show.
-    pub fn mesh_hidden(&self) -> bool {
-        self.full == Some(Pane::Plane)
     }
 
     /// How many selected vertices are pins of the user's.

@@ -8,7 +8,6 @@
 //! Numbers that are none of these are ignored, as names are that mean nothing here.
 
 use std::f64::consts::{PI, TAU};
-use std::time::{Duration, Instant};
 
 use glam::{DVec2, DVec3};
 
@@ -20,9 +19,6 @@ use crate::view::{OrbitCamera, PlaneCamera};
 /// The tools by the names that files have for them.
 const TOOLS: [(Tool, &str); 3] = [(Tool::Select, "select"), (Tool::Fix, "fix"), (Tool::Constrain, "constrain")];
 
-/// How old the view in a copy for recovery may be. A selection can be large, so that it is not taken every frame.
-const VIEW_INTERVAL: Duration = Duration::from_secs(1);
-
 /// A drag by which a camera shows how far drags turn it, points: far less than half a turn.
 const PROBE: f64 = 100.0;
 
@@ -30,7 +26,7 @@ impl Editor {
     /// How the person looks at it now.
     fn view(&self) -> ProjectView {
         let tool = TOOLS.iter().find(|(tool, _)| *tool == self.tool).map(|(_, name)| (*name).to_owned());
-        let shading = Some(self.shading.title().to_owned());
+        let shading = Some(self.look.shading.title().to_owned());
         ProjectView {
             mesh_shading: shading.clone(),
             plane_shading: shading,
@@ -44,7 +40,7 @@ impl Editor {
     /// Tells the session how the person looks at it, to be saved with it. While what was opened is not on the screen
     /// yet, the session knows better.
     pub(in crate::ui) fn keep_view(&mut self) {
-        if self.opening == Some(self.session.opening_revision()) {
+        if self.opened.is_on_screen(&self.session) {
             let view = self.view();
             self.session.set_view(view);
         }
@@ -52,10 +48,8 @@ impl Editor {
 
     /// Keeps the view that copies for recovery are made with fresh. Call once per frame.
     pub(super) fn refresh_view(&mut self) {
-        let is_due = self.view_kept.is_none_or(|kept| kept.elapsed() >= VIEW_INTERVAL);
-        if is_due && self.session.has_unsaved_work() {
+        if self.opened.view_is_due(&self.session) {
             self.keep_view();
-            self.view_kept = Some(Instant::now());
         }
     }
 
@@ -64,7 +58,7 @@ impl Editor {
         let view = self.session.view().clone();
         let shading = view.mesh_shading.and_then(|name| Shading::ALL.into_iter().find(|s| s.title() == name));
         if let Some(shading) = shading {
-            self.shading = shading;
+            self.look.shading = shading;
         }
         if let Some((tool, _)) = TOOLS.into_iter().find(|(_, name)| view.tool.as_deref() == Some(*name)) {
             self.handle(Request::SetTool(tool));

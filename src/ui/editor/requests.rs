@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use super::purpose::kind_of;
 use crate::mesh::VertexId;
-use crate::render::Sampling;
 use crate::session::{Action, SaveRequest};
 use crate::solver::Hold;
 use crate::ui::panels::dialogs::Choice;
@@ -21,14 +20,14 @@ impl Editor {
             Request::TogglePlay => self.toggle_play(),
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
             Request::SetTool(tool) => (self.tool, self.pair) = (tool, None),
-            Request::SetShading(shading) => self.shading = shading,
-            Request::ToggleWireframe => self.wireframe = !self.wireframe,
+            Request::SetShading(shading) => self.look.shading = shading,
+            Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
             Request::ToggleEase => self.ease.wanted = !self.ease.wanted,
-            Request::ToggleMagnifier => self.magnifier = !self.magnifier,
+            Request::ToggleMagnifier => self.look.magnifier = !self.look.magnifier,
             Request::ToggleHull => self.toggle_hull(),
             Request::SetStage(stage) => self.hull.stage = stage,
-            Request::ShowTab(tab) => (self.tab, self.panels_wanted) = (tab, Some(true)),
-            Request::TogglePanels => self.panels_wanted = Some(!self.panels_shown()),
+            Request::ShowTab(tab) => self.layout.show_tab(tab),
+            Request::TogglePanels => self.layout.toggle_panels(),
             Request::Frame => self.frame(),
             Request::GoTo(vertices) => self.go_to_vertices(vertices),
             Request::GoToDefect(place) => self.go_to_defect(place),
@@ -43,27 +42,24 @@ impl Editor {
             Request::Nudge(nudge) => self.nudge(nudge),
             Request::EndNudge => self.end_nudge(),
             Request::SetHold(hold) => self.set_hold(hold),
-            Request::SetOpacity(opacity) => self.picture.opacity = opacity.clamp(0.0, 1.0),
-            Request::ToggleSharp => {
-                let is_sharp = self.picture.sampling == Sampling::Sharp;
-                self.picture.sampling = if is_sharp { Sampling::Smooth } else { Sampling::Sharp };
-            }
+            Request::SetOpacity(opacity) => self.look.opacity = opacity.clamp(0.0, 1.0),
+            Request::ToggleSharp => self.look.toggle_sharp(),
             Request::UnpinSelected => self.act(Action::Unpin(self.selection.iter().copied().collect())),
             Request::Escape => self.escape(),
-            Request::ToggleFull(pane) => self.full = if self.full.is_some() { None } else { Some(pane) },
+            Request::ToggleFull(pane) => self.layout.toggle_full(pane),
             Request::TogglePane => {
                 let pane = self.pane_under_pointer.unwrap_or(Pane::Plane);
                 self.handle(Request::ToggleFull(pane));
             }
             Request::Ask(purpose) => self.ask(purpose),
             Request::SaveProject => self.save_project(),
-            Request::ToggleExports => self.exports_shown = !self.exports_shown,
+            Request::ToggleExports => self.layout.exports_shown = !self.layout.exports_shown,
             Request::Answer(answer) => self.answer(answer),
-            Request::LeaveFaces => self.faces_left = Some(self.session.model_revision()),
-            Request::LeaveTargets => self.targets_left = Some(self.session.opening_revision()),
-            Request::AskGoTo => self.go_to = Some(String::new()),
-            Request::ToggleKeys => self.keys_shown = !self.keys_shown,
-            Request::SetTheme(theme) => self.theme_wanted = Some(theme),
+            Request::LeaveFaces => self.opened.leave_faces(&self.session),
+            Request::LeaveTargets => self.opened.leave_targets(&self.session),
+            Request::AskGoTo => self.layout.go_to = Some(String::new()),
+            Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
+            Request::SetTheme(theme) => self.host.want_theme(theme),
             Request::SetFit(fit) => self.fit = fit,
             Request::Quit => self.wish(Wish::Quit),
         }
@@ -71,14 +67,14 @@ impl Editor {
 
     /// Asks for a file.
     pub(in crate::ui) fn ask(&mut self, purpose: Purpose) {
-        self.exports_shown = false;
+        self.layout.exports_shown = false;
         let suggestion = match purpose {
             Purpose::SaveProject => {
                 self.session.project_path().cloned().unwrap_or_else(|| self.suggested_name(purpose))
             }
             _ => self.suggested_name(purpose),
         };
-        self.dialogs.ask(&self.context, purpose, suggestion);
+        self.dialogs.ask(self.host.context(), purpose, suggestion);
     }
 
     /// Opens, saves or exports as a dialog was answered.
@@ -144,11 +140,7 @@ impl Editor {
     }
 
     fn escape(&mut self) {
-        if self.close_question() || self.dialogs.close() || std::mem::take(&mut self.exports_shown) {
-        } else if self.keys_shown {
-            self.keys_shown = false;
-        } else if self.go_to.is_some() {
-            self.go_to = None;
+        if self.close_question() || self.dialogs.close() || self.layout.close_window() {
         } else if self.dragged_pin.take().is_some() {
             self.act(Action::GiveUpGesture);
         } else if self.selection_box.take().is_some() || self.pair.take().is_some() {

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::scene::{MeshScene, Paint, PaintKey, PlaneScene};
+use super::scene::{MeshScene, PlaneScene};
 use crate::session::{Job, Poll};
-use crate::ui::{Editor, Shading};
+use crate::ui::Editor;
 use crate::view::{OrbitCamera, PlaneCamera, UpAxis};
 
 impl Editor {
@@ -22,9 +22,9 @@ impl Editor {
         }
         let shown = self.mesh_scene.as_ref().map(|scene| scene.model_revision);
         if let Some(model) = self.session.model().filter(|_| shown != Some(revision)) {
-            let (model, waker) = (Arc::clone(model), self.context.clone());
+            let model = Arc::clone(model);
             let work = move |_: &_| MeshScene::new(model, revision);
-            self.mesh_scene_job = Job::spawn("mesh scene", move || waker.request_repaint(), work).ok();
+            self.mesh_scene_job = Job::spawn("mesh scene", self.host.waker(), work).ok();
         }
     }
 
@@ -37,11 +37,8 @@ impl Editor {
         self.plane_camera = None;
         self.plane_scene = None;
         self.plane_scene_job = None;
-        self.paint = None;
-        let opening = self.session.opening_revision();
-        let is_other = self.opening != Some(opening);
-        self.opening = Some(opening);
-        if is_other {
+        self.look.forget_paint();
+        if self.opened.put_on_screen(&self.session) {
             self.selection.clear();
             self.put_on_view();
         }
@@ -76,31 +73,19 @@ impl Editor {
             return;
         }
         let Some(outcome) = self.session.outcome() else { return };
-        let (given, outcome, waker) = (Arc::clone(mesh_scene), Arc::clone(outcome), self.context.clone());
+        let (given, outcome) = (Arc::clone(mesh_scene), Arc::clone(outcome));
         let before = self.plane_scene.as_ref().map(|scene| Arc::clone(&scene.mesh));
         let work = move |_: &_| {
             let mesh = MeshScene::of_step(&given, before, &outcome.step);
             PlaneScene::new(mesh, outcome, revision)
         };
-        let job = Job::spawn("plane scene", move || waker.request_repaint(), work);
+        let job = Job::spawn("plane scene", self.host.waker(), work);
         self.plane_scene_job = job.ok().map(|job| (revision, job));
     }
 
     pub(super) fn refresh_paint(&mut self) {
         let Some(mesh_scene) = &self.mesh_scene else { return };
-        let base = self.moved_from().filter(|_| self.shading == Shading::Move);
-        let key = PaintKey {
-            model: mesh_scene.model_revision,
-            outcome: self.plane_scene.as_ref().map_or(0, |scene| scene.outcome_revision),
-            shading: self.shading,
-            moved_from: base.map(|base| base.step.index),
-        };
-        if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
-            let (mesh, outcome) = match &self.plane_scene {
-                Some(plane) => (plane.mesh.mesh(), Some(plane.outcome.as_ref())),
-                None => (mesh_scene.mesh(), None),
-            };
-            self.paint = Some(Paint::new(key, mesh, outcome, base.map(AsRef::as_ref)));
-        }
+        let base = self.moved_from().cloned();
+        self.look.refresh_paint(mesh_scene, self.plane_scene.as_deref(), base.as_deref());
     }
 }

@@ -46,13 +46,13 @@ impl Editor {
         if timeline.next_kept(shown).is_none() {
             self.session.handle(Action::ShowStep(0));
         }
-        self.timeline.playing_since = Some(self.context.input(|input| input.time));
+        self.timeline.playing_since = Some(self.host.now());
     }
 
     /// Shows the next step when it is time. Call once per frame.
     pub(super) fn go_on_playing(&mut self) {
         let Some(since) = self.timeline.playing_since else { return };
-        let now = self.context.input(|input| input.time);
+        let now = self.host.now();
         let timeline = self.session.timeline();
         let next = timeline.shown().and_then(|shown| timeline.next_kept(shown));
         let Some(next) = next else {
@@ -65,6 +65,6 @@ impl Editor {
             self.session.handle(Action::ShowStep(next));
             self.timeline.playing_since = Some(now);
         }
-        self.context.request_repaint();
+        self.host.context().request_repaint();
     }
 }

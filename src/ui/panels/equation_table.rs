@@ -153,7 +153,7 @@ fn compact(value: f64) -> String {
 /// Draws the equation of the first selected vertex while its panel is open: spokes as wide as their shares, negative ones
 /// red, the barycentre as a cross, the offset as an arrow.
 pub(in crate::ui) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene, camera: PlaneCamera) {
-    if !(editor.tab == Tab::Vertex && editor.panels_shown()) || plane.is_stage() {
+    if !(editor.layout.shows(Tab::Vertex)) || plane.is_stage() {
         return;
     }
     let Some(&vertex) = editor.selection.first() else { return };

@@ -34,7 +34,7 @@ pub(in crate::ui) struct PaneShot {
 /// Shows what can be exported.
 pub(super) fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     let solved = editor.session.outcome().is_some();
-    let window = egui::Window::new("Export").open(&mut editor.exports_shown).collapsible(false).resizable(false);
+    let window = egui::Window::new("Export").open(&mut editor.layout.exports_shown).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
         for (purpose, words, about) in EXPORTS {
             if ui
@@ -57,10 +57,10 @@ impl Editor {
         let rect = self.pane_rects[usize::from(pane == Pane::Plane)];
         let Some(part) = rect else { return };
         let (sender, answer) = sync_channel(1);
-        let waker = self.context.clone();
-        self.context.request_screenshot(move |image| {
+        let wake = self.host.waker();
+        self.host.context().request_screenshot(move |image| {
             sender.send(image).ok();
-            waker.request_repaint();
+            wake();
         });
         self.shot = Some(PaneShot { path, part, answer });
     }
@@ -69,7 +69,7 @@ impl Editor {
     pub(in crate::ui) fn poll_shot(&mut self) {
         let Some(shot) = &self.shot else { return };
         let Ok(image) = shot.answer.try_recv() else { return };
-        let scale = self.context.pixels_per_point();
+        let scale = self.host.context().pixels_per_point();
         let part = cut(&image, shot.part * scale);
         if let Some(shot) = self.shot.take() {
             self.session.save_picture(shot.path, part);

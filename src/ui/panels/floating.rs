@@ -9,13 +9,13 @@ use crate::ui::{Editor, Element, Request};
 
 /// Shows whatever is open.
 pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
-    if editor.keys_shown {
+    if editor.layout.keys_shown {
         keys_window(context, editor);
     }
-    if editor.go_to.is_some() {
+    if editor.layout.go_to.is_some() {
         go_to_window(context, editor, requests);
     }
-    if editor.exports_shown {
+    if editor.layout.exports_shown {
         super::exports::exports_window(context, editor, requests);
     }
     super::unsaved::question(context, editor, requests);
@@ -30,7 +30,7 @@ fn keys_window(context: &egui::Context, editor: &mut Editor) {
     bindings.sort_by_key(|binding| (binding.shortcut.modifiers.any(), binding.about));
     let height = (context.content_rect().height() - 120.0).max(160.0);
     egui::Window::new("Keys and mouse")
-        .open(&mut editor.keys_shown)
+        .open(&mut editor.layout.keys_shown)
         .collapsible(false)
         .default_size([520.0, height.min(620.0)])
         .pivot(Align2::CENTER_CENTER)
@@ -54,7 +54,7 @@ fn keys_window(context: &egui::Context, editor: &mut Editor) {
 }
 
 fn go_to_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
-    let mut text = editor.go_to.clone().unwrap_or_default();
+    let mut text = editor.layout.go_to.clone().unwrap_or_default();
     let mut open = true;
     let mut gone = false;
     let window = egui::Window::new("Go to").open(&mut open).collapsible(false).resizable(false);
@@ -78,5 +78,5 @@ fn go_to_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec
             field.request_focus();
         }
     });
-    editor.go_to = (open && !gone).then_some(text);
+    editor.layout.go_to = (open && !gone).then_some(text);
 }

@@ -23,7 +23,7 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut 
             help.response.rect.right()
         });
         let right = ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let panels = ui.selectable_label(editor.panels_shown(), "Panels");
+            let panels = ui.selectable_label(editor.layout.panels_shown(), "Panels");
             if panels.on_hover_text("Show or hide the panels at the right").clicked() {
                 requests.push(Request::TogglePanels);
             }
@@ -162,16 +162,15 @@ fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.menu_button("Shading", |ui| {
         for shading in Shading::ALL {
-            choice(ui, editor.shading == shading, shading.title(), Request::SetShading(shading), requests);
+            choice(ui, editor.look.shading == shading, shading.title(), Request::SetShading(shading), requests);
         }
     });
-    choice(ui, editor.wireframe, "Wireframe", Request::ToggleWireframe, requests);
-    let is_sharp = editor.picture.sampling == crate::render::Sampling::Sharp;
-    choice(ui, is_sharp, "Sharp pixels", Request::ToggleSharp, requests);
+    choice(ui, editor.look.wireframe, "Wireframe", Request::ToggleWireframe, requests);
+    choice(ui, editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp, requests);
     choice(ui, editor.hull.shown, "Hull and pockets", Request::ToggleHull, requests);
-    choice(ui, editor.magnifier, "Magnifier", Request::ToggleMagnifier, requests);
+    choice(ui, editor.look.magnifier, "Magnifier", Request::ToggleMagnifier, requests);
     choice(ui, editor.ease.wanted, "Glide from step to step", Request::ToggleEase, requests);
-    choice(ui, editor.panels_shown(), "Panels", Request::TogglePanels, requests);
+    choice(ui, editor.layout.panels_shown(), "Panels", Request::TogglePanels, requests);
     choice(ui, editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves, requests);
     ui.separator();
     item(ui, true, "Frame the selection, or all", Request::Frame, requests);

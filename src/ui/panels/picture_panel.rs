@@ -4,7 +4,6 @@ use eframe::egui;
 use egui::RichText;
 
 use crate::geom::VAxis;
-use crate::render::Sampling;
 use crate::session::Action;
 use crate::ui::panes::constrain::axis_words;
 use crate::ui::theme::theme_of;
@@ -48,13 +47,16 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
                 requests.push(Request::Do(Action::SetVAxis(v_axis)));
             }
         }
-        let is_sharp = editor.picture.sampling == Sampling::Sharp;
-        if ui.selectable_label(is_sharp, "Sharp").on_hover_text("Pixels are squares of one colour").clicked() {
+        if ui
+            .selectable_label(editor.look.is_sharp(), "Sharp")
+            .on_hover_text("Pixels are squares of one colour")
+            .clicked()
+        {
             requests.push(Request::ToggleSharp);
         }
     });
     if document.picture.is_some() {
-        let mut percent = editor.picture.opacity * 100.0;
+        let mut percent = editor.look.opacity * 100.0;
         let slider = egui::Slider::new(&mut percent, 0.0..=100.0).suffix(" %").fixed_decimals(0);
         let label = ui.weak("Opacity behind the embedding");
         let slider = ui.add(slider).labelled_by(label.id);

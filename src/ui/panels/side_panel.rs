@@ -19,13 +19,13 @@ pub(in crate::ui) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests
                 Tab::Method | Tab::Vertex => 0,
             };
             let words = if count > 0 { format!("{} {count}", tab.title()) } else { tab.title().to_owned() };
-            if ui.selectable_label(editor.tab == tab, words).clicked() {
+            if ui.selectable_label(editor.layout.tab() == tab, words).clicked() {
                 requests.push(Request::ShowTab(tab));
             }
         }
     });
     ui.separator();
-    match editor.tab {
+    match editor.layout.tab() {
         Tab::Method => scrolled(ui, |ui| method_panel::method_panel(ui, editor, requests)),
         Tab::Pins => pins_panel::pins_panel(ui, editor, requests),
         Tab::Defects => defects_panel::defects_panel(ui, editor, requests),

@@ -141,14 +141,11 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
 }
 
 /// Gives the window its title: the document's name, with a mark where work is not saved.
-pub(in crate::ui) fn title_of_window(context: &egui::Context, editor: &mut Editor) {
+pub(in crate::ui) fn title_of_window(editor: &mut Editor) {
     let mark = if editor.session.has_unsaved_work() { "• " } else { "" };
     let title = match editor.session.model() {
         Some(_) => format!("{mark}{} – Freebound", editor.document_name()),
         None => "Freebound".to_owned(),
     };
-    if editor.window_title != title {
-        context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
-        editor.window_title = title;
-    }
+    editor.host.set_title(title);
 }

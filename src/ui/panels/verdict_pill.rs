@@ -201,12 +201,16 @@ mod tests {
         editor
     }
 
+    fn a_while_ago() -> Instant {
+        Instant::now().checked_sub(Duration::from_secs(1)).expect("the clock runs for longer")
+    }
+
     #[test]
     fn a_preview_says_so_while_its_run_is_solved_for_long() {
         let mut editor = dragging();
         editor.session.handle(Action::Rest);
         // As if it had begun a while ago. Nothing is taken in meanwhile, so that no step has replaced the preview.
-        editor.busy_since = Instant::now().checked_sub(Duration::from_secs(1));
+        editor.host.note_work(true, a_while_ago());
         let (pill, busy) = shown(&LIGHT, &editor);
         assert!(matches!(busy, Some(Busy::Solving(_))), "{busy:?}");
         let words = pill.expect("the preview says what it is").words;
@@ -219,7 +223,7 @@ mod tests {
         editor.session.handle(Action::EndGesture);
         wait(&mut editor, is_solved);
         editor.session.handle(Action::Solve);
-        editor.busy_since = Instant::now().checked_sub(Duration::from_secs(1));
+        editor.host.note_work(true, a_while_ago());
         let (pill, busy) = shown(&LIGHT, &editor);
         assert!(pill.is_none() && busy.is_some());
     }

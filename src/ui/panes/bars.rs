@@ -38,7 +38,7 @@ fn recovery(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn inward(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    if !editor.faces_point_inward() {
+    if !editor.opened.faces_point_inward(&editor.session) {
         return;
     }
     let theme = theme_of(ui);
@@ -56,8 +56,7 @@ fn inward(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn mirrored(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let is_left = editor.targets_left == Some(editor.session.opening_revision());
-    if is_left || editor.dragged_pin.is_some() || !editor.session.targets_look_mirrored() {
+    if editor.dragged_pin.is_some() || !editor.opened.targets_look_mirrored(&editor.session) {
         return;
     }
     let theme = theme_of(ui);
@@ -73,12 +72,4 @@ fn mirrored(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             }
         });
     });
-}
-
-impl Editor {
-    /// Whether the open mesh's faces point inward and nobody said that they may.
-    pub(super) fn faces_point_inward(&self) -> bool {
-        let is_open = self.faces_left != Some(self.session.model_revision());
-        is_open && self.session.model().is_some_and(|model| model.faces_point_inward())
-    }
 }

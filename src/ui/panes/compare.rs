@@ -85,7 +85,7 @@ impl Editor {
 
     /// The name of the shading with what it is measured from.
     pub(super) fn shading_title(&self) -> String {
-        match (self.shading, self.moved_from()) {
+        match (self.look.shading, self.moved_from()) {
             (Shading::Move, Some(base)) => format!("Move from step {}, plane units", base.step.index),
             (shading, _) => shading.title().to_owned(),
         }
@@ -118,7 +118,7 @@ pub(in crate::ui) fn face_moves(mesh: &TriMesh, before: &[DVec2], after: &[DVec2
 pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
     let Some(step) = editor.ghost_step() else { return };
     let theme = theme_of(ui);
-    let has_legend = editor.mesh_hidden() && editor.paint().is_some_and(|paint| paint.legend.is_some());
+    let has_legend = editor.layout.mesh_hidden() && editor.look.paint().is_some_and(|paint| paint.legend.is_some());
     let height = if has_legend { 124.0 } else { 32.0 };
     let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(150.0, 20.0));
     if rect.width() < 180.0 {
@@ -137,8 +137,8 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
 
 /// Says why nothing is coloured where moves are asked for and there are none.
 pub(super) fn no_move_note(ui: &egui::Ui, rect: Rect, editor: &Editor) {
-    let has_legend = editor.paint().is_some_and(|paint| paint.legend.is_some());
-    if editor.shading != Shading::Move || has_legend || editor.plane_scene().is_none() {
+    let has_legend = editor.look.paint().is_some_and(|paint| paint.legend.is_some());
+    if editor.look.shading != Shading::Move || has_legend || editor.plane_scene().is_none() {
         return;
     }
     let at = rect.left_bottom() + Vec2::new(12.0, -12.0);

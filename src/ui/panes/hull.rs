@@ -303,9 +303,9 @@ impl Editor {
         else {
             return;
         };
-        let (disk, plane, waker) = (Arc::clone(disk), Arc::clone(plane), self.context.clone());
+        let (disk, plane) = (Arc::clone(disk), Arc::clone(plane));
         let work = move |_: &_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1);
-        self.hull.job = Job::spawn("hull", move || waker.request_repaint(), work).ok();
+        self.hull.job = Job::spawn("hull", self.host.waker(), work).ok();
     }
 
     /// Whether a stage is being made.

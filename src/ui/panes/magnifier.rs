@@ -47,7 +47,7 @@ pub(in crate::ui) struct Magnifier {
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
     pub(in crate::ui) fn over(editor: &Editor, pane: Rect, scene: &PlaneScene) -> Option<Self> {
-        if !editor.magnifier || scene.is_stage() || editor.preview_plane().is_some() {
+        if !editor.look.magnifier || scene.is_stage() || editor.preview_plane().is_some() {
             return None;
         }
         let verdict = &scene.outcome.step.verdict;
@@ -88,7 +88,7 @@ impl Magnifier {
             painter.text(right, Align2::RIGHT_CENTER, self.defect.words(), FontId::proportional(11.0), theme.weak_text);
         }
         let picture = Rect::from_min_max(self.rect.min + Vec2::new(0.0, TITLE), self.rect.max);
-        if editor.has_gpu {
+        if editor.host.has_gpu() {
             ui.painter().add(render::plane_pane(
                 PaneId("magnifier"),
                 picture,
@@ -133,7 +133,7 @@ impl Magnifier {
         PlaneFrame {
             mesh: Arc::clone(&mesh.arrays),
             plane: Some(Arc::clone(&plane.arrays)),
-            paint: editor.paint().map(|paint| Arc::clone(&paint.faces)),
+            paint: editor.look.paint().map(|paint| Arc::clone(&paint.faces)),
             fills: Vec::new(),
             lines: vec![mesh_pane::boundary_line(mesh, theme)],
             ghost: editor.ghost.as_ref().map(|ghost| ghost.layer(theme)),

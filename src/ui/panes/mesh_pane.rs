@@ -49,11 +49,11 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         editor.aim(ui, Pane::Mesh, None);
     }
     select(ui, &response, editor, &scene, requests);
-    if editor.has_gpu {
+    if editor.host.has_gpu() {
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, frame(editor, &scene, camera, theme)));
     }
     marks(ui, rect, editor, &scene, &camera);
-    if let Some(legend) = editor.paint().and_then(|paint| paint.legend.as_ref()) {
+    if let Some(legend) = editor.look.paint().and_then(|paint| paint.legend.as_ref()) {
         pane::legend(ui, rect, legend, &editor.shading_title());
     }
     super::compare::no_move_note(ui, rect, editor);
@@ -139,7 +139,7 @@ pub(in crate::ui) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCame
         mesh: Arc::clone(&scene.arrays),
         lines: vec![boundary_line(scene, theme)],
         picture: editor.picture_layer(),
-        paint: editor.preview_paint().or(editor.paint().map(|paint| &paint.faces)).map(Arc::clone),
+        paint: editor.preview_paint().or(editor.look.paint().map(|paint| &paint.faces)).map(Arc::clone),
         style: style(editor),
         palette: theme.palette,
         camera,
@@ -154,7 +154,7 @@ pub(super) fn boundary_line(scene: &MeshScene, theme: &Theme) -> LineLayer {
 
 /// How faces look, in both panes.
 pub(in crate::ui) fn style(editor: &Editor) -> Style {
-    let shading = match editor.shading {
+    let shading = match editor.look.shading {
         Shading::Plain => render::Shading::Plain,
         Shading::Picture if editor.has_picture() => render::Shading::Picture,
         Shading::Checker | Shading::Picture => render::Shading::Checker,
@@ -166,7 +166,7 @@ pub(in crate::ui) fn style(editor: &Editor) -> Style {
     let extent = editor.plane_scene().map_or(1.0, |plane| plane.arrays.bounds().extent());
     Style {
         shading,
-        wire_in_points: if editor.wireframe { 1.0 } else { 0.0 },
+        wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 },
         check_size: extent / crate::ui::CHECKER_FIELDS,
         ..Style::default()
     }

@@ -49,7 +49,7 @@ impl Editor {
     /// Whether a pair is magnified in the embedding's pane.
     pub(super) fn magnifies_pair(&self) -> bool {
         let places_pair = self.tool == Tool::Constrain && self.pair.is_some();
-        self.magnifier && (places_pair || self.target_in_hand().is_some())
+        self.look.magnifier && (places_pair || self.target_in_hand().is_some())
     }
 }
 
@@ -67,7 +67,7 @@ fn place_in(pane: Rect, looks_at: egui::Pos2) -> Option<Rect> {
 
 /// The inset over the mesh's pane.
 pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene) {
-    let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.magnifier) else { return };
+    let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.look.magnifier) else { return };
     let (Some(around), Some(&position)) = (editor.orbit, scene.mesh().positions.get(vertex.index())) else {
         return;
     };
@@ -85,7 +85,7 @@ pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &
     }
     let theme = theme_of(ui);
     frame_of(ui, inset, theme);
-    if editor.has_gpu {
+    if editor.host.has_gpu() {
         let frame = mesh_pane::frame(editor, scene, camera, theme);
         ui.painter().add(render::mesh_pane(PaneId("pair on mesh"), inset, frame));
     }
@@ -96,7 +96,7 @@ pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &
 
 /// The inset over the embedding's pane.
 pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene)) {
-    let Some(target) = editor.target_in_hand().filter(|z| editor.magnifier && z.is_finite()) else { return };
+    let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
     let Some(around) = editor.plane_camera else { return };
     let at = pane::on_screen(rect, around.pane_from_embedding(target, pane::size_of(rect)));
     let Some(inset) = place_in(rect, at) else { return };
@@ -109,7 +109,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
     }
     let theme = theme_of(ui);
     frame_of(ui, inset, theme);
-    if editor.has_gpu {
+    if editor.host.has_gpu() {
         let mut frame = plane_pane::frame(editor, (mesh, plane), camera, theme);
         frame.ghost = None;
         ui.painter().add(render::plane_pane(PaneId("pair in plane"), inset, frame));

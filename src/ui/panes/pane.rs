@@ -39,8 +39,11 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
         ui.strong(title);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.add_space(4.0);
-            let (glyph, words) =
-                if editor.full.is_some() { ("Both", "Show both panes") } else { ("Full", "Show this pane alone") };
+            let (glyph, words) = if editor.layout.full().is_some() {
+                ("Both", "Show both panes")
+            } else {
+                ("Full", "Show this pane alone")
+            };
             let tip = format!("{words} ({})", keys_of(ui.ctx(), &Request::TogglePane));
             let button = ui.add(egui::Button::new(glyph).frame(false)).on_hover_text(tip);
             button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{words}: {title}")));
@@ -50,7 +53,7 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
             if pane == Pane::Plane {
                 hull_switch(ui, editor, requests);
             }
-            if pane == Pane::Mesh || editor.full == Some(Pane::Plane) {
+            if pane == Pane::Mesh || editor.layout.full() == Some(Pane::Plane) {
                 shading_menu(ui, editor, requests);
             }
         });
@@ -66,16 +69,16 @@ fn hull_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) 
 }
 
 fn shading_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let wire = ui.selectable_label(editor.wireframe, "Wire");
+    let wire = ui.selectable_label(editor.look.wireframe, "Wire");
     let tip = format!("Wireframe ({})", keys_of(ui.ctx(), &Request::ToggleWireframe));
     if wire.on_hover_text(tip).clicked() {
         requests.push(Request::ToggleWireframe);
     }
-    let menu = egui::ComboBox::from_id_salt("shading").selected_text(editor.shading.title()).show_ui(ui, |ui| {
+    let menu = egui::ComboBox::from_id_salt("shading").selected_text(editor.look.shading.title()).show_ui(ui, |ui| {
         for shading in Shading::ALL {
             let request = Request::SetShading(shading);
             let tip = format!("{} ({})", shading.about(), keys_of(ui.ctx(), &request));
-            if ui.selectable_label(editor.shading == shading, shading.title()).on_hover_text(tip).clicked() {
+            if ui.selectable_label(editor.look.shading == shading, shading.title()).on_hover_text(tip).clicked() {
                 requests.push(request);
             }
         }

@@ -54,7 +54,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     if response.hovered() || response.contains_pointer() {
         look_under(ui, editor, (rect, &plane, camera), pointer);
     }
-    if editor.has_gpu {
+    if editor.host.has_gpu() {
         let frame = frame(editor, (&mesh, &plane), camera, theme);
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
@@ -69,8 +69,8 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
         magnifier.show(ui, editor, (&mesh, &plane), requests);
     }
     hull::stage_selector(ui, rect, editor, requests);
-    if editor.mesh_hidden()
-        && let Some(legend) = editor.paint().and_then(|paint| paint.legend.as_ref())
+    if editor.layout.mesh_hidden()
+        && let Some(legend) = editor.look.paint().and_then(|paint| paint.legend.as_ref())
     {
         pane::legend(ui, rect, legend, &editor.shading_title());
     }
@@ -163,7 +163,7 @@ pub(in crate::ui) fn frame(
     if plane.is_stage() && style.shading == render::Shading::Paint {
         style.shading = render::Shading::Plain;
     }
-    let paint = editor.stage_paint().or(editor.preview_paint()).or(editor.paint().map(|paint| &paint.faces));
+    let paint = editor.stage_paint().or(editor.preview_paint()).or(editor.look.paint().map(|paint| &paint.faces));
     PlaneFrame {
         mesh: Arc::clone(&mesh.arrays),
         plane: Some(Arc::clone(&plane.arrays)),
