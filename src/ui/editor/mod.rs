@@ -60,18 +60,14 @@ use crate::solver::Hold;
 use crate::ui::panels::dialogs::Dialogs;
 use crate::ui::panels::exports::PaneShot;
 use crate::ui::panes::compare::Ghost;
-use crate::ui::{
-    Defect, Ease, Half, HullView, Intent, Pane, PictureView, PinDrag, Shading, Tab, TimelineView, Tool, Unsaved,
-};
+use crate::ui::{Half, HullView, Intent, PinDrag, TimelineView, Unsaved};
 use crate::view::{OrbitCamera, PlaneCamera};
 use preview::PreviewScene;
-use scene::{MeshScene, Paint, PlaneScene};
 
 /// How often the session is asked whether a copy for recovery is due.
 const COPY_INTERVAL: Duration = Duration::from_secs(5);
 
 /// Everything the window knows.
-#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the window")]
 pub struct Editor {
     /// The document and the work on it.
     pub session: Session,

@@ -10,7 +10,7 @@ use crate::view::FacePaint;
 
 /// The embedding that follows a drag, ready to be drawn.
 #[derive(Debug)]
-pub(super) struct PreviewScene {
+pub(in crate::ui) struct PreviewScene {
     /// The mesh, and the session's count of moves.
     key: (u64, u64),
     scene: Arc<PlaneScene>,
