@@ -327,9 +327,13 @@ fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.monospace(value));
                 ui.end_row();
             };
-            row("Residual", "|Ax − b| / |b| of the linear solve", residual_words(solution.residual));
+            row(
+                "Residual",
+                "|Ax − b| / |b| of the linear solve",
+                residual_words(solution.linear.map(|linear| linear.residual)),
+            );
             let tip = "|A z| of all equations, pinned vertices included, relative to their terms";
-            row("Equation residual", tip, residual_words(solution.equation_residual));
+            row("Equation residual", tip, residual_words(solution.linear.map(|linear| linear.equation_residual)));
             let seconds = &solution.seconds;
             let phases = [
                 ("Assembly", seconds.assemble),
@@ -341,9 +345,10 @@ fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
             for (name, seconds) in phases {
                 row(name, "milliseconds", format!("{:.1} ms", 1000.0 * seconds));
             }
-            row("Factors", "memory of the factors", format!("{:.1} MB", solution.factor_bytes as f64 / 1e6));
-            row("Pivots replaced", "pivots too small to divide by", solution.replaced_pivots.to_string());
-            row("Corners bounded", "degenerate corners with a bounded weight", solution.bounded_corners.to_string());
+            let counts = solution.linear.unwrap_or_default();
+            row("Factors", "memory of the factors", format!("{:.1} MB", counts.factor_bytes as f64 / 1e6));
+            row("Pivots replaced", "pivots too small to divide by", counts.replaced_pivots.to_string());
+            row("Corners bounded", "degenerate corners with a bounded weight", counts.bounded_corners.to_string());
         });
     });
 }

@@ -88,7 +88,7 @@ const CURVES: [Curve; CURVE_COUNT] = [
         title: "Equation residual",
         about: "|A z| of all equations relative to their terms; by powers of ten",
         scale: CurveScale::Powers,
-        value: |record, _| finite(record.equation_residual),
+        value: |record, _| record.equation_residual.filter(|residual| residual.is_finite()),
         colour: |theme| theme.accent,
     },
     Curve {
@@ -102,7 +102,7 @@ const CURVES: [Curve; CURVE_COUNT] = [
         title: "Residual",
         about: "|Ax − b| / |b| of the step's linear solve; by powers of ten",
         scale: CurveScale::Powers,
-        value: |record, _| finite(record.residual),
+        value: |record, _| record.residual.filter(|residual| residual.is_finite()),
         colour: |theme| theme.weak_text,
     },
     Curve {
@@ -113,11 +113,6 @@ const CURVES: [Curve; CURVE_COUNT] = [
         colour: |theme| theme.planar,
     },
 ];
-
-/// A number that a step has; one that solves no linear system has no residual.
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
-}
 
 impl Curve {
     /// Where a value lies.
