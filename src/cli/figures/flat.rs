@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::Figure;
 use crate::io::figure::{Drawing, PlaneDrawing};
 use crate::mesh::DiskMesh;
-use crate::solver::{BoundaryShape, Control, Family, Method, Pins, Run, Settings, SolveError, verdict};
+use crate::solver::{BoundaryShape, Control, Family, Ladder, Method, Pins, Settings, SolveError, verdict};
 
 /// A flat mesh, and its embedding by Tutte's method. The paper's panel (c), the padding of Lee et al., is not made yet.
 pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Figure, SolveError> {
@@ -19,7 +19,7 @@ pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     let flat = Drawing::Plane(PlaneDrawing::new(mesh, input));
     figure.panel("the flat mesh", flat).showing("flat mesh").measure_verdict(&of_input, 0);
     let settings = Settings::new(Method::Convex(BoundaryShape::Circle), Family::Uniform);
-    let step = Run::new(settings, Pins::new()).step(mesh, control)?;
+    let step = Ladder::new(settings, Pins::new()).step(mesh, control)?;
     let tutte = PlaneDrawing { pins: Vec::new(), ..PlaneDrawing::of_step(mesh, &step) };
     let words = "Tutte: convex boundary, uniform weights";
     figure.panel(words, Drawing::Plane(tutte)).showing("Tutte").measure(&step);

@@ -9,7 +9,7 @@ use super::{Figure, flips_in_words};
 use crate::io::figure::{Drawing, PlaneDrawing, SpaceDrawing};
 use crate::io::raster::View;
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Pins, Run, Settings, SolveError, Step, fixed_pins};
+use crate::solver::{Control, Ladder, Pins, Settings, SolveError, Step, fixed_pins};
 
 /// Insets that a panel has room for.
 const INSETS: usize = 2;
@@ -56,7 +56,7 @@ impl FreeEmbedding {
     }
 
     pub(super) fn solve(self, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
-        Run::new(self.settings(), self.pins(mesh)).step(mesh, control)
+        Ladder::new(self.settings(), self.pins(mesh)).step(mesh, control)
     }
 }
 

@@ -7,7 +7,7 @@ use super::pairs::TOP_AND_BOUNDARY;
 use super::{Figure, flips_in_words, iterations_in_words};
 use crate::io::figure::{Drawing, Outside, PlaneDrawing, Pockets, Window, zones_of};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::solver::{Control, Method, Run, Settings, SolveError, Step, VirtualBoundary};
+use crate::solver::{Control, Ladder, Method, Settings, SolveError, Step, VirtualBoundary};
 
 /// What figures 5 and 6 begin with, by its letter in figure 4.
 const INPUTS: [(char, FreeEmbedding); 2] = [
@@ -33,7 +33,7 @@ impl<'a> Repair<'a> {
     ) -> Result<Self, SolveError> {
         let input = free.solve(mesh, control)?;
         let settings = Settings { method, ..free.settings() };
-        let mut run = Run::new(settings, free.pins(mesh)).after(&input);
+        let mut run = Ladder::new(settings, free.pins(mesh)).after(&input);
         let mut output = input.clone();
         run.finish(mesh, control, |step| output = step)?;
         let zones = zones_of(mesh, &input.solution.embedding, &input.verdict.flipped_faces);

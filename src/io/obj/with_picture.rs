@@ -25,7 +25,12 @@ impl TexturePicture<'_> {
     /// # Errors
     ///
     /// The file that cannot be written or, of the picture, read.
-    pub(in crate::io) fn write_beside(&self, path: &Path, mesh: &ObjMesh, coordinates: &[DVec2]) -> Result<(), WriteError> {
+    pub(in crate::io) fn write_beside(
+        &self,
+        path: &Path,
+        mesh: &ObjMesh,
+        coordinates: &[DVec2],
+    ) -> Result<(), WriteError> {
         let picture_name = put_picture(path, self)?;
         let library = library_beside(path);
         let library_name = name_of(&library);
