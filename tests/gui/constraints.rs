@@ -104,7 +104,9 @@ fn what_a_click_would_do_is_said_before_it() {
     let to = free_place(&window);
     window.harness.hover_at(to);
     window.settle();
-    let Intent::Join(joined, target) = window.editor().tools.intent() else { panic!("{:?}", window.editor().tools.intent()) };
+    let Intent::Join(joined, target) = window.editor().tools.intent() else {
+        panic!("{:?}", window.editor().tools.intent())
+    };
     assert_eq!((joined, target), (vertex, in_embedding(&window, to)));
     assert!(window.shows(&format!("{vertex} goes to u ")), "{:?}", window.words());
     let from = window.place_in_plane(window.embedding()[vertex.index()]);

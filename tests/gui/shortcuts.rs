@@ -130,7 +130,10 @@ fn typing_into_a_field_triggers_no_shortcut() {
     window.press(Modifiers::COMMAND, Key::Z);
     let editor = window.editor();
     assert_eq!(document(&window), before);
-    assert_eq!((editor.tools.tool(), editor.look.shading, editor.look.wireframe), (Tool::Select, Shading::Checker, false));
+    assert_eq!(
+        (editor.tools.tool(), editor.look.shading, editor.look.wireframe),
+        (Tool::Select, Shading::Checker, false)
+    );
     assert!(editor.layout.go_to.is_some() && !editor.layout.keys_shown && editor.selection.defect().is_none());
 }
 
