@@ -35,7 +35,7 @@ pub use obj_refined::refined_obj;
 pub use obj_texture::TextureMesh;
 pub use obj_write::write_obj;
 pub use output::{Output, OutputKind, TexturePicture, layout_picture};
-pub use picture::{PictureError, read_picture};
+pub use picture::{PictureError, decode_picture, read_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };

@@ -7,7 +7,7 @@ use freebound::mesh::{DiskMesh, FaceId};
 use freebound::session::{Outcome, Timeline};
 use freebound::solver::{Control, Family, Method, Pins, Run, Settings};
 
-use crate::common::grid;
+use crate::makers::grid;
 
 /// The first step of a small run.
 fn first() -> Outcome {
