@@ -104,7 +104,6 @@ pub const LIGHT: Theme = Theme {
         checker: [Srgb::from_hex(0x00F1_EEE8), Srgb::from_hex(0x008F_A3B8)],
         wire: Srgb::from_hex(0x002A_2A2A).with_alpha(130),
         flipped: Srgb::from_hex(0x00D9_2D3A),
-        selection: Srgb::from_hex(0x00E0_A100),
         hover: Srgb::from_hex(0x00E0_A100),
     },
 };
@@ -142,7 +141,6 @@ pub const DARK: Theme = Theme {
         checker: [Srgb::from_hex(0x00D6_D1C7), Srgb::from_hex(0x0053_687F)],
         wire: Srgb::from_hex(0x0010_1010).with_alpha(140),
         flipped: Srgb::from_hex(0x00FF_5A64),
-        selection: Srgb::from_hex(0x00FF_D24A),
         hover: Srgb::from_hex(0x00FF_D24A),
     },
 };
@@ -207,7 +205,6 @@ mod tests {
             let bytes = |colour: Color32| colour.to_array();
             assert_eq!(theme.palette.background.0, bytes(theme.background));
             assert_eq!(theme.palette.flipped.0, bytes(theme.flipped));
-            assert_eq!(theme.palette.selection.0, bytes(theme.selection));
         }
     }
 }
