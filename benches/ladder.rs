@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Family, Method, Pins, Run, Settings, Step, fixed_pins};
+use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, Step, fixed_pins};
 use glam::DVec2;
 
 use common::machine::print_machine;
@@ -128,7 +128,7 @@ fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
 
 /// Where a run ended, and after how many steps.
 fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> (End, usize) {
-    let mut run = Run::new(Settings::new(Method::Auto, family), pins.clone());
+    let mut run = Ladder::new(Settings::new(Method::Auto, family), pins.clone());
     let mut steps: Vec<(StepReport, bool)> = Vec::new();
     let outcome = run.finish(mesh, Control::unattended(), |step: Step| {
         let report = StepReport::of(&step);
@@ -140,9 +140,9 @@ fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> (End, u
     let started_again = steps.iter().any(|(step, is_linear)| *is_linear && (step.index > 0 || step.note.is_some()));
     let end = match steps.last() {
         Some((last, _)) if last.planar => match last.rung {
-            "natural" | "iterate" if started_again => End::StartedAgain,
-            "natural" => End::Natural,
-            "iterate" => End::Iterate,
+            Method::Natural | Method::Iterate if started_again => End::StartedAgain,
+            Method::Natural => End::Natural,
+            Method::Iterate => End::Iterate,
             _ if last.bent_vertices == 0 => End::FreeVirtualBoundary,
             _ => End::Convex,
         },

@@ -76,8 +76,8 @@ impl<'a> Finished<'a> {
         let report = Report {
             freebound: env!("CARGO_PKG_VERSION"),
             mesh: MeshReport::new(model.path_words(), given),
-            method: Some(settings.method.name()),
-            family: settings.method.uses_family().then(|| settings.family.to_string()),
+            method: Some(settings.method),
+            family: settings.method.uses_family().then_some(settings.family),
             pins: Some(pins),
             boundary: Some(if outcome.step.has_convex_boundary() { "convex" } else { "free" }),
             placement: Some(placement.name()),
@@ -162,7 +162,7 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
         *largest = Some(largest.unwrap_or(0.0).max(error));
     }
     PinsReport {
-        treatment: settings.treatment_on(outcome.step.rung, outcome.pins.len()).name(),
+        treatment: settings.treatment_on(outcome.step.rung, outcome.pins.len()),
         count: outcome.pins.len(),
         max_error: max_hard_error.unwrap_or(0.0).max(max_weighted_error.unwrap_or(0.0)),
         max_hard_error,
@@ -186,7 +186,7 @@ mod tests {
     use super::*;
     use crate::examples::Example;
     use crate::geom::PictureFrame;
-    use crate::solver::{Control, Pins, Run, Settings, hard_pins};
+    use crate::solver::{Control, Ladder, Pins, Settings, hard_pins};
 
     /// The dome's first step with hard pins, on a picture twice as wide as high.
     fn first_step() -> Outcome {
@@ -196,7 +196,7 @@ mod tests {
         let targets = [(3, [0.2, 0.2]), (40, [0.8, 0.3]), (11, [0.7, 0.9])];
         let uv: Pins = hard_pins(targets.map(|(vertex, target)| (VertexId::new(vertex), target.into())));
         let placed = |(&vertex, pin): (&VertexId, &Pin)| (vertex, frame.plane_from_uv(pin.target));
-        let mut run = Run::new(Settings::default(), hard_pins(uv.iter().map(placed)));
+        let mut run = Ladder::new(Settings::default(), hard_pins(uv.iter().map(placed)));
         let step = run.step(mesh, Control::unattended()).expect("a dome can be solved");
         Outcome::new(mesh, Settings::default(), (frame, uv), step)
     }
