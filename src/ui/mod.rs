@@ -4,6 +4,7 @@ mod bars;
 mod boxes;
 mod compare;
 mod constrain;
+mod controls;
 mod defect;
 mod defect_marks;
 mod defects_panel;
@@ -53,13 +54,14 @@ mod vertex_panel;
 mod window;
 
 pub use constrain::{Half, Intent};
+pub use controls::sentence;
 pub use defect::Defect;
 pub use dialogs::{Choice, Dialogs};
 pub use ease::Ease;
 pub use editor::Editor;
 pub use hull::{HullScene, HullView, Stage};
 pub use keys::{BINDINGS, Binding, keys_of};
-pub use method_panel::sentence;
+
 pub use nudge::Nudge;
 pub use picture::PictureView;
 pub use pin_drag::PinDrag;

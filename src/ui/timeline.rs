@@ -3,6 +3,7 @@
 use eframe::egui;
 use egui::{Align, Layout, RichText};
 
+use super::controls::remark;
 use super::theme::theme_of;
 use super::timeline_buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
 use super::timeline_chips::chips;
@@ -77,7 +78,7 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
                 }
                 stop_menu(ui, editor, room, requests);
                 if let Some(words) = rest_words(editor).filter(|_| room == Room::Ample) {
-                    ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
+                    remark(ui, words);
                 }
                 ui.add_space(6.0);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| chips(ui, editor, requests));

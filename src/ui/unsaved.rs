@@ -3,6 +3,7 @@
 
 use eframe::egui;
 
+use super::controls::Control;
 use super::{Editor, Purpose, Request};
 use crate::session::Action;
 
@@ -132,9 +133,7 @@ pub(super) fn question(context: &egui::Context, editor: &Editor, requests: &mut 
             for (answer, words) in
                 [(Answer::Save, "Save"), (Answer::DontSave, "Don't save"), (Answer::Cancel, "Cancel")]
             {
-                if ui.button(words).clicked() {
-                    requests.push(Request::Answer(answer));
-                }
+                ui.button(words).asks(Request::Answer(answer), requests);
             }
         });
     });
