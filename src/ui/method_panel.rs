@@ -309,20 +309,23 @@ fn figure(value: f64) -> String {
 
 fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
     let solution = &outcome.step.solution;
+    let linear = solution.linear.unwrap_or_default();
+    let residual = solution.linear.map(|linear| linear.residual);
+    let equation_residual = solution.linear.map(|linear| linear.equation_residual);
     let seconds = &solution.seconds;
     let milliseconds = |seconds: f64| format!("{:.1} ms", 1000.0 * seconds);
     let of_all = "|A z| of all equations, pinned vertices included, relative to their terms";
     let rows = [
-        ("Residual", "|Ax − b| / |b| of the linear solve", residual_words(solution.residual)),
-        ("Equation residual", of_all, residual_words(solution.equation_residual)),
+        ("Residual", "|Ax − b| / |b| of the linear solve", residual_words(residual)),
+        ("Equation residual", of_all, residual_words(equation_residual)),
         ("Assembly", "milliseconds", milliseconds(seconds.assemble)),
         ("Ordering", "milliseconds", milliseconds(seconds.analyze)),
         ("Factoring", "milliseconds", milliseconds(seconds.factor)),
         ("Substitution", "milliseconds", milliseconds(seconds.solve)),
         ("Proof", "milliseconds", milliseconds(outcome.step.verify_seconds)),
-        ("Factors", "memory of the factors", format!("{:.1} MB", solution.factor_bytes as f64 / 1e6)),
-        ("Pivots replaced", "pivots too small to divide by", solution.replaced_pivots.to_string()),
-        ("Corners bounded", "degenerate corners with a bounded weight", solution.bounded_corners.to_string()),
+        ("Factors", "memory of the factors", format!("{:.1} MB", linear.factor_bytes as f64 / 1e6)),
+        ("Pivots replaced", "pivots too small to divide by", linear.replaced_pivots.to_string()),
+        ("Corners bounded", "degenerate corners with a bounded weight", linear.bounded_corners.to_string()),
     ];
     egui::CollapsingHeader::new("Numbers of the solve").default_open(false).show(ui, |ui| {
         pairs(ui, "numbers", [16.0, 4.0], |ui| {

@@ -227,8 +227,8 @@ fn places(ui: &egui::Ui, timeline: &Timeline) -> Vec<Rangef> {
 }
 
 /// A residual; a step that solves no linear system has none.
-pub(super) fn residual_words(residual: f64) -> String {
-    if residual.is_nan() { "–".to_owned() } else { format!("{residual:.1e}") }
+pub(super) fn residual_words(residual: Option<f64>) -> String {
+    residual.map_or_else(|| "–".to_owned(), |residual| format!("{residual:.1e}"))
 }
 
 fn numbers_of(record: &StepReport, standing: &Standing) -> Vec<(&'static str, String)> {

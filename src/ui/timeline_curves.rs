@@ -89,7 +89,7 @@ const CURVES: [Curve; CURVE_COUNT] = [
     size(
         "Equation residual",
         "|A z| of all equations relative to their terms; by powers of ten",
-        |record, _| finite(record.equation_residual),
+        |record, _| record.equation_residual.filter(|residual| residual.is_finite()),
         |theme| theme.accent,
     ),
     count(
@@ -101,7 +101,7 @@ const CURVES: [Curve; CURVE_COUNT] = [
     size(
         "Residual",
         "|Ax − b| / |b| of the step's linear solve; by powers of ten",
-        |record, _| finite(record.residual),
+        |record, _| record.residual.filter(|residual| residual.is_finite()),
         |theme| theme.weak_text,
     ),
     size(
@@ -111,11 +111,6 @@ const CURVES: [Curve; CURVE_COUNT] = [
         |theme| theme.planar,
     ),
 ];
-
-/// A number that a step has; one that solves no linear system has no residual.
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
-}
 
 impl Curve {
     /// Where a value lies.
