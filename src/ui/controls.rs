@@ -7,7 +7,7 @@ use super::theme::theme_of;
 use super::{Request, keys_of};
 
 /// What a panel does with a control once it is there.
-pub(super) trait Control {
+pub(in crate::ui) trait Control {
     /// Gives it a name for those who do not see it.
     fn named(self, role: Role, name: &str) -> Self;
 
@@ -38,7 +38,7 @@ impl Control for Response {
 }
 
 /// A tip, and behind it the keys that ask for the same.
-pub(super) fn tip_with_keys(ui: &Ui, tip: &str, request: &Request) -> String {
+pub(in crate::ui) fn tip_with_keys(ui: &Ui, tip: &str, request: &Request) -> String {
     match keys_of(ui.ctx(), request) {
         keys if keys.is_empty() => tip.to_owned(),
         keys => format!("{tip} ({keys})"),
@@ -46,24 +46,24 @@ pub(super) fn tip_with_keys(ui: &Ui, tip: &str, request: &Request) -> String {
 }
 
 /// A list to choose from: its name, its width in points, what is chosen, and the entries where it is open.
-pub(super) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entries: impl FnOnce(&mut Ui)) -> Response {
+pub(in crate::ui) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entries: impl FnOnce(&mut Ui)) -> Response {
     let list = ComboBox::from_id_salt(name).selected_text(shown).width(width);
     list.show_ui(ui, entries).response.named(Role::ComboBox, name)
 }
 
 /// A remark in small, weak letters.
-pub(super) fn remark(ui: &mut Ui, words: impl Into<String>) -> Response {
+pub(in crate::ui) fn remark(ui: &mut Ui, words: impl Into<String>) -> Response {
     let weak = theme_of(ui).weak_text;
     ui.label(RichText::new(words).small().color(weak))
 }
 
 /// Two columns: names and what belongs to them.
-pub(super) fn pairs(ui: &mut Ui, name: &str, spacing: [f32; 2], rows: impl FnOnce(&mut Ui)) {
+pub(in crate::ui) fn pairs(ui: &mut Ui, name: &str, spacing: [f32; 2], rows: impl FnOnce(&mut Ui)) {
     Grid::new(name).num_columns(2).spacing(spacing).show(ui, rows);
 }
 
 /// A name and its number.
-pub(super) fn number(ui: &mut Ui, name: &str, value: impl Into<String>) -> Response {
+pub(in crate::ui) fn number(ui: &mut Ui, name: &str, value: impl Into<String>) -> Response {
     let label = ui.label(name);
     ui.monospace(value.into());
     ui.end_row();
@@ -71,7 +71,7 @@ pub(super) fn number(ui: &mut Ui, name: &str, value: impl Into<String>) -> Respo
 }
 
 /// A count and its noun.
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+pub(in crate::ui) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
