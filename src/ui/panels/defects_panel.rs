@@ -60,7 +60,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
             let request = Request::StepDefect(by);
             ui.button(words).on_hover_text(keys_of(ui.ctx(), &request)).asks(request, requests);
         }
-        if let Some(at) = editor.defect {
+        if let Some(at) = editor.selection.defect() {
             ui.weak(format!("{} of {}", at + 1, editor.defect_count()));
         }
     });
@@ -94,7 +94,8 @@ fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 Defect::Overwound(_) => theme.overwound,
             };
             let words = RichText::new(defects[place].words()).color(colour);
-            ui.selectable_label(editor.defect == Some(place), words).asks(Request::GoToDefect(place), requests);
+            ui.selectable_label(editor.selection.defect() == Some(place), words)
+                .asks(Request::GoToDefect(place), requests);
         }
     });
 }

@@ -152,11 +152,11 @@ fn edit_menu(menu: &mut Menu<'_>) {
     for (tool, words) in
         [(Tool::Select, "Select vertices"), (Tool::Fix, "Fix vertices"), (Tool::Constrain, "Constrain vertices")]
     {
-        menu.choice(editor.tool == tool, words, Request::SetTool(tool));
+        menu.choice(editor.tools.tool() == tool, words, Request::SetTool(tool));
     }
     menu.separator();
-    let fixable = !editor.selection.is_empty() && session.outcome().is_some();
-    menu.item(fixable, "Fix the selection", Action::Fix(editor.selection.iter().copied().collect()));
+    let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
+    menu.item(fixable, "Fix the selection", Action::Fix(editor.selection.vertices().iter().copied().collect()));
     menu.item(editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected);
     let pin_count = session.document().pins.len();
     menu.item(pin_count > 0, "Free all pins", Action::UnpinAll);

@@ -16,7 +16,7 @@ pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut
     ui.vertical_centered(|ui| {
         for tool in Tool::ALL {
             let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
-            let on = editor.tool == tool;
+            let on = editor.tools.tool() == tool;
             response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, tool.about()));
             let theme = theme_of(ui);
             if on || response.hovered() {

@@ -57,7 +57,7 @@ fn inward(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn mirrored(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    if editor.dragged_pin.is_none() && editor.opened.targets_look_mirrored(&editor.session) {
+    if editor.tools.dragged().is_none() && editor.opened.targets_look_mirrored(&editor.session) {
         let buttons = [
             ("Mirror them", "Mirror all targets left to right", Action::MirrorTargets.into()),
             ("Leave the targets", "They are meant so", Request::LeaveTargets),
