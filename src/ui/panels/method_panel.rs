@@ -1,12 +1,10 @@
 //! Method and weights, and the numbers of the last solve.
 
 use eframe::egui;
-use egui::{Response, Role, WidgetInfo};
+use egui::{Role, WidgetInfo};
 
 use crate::session::{Action, Outcome};
-use crate::solver::{
-    BoundaryShape, CatalogueEntry, Choice, FAMILIES, Family, Growth, METHODS, Method, Settings, Treatment,
-};
+use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
 use crate::ui::controls::{Control, list, pairs, remark, sentence, tip_with_keys};
 use crate::ui::timeline::chips::residual_words;
 use crate::ui::{Editor, Request};
@@ -26,8 +24,9 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         if let Method::Convex(shape) = &mut chosen.method {
             ui.label("Boundary");
             ui.horizontal(|ui| {
-                ui.selectable_value(shape, BoundaryShape::Circle, "Circle");
-                ui.selectable_value(shape, BoundaryShape::Square, "Square");
+                for &choice in BoundaryShape::ALL {
+                    ui.selectable_value(shape, choice, choice.words().title);
+                }
             });
             ui.end_row();
         }
@@ -48,17 +47,13 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 12.0;
             ui.label("Pinned");
-            let name = "Equations of pinned vertices";
-            let tip = "What becomes of the equations of pinned vertices";
-            list_of(ui, name, 150.0, &mut chosen.treatment, TREATMENTS.map(Entry::new)).on_hover_text(tip);
+            treatment_list(ui, &mut chosen.treatment);
         });
     }
     new_vertices_box(ui, chosen);
     ui.add_space(6.0);
-    let entry = METHODS.iter().find(|entry| entry.name == settings.method.name());
-    if let Some(entry) = entry {
-        remark(ui, format!("{}. {}.", sentence(entry.about), entry.source));
-    }
+    let words = settings.method.words();
+    remark(ui, format!("{}. {}.", sentence(words.about), words.source));
     more(ui, &mut edit);
     edit.ask_for(settings, requests);
     ui.add_space(8.0);
@@ -92,23 +87,6 @@ impl Edit {
     }
 }
 
-/// One of a few things to choose, with a line on what it does.
-struct Entry<T> {
-    value: T,
-    title: &'static str,
-    about: String,
-}
-
-impl<T> Entry<T> {
-    fn new((value, title, about): (T, &'static str, &str)) -> Self {
-        Self { value, title, about: about.to_owned() }
-    }
-
-    fn of_catalogue(value: T, entry: &CatalogueEntry) -> Self {
-        Self { value, title: entry.title, about: format!("{} ({})", entry.about, entry.source) }
-    }
-}
-
 fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let disk = editor.has_disk();
     let busy = editor.session.busy().is_some();
@@ -127,65 +105,63 @@ fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
     });
 }
 
-/// Shows a list with the one thing chosen.
-fn list_of<T: PartialEq>(
-    ui: &mut egui::Ui,
-    name: &str,
-    width: f32,
-    chosen: &mut T,
-    entries: impl IntoIterator<Item = Entry<T>>,
-) -> Response {
-    let entries: Vec<Entry<T>> = entries.into_iter().collect();
-    let shown = entries.iter().find(|entry| entry.value == *chosen).map_or("", |entry| entry.title);
-    list(ui, name, width, shown, |ui| {
-        for Entry { value, title, about } in entries {
-            ui.selectable_value(chosen, value, title).on_hover_text(about);
-        }
-    })
-}
-
 fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
-    let before = settings.method;
-    let entries = METHODS.iter().filter_map(|entry| {
-        let value = if entry.name == before.name() { before } else { Method::named(entry.name)? };
-        Some(Entry::of_catalogue(value, entry))
+    list(ui, "Method", 150.0, settings.method.words().title, |ui| {
+        for &method in Method::ALL {
+            let is_chosen = settings.method.name() == method.name();
+            let label = ui.selectable_label(is_chosen, method.words().title).on_hover_text(method.words().tip());
+            if label.clicked() && !is_chosen {
+                settings.method = method;
+                // Uniform and shape-preserving weights need a convex boundary.
+                if settings.family.power().is_none() && !matches!(method, Method::Convex(_)) {
+                    settings.family = Family::default();
+                }
+            }
+        }
     });
-    list_of(ui, "Method", 150.0, &mut settings.method, entries);
-    let is_convex = matches!(settings.method, Method::Convex(_));
-    if settings.family.power().is_none() && settings.method != before && !is_convex {
-        // Uniform and shape-preserving weights need a convex boundary.
-        settings.family = Family::default();
-    }
 }
 
 fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
-    let before = settings.family;
     let is_convex = matches!(settings.method, Method::Convex(_));
-    let entries = FAMILIES.iter().map(|entry| {
-        let family = entry.name.parse().unwrap_or_else(|_| Family::Power(before.power().unwrap_or(0.5)));
-        Entry::of_catalogue(family, entry)
+    list(ui, "Weights", 150.0, settings.family.words().title, |ui| {
+        for &family in Family::ALL.iter().filter(|family| is_convex || family.power().is_some()) {
+            let is_chosen = settings.family.name() == family.name();
+            let label = ui.selectable_label(is_chosen, family.words().title).on_hover_text(family.words().tip());
+            if label.clicked() && !is_chosen {
+                settings.family = match family {
+                    // A power begins as the family before it.
+                    Family::Power(usual) => Family::Power(settings.family.power().unwrap_or(usual)),
+                    named => named,
+                };
+            }
+        }
     });
-    let entries = entries.filter(|entry| is_convex || entry.value.power().is_some() || entry.value == before);
-    list_of(ui, "Weights", 150.0, &mut settings.family, entries);
 }
 
-/// What each treatment of the pinned vertices' equations does.
-const TREATMENTS: [(Option<Treatment>, &str, &str); 4] = [
-    (None, "Automatic", "Two pins only fix size and place: eliminated. More are constraints: least squares"),
-    (Some(Treatment::Eliminate), "Eliminate", "The equations of pinned vertices are dropped (paper §3.3)"),
-    (
-        Some(Treatment::LeastSquares),
-        "Least squares",
-        "All equations are kept and met as well as can be, the pins exactly (paper §6)",
-    ),
-    (Some(Treatment::Weighted), "Weighted", "All equations are kept, and all pins pull by their weights (paper §6)"),
-];
+fn treatment_list(ui: &mut egui::Ui, chosen: &mut Option<Treatment>) {
+    let automatic = "Automatic";
+    let shown = chosen.map_or(automatic, |treatment| treatment.words().title);
+    let list = list(ui, "Equations of pinned vertices", 150.0, shown, |ui| {
+        let tip = "Two pins only fix size and place: eliminated. More are constraints: least squares";
+        ui.selectable_value(chosen, None, automatic).on_hover_text(tip);
+        for &treatment in Treatment::ALL {
+            let label = ui.selectable_value(chosen, Some(treatment), treatment.words().title);
+            label.on_hover_text(sentence(&treatment.words().tip()));
+        }
+    });
+    list.on_hover_text("What becomes of the equations of pinned vertices");
+}
 
-/// How many vertices of a boundary that crosses itself are bent next.
-const GROWTHS: [(Growth, &str, &str); 2] = [
-    (Growth::Double, "Twice as many", "Quick: as many again are bent each time"),
-    (Growth::One, "One more", "As the paper's §5 has it: the least that is enough, found slowly"),
-];
+fn growth_list(ui: &mut egui::Ui, chosen: &mut Growth) {
+    let list = list(ui, "How the virtual boundary goes on", 130.0, chosen.words().title, |ui| {
+        for &growth in Growth::ALL {
+            let label = ui.selectable_value(chosen, growth, growth.words().title);
+            label.on_hover_text(sentence(&growth.words().tip()));
+        }
+    });
+    let tip = "Where the boundary crosses itself, vertices of it are bent to a convex polygon: how many the next time";
+    list.on_hover_text(tip);
+}
 
 /// Whether edges may be split, where the method can.
 fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
@@ -212,10 +188,7 @@ fn more(ui: &mut egui::Ui, edit: &mut Edit) {
             }
             if method.bends_boundary() {
                 ui.label("Bent vertices");
-                let name = "How the virtual boundary goes on";
-                let tip = "Where the boundary crosses itself, vertices of it are bent to a convex polygon: how many the \
-                           next time";
-                list_of(ui, name, 130.0, &mut edit.settings.growth, GROWTHS.map(Entry::new)).on_hover_text(tip);
+                growth_list(ui, &mut edit.settings.growth);
                 ui.end_row();
             }
         });

@@ -8,7 +8,6 @@ use egui::RichText;
 use super::vertex_panel::new_vertex_words;
 use crate::ui::theme::theme_of;
 use crate::ui::timeline::PRESS_SPACE;
-use crate::ui::timeline::chips::rung_words;
 use crate::ui::{Editor, Tool};
 
 /// Shows the bar.
@@ -74,7 +73,7 @@ fn numbers(editor: &Editor) -> String {
         }
     }
     if let Some(outcome) = editor.session.outcome().filter(|_| editor.session.preview().is_none()) {
-        parts.push(rung_words(outcome.step.rung.name()).to_owned());
+        parts.push(outcome.step.rung.as_short_rung().to_owned());
         parts.push(format!("{:.0} ms", 1000.0 * (outcome.step.solution.seconds.total() + outcome.step.verify_seconds)));
     }
     parts.join("  ·  ")

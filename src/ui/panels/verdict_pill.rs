@@ -8,7 +8,6 @@ use crate::solver::{Phase, Step, Verdict};
 use crate::ui::controls::{Control, counted};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::theme_of;
-use crate::ui::timeline::chips::rung_words;
 use crate::ui::{Editor, Request, Tab};
 
 /// Side of the sign in the pill, points.
@@ -93,7 +92,7 @@ fn pill(editor: &Editor) -> Option<Pill> {
 
 /// The verdict on a step that is up to date, and the rung that a planar one comes from.
 fn of_step(step: &Step) -> Pill {
-    let (unmet, rung) = (step.unmet().len(), rung_words(step.rung.name()));
+    let (unmet, rung) = (step.unmet().len(), step.rung.as_short_rung());
     if !step.verdict.planar {
         return Pill::new(Sign::Bad, short_verdict(&step.verdict), "Not planar. Click for the next defect (D)");
     }

@@ -28,17 +28,6 @@ const SIGN: f32 = 9.0;
 /// Size of the letters, points.
 const LETTERS: f32 = 12.0;
 
-/// The rung of a step, as a person calls it.
-pub(in crate::ui) fn rung_words(rung: &str) -> &str {
-    match rung {
-        "iterate" => "mean value",
-        "relax" => "relaxed",
-        "virtual-boundary" => "virtual boundary",
-        "matchmaker" => "new vertices",
-        other => other,
-    }
-}
-
 /// A step of the row.
 struct Chip<'a> {
     index: usize,
@@ -61,7 +50,7 @@ impl<'a> Chip<'a> {
             index,
             record: &records[index],
             standing: &timeline.standings()[index],
-            label: if is_new { format!("{index} {}", rung_words(rung)) } else { index.to_string() },
+            label: if is_new { format!("{index} {}", rung.as_short_rung()) } else { index.to_string() },
             is_shown: timeline.shown() == Some(index),
             is_compared: timeline.compared() == Some(index),
             is_kept: timeline.outcome(index).is_some(),
@@ -178,7 +167,7 @@ impl<'a> Chip<'a> {
 }
 
 fn title_of(record: &StepReport) -> String {
-    format!("Step {}: {}", record.index, rung_words(record.rung))
+    format!("Step {}: {}", record.index, record.rung.as_short_rung())
 }
 
 /// Shows the steps.
