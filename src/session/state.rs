@@ -16,14 +16,11 @@ use super::project::ProjectSaves;
 use super::run::Running;
 use super::{
     Action, Command, Document, History, Job, Message, Model, Outcome, Place, Preview, RecentFiles, Severity,
-    StopConditions, Timeline,
+    StopConditions, Timeline, Wake,
 };
 use crate::io::ProjectView;
 use crate::mesh::VertexId;
 use crate::solver::{Ending, Phase, Prepared, Run, Settings};
-
-/// Asks the screen to look again; called from background threads.
-pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 pub(super) type LoadJob = Job<(), Result<Opened, OpenError>>;
 
