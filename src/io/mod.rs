@@ -24,6 +24,7 @@ mod report;
 mod stamp;
 mod steps;
 mod svg;
+mod targets;
 
 pub use atomic::{write_atomically, write_durably};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
@@ -45,3 +46,4 @@ pub use report::{
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;
 pub use svg::{SvgPage, write_step_svg, write_svg};
+pub use targets::{Target, Targets, hard_targets, pins_in_plane};

@@ -1,17 +1,16 @@
 //! How a project stands in its file: names, defaults, and where a fault is.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use super::FileStamp;
 use super::project::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
 use super::project_fields::{RawChoice, RawFamily, RawWeight};
+use super::{FileStamp, Target, Targets};
 use crate::geom::VAxis;
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
+use crate::solver::{BoundaryShape, GaugeSize, Growth, Hold, Method, Pin, Settings, Treatment};
 
 /// The fields of a project file, in their order.
 #[derive(Serialize, Deserialize)]
@@ -130,7 +129,7 @@ struct RawPinFields {
 
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(from = "RawPinFields", into = "RawPinFields")]
-struct RawPin(VertexId, Pin);
+struct RawPin(VertexId, Target);
 
 impl From<RawPinFields> for RawPin {
     fn from(raw: RawPinFields) -> Self {
@@ -139,42 +138,42 @@ impl From<RawPinFields> for RawPin {
             RawHold::Hard => Hold::Hard,
             RawHold::Weighted => Hold::Weighted(raw.weight.map_or(Pin::DEFAULT_WEIGHT, |weight| weight.0)),
         };
-        Self(VertexId::new(raw.vertex), Pin { target: DVec2::new(raw.u, raw.v), hold })
+        Self(VertexId::new(raw.vertex), Target { uv: DVec2::new(raw.u, raw.v), hold })
     }
 }
 
 impl From<RawPin> for RawPinFields {
-    fn from(RawPin(vertex, Pin { target, hold }): RawPin) -> Self {
+    fn from(RawPin(vertex, Target { uv, hold }): RawPin) -> Self {
         let (hold, weight) = match hold {
             Hold::Fixed => (RawHold::Fixed, None),
             Hold::Hard => (RawHold::Hard, None),
             Hold::Weighted(weight) => (RawHold::Weighted, Some(RawWeight(weight))),
         };
-        Self { vertex: vertex.number(), u: target.x, v: target.y, hold, weight }
+        Self { vertex: vertex.number(), u: uv.x, v: uv.y, hold, weight }
     }
 }
 
 #[derive(Clone, Default, Serialize, Deserialize)]
 #[serde(try_from = "Vec<RawPin>", into = "Vec<RawPin>")]
-struct RawPins(Pins);
+struct RawPins(Targets);
 
 impl TryFrom<Vec<RawPin>> for RawPins {
     type Error = String;
 
     fn try_from(list: Vec<RawPin>) -> Result<Self, Self::Error> {
-        let mut pins = BTreeMap::new();
-        for RawPin(vertex, pin) in list {
-            if pins.insert(vertex, pin).is_some() {
+        let mut targets = Targets::new();
+        for RawPin(vertex, target) in list {
+            if targets.insert(vertex, target).is_some() {
                 return Err(format!("vertex {vertex} is pinned twice"));
             }
         }
-        Ok(Self(pins))
+        Ok(Self(targets))
     }
 }
 
 impl From<RawPins> for Vec<RawPin> {
-    fn from(RawPins(pins): RawPins) -> Self {
-        pins.into_iter().map(|(vertex, pin)| RawPin(vertex, pin)).collect()
+    fn from(RawPins(targets): RawPins) -> Self {
+        targets.into_iter().map(|(vertex, target)| RawPin(vertex, target)).collect()
     }
 }
 
@@ -202,7 +201,7 @@ impl From<RawProject> for ProjectFile {
                 RawVAxis::Down => VAxis::Down,
             },
             settings,
-            pins: raw.pins.0,
+            targets: raw.pins.0,
             view: raw.view,
             recovery: raw.recovery,
         }
@@ -233,7 +232,7 @@ impl From<ProjectFile> for RawProject {
             max_steps: settings.max_steps,
             relax_rounds: settings.relax_rounds,
             new_vertices: settings.new_vertices,
-            pins: RawPins(project.pins),
+            pins: RawPins(project.targets),
             view: project.view,
             recovery: project.recovery,
         }

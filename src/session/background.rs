@@ -50,10 +50,10 @@ pub struct Background<K, T> {
     jobs: Vec<Job<K, T>>,
 }
 
-/// One piece of work. Dropping it asks the work to stop; whatever it still computes is not looked at.
+/// One piece of work.
 struct Job<K, T> {
     key: K,
-    cancel: Arc<AtomicBool>,
+    cancel: CancelOnDrop,
     outcome: Result<Receiver<T>, Failure>,
 }
 
@@ -86,7 +86,7 @@ impl<K, T> Background<K, T> {
     /// Asks the work to stop at its next check. Its outcome still arrives.
     pub fn interrupt(&self) {
         for job in &self.jobs {
-            job.cancel.store(true, Ordering::Relaxed);
+            job.cancel.raise();
         }
     }
 
@@ -107,9 +107,9 @@ impl<K, T: Send + 'static> Background<K, T> {
 
     /// Starts work beside what is under way.
     pub fn add(&mut self, key: K, work: impl FnOnce(&AtomicBool) -> T + Send + 'static) {
-        let cancel = Arc::new(AtomicBool::new(false));
+        let cancel = CancelOnDrop(Arc::new(AtomicBool::new(false)));
         let (sender, receiver) = sync_channel(1);
-        let (flag, wake) = (Arc::clone(&cancel), Arc::clone(&self.wake));
+        let (flag, wake) = (Arc::clone(&cancel.0), Arc::clone(&self.wake));
         let run = move || {
             let outcome = work(&flag);
             // The owner may be gone; then nobody wants the outcome.
@@ -137,9 +137,18 @@ impl<K, T> Job<K, T> {
     }
 }
 
-impl<K, T> Drop for Job<K, T> {
+/// The flag that asks work to stop. It is raised where nobody waits for the outcome any more.
+struct CancelOnDrop(Arc<AtomicBool>);
+
+impl CancelOnDrop {
+    fn raise(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Drop for CancelOnDrop {
     fn drop(&mut self) {
-        self.cancel.store(true, Ordering::Relaxed);
+        self.raise();
     }
 }
 

@@ -41,7 +41,7 @@ pub use preview::Preview;
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
 pub use save::{Finished, SaveRequest};
-pub use solve::{Outcome, OutputFit, Placement};
+pub use solve::{Outcome, OutputFit, Placement, Problem};
 pub use state::{Busy, Session};
 pub use status::Status;
 pub use stop::{Stop, StopConditions};

@@ -8,9 +8,9 @@ use glam::DVec2;
 use super::theme::theme_of;
 use super::{Editor, Pane, Request, Tool, pane, pins};
 use crate::geom::VAxis;
+use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
-use crate::solver::Pin;
 
 /// Targets snap to pixels that are larger than this, points.
 const SNAP_FROM: f64 = 8.0;
@@ -88,7 +88,7 @@ impl Editor {
     }
 
     fn first_half(&self, vertex: VertexId) -> Intent {
-        let is_pinned = self.session.document().pins.contains_key(&vertex);
+        let is_pinned = self.session.document().targets.contains_key(&vertex);
         if is_pinned && self.pair.is_none() { Intent::Select(vertex) } else { Intent::TakeVertex(vertex) }
     }
 
@@ -118,8 +118,8 @@ impl Editor {
             }
             Intent::Join(vertex, target) => {
                 self.pair = None;
-                let pin = Pin { target, hold: self.hold };
-                vec![Request::Do(Action::Place { vertex, pin }), Request::Select(vec![vertex])]
+                let target = Target { uv: target, hold: self.hold };
+                vec![Request::Do(Action::Place { vertex, target }), Request::Select(vec![vertex])]
             }
             Intent::Select(vertex) => vec![Request::Select(vec![vertex])],
         }

@@ -128,7 +128,7 @@ fn file_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 /// Picture and constraints come from files and go to files.
 fn picture_entries(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let has_disk = editor.session.model().is_some_and(|model| model.disk().is_some());
-    let has_pins = !editor.session.document().pins.is_empty();
+    let has_pins = !editor.session.document().targets.is_empty();
     item(ui, has_disk, "Open picture…", Request::Ask(Purpose::OpenPicture), requests);
     item(ui, editor.has_picture(), "Remove picture", Request::Do(Action::RemovePicture), requests);
     item(ui, has_disk, "Import constraints…", Request::Ask(Purpose::ImportConstraints), requests);
@@ -149,11 +149,11 @@ fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let fix = Request::Do(Action::Fix(editor.selection.iter().copied().collect()));
     item(ui, fixable, "Fix the selection", fix, requests);
     item(ui, editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected, requests);
-    let pinned = !editor.session.document().pins.is_empty();
+    let pinned = !editor.session.document().targets.is_empty();
     item(ui, pinned, "Free all pins", Request::Do(Action::UnpinAll), requests);
     ui.separator();
     item(ui, pinned, "Mirror the targets", Request::Do(Action::MirrorTargets), requests);
-    let several = editor.session.document().pins.len() > 1;
+    let several = editor.session.document().targets.len() > 1;
     item(ui, several, "Fit the targets to the mesh", Request::Do(Action::FitTargets), requests);
     let has_model = editor.session.model().is_some();
     item(ui, has_model, "Turn the faces around", Request::Do(Action::TurnFaces), requests);

@@ -8,6 +8,7 @@ use super::pin_drag::conflict_words;
 use super::pins::{self, Emphasis, PinKind};
 use super::theme::theme_of;
 use super::{Editor, Purpose, Request, Tool, keys_of, picture_panel};
+use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::{Hold, Pin};
@@ -27,7 +28,7 @@ pub(super) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
         );
         return;
     }
-    if document.pins.is_empty() {
+    if document.targets.is_empty() {
         no_pins(ui);
     } else {
         table(ui, editor, requests);
@@ -57,7 +58,7 @@ fn no_pins(ui: &mut egui::Ui) {
 #[derive(Clone, Copy)]
 struct Row {
     vertex: VertexId,
-    pin: Pin,
+    target: Target,
     /// How the solver holds it: a treatment may weigh what was asked for exactly.
     held: Hold,
     /// How far a coordinate goes with a point of a drag.
@@ -75,9 +76,9 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 ui.weak(words);
             }
             ui.end_row();
-            let held = document.settings.held(&document.pins);
-            for ((&vertex, &pin), held) in document.pins.iter().zip(held.values()) {
-                row(ui, editor, Row { vertex, pin, held: held.hold, speed }, requests);
+            for (&vertex, &target) in &document.targets {
+                let held = document.settings.hold_of(target.hold);
+                row(ui, editor, Row { vertex, target, held, speed }, requests);
                 ui.end_row();
             }
         });
@@ -85,7 +86,7 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
-    let Row { vertex, pin, held, speed } = row;
+    let Row { vertex, target, held, speed } = row;
     hold_button(ui, row, requests);
     let selected = editor.selection.contains(&vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
@@ -95,8 +96,8 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     } else if label.clicked() {
         requests.push(chosen(ui, editor, vertex));
     }
-    coordinates(ui, (vertex, pin.target, speed), requests);
-    match (pin.hold, held) {
+    coordinates(ui, (vertex, target.uv, speed), requests);
+    match (target.hold, held) {
         (Hold::Weighted(weight), _) => weight_field(ui, (vertex, weight), requests),
         (Hold::Fixed | Hold::Hard, Hold::Weighted(weight)) => {
             ui.weak(weight_words(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
@@ -124,16 +125,16 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId) {
 }
 
 /// The pin's mark; a click makes a hard one weighted and a weighted one hard.
-fn hold_button(ui: &mut egui::Ui, Row { vertex, pin, held, .. }: Row, requests: &mut Vec<Request>) {
+fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
     pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(held), emphasis));
-    let (words, other) = match pin.hold {
+    let (words, other) = match target.hold {
         Hold::Weighted(_) => ("weighted", Hold::Hard),
         Hold::Fixed => ("fixed", Hold::Weighted(Pin::DEFAULT_WEIGHT)),
         Hold::Hard => ("hard", Hold::Weighted(Pin::DEFAULT_WEIGHT)),
     };
-    let is_weighed = pin.hold != held;
+    let is_weighed = target.hold != held;
     let note = if is_weighed { ", weighed by the treatment" } else { "" };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Hold of pin {vertex}: {words}{note}")));
     let tip = match other {
@@ -155,7 +156,7 @@ fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
     match from {
         Some(from) => {
             let range = from.min(vertex)..=from.max(vertex);
-            let pins = editor.session.document().pins.range(range);
+            let pins = editor.session.document().targets.range(range);
             Request::Select(pins.map(|(&vertex, _)| vertex).collect())
         }
         None if modifiers.command => Request::ToggleSelected(vertex),
@@ -223,7 +224,7 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         if ui.small_button("Hard").on_hover_text("Meet them exactly").clicked() {
             requests.push(Request::SetHold(Hold::Hard));
         }
-        let pins = &editor.session.document().pins;
+        let pins = &editor.session.document().targets;
         let weights = selected.iter().filter_map(|vertex| match pins.get(vertex)?.hold {
             Hold::Weighted(weight) => Some(weight),
             Hold::Fixed | Hold::Hard => None,
@@ -261,7 +262,8 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 fn errors(ui: &mut egui::Ui, editor: &Editor) {
     let Some(outcome) = editor.session.outcome().filter(|_| editor.session.is_current()) else { return };
     let worst = |is_exact: bool| {
-        let errors = outcome.pin_errors().filter(|(_, pin, _)| outcome.settings.is_exact(pin.hold) == is_exact);
+        let errors =
+            outcome.pin_errors().filter(|(_, target, _)| outcome.problem.settings.is_exact(target.hold) == is_exact);
         errors.map(|(vertex, _, error)| (error, vertex)).max_by(|a, b| a.0.total_cmp(&b.0))
     };
     let words: Vec<String> = [(worst(true), "exact"), (worst(false), "weighted")]
@@ -275,7 +277,7 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
         let words = format!("Largest error: {}", words.join(", "));
         ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
     }
-    if editor.session.document().pins.len() == 1 {
+    if editor.session.document().targets.len() == 1 {
         let words = "One pin only moves the embedding. A second one turns and scales it, more bend it.";
         ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
     }
@@ -283,7 +285,7 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
 
 /// What concerns all pins.
 fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let count = editor.session.document().pins.len();
+    let count = editor.session.document().targets.len();
     let has_disk = editor.session.model().is_some_and(|model| model.disk().is_some());
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;

@@ -10,7 +10,7 @@ pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut 
         ui.spacing_mut().item_spacing.x = 2.0;
         for tab in Tab::ALL {
             let count = match tab {
-                Tab::Pins => editor.session.document().pins.len(),
+                Tab::Pins => editor.session.document().targets.len(),
                 Tab::Defects => editor.defect_count(),
                 Tab::Method | Tab::Vertex => 0,
             };

@@ -44,7 +44,7 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
             row(axis, short(value));
         }
         if let Some(z) = embedding.and_then(|embedding| embedding.get(vertex.index())) {
-            let frame = editor.session.outcome().map(|outcome| outcome.frame).unwrap_or_default();
+            let frame = editor.session.outcome().map(|outcome| outcome.problem.frame).unwrap_or_default();
             let uv = frame.uv_from_plane(*z);
             row("u", short(uv.x));
             row("v", short(uv.y));
@@ -62,7 +62,7 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     });
     equation_table::equation_ui(ui, editor, vertex, requests);
     ui.add_space(8.0);
-    if editor.session.document().pins.contains_key(&vertex) {
+    if editor.session.document().targets.contains_key(&vertex) {
         if ui.button("Free").on_hover_text("Take its pin away").clicked() {
             requests.push(Request::Do(Action::Unpin(vec![vertex])));
         }
