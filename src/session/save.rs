@@ -188,7 +188,7 @@ mod tests {
     use crate::geom::PictureFrame;
     use crate::io::hard_targets;
     use crate::session::Problem;
-    use crate::solver::{Control, Run, Settings};
+    use crate::solver::{Control, Ladder, Settings};
 
     /// The dome's first step with hard pins, on a picture twice as wide as high.
     fn first_step() -> Outcome {
@@ -198,7 +198,7 @@ mod tests {
         let targets = [(3, [0.2, 0.2]), (40, [0.8, 0.3]), (11, [0.7, 0.9])];
         let targets = hard_targets(targets.map(|(vertex, uv)| (VertexId::new(vertex), uv.into())));
         let problem = Problem { settings: Settings::default(), frame, targets };
-        let mut run = Run::new(problem.settings, problem.pins());
+        let mut run = Ladder::new(problem.settings, problem.pins());
         let step = run.step(mesh, Control::unattended()).expect("a dome can be solved");
         Outcome::new(mesh, problem, step)
     }

@@ -47,10 +47,10 @@ pub use method::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Tre
 pub use outside::Outside;
 pub use pins::{Hold, Pin, Pins, Places, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, hard_pins};
 pub use prepared::{Prepared, flatten};
-pub use run::{Ending, Run};
+pub use run::{Ending, Ladder};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use shape_preserving::shape_preserving;
-pub use solution::{PhaseSeconds, Solution};
+pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use step::{Progress, Step, diameter, largest_move};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, verdict};
