@@ -22,7 +22,7 @@ mod window;
 
 pub use editor::{
     Defect, Ease, Editor, Element, Host, Layout, Look, MeshScene, Nudge, Opened, Paint, PaintKey, Pane, PlaneScene,
-    Purpose, Request, Shading, StepTarget, Tab, Tool,
+    Pointer, Purpose, Request, Selection, Shading, StepTarget, Tab, Tool, ToolState,
 };
 pub use keys::{BINDINGS, Binding, keys_of};
 pub use panels::{Answer, Choice, Dialogs, Unsaved, sentence};

@@ -19,7 +19,7 @@ impl Editor {
             Request::GoToStep(target) => self.go_to_step(target),
             Request::TogglePlay => self.toggle_play(),
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
-            Request::SetTool(tool) => (self.tool, self.pair) = (tool, None),
+            Request::SetTool(tool) => self.tools.take_up(tool),
             Request::SetShading(shading) => self.look.shading = shading,
             Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
             Request::ToggleEase => self.ease.wanted = !self.ease.wanted,
@@ -32,23 +32,19 @@ impl Editor {
             Request::GoTo(vertices) => self.go_to_vertices(vertices),
             Request::GoToDefect(place) => self.go_to_defect(place),
             Request::StepDefect(by) => self.step_defect(by),
-            Request::Select(vertices) => self.selection = vertices.into_iter().collect(),
-            Request::AddToSelection(vertices) => self.selection.extend(vertices),
-            Request::ToggleSelected(vertex) => {
-                if !self.selection.remove(&vertex) {
-                    self.selection.insert(vertex);
-                }
-            }
+            Request::Select(vertices) => self.selection.select(vertices),
+            Request::AddToSelection(vertices) => self.selection.add(vertices),
+            Request::ToggleSelected(vertex) => self.selection.toggle(vertex),
             Request::Nudge(nudge) => self.nudge(nudge),
             Request::EndNudge => self.end_nudge(),
             Request::SetHold(hold) => self.set_hold(hold),
             Request::SetOpacity(opacity) => self.look.opacity = opacity.clamp(0.0, 1.0),
             Request::ToggleSharp => self.look.toggle_sharp(),
-            Request::UnpinSelected => self.act(Action::Unpin(self.selection.iter().copied().collect())),
+            Request::UnpinSelected => self.act(Action::Unpin(self.selection.vertices().iter().copied().collect())),
             Request::Escape => self.escape(),
             Request::ToggleFull(pane) => self.layout.toggle_full(pane),
             Request::TogglePane => {
-                let pane = self.pane_under_pointer.unwrap_or(Pane::Plane);
+                let pane = self.pointer.pane().unwrap_or(Pane::Plane);
                 self.handle(Request::ToggleFull(pane));
             }
             Request::Ask(purpose) => self.ask(purpose),
@@ -114,7 +110,7 @@ impl Editor {
 
     fn set_hold(&mut self, hold: Hold) {
         if hold != Hold::Fixed {
-            self.hold = hold;
+            self.tools.set_hold(hold);
         }
         let vertices: Vec<VertexId> = self.pins_selected().collect();
         self.act(Action::SetHold { vertices, hold });
@@ -141,11 +137,13 @@ impl Editor {
 
     fn escape(&mut self) {
         if self.close_question() || self.dialogs.close() || self.layout.close_window() {
-        } else if self.dragged_pin.take().is_some() {
+        } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
-        } else if self.selection_box.take().is_some() || self.pair.take().is_some() {
-        } else if self.tool != Tool::Select {
-            self.tool = Tool::Select;
+        } else if self.pointer.end_box() {
+        } else if self.tools.pair().is_some() {
+            self.tools.set_pair(None);
+        } else if self.tools.tool() != Tool::Select {
+            self.tools.take_up(Tool::Select);
         } else {
             self.selection.clear();
         }

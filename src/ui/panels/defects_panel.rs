@@ -62,7 +62,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
                 requests.push(request);
             }
         }
-        if let Some(at) = editor.defect {
+        if let Some(at) = editor.selection.defect() {
             ui.weak(format!("{} of {}", at + 1, editor.defect_count()));
         }
     });
@@ -97,7 +97,7 @@ fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 Defect::Overwound(_) => theme.overwound,
             };
             let words = RichText::new(defects[place].words()).color(colour);
-            if ui.selectable_label(editor.defect == Some(place), words).clicked() {
+            if ui.selectable_label(editor.selection.defect() == Some(place), words).clicked() {
                 requests.push(Request::GoToDefect(place));
             }
         }

@@ -156,7 +156,7 @@ pub(in crate::ui) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &Pl
     if !(editor.layout.shows(Tab::Vertex)) || plane.is_stage() {
         return;
     }
-    let Some(&vertex) = editor.selection.first() else { return };
+    let Some(&vertex) = editor.selection.vertices().first() else { return };
     let Some(Ok((equation, source))) = equation_of(editor, &plane.outcome, vertex) else { return };
     if source == WeightSource::Extended {
         // Its barycentre belongs to the stage that was solved.

@@ -140,13 +140,13 @@ fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     item(ui, history.can_undo(), "Undo", Request::Do(Action::Undo), requests);
     item(ui, history.can_redo(), "Redo", Request::Do(Action::Redo), requests);
     ui.separator();
-    choice(ui, editor.tool == Tool::Select, "Select vertices", Request::SetTool(Tool::Select), requests);
-    choice(ui, editor.tool == Tool::Fix, "Fix vertices", Request::SetTool(Tool::Fix), requests);
-    let constrains = editor.tool == Tool::Constrain;
+    choice(ui, editor.tools.tool() == Tool::Select, "Select vertices", Request::SetTool(Tool::Select), requests);
+    choice(ui, editor.tools.tool() == Tool::Fix, "Fix vertices", Request::SetTool(Tool::Fix), requests);
+    let constrains = editor.tools.tool() == Tool::Constrain;
     choice(ui, constrains, "Constrain vertices", Request::SetTool(Tool::Constrain), requests);
     ui.separator();
-    let fixable = !editor.selection.is_empty() && editor.session.outcome().is_some();
-    let fix = Request::Do(Action::Fix(editor.selection.iter().copied().collect()));
+    let fixable = !editor.selection.vertices().is_empty() && editor.session.outcome().is_some();
+    let fix = Request::Do(Action::Fix(editor.selection.vertices().iter().copied().collect()));
     item(ui, fixable, "Fix the selection", fix, requests);
     item(ui, editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected, requests);
     let pinned = !editor.session.document().targets.is_empty();

@@ -4,7 +4,7 @@ use eframe::egui;
 use egui::{RichText, Role, WidgetInfo};
 
 use crate::session::{Action, Outcome};
-use crate::solver::{BoundaryShape, FAMILIES, Family, Growth, METHODS, Method, Settings, Treatment};
+use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
 use crate::ui::theme::theme_of;
 use crate::ui::timeline::chips::residual_words;
 use crate::ui::{Editor, Request, keys_of};
@@ -23,8 +23,9 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         if let Method::Convex(shape) = &mut chosen.method {
             ui.label("Boundary");
             ui.horizontal(|ui| {
-                ui.selectable_value(shape, BoundaryShape::Circle, "Circle");
-                ui.selectable_value(shape, BoundaryShape::Square, "Square");
+                for &choice in BoundaryShape::ALL {
+                    ui.selectable_value(shape, choice, choice.words().title);
+                }
             });
             ui.end_row();
         }
@@ -52,10 +53,9 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         requests.push(Request::Do(Action::SetSettings(chosen)));
     }
     ui.add_space(6.0);
-    if let Some(entry) = METHODS.iter().find(|entry| entry.name == settings.method.name()) {
-        let words = format!("{}. {}.", sentence(entry.about), entry.source);
-        ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
-    }
+    let words = settings.method.words();
+    let words = format!("{}. {}.", sentence(words.about), words.source);
+    ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
     more(ui, settings, requests);
     ui.add_space(8.0);
     solve_and_cancel(ui, editor, requests);
@@ -98,23 +98,11 @@ pub fn sentence(words: &str) -> String {
 }
 
 fn method_menu(ui: &mut egui::Ui, settings: &mut Settings) {
-    let title = METHODS.iter().find(|e| e.name == settings.method.name()).map_or("", |e| e.title);
+    let title = settings.method.words().title;
     let menu = egui::ComboBox::from_id_salt("method menu").selected_text(title).width(150.0).show_ui(ui, |ui| {
-        for entry in METHODS {
-            let method = match entry.name {
-                "convex" => Method::Convex(BoundaryShape::default()),
-                "lscm" => Method::Lscm,
-                "levy" => Method::Levy,
-                "continuation" => Method::Continuation,
-                "matchmaker" => Method::Matchmaker,
-                "natural" => Method::Natural,
-                "iterate" => Method::Iterate,
-                "virtual-boundary" => Method::VirtualBoundary,
-                _ => Method::Auto,
-            };
-            let on = settings.method.name() == entry.name;
-            let label =
-                ui.selectable_label(on, entry.title).on_hover_text(format!("{} ({})", entry.about, entry.source));
+        for &method in Method::ALL {
+            let on = settings.method.name() == method.name();
+            let label = ui.selectable_label(on, method.words().title).on_hover_text(method.words().tip());
             if label.clicked() && !on {
                 settings.method = method;
                 // Uniform and shape-preserving weights need a convex boundary.
@@ -128,44 +116,33 @@ fn method_menu(ui: &mut egui::Ui, settings: &mut Settings) {
 }
 
 fn family_menu(ui: &mut egui::Ui, settings: &mut Settings) {
-    let name = settings.family.to_string();
-    let stem = |text: &str| text.split(':').next().unwrap_or_default().to_owned();
-    let title = FAMILIES.iter().find(|e| stem(e.name) == stem(&name)).map_or("", |e| e.title);
+    let title = settings.family.words().title;
     let convex = matches!(settings.method, Method::Convex(_));
     let menu = egui::ComboBox::from_id_salt("family menu").selected_text(title).width(150.0).show_ui(ui, |ui| {
-        for entry in FAMILIES {
-            let family = entry.name.parse().unwrap_or_else(|_| Family::Power(settings.family.power().unwrap_or(0.5)));
-            if family.power().is_none() && !convex {
-                continue;
-            }
-            let on = stem(entry.name) == stem(&name);
-            let label =
-                ui.selectable_label(on, entry.title).on_hover_text(format!("{} ({})", entry.about, entry.source));
+        for &family in Family::ALL.iter().filter(|family| convex || family.power().is_some()) {
+            let on = settings.family.name() == family.name();
+            let label = ui.selectable_label(on, family.words().title).on_hover_text(family.words().tip());
             if label.clicked() && !on {
-                settings.family = family;
+                settings.family = match family {
+                    // A power begins as the family before it.
+                    Family::Power(usual) => Family::Power(settings.family.power().unwrap_or(usual)),
+                    named => named,
+                };
             }
         }
     });
     menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Weights"));
 }
 
-/// What each treatment of the pinned vertices' equations does.
-const TREATMENTS: [(Option<Treatment>, &str, &str); 4] = [
-    (None, "Automatic", "Two pins only fix size and place: eliminated. More are constraints: least squares"),
-    (Some(Treatment::Eliminate), "Eliminate", "The equations of pinned vertices are dropped (paper §3.3)"),
-    (
-        Some(Treatment::LeastSquares),
-        "Least squares",
-        "All equations are kept and met as well as can be, the pins exactly (paper §6)",
-    ),
-    (Some(Treatment::Weighted), "Weighted", "All equations are kept, and all pins pull by their weights (paper §6)"),
-];
-
 fn treatment_menu(ui: &mut egui::Ui, settings: &mut Settings) {
-    let title = TREATMENTS.iter().find(|(treatment, ..)| *treatment == settings.treatment).map_or("", |entry| entry.1);
+    let automatic = "Automatic";
+    let title = settings.treatment.map_or(automatic, |treatment| treatment.words().title);
     let menu = egui::ComboBox::from_id_salt("treatment menu").selected_text(title).width(150.0).show_ui(ui, |ui| {
-        for (treatment, title, about) in TREATMENTS {
-            ui.selectable_value(&mut settings.treatment, treatment, title).on_hover_text(about);
+        let tip = "Two pins only fix size and place: eliminated. More are constraints: least squares";
+        ui.selectable_value(&mut settings.treatment, None, automatic).on_hover_text(tip);
+        for &choice in Treatment::ALL {
+            let label = ui.selectable_value(&mut settings.treatment, Some(choice), choice.words().title);
+            label.on_hover_text(sentence(&choice.words().tip()));
         }
     });
     menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Equations of pinned vertices"));
@@ -183,8 +160,8 @@ fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
 
 /// What few people need: how long the iteration may go on, and how the virtual boundary does.
 fn more(ui: &mut egui::Ui, settings: Settings, requests: &mut Vec<Request>) {
-    let iterates = matches!(settings.method, Method::Auto | Method::Iterate);
-    let bends = matches!(settings.method, Method::Auto | Method::VirtualBoundary);
+    let iterates = settings.method.iterates();
+    let bends = settings.method.bends_boundary();
     if !iterates && !bends {
         return;
     }
@@ -223,14 +200,11 @@ fn step_limit(ui: &mut egui::Ui, settings: Settings, requests: &mut Vec<Request>
 }
 
 fn growth_menu(ui: &mut egui::Ui, settings: &mut Settings) {
-    let entries = [
-        (Growth::Double, "Twice as many", "Quick: as many again are bent each time"),
-        (Growth::One, "One more", "As the paper's §5 has it: the least that is enough, found slowly"),
-    ];
-    let title = entries.iter().find(|(growth, ..)| *growth == settings.growth).map_or("", |entry| entry.1);
+    let title = settings.growth.words().title;
     let menu = egui::ComboBox::from_id_salt("growth menu").selected_text(title).width(130.0).show_ui(ui, |ui| {
-        for (growth, title, about) in entries {
-            ui.selectable_value(&mut settings.growth, growth, title).on_hover_text(about);
+        for &choice in Growth::ALL {
+            let label = ui.selectable_value(&mut settings.growth, choice, choice.words().title);
+            label.on_hover_text(sentence(&choice.words().tip()));
         }
     });
     menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "How the virtual boundary goes on"));

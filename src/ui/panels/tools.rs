@@ -22,7 +22,7 @@ pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut
     ui.vertical_centered(|ui| {
         for (tool, name) in TOOLS {
             let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
-            let on = editor.tool == tool;
+            let on = editor.tools.tool() == tool;
             response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
             let theme = theme_of(ui);
             if on || response.hovered() {

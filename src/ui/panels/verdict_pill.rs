@@ -9,7 +9,6 @@ use crate::session::{Action, Busy, Surface};
 use crate::solver::{Phase, Step, Verdict};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::{Theme, theme_of};
-use crate::ui::timeline::chips::rung_words;
 use crate::ui::{Editor, Request, Tab};
 
 /// Side of the sign in the pill, points.
@@ -98,7 +97,7 @@ fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
 
 /// The verdict on a step that is up to date, and the rung that a planar one comes from.
 fn of_step(theme: &Theme, step: &Step) -> Pill {
-    let (unmet, rung) = (step.unmet().len(), rung_words(step.rung.name()));
+    let (unmet, rung) = (step.unmet().len(), step.rung.as_short_rung());
     if !step.verdict.planar {
         let tip = "Not planar. Click for the next defect (D)".into();
         return Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&step.verdict), tip };

@@ -13,12 +13,12 @@ use crate::ui::{Editor, Request};
 
 /// Shows the panel.
 pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let Some(&vertex) = editor.selection.first() else {
+    let Some(&vertex) = editor.selection.vertices().first() else {
         ui.label("Select a vertex: click one in either pane, or press G and type its number.");
         return;
     };
-    if editor.selection.len() > 1 {
-        ui.weak(format!("{} selected; this is the first", editor.selection.len()));
+    if editor.selection.vertices().len() > 1 {
+        ui.weak(format!("{} selected; this is the first", editor.selection.vertices().len()));
     }
     let Some(scene) = editor.mesh_scene() else { return };
     let Some(position) = scene.mesh().positions.get(vertex.index()) else { return };

@@ -56,7 +56,7 @@ fn inward(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn mirrored(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    if editor.dragged_pin.is_some() || !editor.opened.targets_look_mirrored(&editor.session) {
+    if editor.tools.dragged().is_some() || !editor.opened.targets_look_mirrored(&editor.session) {
         return;
     }
     let theme = theme_of(ui);

@@ -93,7 +93,7 @@ impl Editor {
     /// The selected vertices that are pins of the user's.
     pub fn pins_selected(&self) -> impl Iterator<Item = VertexId> + '_ {
         let targets = &self.session.document().targets;
-        self.selection.iter().copied().filter(|vertex| targets.contains_key(vertex))
+        self.selection.vertices().iter().copied().filter(|vertex| targets.contains_key(vertex))
     }
 }
 

@@ -27,17 +27,6 @@ const SIGN: f32 = 9.0;
 /// Size of the letters, points.
 const LETTERS: f32 = 12.0;
 
-/// The rung of a step, as a person calls it.
-pub(in crate::ui) fn rung_words(rung: &str) -> &str {
-    match rung {
-        "iterate" => "mean value",
-        "relax" => "relaxed",
-        "virtual-boundary" => "virtual boundary",
-        "matchmaker" => "new vertices",
-        other => other,
-    }
-}
-
 /// A step in words, without its place on the screen.
 fn name_of(record: &StepReport, timeline: &Timeline) -> String {
     let unmet = timeline.standings()[record.index].unmet;
@@ -48,14 +37,14 @@ fn name_of(record: &StepReport, timeline: &Timeline) -> String {
         count => format!("{count} defects"),
     };
     let compared = if timeline.compared() == Some(record.index) { ", compared" } else { "" };
-    format!("Step {}: {}, {state}{compared}", record.index, rung_words(record.rung))
+    format!("Step {}: {}, {state}{compared}", record.index, record.rung.as_short_rung())
 }
 
 /// What a step shows: its number, and its rung where that is another one than before.
 fn label_of(records: &[StepReport], index: usize) -> String {
     let rung = records[index].rung;
     let is_new = index == 0 || records[index - 1].rung != rung;
-    if is_new { format!("{index} {}", rung_words(rung)) } else { index.to_string() }
+    if is_new { format!("{index} {}", rung.as_short_rung()) } else { index.to_string() }
 }
 
 /// Shows the steps.
@@ -228,7 +217,7 @@ fn chip_menu(ui: &mut egui::Ui, timeline: &Timeline, index: usize, requests: &mu
 
 /// All numbers of a step.
 fn tip(ui: &mut egui::Ui, (record, standing): (&StepReport, &Standing), hint: &str) {
-    ui.strong(format!("Step {}: {}", record.index, rung_words(record.rung)));
+    ui.strong(format!("Step {}: {}", record.index, record.rung.as_short_rung()));
     egui::Grid::new("numbers of a step").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
         for (name, value) in numbers_of(record, standing) {
             ui.label(name);

@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::error::TextureError;
-use super::obj::{NO_TEXTURE, ObjMesh, Texture};
+use super::{NO_TEXTURE, ObjMesh, Texture, TextureError};
 use crate::mesh::{TriMesh, VertexId};
 
 /// A mesh over texture vertices, with the embedding that the file gives.

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use glam::DVec2;
 
-use super::obj::ObjMesh;
+use super::ObjMesh;
 
 /// Writes a mesh with one texture coordinate per vertex, or with none if `texture` is empty.
 ///
