@@ -86,7 +86,7 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
-    let Row { vertex, pin, held, .. } = row;
+    let Row { vertex, target, held, .. } = row;
     hold_button(ui, row, requests);
     let selected = editor.selection.contains(vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
@@ -97,7 +97,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
         requests.push(chosen(ui, editor, vertex));
     }
     coordinates(ui, row, requests);
-    match (pin.hold, held) {
+    match (target.hold, held) {
         (Hold::Weighted(weight), _) => {
             weight_field(ui, &format!("Weight of pin {vertex}"), weight, &[vertex], requests);
         }
@@ -128,21 +128,21 @@ fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, request
     let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
     pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(held), emphasis));
-    let words = match pin.hold {
+    let words = match target.hold {
         Hold::Weighted(_) => "weighted",
         Hold::Fixed => "fixed",
         Hold::Hard => "hard",
     };
-    let (note, tip) = if pin.hold != held {
+    let (note, tip) = if target.hold != held {
         let tip =
             "To be met exactly, but this treatment of pinned vertices weighs it. Click: give it a weight of its own";
         (", weighed by the treatment", tip)
-    } else if pin.hold.is_exact() {
+    } else if target.hold.is_exact() {
         ("", "Met exactly. Click: let it pull with a weight instead")
     } else {
         ("", "Pulls with a weight. Click: meet it exactly")
     };
-    let hold = if pin.hold.is_exact() { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { Hold::Hard };
+    let hold = if target.hold.is_exact() { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { Hold::Hard };
     let response = response.named(Role::Button, &format!("Hold of pin {vertex}: {words}{note}")).on_hover_text(tip);
     response.asks(Action::SetHold { vertices: vec![vertex], hold }, requests);
 }
@@ -162,8 +162,8 @@ fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
     }
 }
 
-fn coordinates(ui: &mut egui::Ui, Row { vertex, pin, speed, .. }: Row, requests: &mut Vec<Request>) {
-    let target = pin.target;
+fn coordinates(ui: &mut egui::Ui, Row { vertex, target, speed, .. }: Row, requests: &mut Vec<Request>) {
+    let target = target.uv;
     let mut moved = target;
     let mut has_ended = false;
     for (axis, name) in [(0, "u"), (1, "v")] {
