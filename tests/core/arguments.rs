@@ -2,8 +2,9 @@
 
 use clap::{CommandFactory as _, Parser as _};
 use freebound::cli::{Arguments, Command, FlattenArguments};
+use freebound::io::Target;
 use freebound::mesh::VertexId;
-use freebound::solver::{BoundaryShape, Choice, Family, Growth, Method, Pin, Treatment};
+use freebound::solver::{BoundaryShape, Choice, Family, Growth, Method, Treatment};
 use glam::DVec2;
 
 /// The arguments of `flatten` with an option.
@@ -22,10 +23,10 @@ fn the_arguments_hold_together() {
 
 #[test]
 fn a_pin_is_a_vertex_and_two_numbers_and_perhaps_a_weight() {
-    let target = DVec2::new(0.5, -2.0);
+    let uv = DVec2::new(0.5, -2.0);
     let pins = |text: &str| parsed("--pin", text).map(|arguments| arguments.pins);
-    assert_eq!(pins("7:0.5,-2").unwrap(), [(VertexId::new(7), Pin::hard(target))]);
-    assert_eq!(pins("7:0.5,-2:3e2").unwrap(), [(VertexId::new(7), Pin::weighted(target, 300.0))]);
+    assert_eq!(pins("7:0.5,-2").unwrap(), [(VertexId::new(7), Target::hard(uv))]);
+    assert_eq!(pins("7:0.5,-2:3e2").unwrap(), [(VertexId::new(7), Target::weighted(uv, 300.0))]);
     for wrong in ["", "7", "7:1", "7:1,x", "-1:0,0", "7:1,2,3", "7:1,2:", "7:1,2:x", "7:1,2:0", "7:1,2:-1", "7:1,2:inf"]
     {
         assert!(pins(wrong).is_none(), "{wrong}");

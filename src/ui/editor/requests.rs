@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::purpose::kind_of;
+use crate::io::OutputKind;
 use crate::mesh::VertexId;
-use crate::session::{Action, SaveRequest};
+use crate::session::{Action, OutputFit, SaveRequest};
 use crate::solver::Hold;
 use crate::ui::panels::dialogs::Choice;
 use crate::ui::panels::unsaved::Wish;
@@ -89,22 +89,26 @@ impl Editor {
                 self.act(Action::SaveProject(path));
             }
             Purpose::PanePicture(pane) => self.shoot_pane(pane, path),
-            Purpose::Save | Purpose::Drawing(_) | Purpose::Overview | Purpose::Report => {
-                let fit = if let Purpose::Drawing(fit) = purpose { fit } else { self.fit };
-                if let Some(kind) = kind_of(purpose) {
-                    self.act(Action::Save(SaveRequest { path, kind, fit }));
-                }
-            }
+            Purpose::Save => self.save(path, OutputKind::Obj, self.fit),
+            Purpose::Drawing(fit) => self.save(path, OutputKind::Svg, fit),
+            Purpose::Overview => self.save(path, OutputKind::Png, self.fit),
+            Purpose::Report => self.save(path, OutputKind::Json, self.fit),
         }
+    }
+
+    fn save(&mut self, path: PathBuf, kind: OutputKind, fit: OutputFit) {
+        self.act(Action::Save(SaveRequest { path, kind, fit }));
     }
 
     /// What a file that was dropped on the window asks for, by its name.
     pub(in crate::ui) fn dropped(path: PathBuf) -> Request {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        Request::Do(match extension.as_str() {
-            "png" | "jpg" | "jpeg" => Action::OpenPicture(path),
-            "txt" => Action::ImportConstraints(path),
-            _ => Action::Open(path),
+        let is_for = |purpose: Purpose| purpose.form().files.fits(&path);
+        Request::Do(if is_for(Purpose::OpenPicture) {
+            Action::OpenPicture(path)
+        } else if is_for(Purpose::ImportConstraints) {
+            Action::ImportConstraints(path)
+        } else {
+            Action::Open(path)
         })
     }
 
@@ -128,7 +132,7 @@ impl Editor {
 
     /// A name for a file made from the mesh on the screen.
     fn suggested_name(&self, purpose: Purpose) -> PathBuf {
-        let ending = purpose.ending();
+        let ending = purpose.form().ending;
         let Some(model) = self.session.model() else { return PathBuf::from(format!("layout{ending}")) };
         let stem = Path::new(&model.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let folder = model.path.as_ref().and_then(|path| path.parent()).map(PathBuf::from).unwrap_or_default();
