@@ -7,19 +7,21 @@
 //! prints every step.
 
 mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Family, Method, Pins, Run, Settings, Step, fixed_pins};
+use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, Step, fixed_pins};
 use glam::DVec2;
 
 use common::machine::print_machine;
-use common::sheet::Random;
 use common::table::Table;
 use common::{arguments, time};
+use makers::{Random, corpus};
 
 const PAIRS: usize = 20;
 
@@ -90,11 +92,7 @@ fn main() {
 
 /// The disks of the corpus whose name contains `name`, small ones first.
 fn meshes(name: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus");
-    let Ok(entries) = fs::read_dir(&folder) else {
-        println!("nothing to do: there is no corpus at {}", folder.display());
-        return Vec::new();
-    };
+    let Some(entries) = corpus().and_then(|folder| fs::read_dir(folder).ok()) else { return Vec::new() };
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "obj"));
     paths.retain(|path| path.file_name().is_some_and(|file| file.to_string_lossy().contains(name)));
@@ -130,7 +128,7 @@ fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
 
 /// Where a run ended, and after how many steps.
 fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> (End, usize) {
-    let mut run = Run::new(Settings::new(Method::Auto, family), pins.clone());
+    let mut run = Ladder::new(Settings::new(Method::Auto, family), pins.clone());
     let mut steps: Vec<(StepReport, bool)> = Vec::new();
     let outcome = run.finish(mesh, Control::unattended(), |step: Step| {
         let report = StepReport::of(&step);
@@ -142,9 +140,9 @@ fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> (End, u
     let started_again = steps.iter().any(|(step, is_linear)| *is_linear && (step.index > 0 || step.note.is_some()));
     let end = match steps.last() {
         Some((last, _)) if last.planar => match last.rung {
-            "natural" | "iterate" if started_again => End::StartedAgain,
-            "natural" => End::Natural,
-            "iterate" => End::Iterate,
+            Method::Natural | Method::Iterate if started_again => End::StartedAgain,
+            Method::Natural => End::Natural,
+            Method::Iterate => End::Iterate,
             _ if last.bent_vertices == 0 => End::FreeVirtualBoundary,
             _ => End::Convex,
         },

@@ -7,6 +7,8 @@
 //! `cargo bench --bench terrain -- FILE.obj` writes the terrain, to be opened in the editor.
 
 mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
 
 use std::path::Path;
 
@@ -16,9 +18,9 @@ use freebound::solver::{Control, Family, Method, Pins, Settings, distortion, fla
 use glam::{DVec2, DVec3};
 
 use common::machine::print_machine;
-use common::sheet::{Random, sheet_of_faces};
 use common::table::Table;
 use common::{arguments, time};
+use makers::{Random, sheet_of_faces};
 
 const FACES: usize = 100_000;
 
@@ -107,6 +109,7 @@ fn main() {
         let settings = Settings::new(Method::Natural, family);
         let (solve, solution) = time(|| flatten(&mesh, &settings, &Pins::new(), Control::unattended()));
         let solution = solution.expect("a good answer");
+        let linear = solution.linear.expect("a linear method");
         let (prove, found) = time(|| verdict(&mesh, &solution.embedding));
         table.row([
             family.to_string(),
@@ -114,8 +117,8 @@ fn main() {
             (found.boundary_crossings.len() + found.unlisted_crossings).to_string(),
             found.overwound_vertices.len().to_string(),
             found.turning_number.map_or_else(|| "-".to_owned(), |turns| turns.to_string()),
-            format!("{:.1e}", solution.residual),
-            solution.replaced_pivots.to_string(),
+            format!("{:.1e}", linear.residual),
+            linear.replaced_pivots.to_string(),
             format!("{:.1}", distortion(&mesh, &solution.embedding).summary.angle.p99),
             format!("{solve:.3}"),
             format!("{prove:.3}"),

@@ -1,10 +1,12 @@
 //! What a person reads: the line that follows the work, and the lines that sum it up.
 
+use std::path::Path;
+
 use super::flatten::Solved;
-use crate::io::{PinsReport, Report};
+use crate::io::{PinsReport, Report, WriteError};
 use crate::mesh::VertexId;
 use crate::session::{Finished, Placement};
-use crate::solver::{Conflict, Ending, Method, SolveError, Step};
+use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step};
 
 /// Most vertices or conflicts that are named; the others are only counted.
 const NAMED: usize = 10;
@@ -28,24 +30,12 @@ pub(super) fn print_conflicts(conflicts: &[Conflict]) {
     }
 }
 
-/// A rung in words.
-fn rung_words(rung: Method) -> &'static str {
-    match rung {
-        Method::Natural => "natural boundary",
-        Method::Iterate => "iteration",
-        Method::VirtualBoundary => "virtual boundary",
-        Method::Matchmaker => "new vertices",
-        Method::Relax => "relaxed",
-        other => other.name(),
-    }
-}
-
 /// What a step reached, for the line that follows the work.
 pub(super) fn step_words(step: &Step) -> String {
     let number = if step.rung == Method::Iterate { format!(" {}", step.index) } else { String::new() };
     let left = step.progress.map(|progress| progress.distance_left).filter(|&distance| distance > 0.0);
     let left = left.map(|distance| format!(", {distance:.2e} from the targets")).unwrap_or_default();
-    format!("{}{number}: {}{left}", rung_words(step.rung), step.verdict.summary())
+    format!("{}{number}: {}{left}", step.rung.as_rung(), step.verdict.summary())
 }
 
 /// The verdict, and after how many steps and on which rung a run of several came to it.
@@ -53,7 +43,7 @@ pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
     let mut words = finished.verdict().summary();
     let Solved { outcome, ending, .. } = solved;
     let step = &outcome.step;
-    if outcome.settings.method.takes_steps() {
+    if outcome.problem.settings.method.takes_steps() {
         let count = finished.report.steps.len();
         let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
         let why = match ending {
@@ -64,7 +54,7 @@ pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
             Err(error) => format!("; the next gave nothing: {error}"),
         };
         let steps = if count == 1 { "step" } else { "steps" };
-        let rung = rung_words(step.rung);
+        let rung = step.rung.as_rung();
         words = format!("{words} after {count} {steps} ({rung}{boundary}{why})");
     }
     if finished.report.placement == Some(Placement::Unmoved.name()) {
@@ -93,6 +83,28 @@ fn pins_words(pins: &PinsReport) -> Option<String> {
     (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
 }
 
+/// Whether standard output may be written to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StandardOutput {
+    /// It may.
+    Free,
+    /// A report is on it, which must stand alone.
+    Taken,
+}
+
+/// Writes a report where it is wanted: into a file, or to standard output for `-`.
+pub(super) fn deliver(report: &Report, to: Option<&Path>) -> Result<StandardOutput, WriteError> {
+    match to {
+        Some(path) if path == Path::new("-") => {
+            println!("{}", serde_json::to_string_pretty(report).expect("a report is plain data"));
+            return Ok(StandardOutput::Taken);
+        }
+        Some(path) => report.write(path)?,
+        None => {}
+    }
+    Ok(StandardOutput::Free)
+}
+
 /// Prints what a run came to.
 pub(super) fn print_summary(report: &Report, verdict: &str) {
     let mesh = &report.mesh;
@@ -100,11 +112,11 @@ pub(super) fn print_summary(report: &Report, verdict: &str) {
         "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
         mesh.path, mesh.vertices, mesh.faces, mesh.boundary_vertices, mesh.dividing_edges, mesh.ears
     );
-    let family = report.family.as_deref().map(|family| format!(", {family} weights")).unwrap_or_default();
+    let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     // Where there is no linear system, there is no residual.
-    let residual = report.steps.last().map(|step| step.residual).filter(|residual| residual.is_finite());
+    let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());
     let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
-    println!("{}{family}: {verdict}{residual}", report.method.unwrap_or("check"));
+    println!("{}{family}: {verdict}{residual}", report.method.map_or("check", Method::name));
     if report.new_vertices > 0 {
         println!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len());
     }

@@ -16,10 +16,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::state::{REPORT_IT, lost};
 use super::stop::Goal;
-use super::{Document, Job, JobContext, Outcome, Place, Poll, Session, Severity, Stop, Timeline, Wake};
-use crate::geom::PictureFrame;
+use super::{Document, Job, JobContext, Outcome, Place, Poll, Problem, Session, Severity, Stop, Timeline, Wake};
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Ending, Phase, Pins, Run, SolveError, are_held_alike};
+use crate::solver::{Control, Ending, Ladder, Phase, SolveError, are_held_alike};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;
@@ -34,7 +33,7 @@ struct Delivery {
 /// A run with the steps that it takes in the background.
 pub(super) struct Running {
     /// Gives the run back when it comes to rest.
-    job: Job<Phase, (Run, Result<(), SolveError>)>,
+    job: Job<Phase, (Ladder, Result<(), SolveError>)>,
     deliveries: Receiver<Delivery>,
     goal: Arc<Mutex<Goal>>,
     /// What it was begun for.
@@ -70,7 +69,7 @@ impl Running {
     fn is_followed_by(&self, document: &Document) -> bool {
         let only_targets_differ = self.document.run_settings() == document.run_settings()
             && self.document.frame() == document.frame()
-            && are_held_alike(&self.document.pins, &document.pins);
+            && are_held_alike(&self.document.pins(), &document.pins());
         self.paused.is_none() && !self.has_delivered && only_targets_differ
     }
 }
@@ -85,21 +84,17 @@ struct Courier {
     deliveries: SyncSender<Delivery>,
     goal: Arc<Mutex<Goal>>,
     wake: Wake,
-    /// How the run's pins came from texture coordinates.
-    frame: PictureFrame,
-    /// The run's pins in texture coordinates.
-    pins: Pins,
+    problem: Problem,
 }
 
 impl Courier {
     /// Takes steps until the goal is reached, and hands each over. What nobody waits for any more is given up.
-    fn take_steps(&self, run: &mut Run, mesh: &DiskMesh, context: &JobContext<Phase>) -> Result<(), SolveError> {
+    fn take_steps(&self, run: &mut Ladder, mesh: &DiskMesh, context: &JobContext<Phase>) -> Result<(), SolveError> {
         let report = |phase| context.report(phase);
         let control = Control::new(context.cancel_flag(), &report);
         loop {
             let step = run.step(mesh, control)?;
-            let placed = (self.frame, self.pins.clone());
-            let outcome = Arc::new(Outcome::new(mesh, *run.settings(), placed, step));
+            let outcome = Arc::new(Outcome::new(mesh, self.problem.clone(), step));
             let ending = run.ending();
             let is_reached = {
                 let mut goal = locked(&self.goal);
@@ -144,16 +139,16 @@ impl Session {
         if let Some(running) = &mut self.running
             && running.is_followed_by(&self.document)
         {
-            self.solve_again = running.document.pins != self.document.pins;
+            self.solve_again = running.document.targets != self.document.targets;
             running.set_goal(|_| goal);
             return;
         }
-        let (settings, pins) = (self.document.run_settings(), self.document.plane_pins());
-        self.spawn(Run::new(settings, pins).with_prepared(self.prepared.clone()), goal);
+        let (settings, pins) = (self.document.run_settings(), self.document.pins());
+        self.spawn(Ladder::new(settings, pins).with_prepared(self.prepared.clone()), goal);
     }
 
     /// Takes steps of a run in the background. A run that is under way is given up.
-    pub(super) fn spawn(&mut self, mut run: Run, goal: Goal) {
+    pub(super) fn spawn(&mut self, mut run: Ladder, goal: Goal) {
         self.running = None;
         self.solve_again = false;
         let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
@@ -166,8 +161,7 @@ impl Session {
             deliveries: sender,
             goal: Arc::clone(&goal),
             wake: Arc::clone(&self.wake),
-            frame: document.frame(),
-            pins: document.pins.clone(),
+            problem: document.problem(),
         };
         let work = move |context: &JobContext<Phase>| {
             let result = courier.take_steps(&mut run, &disk, context);
@@ -309,7 +303,7 @@ impl Session {
     }
 
     /// Takes back a run that has come to rest, and lets it go on where the goal has changed meanwhile.
-    fn take_back(&mut self, run: Run, result: Result<(), SolveError>) {
+    fn take_back(&mut self, run: Ladder, result: Result<(), SolveError>) {
         let Some(running) = self.running.take() else { return };
         self.resting = Some(run);
         let goal = match result {

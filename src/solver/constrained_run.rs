@@ -8,7 +8,8 @@ use super::continuation::{Accepted, Continuation};
 use super::matchmaker::{Matched, matched, without_needless_vertices};
 use super::relaxing::Relaxing;
 use super::{
-    Conflict, Control, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step, check_pins, conflicts, verdict,
+    Conflict, Control, Ladder, Method, Outside, Pins, Progress, Settings, SolveError, Step, check_pins, conflicts,
+    verdict,
 };
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
@@ -172,7 +173,7 @@ pub(super) fn check_distances(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveE
 fn planar_start(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Vec<DVec2>, SolveError> {
     let unconstrained = Settings { size: settings.size, ..Settings::default() };
     let mut planar: Option<Step> = None;
-    let result = Run::new(unconstrained, Pins::new()).finish(mesh, control, |step| {
+    let result = Ladder::new(unconstrained, Pins::new()).finish(mesh, control, |step| {
         if step.verdict.planar {
             planar = Some(step);
         }

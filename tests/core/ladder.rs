@@ -5,22 +5,20 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{
-    Control, Ending, Family, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step, hard_pins, verdict,
+    Choice as _, Control, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step, hard_pins,
+    verdict,
 };
 use glam::DVec2;
 
-use crate::common::{Random, corpus_disks};
+use crate::common::corpus_disks;
+use crate::makers::{Random, disk};
 use crate::shapes::{finger, interior_pair};
 
 const FAMILIES: [Family; 3] = [Family::Conformal, Family::MeanValue, Family::Wachspress];
 
-fn disk(example: Example) -> DiskMesh {
-    DiskMesh::try_from(example.mesh()).unwrap()
-}
-
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Vec<Step> {
     let mut steps = Vec::new();
-    Run::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+    Ladder::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     steps
 }
 
@@ -54,7 +52,7 @@ fn auto_ends_planar_from_any_two_pins_and_any_family() {
     let mut random = Random(0xadd);
     let corpus = corpus_disks();
     let small = corpus.iter().map(|entry| (entry.file.clone(), entry.disk())).filter(|(_, m)| m.face_count() < 6_000);
-    let built_in = Example::ALL.map(|example| (example.name().to_owned(), disk(example)));
+    let built_in = Example::ALL.map(|example| (example.name().to_owned(), disk(example.mesh())));
     for (name, mesh) in built_in.into_iter().chain(small) {
         for pair in [boundary_pair(&mesh, &mut random), interior_pair(&mesh, &mut random)] {
             let pins = pins_on(&mesh, pair);
@@ -111,7 +109,7 @@ fn a_free_boundary_is_looked_for_before_one_is_bent() {
 fn a_singular_first_rung_is_noted_and_stepped_over() {
     let Some(entry) = corpus_disks().into_iter().find(|entry| entry.file == "maze.obj") else { return };
     let mesh = entry.disk();
-    let alone = Run::new(Settings::new(Method::Natural, Family::MeanValue), Pins::new()).finish(
+    let alone = Ladder::new(Settings::new(Method::Natural, Family::MeanValue), Pins::new()).finish(
         &mesh,
         Control::unattended(),
         |_| (),
@@ -125,18 +123,18 @@ fn a_singular_first_rung_is_noted_and_stepped_over() {
 
 #[test]
 fn what_the_user_got_wrong_is_an_error_and_no_rung_hides_it() {
-    let mesh = disk(Example::Dome);
+    let mesh = disk(Example::Dome.mesh());
     let twice = hard_pins([(VertexId::new(1), DVec2::ONE), (VertexId::new(2), DVec2::ONE)]);
-    let outcome = Run::new(Settings::default(), twice).step(&mesh, Control::unattended());
+    let outcome = Ladder::new(Settings::default(), twice).step(&mesh, Control::unattended());
     assert!(matches!(outcome, Err(SolveError::CoincidentPins { .. })));
     let uniform =
-        Run::new(Settings::new(Method::Auto, Family::Uniform), Pins::new()).step(&mesh, Control::unattended());
+        Ladder::new(Settings::new(Method::Auto, Family::Uniform), Pins::new()).step(&mesh, Control::unattended());
     assert!(matches!(uniform, Err(SolveError::FamilyNotApplicable { .. })));
 }
 
 #[test]
 fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_for_them() {
-    let mesh = disk(Example::Dome);
+    let mesh = disk(Example::Dome.mesh());
     let mut pins = Pins::new();
     let boundary = mesh.boundary_loop();
     for k in 0..5 {
@@ -144,7 +142,7 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
         let v = boundary[k * boundary.len() / 5];
         pins.insert(v, Pin::hard(DVec2::from_angle(2.0 * std::f64::consts::TAU * k as f64 / 5.0) * 10.0));
     }
-    let mut run = Run::new(Settings { max_steps: 4, ..Settings::default() }, pins.clone());
+    let mut run = Ladder::new(Settings { max_steps: 4, ..Settings::default() }, pins.clone());
     let mut steps = Vec::new();
     let ending = run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     assert_eq!(ending, Ending::Planar);
@@ -157,7 +155,7 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
 }
 
 /// A run whose every step is first cancelled at each of its phases in turn, then let through.
-fn disturbed(mesh: &DiskMesh, mut run: Run) -> Vec<Step> {
+fn disturbed(mesh: &DiskMesh, mut run: Ladder) -> Vec<Step> {
     let (mut found, mut allowed, mut cancelled): (Vec<Step>, _, _) = (Vec::new(), 0, 0);
     while run.ending().is_none() {
         let (flag, phases) = (AtomicBool::new(false), AtomicUsize::new(0));
@@ -183,7 +181,7 @@ fn disturbed(mesh: &DiskMesh, mut run: Run) -> Vec<Step> {
 
 #[test]
 fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
-    let cube = disk(Example::Cube);
+    let cube = disk(Example::Cube.mesh());
     let pins = pins_on(&cube, interior_pair(&cube, &mut Random(3)));
     let mut cases = vec![(cube, Settings::new(Method::Auto, Family::Wachspress), pins)];
     // Runs that start again, and one that bends the boundary.
@@ -194,7 +192,7 @@ fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
     }
     for (mesh, settings, pins) in cases {
         let undisturbed = steps_of(&mesh, settings, &pins);
-        let found = disturbed(&mesh, Run::new(settings, pins));
+        let found = disturbed(&mesh, Ladder::new(settings, pins));
         let told = |steps: &[Step]| -> Vec<(usize, Method, Option<String>, Vec<DVec2>)> {
             let told = |s: &Step| (s.bent_vertices, s.rung, s.note.clone(), s.solution.embedding.clone());
             steps.iter().map(told).collect()
@@ -205,7 +203,7 @@ fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
 
 #[test]
 fn the_same_run_gives_the_same_bits() {
-    let mesh = disk(Example::Cube);
+    let mesh = disk(Example::Cube.mesh());
     let settings = Settings::new(Method::Auto, Family::MeanValue);
     let bits = || -> Vec<Vec<DVec2>> {
         steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.solution.embedding).collect()
@@ -215,11 +213,11 @@ fn the_same_run_gives_the_same_bits() {
 
 #[test]
 fn a_virtual_boundary_refuses_constraints_and_says_what_to_choose() {
-    let mesh = disk(Example::Face);
+    let mesh = disk(Example::Face.mesh());
     let boundary = mesh.boundary_loop();
     let pins = hard_pins((0..3).map(|k| (boundary[7 * k], DVec2::from_angle(k as f64))));
     let outcome =
-        Run::new(Settings::new(Method::VirtualBoundary, Family::Conformal), pins).step(&mesh, Control::unattended());
+        Ladder::new(Settings::new(Method::VirtualBoundary, Family::Conformal), pins).step(&mesh, Control::unattended());
     assert_eq!(outcome.err(), Some(SolveError::TooManyPins { count: 3, most: 2 }));
 }
 
@@ -230,7 +228,7 @@ fn every_ladder_ends_however_far_apart_the_numbers_are() {
     let boundary = mesh.boundary_loop();
     let far = hard_pins([(boundary[0], DVec2::ZERO), (boundary[4], DVec2::new(1e61, 0.0))]);
     for (pins, limit) in [(Pins::new(), 200), (far, 200)] {
-        let mut run = Run::new(Settings { max_steps: 5, ..Settings::default() }, pins);
+        let mut run = Ladder::new(Settings { max_steps: 5, ..Settings::default() }, pins);
         let mut taken = 0;
         while run.ending().is_none() && taken < limit {
             taken += 1;
@@ -245,13 +243,13 @@ fn every_ladder_ends_however_far_apart_the_numbers_are() {
 
 #[test]
 fn small_disks_and_disks_without_inner_vertices_end_planar_too() {
-    let fan = crate::common::fan(3);
+    let fan = crate::makers::fan(3);
     let triangle = TriMesh::new(fan.positions[1..].to_vec(), &[[0, 1, 2]]);
-    let strip = crate::common::grid(6, 1);
+    let strip = crate::makers::grid(6, 1);
     for mesh in [triangle, fan, strip] {
         let mesh = DiskMesh::try_from(mesh).unwrap();
         for family in FAMILIES {
-            let mut run = Run::new(Settings::new(Method::Auto, family), Pins::new());
+            let mut run = Ladder::new(Settings::new(Method::Auto, family), Pins::new());
             let mut planar = false;
             run.finish(&mesh, Control::unattended(), |step| planar = step.verdict.planar).unwrap();
             assert!(planar, "{} faces, {family}", mesh.face_count());
@@ -261,10 +259,10 @@ fn small_disks_and_disks_without_inner_vertices_end_planar_too() {
 
 #[test]
 fn every_method_can_be_taken_on_by_hand() {
-    let mesh = disk(Example::Cube);
+    let mesh = disk(Example::Cube.mesh());
     let convex = Method::Convex(freebound::solver::BoundaryShape::Circle);
     for method in [convex, Method::Lscm, Method::Levy, Method::Natural, Method::VirtualBoundary] {
-        let mut run = Run::new(Settings::new(method, Family::MeanValue), Pins::new());
+        let mut run = Ladder::new(Settings::new(method, Family::MeanValue), Pins::new());
         run.finish(&mesh, Control::unattended(), |_| ()).unwrap();
         let further = run.step(&mesh, Control::unattended()).unwrap();
         assert_eq!(further.rung, Method::Iterate, "after {method:?}");

@@ -7,19 +7,16 @@ use freebound::geom::{Orientation, orientation};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::plane_weights::{left_over_in_plane, mean_value_in_plane};
 use freebound::solver::{
-    Control, Extended, Family, Growth, Method, Outline, Pins, Run, Settings, Start, Step, diameter, largest_move,
+    Control, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, diameter, largest_move,
     verdict,
 };
 use glam::{DVec2, DVec3};
 
-use crate::common::{Random, corpus_disks, grid};
+use crate::common::corpus_disks;
+use crate::makers::{Random, disk, grid};
 
 /// A planar embedding may move by this share of its diameter: 2D reproduction.
 const REPRODUCED: f64 = 1e-12;
-
-fn disk(mesh: TriMesh) -> DiskMesh {
-    DiskMesh::try_from(mesh).unwrap()
-}
 
 fn flat(mesh: &DiskMesh) -> Vec<DVec2> {
     mesh.mesh().positions.iter().map(|x| DVec2::new(x.x, x.y)).collect()
@@ -52,7 +49,7 @@ fn grid_with_ears(columns: u32, heights: &[(u32, f64)]) -> (DiskMesh, Vec<DVec2>
 
 fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
     let mut steps = Vec::new();
-    Run::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+    Ladder::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     steps
 }
 
@@ -214,7 +211,7 @@ fn more_boundary_vertices_are_pinned_until_the_boundary_is_simple() {
     let last = steps.last().unwrap();
     assert!(last.verdict.planar && last.has_convex_boundary());
 
-    let mut one_by_one = Run::new(Settings { growth: Growth::One, ..settings }, Pins::new());
+    let mut one_by_one = Ladder::new(Settings { growth: Growth::One, ..settings }, Pins::new());
     let bent: Vec<usize> =
         (0..4).map(|_| one_by_one.step(&mesh, Control::unattended()).unwrap().bent_vertices).collect();
     assert_eq!(bent, [0, 3, 4, 5], "as the paper has it");

@@ -7,9 +7,10 @@ use eframe::egui;
 use egui::Key;
 use egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, StopConditions};
-use freebound::solver::{Family, Method, Pin, Settings};
+use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Tab;
 use glam::DVec2;
 
@@ -22,8 +23,8 @@ fn window() -> Window {
 
 fn place(window: &mut Window, pins: &[(u32, [f64; 2])]) {
     for &(vertex, target) in pins {
-        let pin = Pin::hard(DVec2::from(target));
-        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), pin });
+        let pin = Target::hard(DVec2::from(target));
+        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: pin });
     }
     window.settle();
 }
@@ -76,7 +77,7 @@ fn a_planar_step_with_constraints_not_met_says_so_and_marks_them() {
     assert!(window.has_ring_at(place), "{unmet:?}");
     let pill = format!("Verdict: {}", window.verdict());
     window.click(&pill);
-    assert!(window.editor().selection.iter().eq(&unmet), "a click shows them");
+    assert!(window.editor().selection.vertices().iter().eq(&unmet), "a click shows them");
 }
 
 #[test]
@@ -133,7 +134,7 @@ fn a_constraint_that_needs_new_vertices_is_marked() {
     let mut window = window();
     window.choose("Method", "Natural boundary");
     place(&mut window, &TURNED);
-    window.editor_mut().tab = Tab::Pins;
+    window.editor_mut().layout.show_tab(Tab::Pins);
     window.settle();
     assert_eq!(window.words().iter().filter(|words| *words == "conflict").count(), 3);
     assert!(window.shows("1 conflict needs new vertices"));

@@ -3,9 +3,9 @@
 use eframe::egui;
 use egui::{Key, Modifiers, Pos2, Rect, Vec2};
 use freebound::examples::Example;
+use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
-use freebound::solver::Pin;
 use freebound::ui::{Pane, Tool};
 use glam::DVec2;
 
@@ -44,8 +44,8 @@ fn a_click_of_the_fix_tool_on_the_mesh_pins_the_vertex_where_it_lies() {
         window.key(Key::P);
         window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
         assert_eq!(
-            document(&window).pins.into_iter().collect::<Vec<_>>(),
-            [(vertex, Pin::fixed(before[vertex.index()]))]
+            document(&window).targets.into_iter().collect::<Vec<_>>(),
+            [(vertex, Target::fixed(before[vertex.index()]))]
         );
         assert!(distance(&before, &window.embedding()) < 1e-9, "{}", example.name());
     }
@@ -59,7 +59,7 @@ fn fixing_more_vertices_of_a_flat_mesh_leaves_the_picture_as_it_is() {
     for i in [10, 200, 300] {
         window.click_at(window.place_in_plane(before[i]), Modifiers::NONE);
     }
-    assert_eq!(document(&window).pins.len(), 3);
+    assert_eq!(document(&window).targets.len(), 3);
     assert!(distance(&before, &window.embedding()) < 1e-9 * 100.0);
 }
 
@@ -69,17 +69,17 @@ fn the_vertex_under_the_pointer_is_known_in_both_panes() {
     let vertex = window.vertex_in_the_middle();
     window.harness.hover_at(window.place_on_mesh(vertex));
     window.settle();
-    assert_eq!(window.editor().hovered, Some(vertex));
-    assert_eq!(window.editor().pane_under_pointer, Some(Pane::Mesh));
+    assert_eq!(window.editor().pointer.vertex(), Some(vertex));
+    assert_eq!(window.editor().pointer.pane(), Some(Pane::Mesh));
     assert!(window.shows(&vertex.to_string()), "the status bar names it");
     window.harness.hover_at(window.place_in_plane(window.embedding()[30]));
     window.settle();
-    assert_eq!(window.editor().hovered, Some(VertexId::new(30)));
-    assert_eq!(window.editor().pane_under_pointer, Some(Pane::Plane));
+    assert_eq!(window.editor().pointer.vertex(), Some(VertexId::new(30)));
+    assert_eq!(window.editor().pointer.pane(), Some(Pane::Plane));
     assert!(window.shows("v30") && window.shows("u "), "{:?}", window.words());
     window.harness.remove_cursor();
     window.step();
-    assert_eq!(window.editor().hovered, None);
+    assert_eq!(window.editor().pointer.vertex(), None);
 }
 
 #[test]
@@ -105,13 +105,13 @@ fn clicks_select_and_shift_adds() {
     let at = |window: &Window, i: usize| window.place_in_plane(window.embedding()[i]);
     window.click_at(at(&window, 30), Modifiers::NONE);
     window.click_at(at(&window, 40), Modifiers::SHIFT);
-    assert_eq!(window.editor().selection, [30, 40].map(VertexId::new).into());
+    assert_eq!(*window.editor().selection.vertices(), [30, 40].map(VertexId::new).into());
     window.click_at(at(&window, 50), Modifiers::NONE);
-    assert_eq!(window.editor().selection, [VertexId::new(50)].into());
-    assert!(document(&window).pins.is_empty(), "selecting pins nothing");
+    assert_eq!(*window.editor().selection.vertices(), [VertexId::new(50)].into());
+    assert!(document(&window).targets.is_empty(), "selecting pins nothing");
     let empty = window.plane_view().left_top() + Vec2::splat(5.0);
     window.click_at(empty, Modifiers::NONE);
-    assert!(window.editor().selection.is_empty(), "a click on nothing deselects");
+    assert!(window.editor().selection.vertices().is_empty(), "a click on nothing deselects");
 }
 
 #[test]
@@ -125,14 +125,14 @@ fn a_box_drawn_with_ctrl_selects_what_is_in_it() {
     window.drag(corner, view.max - Vec2::splat(2.0), Modifiers::COMMAND);
     let inside = |z: &DVec2| Rect::from_min_max(corner, view.max).contains(window.place_in_plane(*z));
     let expected: Vec<u32> = (0..).zip(&embedding).filter(|(_, z)| inside(z)).map(|(i, _)| i).collect();
-    let selected: Vec<u32> = window.editor().selection.iter().map(|v| v.number()).collect();
+    let selected: Vec<u32> = window.editor().selection.vertices().iter().map(|v| v.number()).collect();
     assert!(expected.contains(&30) && expected.len() < embedding.len());
     assert_eq!(selected, expected);
     assert_eq!(window.editor().orbit, orbit);
     let view = window.mesh_view();
     window.editor_mut().selection.clear();
     window.drag(view.min + Vec2::splat(2.0), view.max - Vec2::splat(2.0), Modifiers::COMMAND);
-    assert_eq!(window.editor().selection.len(), embedding.len(), "all of the mesh from the front");
+    assert_eq!(window.editor().selection.vertices().len(), embedding.len(), "all of the mesh from the front");
     assert_eq!(window.editor().orbit, orbit, "a box does not turn the mesh");
 }
 
@@ -141,23 +141,23 @@ fn a_dragged_pin_goes_where_it_is_dropped_and_no_other_moves() {
     let mut window = window();
     pin(&mut window, &[0, 40, 80]);
     let before = document(&window);
-    let from = window.place_in_plane(before.pins[&VertexId::new(40)].target);
+    let from = window.place_in_plane(before.targets[&VertexId::new(40)].uv);
     let to = from + Vec2::new(60.0, -35.0);
     window.drag(from, to, Modifiers::NONE);
     let target = in_embedding(&window, to);
-    let mut expected = before.pins.clone();
-    expected.insert(VertexId::new(40), Pin::fixed(target));
-    assert_eq!(document(&window).pins, expected);
+    let mut expected = before.targets.clone();
+    expected.insert(VertexId::new(40), Target::fixed(target));
+    assert_eq!(document(&window).targets, expected);
     assert_eq!(window.embedding()[40], target, "and the embedding follows");
     assert!(window.editor().session.is_current());
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(document(&window), before, "a drag is one undo step");
     window.press(Modifiers::COMMAND, Key::Y);
-    assert_eq!(document(&window).pins, expected);
+    assert_eq!(document(&window).targets, expected);
     window.menu(&["Edit", "Undo"]);
     assert_eq!(document(&window), before);
     window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    assert_eq!(document(&window).pins, expected);
+    assert_eq!(document(&window).targets, expected);
 }
 
 #[test]
@@ -168,13 +168,13 @@ fn the_embedding_follows_while_a_pin_is_dragged() {
     let to = from + Vec2::new(60.0, -35.0);
     window.begin_drag(from, to, Modifiers::NONE);
     window.settle();
-    assert_eq!(window.editor().dragged_pin, Some(VertexId::new(40)));
+    assert_eq!(window.editor().tools.dragged(), Some(VertexId::new(40)));
     let drawn = window.editor().drawn_plane().expect("solved").positions()[40];
     assert!(drawn.distance(in_embedding(&window, to)) < 1e-9, "{drawn}");
     assert!(window.verdict().starts_with("preview, not repaired"), "{}", window.verdict());
     assert!(window.shows("Move the pin"), "the status bar says so");
     window.end_drag(to);
-    assert_eq!(window.editor().dragged_pin, None);
+    assert_eq!(window.editor().tools.dragged(), None);
 }
 
 #[test]
@@ -195,7 +195,7 @@ fn escape_during_a_drag_gives_it_up() {
     assert_eq!(document(&window), before);
     assert!(!window.editor().session.history().can_redo(), "what was given up is not done again");
     window.press(Modifiers::COMMAND, Key::Z);
-    assert!(document(&window).pins.is_empty(), "undo takes back the step before the drag");
+    assert!(document(&window).targets.is_empty(), "undo takes back the step before the drag");
 }
 
 #[test]
@@ -227,13 +227,14 @@ fn dragging_a_gauge_pin_makes_both_the_user_s() {
     let from = window.place_in_plane(gauge[&first].target);
     let to = from + Vec2::new(30.0, 40.0);
     window.drag(from, to, Modifiers::NONE);
-    let expected = [(first, Pin::fixed(in_embedding(&window, to))), (second, at)];
-    assert_eq!(document(&window).pins.into_iter().collect::<Vec<_>>(), expected);
+    let expected =
+        [(first, Target::fixed(in_embedding(&window, to))), (second, Target { uv: at.target, hold: at.hold })];
+    assert_eq!(document(&window).targets.into_iter().collect::<Vec<_>>(), expected);
     assert!(window.has_button(&format!("Pin {first}")) && window.has_button(&format!("Pin {second}")));
     assert!(!window.has_button(&format!("Gauge pin {first}")));
     assert!(distance(&before, &window.embedding()) > 0.01);
     window.press(Modifiers::COMMAND, Key::Z);
-    assert!(document(&window).pins.is_empty(), "one step");
+    assert!(document(&window).targets.is_empty(), "one step");
     assert!(distance(&before, &window.embedding()) < 1e-9);
 }
 
@@ -243,7 +244,7 @@ fn a_click_on_a_pin_selects_it_and_moves_nothing() {
     pin(&mut window, &[0, 40, 80]);
     let before = document(&window);
     window.click_at(window.place_in_plane(window.embedding()[40]) + Vec2::new(4.0, 3.0), Modifiers::NONE);
-    assert_eq!(window.editor().selection, [VertexId::new(40)].into());
+    assert_eq!(*window.editor().selection.vertices(), [VertexId::new(40)].into());
     assert_eq!(document(&window), before);
 }
 
@@ -254,7 +255,7 @@ fn a_pin_grabbed_beside_its_middle_does_not_jump() {
     let at = window.place_in_plane(window.embedding()[40]);
     let grabbed = at + Vec2::new(5.0, 5.0);
     window.drag(grabbed, grabbed + Vec2::new(40.0, 0.0), Modifiers::NONE);
-    let moved = window.place_in_plane(document(&window).pins[&VertexId::new(40)].target);
+    let moved = window.place_in_plane(document(&window).targets[&VertexId::new(40)].uv);
     assert!((moved - at - Vec2::new(40.0, 0.0)).length() < 0.01, "{:?}", moved - at);
 }
 
@@ -262,12 +263,12 @@ fn a_pin_grabbed_beside_its_middle_does_not_jump() {
 fn escape_ends_the_tool_and_then_the_selection() {
     let mut window = window();
     window.click("Fix: pin a vertex where it lies");
-    window.editor_mut().selection.insert(VertexId::new(3));
+    window.editor_mut().selection.add([VertexId::new(3)]);
     window.key(Key::Escape);
-    assert_eq!(window.editor().tool, Tool::Select);
-    assert_eq!(window.editor().selection.len(), 1);
+    assert_eq!(window.editor().tools.tool(), Tool::Select);
+    assert_eq!(window.editor().selection.vertices().len(), 1);
     window.key(Key::Escape);
-    assert!(window.editor().selection.is_empty());
+    assert!(window.editor().selection.vertices().is_empty());
 }
 
 #[test]
@@ -282,7 +283,7 @@ fn a_drag_on_the_mesh_orbits_and_with_shift_pans() {
     let panned = window.editor().orbit.expect("a mesh shows");
     assert_ne!(panned, orbited);
     window.key(Key::F);
-    assert!(document(&window).pins.is_empty() && window.editor().selection.is_empty());
+    assert!(document(&window).targets.is_empty() && window.editor().selection.vertices().is_empty());
 }
 
 #[test]
