@@ -69,14 +69,18 @@ impl PlaneView {
         let Some(before) = before else { return };
         let (from, to) = (&before.outcome, &target.outcome);
         let is_other_step = before.outcome_revision != target.outcome_revision;
-        let is_same_run = from.settings == to.settings && from.pins == to.pins && from.step.index != to.step.index;
+        let is_same_run = from.problem.settings == to.problem.settings
+            && from.problem.targets == to.problem.targets
+            && from.step.index != to.step.index;
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
         let is_too_large = self.ease.too_large == Some(target.mesh.model_revision);
         let cameras = self.camera_along(&target, around);
         if around.glides && is_other_step && is_same_run && is_same_mesh && !is_too_large {
             let from = before.positions().to_vec();
             self.ease.under_way = Some(Way { from, began: around.host.now(), drawn: target, cameras });
-        } else if let Some([_, goal]) = cameras.filter(|_| is_other_step && from.pins == to.pins) {
+        } else if let Some([_, goal]) =
+            cameras.filter(|_| is_other_step && from.problem.targets == to.problem.targets)
+        {
             self.set_framed(goal);
         }
     }
