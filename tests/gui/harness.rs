@@ -127,8 +127,10 @@ impl Window {
         let plane_drawn = editor.plane.scene().map(|scene| scene.outcome_revision);
         let mesh_wanted = session.model().map(|_| session.model_revision());
         let plane_wanted = session.outcome().map(|_| session.outcome_revision());
-        let scenes_drawn =
-            mesh_drawn == mesh_wanted && plane_drawn == plane_wanted && editor.plane.hull_is_drawn() && !editor.plane.is_easing();
+        let scenes_drawn = mesh_drawn == mesh_wanted
+            && plane_drawn == plane_wanted
+            && editor.plane.hull_is_drawn()
+            && !editor.plane.is_easing();
         session.busy().is_none() && !session.is_following() && scenes_drawn
     }
 
@@ -307,7 +309,10 @@ impl Window {
         let scene = editor.mesh_scene().expect("a mesh shows");
         let position = scene.mesh().positions[vertex.index()];
         let camera = editor.mesh.camera().expect("a mesh shows");
-        on_screen(self.mesh_view(), camera.pane_from_world(position, editor.mesh.area().size()).expect("before the eye"))
+        on_screen(
+            self.mesh_view(),
+            camera.pane_from_world(position, editor.mesh.area().size()).expect("before the eye"),
+        )
     }
 
     /// Where a point of the embedding shows.

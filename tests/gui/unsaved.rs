@@ -126,7 +126,8 @@ fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
     assert_ne!(window.editor().mesh.camera(), Some(orbit));
     let path = window.path("sheet.freebound");
     window.open(&path);
-    let (again, plane_again) = (window.editor().mesh.camera().expect("a mesh"), window.editor().plane.camera().expect("solved"));
+    let (again, plane_again) =
+        (window.editor().mesh.camera().expect("a mesh"), window.editor().plane.camera().expect("solved"));
     assert!(again.eye().distance(orbit.eye()) < 1e-9 && again.pivot().distance(orbit.pivot()) < 1e-9, "{again:?}");
     assert!(plane_again.center().distance(plane.center()) < 1e-9, "{plane_again:?}");
     // What the pane shows is kept, and a bar with a message makes it a little lower.

@@ -78,8 +78,7 @@ impl PlaneView {
         if around.glides && is_other_step && is_same_run && is_same_mesh && !is_too_large {
             let from = before.positions().to_vec();
             self.ease.under_way = Some(Way { from, began: around.host.now(), drawn: target, cameras });
-        } else if let Some([_, goal]) =
-            cameras.filter(|_| is_other_step && from.problem.targets == to.problem.targets)
+        } else if let Some([_, goal]) = cameras.filter(|_| is_other_step && from.problem.targets == to.problem.targets)
         {
             self.set_framed(goal);
         }
