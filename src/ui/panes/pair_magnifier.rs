@@ -94,7 +94,7 @@ pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &
 }
 
 /// The inset over the embedding's pane.
-pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene)) {
+pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene) {
     let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
     let Some(around) = editor.plane.camera() else { return };
     let at = pane::on_screen(rect, around.pane_from_embedding(target, pane::size_of(rect)));
@@ -109,7 +109,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
     let theme = theme_of(ui);
     frame_of(ui, inset, theme);
     if editor.host.has_gpu() {
-        let mut frame = plane_pane::frame(editor, (mesh, plane), camera, theme);
+        let mut frame = plane_pane::frame(editor, plane, camera, theme);
         frame.ghost = None;
         ui.painter().add(render::plane_pane(PaneId("pair in plane"), inset, frame));
     }

@@ -14,12 +14,12 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{PlaneView, Surroundings};
+use super::PlaneView;
 
 use crate::geom::{Orientation, Similarity, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
-use crate::session::{Job, Outcome, Poll};
+use crate::session::{Background, Outcome, Wake};
 use crate::solver::{Outline, Outside, VirtualBoundary};
 use crate::ui::editor::scene::{Part, PlaneScene};
 use crate::ui::theme::Theme;
@@ -65,14 +65,15 @@ impl Stage {
 }
 
 /// Hull and pockets as the window has them.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct HullView {
     /// Whether they show.
     shown: bool,
     /// The stage that is chosen.
     stage: Stage,
     scene: Option<HullScene>,
-    job: Option<Job<(), HullScene>>,
+    /// The stage that is being made, with the outcome's revision.
+    job: Background<(u64, Stage), HullScene>,
     /// The camera from before they showed, and the one that frames them.
     cameras: Option<[PlaneCamera; 2]>,
 }
@@ -245,6 +246,11 @@ fn moved_along(points: &[DVec2], disk: &DiskMesh, [before, after]: [&[DVec2]; 2]
 }
 
 impl HullView {
+    pub(super) fn new(wake: &Wake) -> Self {
+        let (stage, job) = (Stage::default(), Background::new("hull", wake));
+        Self { shown: false, stage, scene: None, job, cameras: None }
+    }
+
     /// Whether hull and pockets are wanted.
     pub(super) fn is_shown(&self) -> bool {
         self.shown
@@ -252,7 +258,7 @@ impl HullView {
 
     /// Whether a stage is being made.
     pub(super) fn is_making_scene(&self) -> bool {
-        self.job.is_some()
+        self.job.is_busy()
     }
 }
 
@@ -285,17 +291,13 @@ impl PlaneView {
     }
 
     /// Makes the chosen stage in the background where it is not there yet.
-    pub(super) fn poll_hull(&mut self, around: Surroundings) {
-        if let Some(job) = &self.hull.job {
-            match job.poll() {
-                Poll::Running => return,
-                Poll::Lost => self.hull.job = None,
-                Poll::Done(scene) => {
-                    self.hull.job = None;
-                    self.hull.scene = Some(scene);
-                    self.frame_hull();
-                }
-            }
+    pub(super) fn poll_hull(&mut self) {
+        if let Some((_, Ok(scene))) = self.hull.job.poll() {
+            self.hull.scene = Some(scene);
+            self.frame_hull();
+        }
+        if self.hull.job.is_busy() {
+            return;
         }
         if !self.hull.shown {
             self.hull.scene = None;
@@ -306,8 +308,7 @@ impl PlaneView {
         let is_made = self.hull.scene.as_ref().is_some_and(|scene| scene.key == key);
         let Some(disk) = plane.mesh.model.disk().filter(|_| !is_made) else { return };
         let (disk, plane) = (Arc::clone(disk), Arc::clone(plane));
-        let work = move |_: &_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1);
-        self.hull.job = Job::spawn("hull", around.host.waker(), work).ok();
+        self.hull.job.start(key, move |_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1));
     }
 
     /// Shows or hides hull and pockets. The camera comes back where nobody has moved it since.
