@@ -11,10 +11,10 @@ mod common;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::io::{ObjMesh, write_obj};
+use freebound::io::{ObjMesh, Target, write_obj};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, RecentFiles, Session};
-use freebound::solver::{Family, Hold, Method, Pin, Settings, verdict};
+use freebound::solver::{Family, Hold, Method, Settings, verdict};
 use freebound::view::{PlaneArrays, PlaneBox, UnitPlane};
 use glam::DVec2;
 
@@ -77,13 +77,13 @@ fn drag(vertices: usize) -> [String; 7] {
         let vertex = VertexId::from_index((2 * k + 1) * mesh.vertex_count() / (2 * CONSTRAINTS));
         let hold = if k % 6 == 5 { Hold::Weighted(10.0) } else { Hold::Hard };
         let target = flat[vertex.index()] + DVec2::from_angle(k as f64) * (0.01 * extent);
-        session.handle(Action::Place { vertex, pin: Pin { target, hold } });
+        session.handle(Action::Place { vertex, target: Target { uv: target, hold } });
     }
     settle(&mut session);
     let (mut first, mut move_, mut arrays, mut proof) =
         (Times::default(), Times::default(), Times::default(), Times::default());
     let mut bytes = 0;
-    let pins: Vec<(VertexId, DVec2)> = session.document().pins.iter().map(|(&v, pin)| (v, pin.target)).collect();
+    let pins: Vec<(VertexId, DVec2)> = session.document().targets.iter().map(|(&v, target)| (v, target.uv)).collect();
     for (vertex, from) in pins {
         let begin = Instant::now();
         session.handle(Action::MovePin { vertex, target: from + DVec2::X * (1e-4 * extent) });

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use freebound::io::{Constraints, read_mesh};
+use freebound::geom::PictureFrame;
+use freebound::io::{Constraints, pins_in_plane, read_mesh};
 use freebound::mesh::DiskMesh;
 use freebound::solver::{Choice as _, Pins, Settings, Step, distortion, verdict};
 use glam::DVec2;
@@ -82,7 +83,8 @@ fn mesh_of(set: &Path) -> PathBuf {
 fn row(path: &Path) -> Result<[String; 13], String> {
     let file = read_mesh(&mesh_of(path)).map_err(|error| error.to_string())?;
     let mesh = DiskMesh::try_from(file.polygons.triangulate()).map_err(|error| error.to_string())?;
-    let pins = Constraints::read(path, mesh.vertex_count()).map_err(|error| error.to_string())?.pins;
+    let targets = Constraints::read(path, mesh.vertex_count()).map_err(|error| error.to_string())?.targets;
+    let pins = pins_in_plane(&targets, PictureFrame::default());
     let settings = Settings { relax_rounds: Some(RELAX_ROUNDS), ..Settings::default() };
     let found = Outcome::of(&mesh, settings, &pins);
     let shown = found.solved.as_ref().map(|(_, step)| step).or(found.last.as_ref());
