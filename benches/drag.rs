@@ -7,6 +7,8 @@
 //! has 16.7 ms.
 
 mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -19,9 +21,9 @@ use freebound::view::{PlaneArrays, PlaneBox, UnitPlane};
 use glam::DVec2;
 
 use common::machine::print_machine;
-use common::sheet::sheet_of_faces;
 use common::table::{Table, seconds};
 use common::{Times, arguments};
+use makers::sheet_of_faces;
 
 /// Vertices of the meshes.
 const SIZES: [usize; 2] = [20_000, 100_000];

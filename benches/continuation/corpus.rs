@@ -10,6 +10,7 @@ use freebound::solver::{Choice as _, Pins, Settings, Step, distortion, verdict};
 use glam::DVec2;
 
 use crate::common::table::{Table, seconds};
+use crate::makers::corpus;
 use crate::outcome::Outcome;
 
 /// Rounds of relaxing at the end.
@@ -55,9 +56,7 @@ pub(crate) fn run(is_quick: bool) {
 
 /// The constraint files, in the order of their names.
 fn sets() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus/constrained");
-    let Ok(entries) = fs::read_dir(&folder) else {
-        println!("nothing to do: there is no corpus at {}", folder.display());
+    let Some(entries) = corpus().and_then(|folder| fs::read_dir(folder.join("constrained")).ok()) else {
         return Vec::new();
     };
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();

@@ -37,7 +37,7 @@ pub use obj::{
     write_obj,
 };
 pub use output::{Output, OutputKind, ProvedEmbedding, TexturePicture};
-pub use picture::{PictureError, read_picture};
+pub use picture::{PictureError, decode_picture, read_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };

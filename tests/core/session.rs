@@ -14,7 +14,7 @@ use freebound::solver::{BoundaryShape, Control, Family, Method, Settings, flatte
 use glam::DVec2;
 use tempfile::TempDir;
 
-use crate::common::{Random, grid};
+use crate::makers::{Random, grid};
 
 /// What the background is given before a test fails.
 const PATIENCE: Duration = Duration::from_secs(90);

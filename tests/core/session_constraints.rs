@@ -11,7 +11,7 @@ use freebound::session::{Action, Outcome, OutputFit, Problem, Session, Stop};
 use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
 use glam::DVec2;
 
-use crate::common::grid;
+use crate::makers::grid;
 use crate::session::{session, settle, settled, write_obj};
 
 fn id(number: u32) -> VertexId {

@@ -10,7 +10,8 @@ use freebound::solver::Hold;
 use glam::{DVec2, DVec3};
 use tempfile::TempDir;
 
-use crate::common::{corpus_disks, grid};
+use crate::common::corpus_disks;
+use crate::makers::grid;
 use crate::session::{session, settled, write_obj};
 
 pub(crate) fn id(number: u32) -> VertexId {

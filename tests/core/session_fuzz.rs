@@ -11,7 +11,7 @@ use freebound::solver::{BoundaryShape, Family, Hold, Method, Settings, Treatment
 use glam::DVec2;
 use tempfile::TempDir;
 
-use crate::common::Random;
+use crate::makers::Random;
 use crate::session::{session, settle, settled};
 use crate::session_documents::{errors, id, write_dome, write_picture};
 

@@ -11,7 +11,7 @@ use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop
 use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
-use crate::common::grid;
+use crate::makers::grid;
 use crate::session::{opened, session, settle, settled, write_obj};
 
 /// Neither proof nor standstill ends a run: it goes on to the limit of steps.

@@ -6,7 +6,7 @@ use freebound::mesh::{DiskMesh, FaceId};
 use freebound::session::{Outcome, Problem, Timeline};
 use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
 
-use crate::common::grid;
+use crate::makers::grid;
 
 /// The first step of a small run.
 fn first() -> Outcome {

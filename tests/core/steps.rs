@@ -11,7 +11,8 @@ use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, to_unit
 use glam::DVec2;
 use serde_json::Value;
 
-use crate::common::{corpus_disks, csv_rows, fan, grid};
+use crate::common::{corpus_disks, csv_rows};
+use crate::makers::{fan, grid};
 use crate::program::{Program, argument, coordinates_by_vertex, example_file};
 
 /// Two opposite corners of the cube's top: mean-value weights fold 8 faces when they are pinned.
