@@ -141,17 +141,3 @@ pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Click, Shift + click", "The tool's work; add to the selection"),
     ("Shift + click on a step", "Compare with it the step on the screen"),
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_key_is_bound_twice() {
-        for (i, a) in BINDINGS.iter().enumerate() {
-            for b in &BINDINGS[i + 1..] {
-                assert_ne!(a.shortcut, b.shortcut, "{} and {}", a.about, b.about);
-            }
-        }
-    }
-}

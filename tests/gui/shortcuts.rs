@@ -30,6 +30,15 @@ fn pin(window: &mut Window, vertices: &[u32]) {
 }
 
 #[test]
+fn no_key_is_bound_twice() {
+    for (i, a) in BINDINGS.iter().enumerate() {
+        for b in &BINDINGS[i + 1..] {
+            assert_ne!(a.shortcut, b.shortcut, "{} and {}", a.about, b.about);
+        }
+    }
+}
+
+#[test]
 fn shortcuts_do_what_the_table_says() {
     for binding in BINDINGS {
         let mut window = window();

@@ -49,6 +49,11 @@ impl Editor {
         self.session.project_name().unwrap_or_else(|| "Freebound".to_owned())
     }
 
+    /// The same, with a mark where work is not saved.
+    pub(super) fn marked_name(&self) -> String {
+        format!("{}{}", if self.session.has_unsaved_work() { "• " } else { "" }, self.document_name())
+    }
+
     /// Does what would lose the open document: at once where nothing is lost, else once the person has answered.
     pub(in crate::ui) fn wish(&mut self, wish: Wish) {
         if self.session.has_unsaved_work() {
@@ -142,9 +147,8 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
 
 /// Gives the window its title: the document's name, with a mark where work is not saved.
 pub(in crate::ui) fn title_of_window(editor: &mut Editor) {
-    let mark = if editor.session.has_unsaved_work() { "• " } else { "" };
     let title = match editor.session.model() {
-        Some(_) => format!("{mark}{} – Freebound", editor.document_name()),
+        Some(_) => format!("{} – Freebound", editor.marked_name()),
         None => "Freebound".to_owned(),
     };
     editor.host.set_title(title);
