@@ -46,7 +46,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     let is_covered = |at: Pos2| magnifier.as_ref().is_some_and(|magnifier| magnifier.rect.contains(at));
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at) && !is_covered(*at));
     if response.hovered() || response.contains_pointer() {
-        look_under(ui, editor, (rect, &plane, camera), pointer);
+        look_under(ui, editor, &plane, pointer);
     }
     if editor.host.has_gpu() {
         let frame = frame(editor, &plane, camera, theme);
@@ -74,12 +74,8 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
 }
 
 /// Takes in what is under the pointer: a pin by its mark, which lies over the vertices, else the nearest vertex.
-fn look_under(
-    ui: &egui::Ui,
-    editor: &mut Editor,
-    (rect, plane, camera): (Rect, &PlaneScene, PlaneCamera),
-    pointer: Option<Pos2>,
-) {
+fn look_under(ui: &egui::Ui, editor: &mut Editor, plane: &PlaneScene, pointer: Option<Pos2>) {
+    let (Some(rect), Some(camera)) = (editor.plane.area().rect(), editor.plane.camera()) else { return };
     let size = pane::size_of(rect);
     let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, rect, camera, at));
     let pointer = pointer.map(|at| pane::in_pane(rect, at));

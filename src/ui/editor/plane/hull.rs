@@ -19,7 +19,7 @@ use super::PlaneView;
 use crate::geom::{Orientation, Similarity, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
-use crate::session::{Background, Outcome, Wake};
+use crate::session::{Background, Wake};
 use crate::solver::{Outline, Outside, VirtualBoundary};
 use crate::ui::editor::scene::{Part, PlaneScene};
 use crate::ui::theme::Theme;
@@ -98,76 +98,69 @@ pub struct HullScene {
 
 impl HullScene {
     fn new(disk: &DiskMesh, result: &PlaneScene, stage: Stage) -> Self {
-        let (outcome, key) = (&result.outcome, (result.outcome_revision, stage));
-        if let Some(outside) = &outcome.step.outside {
-            return Self::of_outside(result, outside, key);
-        }
-        let Some(stages) = &outcome.step.virtual_boundary else { return Self::of_free_boundary(disk, outcome, key) };
-        let mut scene = Self {
-            key,
+        let step = &result.outcome.step;
+        let scene = match (&step.outside, &step.virtual_boundary) {
+            (Some(outside), _) => Self::of_outside(result, outside),
+            (None, Some(stages)) => Self::of_stage(disk, result, stage, stages),
+            (None, None) => Self::of_free_boundary(disk, &step.solution.embedding),
+        };
+        Self { key: (result.outcome_revision, stage), ..scene }
+    }
+
+    /// A hull without pockets, with the mesh as in the result.
+    fn of_hull(corners: &[VertexId], caption: String) -> Self {
+        Self {
+            key: (0, Stage::default()),
             plane: None,
             paint: None,
-            hull: Arc::new(EdgeList::closed_loop(&stages.hull)),
+            hull: Arc::new(EdgeList::closed_loop(corners)),
             pocket_edges: Arc::new(EdgeList::new(Vec::new())),
             pockets: Arc::new(FaceList::new(Vec::new())),
-            caption: caption(key.1, stages),
-            has_stages: true,
-        };
-        let positions = match key.1 {
+            caption,
+            has_stages: false,
+        }
+    }
+
+    fn with_pockets(self, triangles: &[[VertexId; 3]]) -> Self {
+        let pocket_edges = Arc::new(EdgeList::new(sides_of(triangles)));
+        Self { pocket_edges, pockets: Arc::new(FaceList::new(triangles.to_vec())), ..self }
+    }
+
+    fn of_stage(disk: &DiskMesh, result: &PlaneScene, stage: Stage, stages: &VirtualBoundary) -> Self {
+        let hull: &[VertexId] = if stage == Stage::Peeled { &[] } else { &stages.hull };
+        let scene = Self { has_stages: true, ..Self::of_hull(hull, caption(stage, stages)) };
+        let positions = match stage {
             Stage::Before | Stage::Pockets => &stages.before,
             Stage::Solved => &stages.solved,
-            Stage::Peeled => {
-                scene.hull = Arc::new(EdgeList::new(Vec::new()));
-                return scene;
-            }
+            Stage::Peeled => return scene,
         };
-        if key.1 != Stage::Before {
-            scene.pocket_edges = Arc::new(EdgeList::new(sides_of(&stages.pockets)));
-            scene.pockets = Arc::new(FaceList::new(stages.pockets.clone()));
-        }
-        let moved = moved_along(positions, disk, [&stages.solved, &outcome.step.solution.embedding]);
-        let flipped = flipped_faces(disk, positions);
-        scene.plane = Some(Arc::new(result.of_part(Part::Stage, moved)));
-        scene.paint = Some(Arc::new(FacePaint::plain(disk.face_count(), &flipped)));
-        scene
+        let moved = moved_along(positions, disk, [&stages.solved, &result.outcome.step.solution.embedding]);
+        let plane = Some(Arc::new(result.of_part(Part::Stage, moved)));
+        let paint = Some(Arc::new(FacePaint::plain(disk.face_count(), &flipped_faces(disk, positions))));
+        let scene = Self { plane, paint, ..scene };
+        if stage == Stage::Before { scene } else { scene.with_pockets(&stages.pockets) }
     }
 
     /// A step that was made with the outside triangulated up to a frame: the result within it.
-    fn of_outside(result: &PlaneScene, outside: &Outside, key: (u64, Stage)) -> Self {
+    fn of_outside(result: &PlaneScene, outside: &Outside) -> Self {
         let embedding = result.positions();
         let around: Vec<VertexId> =
             (0..outside.frame.len()).map(|k| VertexId::from_index(embedding.len() + k)).collect();
         let points = embedding.iter().chain(&outside.frame).copied().collect();
-        Self {
-            key,
-            plane: Some(Arc::new(result.of_part(Part::WithOutside, points))),
-            paint: None,
-            hull: Arc::new(EdgeList::closed_loop(&around)),
-            pocket_edges: Arc::new(EdgeList::new(sides_of(&outside.triangles))),
-            pockets: Arc::new(FaceList::new(outside.triangles.clone())),
-            caption: format!(
-                "{} triangles around the mesh, up to a frame: while none turns over, the boundary stays simple",
-                outside.triangles.len()
-            ),
-            has_stages: false,
-        }
+        let caption = format!(
+            "{} triangles around the mesh, up to a frame: while none turns over, the boundary stays simple",
+            outside.triangles.len()
+        );
+        let plane = Some(Arc::new(result.of_part(Part::WithOutside, points)));
+        Self { plane, ..Self::of_hull(&around, caption).with_pockets(&outside.triangles) }
     }
 
     /// A step that bent no boundary still has a hull.
-    fn of_free_boundary(disk: &DiskMesh, outcome: &Outcome, key: (u64, Stage)) -> Self {
+    fn of_free_boundary(disk: &DiskMesh, embedding: &[DVec2]) -> Self {
         let boundary = disk.boundary_loop();
-        let points: Vec<DVec2> = boundary.iter().map(|v| outcome.step.solution.embedding[v.index()]).collect();
+        let points: Vec<DVec2> = boundary.iter().map(|v| embedding[v.index()]).collect();
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
-        Self {
-            key,
-            plane: None,
-            paint: None,
-            hull: Arc::new(EdgeList::closed_loop(&corners)),
-            pocket_edges: Arc::new(EdgeList::new(Vec::new())),
-            pockets: Arc::new(FaceList::new(Vec::new())),
-            caption: "This step has no virtual boundary; the line is the hull of the free one".to_owned(),
-            has_stages: false,
-        }
+        Self::of_hull(&corners, "This step has no virtual boundary; the line is the hull of the free one".to_owned())
     }
 
     /// Faces of the mesh that are turned over at a stage before the result.
