@@ -37,7 +37,7 @@ fn a_mesh_is_opened_through_the_dialog() {
     window.click("second.obj");
     window.click("Open");
     assert_eq!(name(&window), "second.obj");
-    assert!(!window.editor().dialogs.is_open());
+    assert!(!window.editor().files.dialogs.is_open());
 }
 
 #[test]
@@ -71,15 +71,15 @@ fn a_dialog_is_left_by_cancel_or_escape() {
     let mut window = window();
     window.press(Modifiers::COMMAND, Key::O);
     window.click("Cancel");
-    assert!(!window.editor().dialogs.is_open());
+    assert!(!window.editor().files.dialogs.is_open());
     ask_where_to_save(&mut window);
     window.key(Key::Escape);
-    assert!(!window.editor().dialogs.is_open());
+    assert!(!window.editor().files.dialogs.is_open());
     ask_where_to_save(&mut window);
     window.harness.get_by_role_and_label(Role::TextInput, "Name").click();
     window.step();
     window.key(Key::Escape);
-    assert!(!window.editor().dialogs.is_open(), "from its text field too");
+    assert!(!window.editor().files.dialogs.is_open(), "from its text field too");
     assert!(!window.path("sheet-flat.obj").exists());
 }
 
@@ -134,7 +134,7 @@ fn the_list_of_exports_has_the_same_entries_as_the_menu() {
     window.press(Modifiers::COMMAND, Key::E);
     assert!(window.has_button("Picture of the mesh's pane…") && window.has_button("Layout at true scale…"));
     window.click("Report…");
-    assert!(window.editor().dialogs.is_open() && !window.editor().layout.exports_shown);
+    assert!(window.editor().files.dialogs.is_open() && !window.editor().layout.exports_shown);
     window.click("Export");
     assert!(window.path("sheet-report.json").exists());
 }
