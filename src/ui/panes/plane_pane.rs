@@ -6,14 +6,10 @@ use eframe::egui;
 use egui::{Pos2, Rect, Response};
 use glam::DVec2;
 
-use super::compare;
-use super::constrain;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, clicked, cursor, new_vertex_mark, new_vertices, style};
-use super::pair_magnifier;
-use super::pane;
-use super::pin_drag;
-use super::pins;
+use super::{compare, constrain};
+use super::{pair_magnifier, pane, pin_drag, pins};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::{Place, Surface};
