@@ -76,8 +76,8 @@ fn look_under(ui: &egui::Ui, editor: &mut Editor, plane: &PlaneScene, pointer: O
     let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, rect, camera, at));
     let pointer = pointer.map(|at| pane::in_pane(rect, at));
     let pick = pointer.and_then(|at| plane.picker.nearest_vertex(&camera, size, at));
-    let place = pointer.map(|at| camera.embedding_from_pane(at, size));
-    editor.pointer.over_plane(place, grip.or(pick.map(|pick| pick.vertex)));
+    let in_plane = pointer.map(|at| camera.embedding_from_pane(at, size));
+    editor.pointer.over_plane(in_plane, grip.or(pick.map(|pick| pick.vertex)));
     editor.aim(ui, Pane::Plane, grip);
 }
 
