@@ -59,7 +59,8 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
     editor.pointer.begin_frame();
     editor.tools.set_intent(Intent::Nothing);
-    editor.pane_rects = [None; 2];
+    editor.mesh.area_mut().hide();
+    editor.plane.area_mut().hide();
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
     if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Not before: the pane drawn first shows what the pointer found in the other.
@@ -130,7 +131,7 @@ fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
 fn carry_out_for_window(context: &egui::Context, editor: &mut Editor) {
     editor.host.put_on_theme();
     unsaved::title_of_window(editor);
-    if editor.quit {
+    if editor.host.is_quitting() {
         context.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 }
