@@ -58,16 +58,16 @@ impl Editor {
             sender.send(image).ok();
             wake();
         });
-        self.shot = Some(PaneShot { path, part, answer });
+        self.files.shot = Some(PaneShot { path, part, answer });
     }
 
     /// Takes in the picture of the window, and has the pane's part of it written. Call once per frame.
     pub(in crate::ui) fn poll_shot(&mut self) {
-        let Some(shot) = &self.shot else { return };
+        let Some(shot) = &self.files.shot else { return };
         let Ok(image) = shot.answer.try_recv() else { return };
         let scale = self.host.context().pixels_per_point();
         let part = cut(&image, shot.part * scale);
-        if let Some(shot) = self.shot.take() {
+        if let Some(shot) = self.files.shot.take() {
             self.session.save_picture(shot.path, part);
         }
     }

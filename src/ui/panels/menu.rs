@@ -135,8 +135,8 @@ fn file_menu(menu: &mut Menu<'_>) {
     });
     menu.part("Size in files", |menu| {
         let (unit, true_size) = (OutputFit::Unit, OutputFit::True);
-        menu.choice(editor.fit == unit, "Fit into the unit square", Request::SetFit(unit));
-        menu.choice(editor.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
+        menu.choice(editor.files.fit == unit, "Fit into the unit square", Request::SetFit(unit));
+        menu.choice(editor.files.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
         menu.separator();
         menu.ui.weak("With pins, coordinates stay as they are.");
     });

@@ -10,7 +10,7 @@ use crate::session::Action;
 use crate::solver::{Hold, Pin};
 use crate::ui::controls::{Control, Offer, counted, remark};
 use crate::ui::panes::pin_drag::conflict_words;
-use crate::ui::panes::pins::{self, Emphasis, PinKind};
+use crate::ui::panes::pins::{Emphasis, PinKind};
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Purpose, Request, Tool, keys_of};
 
@@ -127,7 +127,7 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId) {
 fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
-    pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(held), emphasis));
+    PinKind::User(held).mark(ui.painter(), rect.center(), theme_of(ui), emphasis);
     let words = match target.hold {
         Hold::Weighted(_) => "weighted",
         Hold::Fixed => "fixed",

@@ -32,7 +32,7 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(pill) = &pill
         && show_pill(ui, pill).clicked()
     {
-        let unmet = editor.unmet_shown();
+        let unmet = editor.session.outcome().map(|outcome| outcome.step.unmet()).unwrap_or_default();
         requests.push(match editor.has_defects() {
             true => Request::StepDefect(1),
             false if unmet.is_empty() => Request::ShowTab(Tab::Defects),
