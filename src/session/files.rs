@@ -1,100 +1,277 @@
-//! Writing files, in the background.
+//! Files of the session: what is open and what is saved of it, what is being read, what is being written.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
-use super::state::{REPORT_IT, lost};
-use super::{Finished, Job, Message, Place, Poll, SaveRequest, Session, Severity};
-use crate::geom::Picture;
-use crate::io::{WriteError, write_atomically, write_constraints, write_durably};
-use crate::solver::Verdict;
+use super::opened::{OpenError, Opened, Origin};
+use super::recovery::Autosave;
+use super::saving::{OutputSaves, ProjectSaves, Request, Saved, picture_source, source_of};
+use super::{Background, Document, Messages, Model, Place, RecentFiles, Recoverable, Wake};
+use crate::examples::Example;
+use crate::io::{ProjectFile, ProjectSource, ProjectView, WriteError};
 
-/// A file being written.
-pub(super) type SaveJob = Job<(), Result<Saved, WriteError>>;
+/// How long the end of a session waits for files that a person asked for, which may be large.
+const PATIENCE: Duration = Duration::from_mins(1);
 
-/// A file that was written.
-#[derive(Debug)]
-pub(super) enum Saved {
-    /// A result, with the verdict on it.
-    Output(PathBuf, Verdict),
-    /// So many constraints.
-    Constraints(PathBuf, usize),
-    /// A picture of what the screen shows.
-    Picture(PathBuf),
+/// What is open, apart from what is edited: what an edit is compared with.
+#[derive(Debug, Default)]
+struct OnTable {
+    /// Counts what was opened.
+    opening: u64,
+    /// What to call work that no project and no mesh names.
+    name: Option<String>,
+    /// The project that it is saved to.
+    project: Option<PathBuf>,
+    /// The document as it was opened or saved; none where it is nowhere but here.
+    saved: Option<Document>,
+    /// The project's picture, where it could not be read: it stays in the project until there is another.
+    missing_picture: Option<ProjectSource>,
+    /// How the person looks at it, to be saved with it.
+    view: ProjectView,
 }
 
-impl Session {
-    /// Writes the embedding on the screen.
-    pub(super) fn save(&mut self, request: SaveRequest) {
-        let (Some(model), Some(outcome)) = (self.model.clone(), self.outcome().cloned()) else {
-            return self.fail(Place::Embedding, "there is nothing to save yet: open a mesh first".to_owned(), None);
+/// What is open, read and written.
+pub(super) struct Files {
+    table: OnTable,
+    /// What is being opened, by the file that is to be remembered once it is open.
+    loading: Background<Option<PathBuf>, Result<Opened, OpenError>>,
+    outputs: OutputSaves,
+    projects: ProjectSaves,
+    autosave: Autosave,
+    recent: RecentFiles,
+}
+
+/// What is asked.
+impl Files {
+    /// Nothing is open yet.
+    pub(super) fn new(wake: &Wake, recent: RecentFiles) -> Self {
+        Self {
+            table: OnTable::default(),
+            loading: Background::new("load", wake),
+            outputs: OutputSaves::new(wake),
+            projects: ProjectSaves::new(wake),
+            autosave: Autosave::new(wake),
+            recent,
+        }
+    }
+
+    /// Counts what was opened.
+    pub(super) fn opening(&self) -> u64 {
+        self.table.opening
+    }
+
+    /// The project that the document is saved to.
+    pub(super) fn project(&self) -> Option<&PathBuf> {
+        self.table.project.as_ref()
+    }
+
+    /// What to call what is open.
+    pub(super) fn name(&self, model: Option<&Model>) -> Option<String> {
+        let stem = self.table.project.as_ref().and_then(|path| path.file_stem());
+        let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
+        stem.or_else(|| self.table.name.clone()).or_else(|| model.map(|model| model.name.clone()))
+    }
+
+    /// Whether a document is saved as it is.
+    pub(super) fn has_saved(&self, document: &Document) -> bool {
+        self.table.saved.as_ref() == Some(document)
+    }
+
+    /// How the person looks at it.
+    pub(super) fn view(&self) -> &ProjectView {
+        &self.table.view
+    }
+
+    /// Says how the person looks at it.
+    pub(super) fn set_view(&mut self, view: ProjectView) {
+        self.table.view = view;
+    }
+
+    /// The files opened last.
+    pub(super) fn recent(&self) -> &RecentFiles {
+        &self.recent
+    }
+
+    /// Forgets the files opened last.
+    pub(super) fn clear_recent(&mut self) {
+        self.recent.clear();
+    }
+
+    /// Whether something is being opened.
+    pub(super) fn is_loading(&self) -> bool {
+        self.loading.is_busy()
+    }
+
+    /// Whether a project is being written.
+    pub(super) fn is_saving_project(&self) -> bool {
+        self.projects.is_busy()
+    }
+
+    /// Whether a file is being written that a person asked for.
+    pub(super) fn is_saving(&self) -> bool {
+        self.outputs.is_busy() || self.projects.is_busy()
+    }
+
+    /// The document as a project file holds it.
+    pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
+        Some(ProjectFile {
+            mesh: source_of(model)?,
+            faces_turned: document.faces_turned,
+            picture: match &document.picture {
+                Some(picture) => picture_source(picture, model),
+                None => self.table.missing_picture.clone(),
+            },
+            v_axis: document.v_axis,
+            settings: document.settings,
+            targets: document.targets.clone(),
+            view: self.table.view.clone(),
+            recovery: None,
+        })
+    }
+}
+
+/// Reading.
+impl Files {
+    /// Opens a mesh file or a project.
+    pub(super) fn open(&mut self, path: PathBuf) {
+        self.loading.start(Some(path.clone()), move |_| Opened::read(&path));
+    }
+
+    /// Opens a built-in mesh.
+    pub(super) fn open_example(&mut self, example: Example) {
+        self.loading.start(None, move |_| Ok(Opened::example(example)));
+    }
+
+    /// Opens what a session before has left. It belongs to this session from now on.
+    pub(super) fn recover(&mut self, path: PathBuf, messages: &mut Messages) {
+        if self.autosave.claim(&path) {
+            self.loading.start(None, move |_| Opened::recovered(&path));
+        } else {
+            let text = format!("another session works with it already, or it is gone: {}", path.display());
+            messages.fail(Place::Mesh, text, None);
+        }
+    }
+
+    /// Opens nothing, whatever was asked for.
+    pub(super) fn cancel_loading(&mut self) {
+        self.loading.cancel();
+        self.autosave.give_up_claim();
+    }
+
+    /// What has been read.
+    pub(super) fn poll_loading(&mut self, messages: &mut Messages) -> Option<Opened> {
+        let (path, loaded) = self.loading.poll()?;
+        match loaded {
+            Ok(Ok(opened)) => {
+                if let Some(path) = path {
+                    self.recent.remember(&path);
+                }
+                return Some(opened);
+            }
+            Ok(Err(error)) => messages.fail(Place::Mesh, error.to_string(), Some(error.remedy())),
+            Err(failure) => messages.fail_background(Place::Mesh, "loading", &failure),
+        }
+        self.autosave.give_up_claim();
+        None
+    }
+
+    /// Puts what was opened on the table, in the place of what was there.
+    pub(super) fn put_on_table(&mut self, opened: &Opened) {
+        let Opened { document, view, origin, missing_picture, lost_pins, .. } = opened;
+        let is_recovered = matches!(origin, Origin::Recovery(_));
+        self.autosave.begin_anew(Some(document).filter(|_| is_recovered));
+        let (name, project) = match origin {
+            Origin::Mesh => (None, None),
+            Origin::Project(path) => (None, Some(path.clone())),
+            Origin::Recovery(note) => (Some(note.name.clone()), note.project.clone()),
         };
-        if !self.is_current() {
-            let text = "the embedding on the screen does not belong to these settings and pins yet".to_owned();
-            return self.fail(Place::Embedding, text, Some("save again when it is solved"));
-        }
-        let records = self.timeline.records()[..=outcome.step.index].to_vec();
-        let picture = self.document.picture.clone();
-        self.write(move || {
-            let disk = model.disk().expect("only a disk has an outcome");
-            let finished = Finished::new((&model, disk), &outcome, records, request.fit, 0.0).with_picture(picture);
-            finished.write(request.kind, &request.path)?;
-            Ok(Saved::Output(request.path, finished.verdict().clone()))
-        });
+        self.table = OnTable {
+            opening: self.table.opening + 1,
+            name,
+            // Where pins are left out, the file keeps them: saving asks for another place.
+            project: project.filter(|_| !lost_pins),
+            saved: Some(document.clone()).filter(|_| !is_recovered),
+            missing_picture: missing_picture.clone(),
+            view: view.clone(),
+        };
+    }
+}
+
+/// Writing.
+impl Files {
+    /// Writes a file that a person asked for.
+    pub(super) fn write(&mut self, work: impl FnOnce() -> Result<Saved, WriteError> + Send + 'static) {
+        self.outputs.start(work);
     }
 
-    /// Writes the targets as a constraint file.
-    pub(super) fn export_constraints(&mut self, path: PathBuf) {
-        let targets = self.document.targets.clone();
-        if targets.is_empty() {
-            return self.fail(
-                Place::Embedding,
-                "there are no constraints to write: pin a vertex first".to_owned(),
-                None,
-            );
-        }
-        self.write(move || {
-            write_durably(&path, |out| write_constraints(out, &targets))?;
-            Ok(Saved::Constraints(path, targets.len()))
-        });
+    /// Saves the project, after those that were asked for before.
+    pub(super) fn save_project(&mut self, path: PathBuf, project: ProjectFile, document: &Document) {
+        let request = Request { path, document: document.clone(), opening: self.table.opening };
+        self.projects.start(request, project);
     }
 
-    /// Writes a picture of what the screen shows, as a PNG.
-    pub fn save_picture(&mut self, path: PathBuf, picture: Picture) {
-        self.write(move || {
-            write_atomically(&path, |out| picture.write_png(out).map_err(std::io::Error::other))?;
-            Ok(Saved::Picture(path))
-        });
-    }
-
-    fn write(&mut self, work: impl FnOnce() -> Result<Saved, WriteError> + Send + 'static) {
-        match Job::spawn("save", self.waker(), move |_| work()) {
-            Ok(job) => self.saving.push(job),
-            Err(error) => self.fail(Place::Embedding, format!("no thread to save with: {error}"), None),
-        }
-    }
-
-    pub(super) fn poll_saving(&mut self) {
-        for job in std::mem::take(&mut self.saving) {
-            match job.poll() {
-                Poll::Running => self.saving.push(job),
-                Poll::Done(Ok(Saved::Output(path, verdict))) => {
-                    self.note(format!("wrote {} ({})", path.display(), verdict.summary()));
-                }
-                Poll::Done(Ok(Saved::Constraints(path, count))) => {
-                    let noun = if count == 1 { "constraint" } else { "constraints" };
-                    self.note(format!("wrote {} ({count} {noun})", path.display()));
-                }
-                Poll::Done(Ok(Saved::Picture(path))) => self.note(format!("wrote {}", path.display())),
-                Poll::Done(Err(error)) => self.fail(Place::Embedding, error.to_string(), None),
-                Poll::Lost => self.fail(Place::Embedding, lost("saving"), Some(REPORT_IT)),
+    /// Takes in what was written.
+    pub(super) fn poll_saving(&mut self, messages: &mut Messages) {
+        self.outputs.poll(messages);
+        while let Some(Request { path, document, opening }) = self.projects.poll(messages) {
+            self.recent.remember(&path);
+            messages.note(format!("saved {}", path.display()));
+            // Something else may have been opened meanwhile.
+            if opening == self.table.opening {
+                (self.table.project, self.table.saved) = (Some(path), Some(document));
             }
         }
     }
 
-    /// Says that something went well.
-    pub(super) fn note(&mut self, text: String) {
-        let id = self.next_id();
-        let (severity, place) = (Severity::Note, Place::Embedding);
-        self.messages.push(Message { id, severity, place, text, remedy: None, vertices: Vec::new() });
+    /// Waits until all files are written that were asked for, or the disk hangs.
+    pub(super) fn finish_writing(&mut self, messages: &mut Messages) {
+        let begun = Instant::now();
+        while self.is_saving() && begun.elapsed() < PATIENCE {
+            std::thread::sleep(Duration::from_millis(1));
+            self.poll_saving(messages);
+        }
+    }
+}
+
+/// Copies for recovery.
+impl Files {
+    /// Makes copies in a folder from now on, and looks at what is there.
+    pub(super) fn keep_copies_in(&mut self, folder: PathBuf) {
+        self.autosave.keep_copies_in(folder);
+    }
+
+    /// Work that sessions before have left unsaved, newest first.
+    pub(super) fn recoverable(&self) -> &[Recoverable] {
+        self.autosave.found()
+    }
+
+    /// Deletes what a session before has left.
+    pub(super) fn discard_recovery(&mut self, path: &Path) {
+        self.autosave.discard(path);
+    }
+
+    /// Makes a copy of the document where one is due. Nothing is open without a model.
+    pub(super) fn poll_copies(
+        &mut self,
+        now: Instant,
+        model: Option<&Model>,
+        document: &Document,
+        messages: &mut Messages,
+    ) {
+        self.autosave.poll(messages);
+        let Some(model) = model.filter(|_| !self.has_saved(document)) else { return self.autosave.leave_slot() };
+        if self.autosave.is_due(now, document)
+            && let Some(project) = self.project_file(model, document)
+        {
+            let name = self.name(Some(model)).unwrap_or_default();
+            let at = self.project().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
+            let recovery = Some(crate::io::RecoveryNote { name, project: at });
+            self.autosave.begin_copy(now, ProjectFile { recovery, ..project }, document, messages);
+        }
+    }
+
+    /// Ends the session as a person wishes: what is not saved is not wanted.
+    pub(super) fn close(&mut self) {
+        self.autosave.close();
     }
 }

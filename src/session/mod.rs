@@ -1,48 +1,79 @@
 //! One open document: what the user edits, its history, and the work that goes on in the background. No screen.
+//!
+//! The session is made of parts, each with fields of its own that nothing else touches. Requests come in through
+//! `Session::handle`, what the background has finished through `Session::poll`.
+//!
+//! | file            | what it holds                                                              |
+//! |-----------------|----------------------------------------------------------------------------|
+//! | `session`       | the session: its parts, `handle`, `poll`                                   |
+//! | `action`        | what a person can ask for                                                  |
+//! | `status`        | the state of the work on the screen                                        |
+//! | `edits`         | what is done to the document                                               |
+//! | `runs`          | how the document is solved, in a drag and otherwise                        |
+//! | `filing`        | what is opened and written                                                 |
+//! | `document`      | part: what the user edits; one edit                                        |
+//! | `history`       | part: undo and redo                                                        |
+//! | `open_mesh`     | part: the open mesh, its faces one way around or the other                 |
+//! | `solving`       | part: a run, its timeline, and where it comes to rest                      |
+//! | `courier`       | the background's end of a run                                              |
+//! | `timeline`      | the steps of a run                                                         |
+//! | `stop`          | where a run comes to rest                                                  |
+//! | `outcome`       | a step with its proof; the problem that it solves                          |
+//! | `drag`          | part: what follows the pointer                                             |
+//! | `errands`       | part: small work for the document that takes time                          |
+//! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
+//! | `files`         | part: what is open and saved, read and written                             |
+//! | `opened`        | what opening brings                                                        |
+//! | `model`         | mesh and picture as they were opened                                       |
+//! | `saving`        | files on their way to the disk                                             |
+//! | `finished`      | a result ready to be written                                               |
+//! | `recovery`      | copies for recovery                                                        |
+//! | `recent`        | the files opened last                                                      |
+//! | `messages`      | part: what there is to tell a person                                       |
+//! | `background`    | slots for work on background threads                                       |
 
 mod action;
-mod autosave;
 mod background;
-mod conflicts;
+mod courier;
 mod document;
+mod drag;
+mod edits;
 mod errands;
 mod files;
+mod filing;
+mod finished;
+mod history;
 mod job;
-mod load;
-mod message;
-mod mirrored;
-mod open;
+mod messages;
+mod model;
+mod open_mesh;
 mod opened;
-mod picture;
-mod pins;
-mod preview;
-mod project;
+mod outcome;
 mod recent;
 mod recovery;
-mod relax;
-mod run;
-mod save;
-mod solve;
-mod state;
+mod runs;
+mod saving;
+mod session;
+mod solving;
 mod status;
 mod stop;
-mod targets;
+mod target_checks;
 mod timeline;
-mod turn;
 
 pub use action::Action;
 pub use background::{Background, Failure, Wake};
-pub use document::{Command, Document, History};
+pub use document::{Command, Document};
+pub use drag::Preview;
+pub use finished::{Finished, SaveRequest};
+pub use history::History;
 pub use job::{Job, JobContext, Poll};
-pub use load::{Model, Surface};
-pub use message::{Message, Place, Severity};
-pub use picture::PictureFile;
-pub use preview::Preview;
+use messages::Messages;
+pub use messages::{Message, Place, Severity};
+pub use model::{Model, PictureFile, Surface};
+pub use outcome::{Outcome, OutputFit, Placement, Problem};
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
-pub use save::{Finished, SaveRequest};
-pub use solve::{Outcome, OutputFit, Placement, Problem};
-pub use state::{Busy, Session};
-pub use status::Status;
+pub use session::Session;
+pub use status::{Busy, Status};
 pub use stop::{Stop, StopConditions};
 pub use timeline::{Standing, TIMELINE_BUDGET, Timeline};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{Document, Model, PictureFile, Place};
+use super::{Document, Message, Model, PictureFile, Place};
 use crate::examples::Example;
 use crate::io::{
     FileStamp, PROJECT_EXTENSION, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError, RecoveryNote,
@@ -18,7 +18,7 @@ pub(super) struct Opened {
     pub(super) view: ProjectView,
     pub(super) origin: Origin,
     /// What is not as it ought to be.
-    pub(super) remarks: Vec<Remark>,
+    pub(super) remarks: Vec<Message>,
     /// The project's picture, where it could not be read.
     pub(super) missing_picture: Option<ProjectSource>,
     /// Whether pins of the project are left out.
@@ -34,14 +34,6 @@ pub(super) enum Origin {
     Project(PathBuf),
     /// A copy for recovery.
     Recovery(RecoveryNote),
-}
-
-/// Something to say once it is open.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Remark {
-    pub(super) place: Place,
-    pub(super) text: String,
-    pub(super) remedy: String,
 }
 
 /// Why something was not opened.
@@ -146,7 +138,7 @@ fn stamped(path: &Path) -> Result<Model, ReadError> {
     Ok(Model { stamp: FileStamp::read(path).ok(), ..Model::read(path)? })
 }
 
-fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Remark>) -> Result<Model, OpenError> {
+fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Message>) -> Result<Model, OpenError> {
     match source {
         ProjectSource::Example(name) => {
             let example = example_called(name).ok_or_else(|| OpenError::NoExample { name: name.clone() })?;
@@ -158,18 +150,16 @@ fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Remark>) -> Result<Mod
             }
             let model = stamped(path)?;
             if has_changed(stamp.as_ref(), model.stamp.as_ref()) {
-                remarks.push(Remark {
-                    place: Place::Mesh,
-                    text: format!("the mesh has changed since the project was saved: {}", path.display()),
-                    remedy: "check that the pins are on the right vertices, then save the project".to_owned(),
-                });
+                let text = format!("the mesh has changed since the project was saved: {}", path.display());
+                let remedy = "check that the pins are on the right vertices, then save the project";
+                remarks.push(Message::error(Place::Mesh, text).with_remedy(remedy));
             }
             Ok(model)
         }
     }
 }
 
-fn project_picture(source: &ProjectSource, remarks: &mut Vec<Remark>) -> Option<PictureFile> {
+fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option<PictureFile> {
     match source {
         ProjectSource::Example(name) => example_called(name).and_then(PictureFile::of_example),
         ProjectSource::File { path, stamp } => {
@@ -192,8 +182,8 @@ fn project_picture(source: &ProjectSource, remarks: &mut Vec<Remark>) -> Option<
     }
 }
 
-fn picture_remark(text: String, remedy: &str) -> Remark {
-    Remark { place: Place::Embedding, text, remedy: remedy.to_owned() }
+fn picture_remark(text: String, remedy: &str) -> Message {
+    Message::error(Place::Embedding, text).with_remedy(remedy)
 }
 
 /// Whether a file is in another state than it was. Where one of the two is not known there is nothing to say.
@@ -206,15 +196,15 @@ fn example_called(name: &str) -> Option<Example> {
 }
 
 /// The targets of vertices that the mesh has, with a remark about the others.
-fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Remark>) -> Targets {
+fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Message>) -> Targets {
     let count = model.mesh().vertex_count();
     let before = targets.len();
     targets.retain(|vertex, target| vertex.index() < count && target.uv.is_finite());
     let lost = before - targets.len();
     if lost > 0 {
         let text = format!("{lost} of the project's {before} pins are left out: the mesh has only {count} vertices");
-        let remedy = "place them again, or put the mesh back as it was and open the project again".to_owned();
-        remarks.push(Remark { place: Place::Embedding, text, remedy });
+        let remedy = "place them again, or put the mesh back as it was and open the project again";
+        remarks.push(Message::error(Place::Embedding, text).with_remedy(remedy));
     }
     targets
 }

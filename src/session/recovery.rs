@@ -1,4 +1,4 @@
-//! The folder of copies for recovery: what sessions that ended badly have left.
+//! Copies for recovery: made while a person works, and what sessions that ended badly have left.
 //!
 //! A session keeps one copy, and beside it a lock that it holds as long as it lives; the system lets go of the lock
 //! however the session ends. So a copy whose lock can be taken was left by the dead.
@@ -6,12 +6,23 @@
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime};
 
-use crate::io::{PROJECT_EXTENSION, ProjectFile};
+use super::{Background, Document, Messages, Place, Wake};
+use crate::io::{PROJECT_EXTENSION, PathStyle, ProjectFile, WriteError};
+
+/// Time from one copy to the next: what a crash may cost.
+const INTERVAL: Duration = Duration::from_secs(5);
+
+/// How long the end of a session waits for a copy that is being written. It is small: longer means that the disk hangs.
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Extension of a lock's name.
 const LOCK_EXTENSION: &str = "lock";
+
+/// Writes a copy of a document.
+type CopyJob = Background<Document, Result<(), WriteError>>;
 
 /// Work that a session left unsaved.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,7 +49,7 @@ pub fn recovery_folder() -> Option<PathBuf> {
 }
 
 /// What dead sessions have left in a folder, newest first. What cannot be read is left alone.
-pub(super) fn left_behind(folder: &Path) -> Vec<Recoverable> {
+fn left_behind(folder: &Path) -> Vec<Recoverable> {
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let is_copy = |path: &PathBuf| path.extension().is_some_and(|extension| extension == PROJECT_EXTENSION);
@@ -56,17 +67,180 @@ fn recoverable(path: PathBuf) -> Option<Recoverable> {
     Some(Recoverable { path, name: note.name, project: note.project, time, pin_count: project.targets.len() })
 }
 
+/// The copy of this session's work.
+pub(super) struct Autosave {
+    /// Where copies are kept; none are made without it.
+    folder: Option<PathBuf>,
+    /// What dead sessions have left there.
+    found: Vec<Recoverable>,
+    slot: Option<Slot>,
+    /// The copy that is being opened, to become the slot.
+    claimed: Option<Slot>,
+    /// The document in the slot.
+    written: Option<Document>,
+    /// The copy being written, by its document.
+    under_way: CopyJob,
+    /// Slots that are given up, but still written to.
+    leaving: Vec<(Slot, CopyJob)>,
+    begun: Option<Instant>,
+    has_failed: bool,
+    wake: Wake,
+}
+
+impl Autosave {
+    /// Copies are made once there is a folder for them.
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self {
+            folder: None,
+            found: Vec::new(),
+            slot: None,
+            claimed: None,
+            written: None,
+            under_way: Background::new("copy", wake),
+            leaving: Vec::new(),
+            begun: None,
+            has_failed: false,
+            wake: Arc::clone(wake),
+        }
+    }
+
+    /// Makes copies in a folder from now on, and looks at what is there.
+    pub(super) fn keep_copies_in(&mut self, folder: PathBuf) {
+        self.found = left_behind(&folder);
+        self.folder = Some(folder);
+    }
+
+    /// Work that sessions before have left unsaved, newest first.
+    pub(super) fn found(&self) -> &[Recoverable] {
+        &self.found
+    }
+
+    /// Takes what a dead session has left. Nothing else is ever taken, so that nothing else is ever deleted.
+    pub(super) fn claim(&mut self, path: &Path) -> bool {
+        let is_found = self.found.iter().any(|found| found.path == path);
+        self.claimed = if is_found { Slot::claim(path) } else { None };
+        self.claimed.is_some()
+    }
+
+    /// What was claimed stays where it is: it could not be opened.
+    pub(super) fn give_up_claim(&mut self) {
+        self.claimed = None;
+    }
+
+    /// Deletes what a dead session has left.
+    pub(super) fn discard(&mut self, path: &Path) {
+        let is_found = self.found.iter().any(|found| found.path == path);
+        self.found.retain(|found| found.path != path);
+        if let Some(slot) = Slot::claim(path).filter(|_| is_found) {
+            slot.remove();
+        }
+    }
+
+    /// Something else is on the table: the copy of what was there is of no use, and `recovered` has one already.
+    pub(super) fn begin_anew(&mut self, recovered: Option<&Document>) {
+        self.leave_slot();
+        self.slot = self.claimed.take().filter(|_| recovered.is_some());
+        self.written = recovered.cloned();
+        self.begun = None;
+        if let Some(slot) = &self.slot {
+            self.found.retain(|found| found.path != slot.path);
+        }
+    }
+
+    /// Deletes the copy, or has it deleted once it is written.
+    pub(super) fn leave_slot(&mut self) {
+        let job = std::mem::replace(&mut self.under_way, Background::new("copy", &self.wake));
+        match self.slot.take() {
+            Some(slot) if job.is_busy() => self.leaving.push((slot, job)),
+            Some(slot) => slot.remove(),
+            None => {}
+        }
+        self.written = None;
+    }
+
+    fn clear_left(&mut self) {
+        for (slot, mut job) in std::mem::take(&mut self.leaving) {
+            if job.poll().is_none() {
+                self.leaving.push((slot, job));
+            } else {
+                slot.remove();
+            }
+        }
+    }
+
+    /// Takes in a copy that was written.
+    pub(super) fn poll(&mut self, messages: &mut Messages) {
+        self.clear_left();
+        match self.under_way.poll() {
+            None => {}
+            Some((document, Ok(Ok(())))) => self.written = Some(document),
+            Some((_, Ok(Err(error)))) => self.tell_no_copy(&error.to_string(), messages),
+            Some((_, Err(failure))) => self.tell_no_copy(&failure.words("the copy"), messages),
+        }
+    }
+
+    /// Whether a copy of the document is to be made now.
+    pub(super) fn is_due(&self, now: Instant, document: &Document) -> bool {
+        let is_time = self.begun.is_none_or(|begun| now.saturating_duration_since(begun) >= INTERVAL);
+        let is_new = self.written.as_ref() != Some(document);
+        self.folder.is_some() && is_time && is_new && !self.under_way.is_busy()
+    }
+
+    /// Writes a copy of the document.
+    pub(super) fn begin_copy(
+        &mut self,
+        now: Instant,
+        project: ProjectFile,
+        document: &Document,
+        messages: &mut Messages,
+    ) {
+        let Some(folder) = &self.folder else { return };
+        self.begun = Some(now);
+        if self.slot.is_none() {
+            match Slot::new(folder) {
+                Ok(slot) => self.slot = Some(slot),
+                Err(error) => {
+                    let reason = format!("{error}: {}", folder.display());
+                    return self.tell_no_copy(&reason, messages);
+                }
+            }
+        }
+        let Some(path) = self.slot.as_ref().map(|slot| slot.path.clone()) else { return };
+        self.under_way.start(document.clone(), move |_| project.write(&path, PathStyle::Absolute));
+    }
+
+    /// Says once that there is no copy: it is no reason to disturb a person again and again.
+    fn tell_no_copy(&mut self, reason: &str, messages: &mut Messages) {
+        if !std::mem::replace(&mut self.has_failed, true) {
+            let text = format!("no copy is kept for recovery: {reason}");
+            messages.fail(Place::Embedding, text, Some("save the project by hand"));
+        }
+    }
+
+    /// Deletes the copy, and makes no further one: what is not saved is not wanted.
+    pub(super) fn close(&mut self) {
+        self.leave_slot();
+        let begun = Instant::now();
+        self.clear_left();
+        while !self.leaving.is_empty() && begun.elapsed() < PATIENCE {
+            std::thread::sleep(Duration::from_millis(1));
+            self.clear_left();
+        }
+        self.folder = None;
+    }
+}
+
 /// A place for a copy that belongs to this session.
 #[derive(Debug)]
-pub(super) struct Slot {
-    pub(super) path: PathBuf,
+struct Slot {
+    path: PathBuf,
     /// Held until the slot is dropped.
     _lock: File,
 }
 
 impl Slot {
     /// Makes a new place.
-    pub(super) fn new(folder: &Path) -> io::Result<Self> {
+    fn new(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let suffix = format!(".{LOCK_EXTENSION}");
         let named = tempfile::Builder::new().prefix("work-").suffix(&suffix).tempfile_in(folder)?;
@@ -76,7 +250,7 @@ impl Slot {
     }
 
     /// Takes over a copy that no living session holds.
-    pub(super) fn claim(path: &Path) -> Option<Self> {
+    fn claim(path: &Path) -> Option<Self> {
         if !path.is_file() {
             return None;
         }
@@ -87,7 +261,7 @@ impl Slot {
     }
 
     /// Deletes the copy. The lock goes last, so that nobody takes the copy for one of the dead.
-    pub(super) fn remove(self) {
+    fn remove(self) {
         fs::remove_file(&self.path).ok();
         fs::remove_file(self.path.with_extension(LOCK_EXTENSION)).ok();
     }

@@ -1,7 +1,18 @@
-//! The state of the work on the screen, in one word.
+//! The state of the work on the screen, in one word, and the questions that it is made of.
 
 use super::{Preview, Session};
-use crate::solver::Verdict;
+use crate::solver::{Phase, Verdict};
+
+/// What goes on in the background.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Busy {
+    /// Reading and diagnosing a mesh, or reading something for it.
+    Loading,
+    /// Solving; the phase where it is known.
+    Solving(Option<Phase>),
+    /// Writing a file.
+    Saving,
+}
 
 /// How what the screen shows stands to the document.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +34,7 @@ pub enum Status<'a> {
 impl Session {
     /// How what the screen shows stands to the document.
     pub fn status(&self) -> Status<'_> {
-        let is_first = self.timeline.records().len() <= 1;
+        let is_first = self.timeline().records().len() <= 1;
         let is_current = self.is_current();
         if self.is_preview() {
             Status::Preview(self.preview())
@@ -52,5 +63,43 @@ impl Session {
     /// Whether anything is under way in the background that changes what the screen shows or what files hold.
     pub fn is_at_work(&self) -> bool {
         self.busy().is_some() || self.is_following()
+    }
+
+    /// What goes on in the background that is worth waiting for.
+    pub fn busy(&self) -> Option<Busy> {
+        if self.files.is_loading() || self.errands.is_busy() {
+            Some(Busy::Loading)
+        } else if self.is_running() {
+            Some(Busy::Solving(self.solving.phase()))
+        } else {
+            self.files.is_saving().then_some(Busy::Saving)
+        }
+    }
+
+    /// Whether the outcome on the screen belongs to the document as it is now.
+    pub fn is_current(&self) -> bool {
+        self.has_faces_as_wanted() && self.outcome().is_some_and(|outcome| self.document.is_solved_in(outcome))
+    }
+
+    /// Whether a run takes steps in the background.
+    pub fn is_running(&self) -> bool {
+        self.solving.is_running()
+    }
+
+    /// Whether the screen shows the first solve alone, because a gesture goes on or its run has only begun.
+    pub fn is_preview(&self) -> bool {
+        self.preview().is_some() || (self.history.is_in_gesture() && self.solving.is_at_first_step())
+    }
+
+    /// Whether a run waits after its first step for a person to take the others.
+    pub fn is_held(&self) -> bool {
+        let is_at_rest = !self.is_running() && !self.history.is_in_gesture();
+        is_at_rest && self.is_current() && self.solving.is_at_first_step()
+    }
+
+    /// Whether what a drag needs is being computed: its column, or the verdict on its preview. That is no work to wait
+    /// for: it goes on as long as the drag.
+    pub fn is_following(&self) -> bool {
+        self.drag.is_busy()
     }
 }

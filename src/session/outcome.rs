@@ -6,7 +6,7 @@ use crate::geom::{PictureFrame, VAxis};
 use crate::io::{Target, Targets, pins_in_plane};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Distortion, GaugeSize, Pins, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
+    Distortion, GaugeSize, Pins, Settings, Step, Verdict, are_held_alike, distortion, to_unit_box, to_unit_square,
     to_unit_square_by_power_of_two, verdict,
 };
 
@@ -63,6 +63,18 @@ impl Problem {
     /// The pins in the plane.
     pub fn pins(&self) -> Pins {
         pins_in_plane(&self.targets, self.frame)
+    }
+
+    /// Whether another problem differs in its targets alone: the same vertices, held in the same way.
+    pub(super) fn differs_in_targets_alone(&self, other: &Self) -> bool {
+        let is_alike = self.settings == other.settings && self.frame == other.frame;
+        is_alike && are_held_alike(&self.pins(), &other.pins())
+    }
+
+    /// Whether another problem is solved by the same steps. A convex boundary takes no pins.
+    pub(super) fn has_steps_of(&self, other: &Self) -> bool {
+        let has_targets = !self.settings.method.uses_pins() || self.targets == other.targets;
+        has_targets && self.settings == other.settings && self.frame == other.frame
     }
 }
 

@@ -1,0 +1,305 @@
+//! What is done to the document: pins and their targets, faces, pictures, constraints. Each edit is undoable, and solved
+//! for.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::errands::{Errand, Purpose};
+use super::{Command, Document, PictureFile, Place, Session};
+use crate::geom::{PictureFrame, Similarity};
+use crate::io::{Constraints, Target, Targets};
+use crate::mesh::VertexId;
+use crate::solver::{Control, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, flatten};
+
+/// The mesh flattened without pins, in the middle of the picture.
+pub(super) struct Flat {
+    /// The picture's frame.
+    frame: PictureFrame,
+    /// Whether the mesh's faces were turned around.
+    faces_turned: bool,
+    embedding: Result<Vec<DVec2>, SolveError>,
+}
+
+/// Edits.
+impl Session {
+    /// Carries out edits that are one for the user, and solves.
+    pub(super) fn edit(&mut self, mut commands: Vec<Command>) {
+        let command = match commands.len() {
+            0 => return,
+            1 => commands.remove(0),
+            _ => Command::Together(commands),
+        };
+        if self.history.apply(command, &mut self.document) {
+            self.solve();
+        }
+    }
+
+    /// Chooses method and weights as part of a drag of a slider.
+    pub(super) fn slide_settings(&mut self, settings: Settings) {
+        if settings != self.document.settings {
+            self.history.apply_in_gesture(Command::SetSettings(settings), &mut self.document);
+            self.solve();
+        }
+    }
+
+    /// Turns the faces around.
+    pub(super) fn turn_faces(&mut self) {
+        if self.model().is_some() {
+            self.edit(vec![Command::SetFacesTurned(!self.document.faces_turned)]);
+        }
+    }
+
+    /// Says why where the method takes no pins.
+    fn takes_pins(&mut self) -> bool {
+        if self.document.settings.method.uses_pins() {
+            return true;
+        }
+        let text = "a convex boundary takes no pins: every boundary vertex has its place";
+        self.messages.fail(Place::Embedding, text, Some("choose another method to pin vertices"));
+        false
+    }
+}
+
+/// Pins.
+impl Session {
+    /// Pins vertices where they lie.
+    pub(super) fn fix(&mut self, vertices: &[VertexId]) {
+        let Some(outcome) = self.outcome().cloned().filter(|_| self.takes_pins()) else { return };
+        // What the screen shows is the preview, where there is one.
+        let preview = self.preview().map(|preview| (self.document.frame(), preview.embedding.as_slice()));
+        let (frame, shown) = preview.unwrap_or((outcome.problem.frame, &outcome.step.solution.embedding));
+        // New vertices belong to one embedding alone: they cannot be pinned.
+        let count = self.mesh.vertex_count();
+        let fresh = vertices.iter().filter(|v| v.index() < count && !self.document.targets.contains_key(v));
+        let fixed = |z: DVec2| Target::fixed(frame.uv_from_plane(z));
+        let target = |vertex: &VertexId| shown.get(vertex.index()).copied().map(fixed);
+        let commands = fresh.map(|vertex| Command::SetPin { vertex: *vertex, target: target(vertex) }).collect();
+        self.edit(commands);
+    }
+
+    /// Pins a vertex, or places its pin anew.
+    pub(super) fn place(&mut self, vertex: VertexId, target: Target) {
+        let is_valid = vertex.index() < self.mesh.vertex_count() && target.uv.is_finite() && target.hold.is_valid();
+        if is_valid && self.takes_pins() {
+            self.edit(vec![Command::SetPin { vertex, target: Some(target) }]);
+        }
+    }
+
+    /// Moves pins as part of a drag. Where one of them is a gauge pin, all of those become the user's first.
+    pub(super) fn move_pins(&mut self, moves: &[(VertexId, DVec2)]) {
+        let is_users = |(vertex, _): &(VertexId, DVec2)| self.document.targets.contains_key(vertex);
+        if !moves.iter().all(is_users) {
+            // Where the solver chose no gauge, those it has are pins of the user's that are freed by now.
+            let Some(outcome) = self.outcome().filter(|outcome| outcome.step.solution.gauge_completed) else { return };
+            let adopted = adopted(&self.document, &outcome.step.solution.pins, outcome.problem.frame);
+            if !moves.iter().all(|(vertex, _)| adopted.contains_key(vertex)) {
+                return;
+            }
+            self.history.apply_in_gesture(pinned(adopted), &mut self.document);
+        }
+        let command = |&(vertex, uv): &(VertexId, DVec2)| {
+            let before = self.document.targets.get(&vertex).filter(|before| uv.is_finite() && before.uv != uv)?;
+            Some(Command::SetPin { vertex, target: Some(Target { uv, ..*before }) })
+        };
+        let commands: Vec<Command> = moves.iter().filter_map(command).collect();
+        if commands.is_empty() {
+            return;
+        }
+        self.history.apply_in_gesture(Command::Together(commands), &mut self.document);
+        let mut dragged: Vec<VertexId> = moves.iter().map(|(vertex, _)| *vertex).collect();
+        dragged.sort_unstable();
+        dragged.dedup();
+        self.solving.give_up();
+        self.follow(dragged);
+    }
+
+    /// Holds pins in another way, as an edit of its own.
+    pub(super) fn set_hold(&mut self, vertices: &[VertexId], hold: Hold) {
+        let commands = self.holds(vertices, hold);
+        self.edit(commands);
+    }
+
+    /// Holds pins in another way as part of a drag.
+    pub(super) fn slide_hold(&mut self, vertices: &[VertexId], hold: Hold) {
+        let commands = self.holds(vertices, hold);
+        if !commands.is_empty() {
+            self.history.apply_in_gesture(Command::Together(commands), &mut self.document);
+            self.solve();
+        }
+    }
+
+    fn holds(&self, vertices: &[VertexId], hold: Hold) -> Vec<Command> {
+        let command = |&vertex: &VertexId| {
+            let before = self.document.targets.get(&vertex).filter(|before| before.hold != hold && hold.is_valid())?;
+            Some(Command::SetPin { vertex, target: Some(Target { hold, ..*before }) })
+        };
+        vertices.iter().filter_map(command).collect()
+    }
+
+    /// Frees vertices.
+    pub(super) fn unpin(&mut self, vertices: &[VertexId]) {
+        let pinned = vertices.iter().filter(|v| self.document.targets.contains_key(v));
+        let commands = pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect();
+        self.edit(commands);
+    }
+}
+
+/// All targets together.
+impl Session {
+    /// Mirrors all targets left to right, within the box around them.
+    pub(super) fn mirror_targets(&mut self) {
+        let across = self.document.targets.values().map(|target| target.uv.x);
+        let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (low.min(u), high.max(u)));
+        let mirrored = |target: &Target| DVec2::new(low + (high - target.uv.x), target.uv.y);
+        let targets: Vec<DVec2> = self.document.targets.values().map(mirrored).collect();
+        self.move_targets(&targets);
+    }
+
+    /// Flattens the mesh, to fit the targets to it.
+    pub(super) fn fit_targets(&mut self) {
+        if self.document.targets.len() < 2 {
+            let text = "one target can be anywhere: fitting needs two pins or more";
+            return self.messages.fail(Place::Embedding, text, Some("place another constraint"));
+        }
+        let model = self.model();
+        let Some((disk, faces_turned)) = model.and_then(|model| Some((model.disk()?.clone(), model.faces_turned)))
+        else {
+            return self.messages.fail(Place::Embedding, "a mesh with faults has nothing to fit to", None);
+        };
+        let frame = self.document.frame();
+        let [low, high] = frame.corners();
+        let size = GaugeSize::Within { low, high };
+        let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
+        self.errands.send(Purpose::Fit, move |cancel| {
+            let solution = flatten(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
+            Errand::Flat(Flat { frame, faces_turned, embedding: solution.map(|solution| solution.embedding) })
+        });
+    }
+
+    /// Fits the targets to the flattened mesh.
+    fn take_flat(&mut self, flat: &Flat) {
+        let embedding = match &flat.embedding {
+            Ok(embedding) => embedding,
+            Err(error) => {
+                return self.messages.fail(Place::Embedding, format!("there is nothing to fit to: {error}"), None);
+            }
+        };
+        if flat.frame != self.document.frame() || flat.faces_turned != self.document.faces_turned {
+            let text = "picture or faces changed while the targets were being fitted";
+            return self.messages.fail(Place::Embedding, text, Some("fit them again"));
+        }
+        let pairs: Vec<[DVec2; 2]> =
+            (self.document.pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex.index()]]).collect();
+        let fitted = Similarity::fitting(&pairs).map(|similarity| {
+            let targets = pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target)));
+            targets.collect::<Vec<_>>()
+        });
+        match fitted.filter(|targets| targets.iter().all(|target| target.is_finite())) {
+            Some(targets) => self.move_targets(&targets),
+            None => self.messages.fail(Place::Embedding, "no turn and no size fits these targets", None),
+        }
+    }
+
+    /// Gives the pins other targets, in their order, as one edit.
+    fn move_targets(&mut self, targets: &[DVec2]) {
+        let moved = self.document.targets.iter().zip(targets).filter(|((_, before), uv)| before.uv != **uv);
+        let command = |((&vertex, before), &uv): ((&VertexId, &Target), &DVec2)| Command::SetPin {
+            vertex,
+            target: Some(Target { uv, ..*before }),
+        };
+        let commands = moved.map(command).collect();
+        self.edit(commands);
+    }
+}
+
+/// What is read for the document.
+impl Session {
+    /// Reads a picture.
+    pub(super) fn open_picture(&mut self, path: PathBuf) {
+        if self.model().is_none() {
+            return self.messages.fail(Place::Embedding, "a picture needs a mesh: open one first", None);
+        }
+        self.errands.send(Purpose::Picture, move |_| Errand::Picture(PictureFile::read(&path)));
+    }
+
+    /// Reads constraints.
+    pub(super) fn import_constraints(&mut self, path: PathBuf) {
+        if self.model().is_none() {
+            return self.messages.fail(Place::Embedding, "constraints need a mesh: open one first", None);
+        }
+        let count = self.mesh.vertex_count();
+        self.errands.send(Purpose::Constraints, move |_| Errand::Constraints(Constraints::read(&path, count)));
+    }
+
+    /// Takes in the errands that came back.
+    pub(super) fn poll_errands(&mut self) {
+        while let Some(errand) = self.errands.poll(self.history.is_in_gesture(), &mut self.messages) {
+            match errand {
+                Errand::Picture(Ok(picture)) => self.edit(vec![Command::SetPicture(Some(Arc::new(picture)))]),
+                Errand::Picture(Err(error)) => {
+                    self.messages.fail(Place::Embedding, error.to_string(), Some("choose a PNG or JPEG file"));
+                }
+                Errand::Constraints(Ok(constraints)) => self.take_constraints(constraints.targets),
+                Errand::Constraints(Err(error)) => self.messages.fail(Place::Embedding, error.to_string(), None),
+                Errand::Flat(flat) => self.take_flat(&flat),
+                Errand::Turned(model) => {
+                    self.mesh.take_other_side(Arc::new(*model));
+                    if !self.has_faces_as_wanted() {
+                        self.solve();
+                    }
+                }
+            }
+        }
+    }
+
+    fn take_constraints(&mut self, targets: Targets) {
+        if targets.is_empty() {
+            return self.messages.fail(Place::Embedding, "the file has no constraints", None);
+        }
+        if self.takes_pins() {
+            let known = &self.document.targets;
+            let fresh = targets.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
+            let commands = fresh.map(|(vertex, target)| Command::SetPin { vertex, target: Some(target) }).collect();
+            self.edit(commands);
+        }
+    }
+
+    /// Whether the mesh has its faces as the document wants them.
+    pub(super) fn has_faces_as_wanted(&self) -> bool {
+        self.mesh.has_faces(self.document.faces_turned)
+    }
+
+    /// Brings the mesh's faces to where the document wants them. Where that takes time, a solve follows by itself.
+    /// Returns whether they are there now.
+    pub(super) fn bring_faces(&mut self) -> bool {
+        if self.has_faces_as_wanted() {
+            return true;
+        }
+        // What goes on is of no use any more.
+        self.solving.give_up_all();
+        if self.mesh.turn_over() {
+            self.forget_steps();
+            return true;
+        }
+        if let Some(model) = self.model().cloned()
+            && !self.errands.is_under_way(Purpose::Turn)
+        {
+            self.errands.send(Purpose::Turn, move |_| Errand::Turned(Box::new(model.turned())));
+        }
+        false
+    }
+}
+
+/// Targets as one command.
+fn pinned(targets: Targets) -> Command {
+    let command = |(vertex, target)| Command::SetPin { vertex, target: Some(target) };
+    Command::Together(targets.into_iter().map(command).collect())
+}
+
+/// The gauge pins as targets of the user's, each where it lies; the user's own stay what they are.
+fn adopted(document: &Document, in_force: &Pins, frame: PictureFrame) -> Targets {
+    let fresh = in_force.iter().filter(|(vertex, _)| !document.targets.contains_key(vertex));
+    fresh.map(|(&vertex, pin)| (vertex, Target::fixed(frame.uv_from_plane(pin.target)))).collect()
+}

@@ -1,0 +1,118 @@
+//! What a person opens and writes: from files to the parts of the session, and back.
+
+use std::path::{Path, PathBuf};
+
+use super::opened::{Opened, Origin};
+use super::saving::Saved;
+use super::stop::Goal;
+use super::{Finished, History, Message, Place, SaveRequest, Session, Surface};
+use crate::geom::Picture;
+use crate::io::{write_atomically, write_constraints, write_durably};
+use crate::mesh::{Elements, Fault, TriMesh, VertexId};
+
+impl Session {
+    /// Puts something on the table. The document before it is gone, its history with it.
+    pub(super) fn take_opened(&mut self, mut opened: Opened) {
+        let is_mesh = matches!(opened.origin, Origin::Mesh);
+        if is_mesh {
+            opened.document.settings = self.document.settings;
+        }
+        self.files.put_on_table(&opened);
+        let Opened { model, document, remarks, .. } = opened;
+        // An example is there to be watched: it waits for the person to take the steps.
+        let waits = model.is_example() && is_mesh;
+        self.document = document;
+        self.history = History::default();
+        self.errands.forget();
+        self.mesh.open(model);
+        self.forget_steps();
+        self.messages.clear();
+        self.tell_faults();
+        for remark in remarks {
+            self.messages.say(remark);
+        }
+        if waits {
+            self.begin(Goal::Steps(1));
+        } else {
+            self.solve();
+        }
+    }
+
+    fn tell_faults(&mut self) {
+        let Some(model) = self.mesh.model() else { return };
+        let Surface::Faulty(_, diagnosis) = &model.surface else { return };
+        for fault in &diagnosis.faults {
+            let message = Message::error(Place::Mesh, fault.message()).with_remedy(fault.remedy());
+            self.messages.say(message.with_vertices(first_vertices(fault, model.mesh())));
+        }
+    }
+
+    /// Writes the embedding on the screen.
+    pub(super) fn save(&mut self, request: SaveRequest) {
+        let (Some(model), Some(outcome)) = (self.model().cloned(), self.outcome().cloned()) else {
+            return self.fail_to_save("there is nothing to save yet: open a mesh first", None);
+        };
+        if !self.is_current() {
+            let text = "the embedding on the screen does not belong to these settings and pins yet";
+            return self.fail_to_save(text, Some("save again when it is solved"));
+        }
+        let records = self.timeline().records()[..=outcome.step.index].to_vec();
+        let picture = self.document.picture.clone();
+        self.files.write(move || {
+            let disk = model.disk().expect("only a disk has an outcome");
+            let finished = Finished::new((&model, disk), &outcome, records, request.fit, 0.0).with_picture(picture);
+            finished.write(request.kind, &request.path)?;
+            Ok(Saved::Output(request.path, finished.verdict().clone()))
+        });
+    }
+
+    /// Saves the project.
+    pub(super) fn save_project(&mut self, path: PathBuf) {
+        let model = self.mesh.model();
+        match model.and_then(|model| self.files.project_file(model, &self.document)) {
+            Some(project) => self.files.save_project(path, project, &self.document),
+            None => self.fail_to_save("there is nothing to save yet: open a mesh first", None),
+        }
+    }
+
+    /// Writes the targets as a constraint file.
+    pub(super) fn export_constraints(&mut self, path: PathBuf) {
+        let targets = self.document.targets.clone();
+        if targets.is_empty() {
+            return self.fail_to_save("there are no constraints to write: pin a vertex first", None);
+        }
+        self.files.write(move || {
+            write_durably(&path, |out| write_constraints(out, &targets))?;
+            Ok(Saved::Constraints(path, targets.len()))
+        });
+    }
+
+    /// Writes a picture of what the screen shows, as a PNG.
+    pub fn save_picture(&mut self, path: PathBuf, picture: Picture) {
+        self.files.write(move || {
+            write_atomically(&path, |out| picture.write_png(out).map_err(std::io::Error::other))?;
+            Ok(Saved::Picture(path))
+        });
+    }
+
+    /// Says that a name does not tell what kind of file to write.
+    pub(super) fn refuse_name(&mut self, path: &Path) {
+        let text = format!("{} does not say what to write", path.display());
+        self.messages.fail(Place::Embedding, text, Some("end the name in .svg, .png, .json or .obj"));
+    }
+
+    fn fail_to_save(&mut self, text: &str, remedy: Option<&str>) {
+        self.messages.fail(Place::Embedding, text, remedy);
+    }
+}
+
+/// Vertices of the first element of a fault.
+fn first_vertices(fault: &Fault, mesh: &TriMesh) -> Vec<VertexId> {
+    match fault.elements() {
+        Elements::Nothing => Vec::new(),
+        Elements::Vertices(vertices) => vertices[..1].to_vec(),
+        Elements::Edges(edges) => edges[0].to_vec(),
+        Elements::Faces(faces) => mesh.triangles[faces.triangles[0].index()].to_vec(),
+        Elements::Loops(loops) => loops[0].clone(),
+    }
+}

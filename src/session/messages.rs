@@ -1,0 +1,108 @@
+//! What the session has to tell a person: what happened, where, and what to do.
+
+use super::Failure;
+use crate::mesh::VertexId;
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// Good news, such as a file that was written.
+    Note,
+    /// Something did not work.
+    Error,
+}
+
+/// The pane that a message belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The mesh in space.
+    Mesh,
+    /// Its embedding.
+    Embedding,
+}
+
+/// One thing said.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Message {
+    /// Tells this message from all others of the session.
+    pub id: u64,
+    /// How bad it is.
+    pub severity: Severity,
+    /// Where it belongs.
+    pub place: Place,
+    /// What happened.
+    pub text: String,
+    /// What to do about it.
+    pub remedy: Option<String>,
+    /// Vertices of the element concerned, to be shown; empty where it is about the whole.
+    pub vertices: Vec<VertexId>,
+}
+
+impl Message {
+    /// A failure. [`Messages::say`] gives it its number.
+    pub(super) fn error(place: Place, text: impl Into<String>) -> Self {
+        Self { id: 0, severity: Severity::Error, place, text: text.into(), remedy: None, vertices: Vec::new() }
+    }
+
+    /// With what to do about it.
+    pub(super) fn with_remedy(self, remedy: impl Into<String>) -> Self {
+        Self { remedy: Some(remedy.into()), ..self }
+    }
+
+    /// With the vertices concerned.
+    pub(super) fn with_vertices(self, vertices: Vec<VertexId>) -> Self {
+        Self { vertices, ..self }
+    }
+}
+
+/// What was said and not dismissed.
+#[derive(Debug, Default)]
+pub(super) struct Messages {
+    list: Vec<Message>,
+    last_id: u64,
+}
+
+impl Messages {
+    /// The messages, oldest first.
+    pub(super) fn list(&self) -> &[Message] {
+        &self.list
+    }
+
+    /// Says something. Returns the message's number.
+    pub(super) fn say(&mut self, message: Message) -> u64 {
+        self.last_id += 1;
+        self.list.push(Message { id: self.last_id, ..message });
+        self.last_id
+    }
+
+    /// Says that something went well.
+    pub(super) fn note(&mut self, text: String) {
+        self.say(Message { severity: Severity::Note, ..Message::error(Place::Embedding, text) });
+    }
+
+    /// Says that something did not work, and what to do about it.
+    pub(super) fn fail(&mut self, place: Place, text: impl Into<String>, remedy: Option<&str>) {
+        let message = Message::error(place, text);
+        self.say(Message { remedy: remedy.map(str::to_owned), ..message });
+    }
+
+    /// Says that work in the background gave no outcome. `work` is a noun, such as "saving".
+    pub(super) fn fail_background(&mut self, place: Place, work: &str, failure: &Failure) {
+        self.fail(place, failure.words(work), failure.remedy());
+    }
+
+    /// Takes a message away.
+    pub(super) fn dismiss(&mut self, id: u64) {
+        self.list.retain(|message| message.id != id);
+    }
+
+    /// Takes away what went well.
+    pub(super) fn forget_notes(&mut self) {
+        self.list.retain(|message| message.severity != Severity::Note);
+    }
+
+    /// Takes all messages away.
+    pub(super) fn clear(&mut self) {
+        self.list.clear();
+    }
+}

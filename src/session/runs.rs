@@ -1,0 +1,144 @@
+//! How the document is solved: a run takes its steps, and in a drag the embedding follows the pointer until it does.
+
+use super::Session;
+use super::drag::Follow;
+use super::solving::{Next, Task};
+use super::stop::Goal;
+use crate::mesh::VertexId;
+
+impl Session {
+    /// What is to be solved, once the mesh is there with its faces as the document wants them.
+    fn task(&mut self) -> Option<Task> {
+        let has_faces = self.bring_faces();
+        let mesh = self.mesh.disk().filter(|_| has_faces)?.clone();
+        Some(Task { mesh, problem: self.document.problem() })
+    }
+
+    /// Begins a run of the document as it is now. While a gesture goes on it takes only its first step, which is
+    /// linear: then a pin that is dragged is followed at the pace of the solver.
+    pub(super) fn solve(&mut self) {
+        let goal = if self.history.is_in_gesture() { Goal::Steps(1) } else { self.solving.until_stop() };
+        self.drag.end();
+        self.begin(goal);
+    }
+
+    /// Begins a run of the document as it is now. What a drag shows stays until its first step is there.
+    fn run_document(&mut self) {
+        self.solving.follow_newest();
+        self.begin(self.solving.until_stop());
+    }
+
+    /// Begins a run, or lets the first step that is under way finish where only targets differ.
+    pub(super) fn begin(&mut self, goal: Goal) {
+        self.solving.give_up_resting();
+        if let Some(task) = self.task() {
+            self.solving.begin(task, goal);
+        }
+    }
+
+    /// Goes on with the run at rest, or begins one where the document has changed since.
+    fn go_on(&mut self, goal: Goal) {
+        if let Some(task) = self.task() {
+            self.solving.go_on(task, goal);
+        }
+    }
+
+    /// Takes one further step, whether or not the method has ended. A run that goes on by itself comes to rest after
+    /// the step that it is taking.
+    pub(super) fn step(&mut self) {
+        self.solving.follow_newest();
+        if !self.solving.add_step() {
+            self.go_on(Goal::Steps(1));
+        }
+    }
+
+    /// Goes on until something stops it.
+    pub(super) fn run_on(&mut self) {
+        self.solving.follow_newest();
+        if !self.solving.run_on() && self.can_run() {
+            self.go_on(self.solving.until_stop());
+        }
+    }
+
+    /// Lowers the distortion of the newest step on a person's wish, one-to-one throughout, constraints exact.
+    pub(super) fn relax(&mut self) {
+        if self.can_relax()
+            && let Some(task) = self.task()
+        {
+            self.solving.relax(task, &mut self.messages);
+        }
+    }
+
+    /// The end of a gesture: where only the first step was taken, or none, the others follow.
+    pub(super) fn end_gesture(&mut self) {
+        let was_in_gesture = self.history.is_in_gesture();
+        self.history.end_gesture(&self.document);
+        self.drag.stop_following();
+        if !was_in_gesture {
+            return;
+        }
+        if !self.is_running() && self.is_current() {
+            // It ended where it began, or the steps were taken while the pointer rested.
+            self.drag.end();
+        }
+        if !self.is_running() && !self.is_current() {
+            self.run_document();
+        } else if !self.solving.is_outdated() {
+            self.run_on();
+        }
+    }
+
+    /// The pointer rests in the middle of a drag: the whole run is worth taking.
+    pub(super) fn rest(&mut self) {
+        if self.history.is_in_gesture() && self.preview().is_some() && !self.is_running() {
+            self.run_document();
+        }
+    }
+
+    /// Lets the embedding follow pins that were moved.
+    pub(super) fn follow(&mut self, dragged: Vec<VertexId>) {
+        // Where the mesh is to be turned around, a solve follows by itself.
+        if let Some(task) = self.task() {
+            self.drag.follow(task, dragged, self.solving.prepared());
+        }
+    }
+
+    /// Takes in what the run has done.
+    pub(super) fn poll_solving(&mut self) {
+        let news = self.solving.poll(&mut self.messages);
+        if news.has_begun {
+            self.drag.end_preview();
+        }
+        match news.next {
+            Some(Next::Anew) => self.solve(),
+            Some(Next::On(goal)) => self.go_on(goal),
+            None => {}
+        }
+    }
+
+    /// Takes in what a drag has waited for.
+    pub(super) fn poll_drag(&mut self) {
+        if let Some(follow) = self.drag.poll_column() {
+            self.take_column(follow);
+        }
+        self.drag.poll_verdict(self.mesh.disk());
+    }
+
+    fn take_column(&mut self, follow: Follow) {
+        if !follow.is_like(&self.document.problem()) {
+            return;
+        }
+        self.solving.keep_prepared(follow.prepared());
+        let dragged = follow.dragged().to_vec();
+        self.drag.keep(follow);
+        if self.history.is_in_gesture() && !self.is_running() && !self.is_current() {
+            self.follow(dragged);
+        }
+    }
+
+    /// Drops all that was solved: it belongs to another mesh, or to other faces.
+    pub(super) fn forget_steps(&mut self) {
+        self.solving.forget();
+        self.drag.end();
+    }
+}

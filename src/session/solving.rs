@@ -1,0 +1,413 @@
+//! The solving of one mesh: its run takes steps in the background, and they come in one by one.
+//!
+//! ```text
+//!           begin            step, run_on, end of a gesture
+//! problem ────────▶ running ◀──────────────────────────────▶ resting
+//!                      │ each step: outcome, ending
+//!                      ▼
+//!                   timeline
+//! ```
+//!
+//! Another problem begins another run. Its first step begins another timeline; until it is there the old one stays on
+//! the screen. Nothing here knows the session: one could have several of these, each with a mesh of its own.
+
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+
+use super::courier::{Courier, Delivery, Shared};
+use super::stop::Goal;
+use super::{Background, Message, Messages, Outcome, Place, Problem, Stop, StopConditions, Timeline, Wake};
+use crate::mesh::DiskMesh;
+use crate::solver::{Ending, Ladder, Phase, Prepared, SolveError};
+
+/// The most rounds of relaxing that are asked for at once.
+const RELAX_ROUNDS: usize = 20;
+
+/// What is to be solved, and on which mesh.
+#[derive(Clone, Debug)]
+pub(super) struct Task {
+    pub(super) mesh: Arc<DiskMesh>,
+    pub(super) problem: Problem,
+}
+
+/// What a poll found that concerns others.
+#[derive(Debug, Default)]
+pub(super) struct News {
+    /// Whether a run's first step has come in.
+    pub(super) has_begun: bool,
+    /// What is to be done now, with the problem as it is by then.
+    pub(super) next: Option<Next>,
+}
+
+/// How solving goes on by itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Next {
+    /// The problem is to be solved anew.
+    Anew,
+    /// The run is to be taken on.
+    On(Goal),
+}
+
+/// A run, its steps, and where it comes to rest.
+pub(super) struct Solving {
+    wake: Wake,
+    timeline: Timeline,
+    /// Changes with the step on the screen.
+    outcome_revision: u64,
+    /// What the run says after the newest step.
+    ending: Option<Ending>,
+    stop: StopConditions,
+    /// Kept from solves that succeeded, for problems where only targets differ.
+    prepared: Option<Arc<Prepared>>,
+    /// The run that takes steps in the background.
+    running: Option<Running>,
+    /// The run that waits to be taken on.
+    resting: Option<Resting>,
+    /// Whether the targets changed since the first step under way began.
+    is_outdated: bool,
+    /// The message of the last solve, where it failed: the next one that succeeds takes it away.
+    message: Option<u64>,
+}
+
+/// A run with the steps that it takes in the background.
+struct Running {
+    /// Gives the run back when it comes to rest.
+    job: Background<(), (Ladder, Result<(), SolveError>)>,
+    deliveries: Receiver<Delivery>,
+    shared: Arc<Shared>,
+    problem: Problem,
+    /// Whether a step has come in.
+    has_delivered: bool,
+    /// Once it was asked to pause: how far to go on after that; no step further, unless it was asked for.
+    paused: Option<Goal>,
+}
+
+/// A run at rest.
+struct Resting {
+    problem: Problem,
+    run: Ladder,
+}
+
+impl Running {
+    /// Asks for another goal, after a pause where one was asked for.
+    fn set_goal(&mut self, change: impl FnOnce(Goal) -> Goal) {
+        match &mut self.paused {
+            Some(after) => *after = change(*after),
+            None => self.shared.change_goal(change),
+        }
+    }
+
+    /// Whether another problem only needs the first step again, with other targets of the same pins.
+    fn is_followed_by(&self, problem: &Problem) -> bool {
+        self.paused.is_none() && !self.has_delivered && self.problem.differs_in_targets_alone(problem)
+    }
+}
+
+/// What is asked.
+impl Solving {
+    /// Nothing is solved yet.
+    pub(super) fn new(wake: Wake) -> Self {
+        Self {
+            wake,
+            timeline: Timeline::default(),
+            outcome_revision: 0,
+            ending: None,
+            stop: StopConditions::default(),
+            prepared: None,
+            running: None,
+            resting: None,
+            is_outdated: false,
+            message: None,
+        }
+    }
+
+    /// The steps that there are, and which of them is on the screen.
+    pub(super) fn timeline(&self) -> &Timeline {
+        &self.timeline
+    }
+
+    /// The step on the screen.
+    pub(super) fn outcome(&self) -> Option<&Arc<Outcome>> {
+        self.timeline.outcome(self.timeline.shown()?)
+    }
+
+    /// The newest step.
+    fn newest(&self) -> Option<&Arc<Outcome>> {
+        self.timeline.outcome(self.timeline.newest()?)
+    }
+
+    /// Changes whenever another step is on the screen, or none any more.
+    pub(super) fn outcome_revision(&self) -> u64 {
+        self.outcome_revision
+    }
+
+    /// When a run that goes on by itself comes to rest.
+    pub(super) fn stop_conditions(&self) -> StopConditions {
+        self.stop
+    }
+
+    /// As far as a run goes by itself.
+    pub(super) fn until_stop(&self) -> Goal {
+        Goal::Until(self.stop)
+    }
+
+    /// Kept from solves that succeeded, for problems where only targets differ.
+    pub(super) fn prepared(&self) -> Option<&Arc<Prepared>> {
+        self.prepared.as_ref()
+    }
+
+    /// Whether a run takes steps.
+    pub(super) fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// What a run that takes steps is doing.
+    pub(super) fn phase(&self) -> Option<Phase> {
+        self.running.as_ref()?.shared.phase()
+    }
+
+    /// Whether another run is to begin where targets changed while a first step was under way.
+    pub(super) fn is_outdated(&self) -> bool {
+        self.is_outdated
+    }
+
+    /// Whether a run has taken its first step alone, and has more.
+    pub(super) fn is_at_first_step(&self) -> bool {
+        self.timeline.records().len() == 1 && self.ending.is_none()
+    }
+
+    /// Why the run is at rest, where that is not because of a person's wish.
+    pub(super) fn stopped(&self) -> Option<Stop> {
+        self.stop.reason(self.newest()?, self.ending).filter(|_| !self.is_running())
+    }
+
+    /// Why the run is at rest, however often it is asked to go on.
+    pub(super) fn stopped_for_good(&self) -> Option<Stop> {
+        self.stop.reason_for_good(self.newest()?, self.ending)
+    }
+
+    /// Whether the newest step is planar, its constraints met, and its run waits to be taken on.
+    pub(super) fn can_relax(&self, problem: &Problem) -> bool {
+        let is_planar = |newest: &Arc<Outcome>| newest.step.verdict.planar && newest.step.unmet().is_empty();
+        let is_at_rest = self.resting.as_ref().is_some_and(|resting| resting.problem.has_steps_of(problem));
+        is_at_rest && self.newest().is_some_and(is_planar)
+    }
+}
+
+/// What is done.
+impl Solving {
+    /// Begins a run, or lets the first step that is under way finish where only targets differ.
+    pub(super) fn begin(&mut self, task: Task, goal: Goal) {
+        self.resting = None;
+        if let Some(running) = &mut self.running
+            && running.is_followed_by(&task.problem)
+        {
+            self.is_outdated = running.problem.targets != task.problem.targets;
+            running.set_goal(|_| goal);
+            return;
+        }
+        let run = Ladder::new(task.problem.settings, task.problem.pins()).with_prepared(self.prepared.clone());
+        self.spawn(task, run, goal);
+    }
+
+    /// Goes on with the run at rest, or begins one where the problem has changed since.
+    pub(super) fn go_on(&mut self, task: Task, goal: Goal) {
+        match self.resting.take() {
+            Some(resting) if resting.problem.has_steps_of(&task.problem) => self.spawn(task, resting.run, goal),
+            _ => self.begin(task, goal),
+        }
+    }
+
+    /// Takes steps of a run in the background. A run that is under way is given up.
+    fn spawn(&mut self, Task { mesh, problem }: Task, mut run: Ladder, goal: Goal) {
+        self.give_up();
+        let has_delivered = run.step_count() > 0;
+        let (courier, deliveries) = Courier::new(problem.clone(), goal, &self.wake);
+        let shared = courier.shared();
+        let mut job = Background::new("solve", &self.wake);
+        job.start((), move |cancel| {
+            let result = courier.take_steps(&mut run, &mesh, cancel);
+            (run, result)
+        });
+        self.running = Some(Running { job, deliveries, shared, problem, has_delivered, paused: None });
+    }
+
+    /// The step on the screen is the newest one from now on.
+    pub(super) fn follow_newest(&mut self) {
+        self.timeline.follow_newest();
+    }
+
+    /// Takes one further step after the one under way, whether or not the method has ended. Returns whether a run is
+    /// under way; otherwise somebody has to [`go_on`](Self::go_on).
+    pub(super) fn add_step(&mut self) -> bool {
+        let Some(running) = &mut self.running else { return false };
+        running.set_goal(|goal| match goal {
+            Goal::Steps(left) => Goal::Steps(left + 1),
+            Goal::Until(_) | Goal::End => Goal::Steps(1),
+        });
+        true
+    }
+
+    /// Lets the run under way go on until something stops it. Returns whether there is one.
+    pub(super) fn run_on(&mut self) -> bool {
+        let goal = self.until_stop();
+        let Some(running) = &mut self.running else { return false };
+        running.set_goal(|_| goal);
+        true
+    }
+
+    /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained.
+    pub(super) fn relax(&mut self, task: Task, messages: &mut Messages) {
+        let Some(mut resting) = self.resting.take() else { return };
+        self.timeline.follow_newest();
+        match resting.run.relax(RELAX_ROUNDS) {
+            Ok(()) => self.spawn(task, resting.run, Goal::End),
+            Err(error) => {
+                self.resting = Some(resting);
+                messages.fail(Place::Embedding, error.to_string(), None);
+            }
+        }
+    }
+
+    /// Chooses where a run that goes on by itself comes to rest.
+    pub(super) fn set_stop(&mut self, stop: StopConditions) {
+        self.stop = stop;
+        if let Some(running) = &mut self.running {
+            running.set_goal(|goal| if matches!(goal, Goal::Until(_)) { Goal::Until(stop) } else { goal });
+        }
+    }
+
+    /// Pauses the run: it comes to rest with the steps that it has.
+    pub(super) fn pause(&mut self) {
+        self.is_outdated = false;
+        if let Some(running) = &mut self.running {
+            running.paused = Some(Goal::Steps(0));
+            running.job.interrupt();
+        }
+    }
+
+    /// Gives up the run under way.
+    pub(super) fn give_up(&mut self) {
+        (self.running, self.is_outdated) = (None, false);
+    }
+
+    /// Gives up the run, under way or at rest.
+    pub(super) fn give_up_all(&mut self) {
+        self.give_up();
+        self.resting = None;
+    }
+
+    /// Gives up the run at rest.
+    pub(super) fn give_up_resting(&mut self) {
+        self.resting = None;
+    }
+
+    /// Drops all that was solved: it belongs to another mesh, or to other faces.
+    pub(super) fn forget(&mut self) {
+        self.give_up_all();
+        (self.timeline, self.ending, self.prepared) = (Timeline::default(), None, None);
+        self.outcome_revision += 1;
+    }
+
+    /// Keeps what a solve can begin with where only targets differ.
+    pub(super) fn keep_prepared(&mut self, prepared: Arc<Prepared>) {
+        self.prepared = Some(prepared);
+    }
+
+    /// Puts a step on the screen.
+    pub(super) fn show(&mut self, index: usize) {
+        if self.timeline.show(index) {
+            self.outcome_revision += 1;
+        }
+    }
+
+    /// Compares the step on the screen with another one, or with none.
+    pub(super) fn compare(&mut self, index: Option<usize>) {
+        self.timeline.compare(index);
+    }
+
+    /// Takes in what the background has finished.
+    pub(super) fn poll(&mut self, messages: &mut Messages) -> News {
+        let mut news = News::default();
+        let Some(running) = &mut self.running else { return news };
+        // Looked at before the deliveries: those of a job that has ended are then all there.
+        let end = running.job.poll();
+        let deliveries: Vec<Delivery> = running.deliveries.try_iter().collect();
+        let has_news = !deliveries.is_empty();
+        running.has_delivered |= has_news;
+        for delivery in deliveries {
+            news.has_begun |= self.take_step(delivery, messages);
+        }
+        if has_news && self.is_outdated {
+            self.give_up();
+            news.next = Some(Next::Anew);
+            return news;
+        }
+        match end {
+            None => {}
+            Some((_, Err(failure))) => {
+                self.running = None;
+                messages.fail_background(Place::Embedding, "solving", &failure);
+            }
+            Some((_, Ok((run, result)))) => news.next = self.take_back(run, result, messages),
+        }
+        news
+    }
+
+    /// Takes in a step. The first one begins a timeline: returns whether it is that.
+    fn take_step(&mut self, Delivery { outcome, ending }: Delivery, messages: &mut Messages) -> bool {
+        self.forget_message(messages);
+        let is_first = outcome.step.index == 0;
+        if is_first {
+            // What was written no longer shows what is on the screen.
+            messages.forget_notes();
+            self.prepared.clone_from(&outcome.step.prepared);
+            self.timeline = Timeline::default();
+        }
+        self.ending = ending;
+        if self.timeline.push(outcome) {
+            self.outcome_revision += 1;
+        }
+        is_first
+    }
+
+    /// Takes back a run that has come to rest. Returns how solving goes on, where the goal has changed meanwhile.
+    fn take_back(&mut self, run: Ladder, result: Result<(), SolveError>, messages: &mut Messages) -> Option<Next> {
+        let Running { problem, paused, shared, .. } = self.running.take()?;
+        let has_new_vertices = problem.settings.new_vertices;
+        self.resting = Some(Resting { problem, run });
+        let goal = match result {
+            Ok(()) | Err(SolveError::Cancelled) if paused.is_some() => paused.filter(|goal| *goal != Goal::Steps(0)),
+            Ok(()) => Some(shared.goal()).filter(|goal| {
+                let ending = self.ending;
+                self.newest().is_some_and(|newest| !goal.is_reached(newest, ending))
+            }),
+            Err(SolveError::Cancelled) => None,
+            Err(error) => {
+                self.tell(&error, has_new_vertices, messages);
+                None
+            }
+        };
+        if std::mem::take(&mut self.is_outdated) { Some(Next::Anew) } else { goal.map(Next::On) }
+    }
+
+    /// Says what went wrong; where constraints cannot be met, which.
+    fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
+        self.forget_message(messages);
+        let mut message = Message::error(Place::Embedding, error.to_string());
+        if *error == SolveError::Unmet {
+            self.ending = Some(Ending::Unmet);
+            let remedy = if has_new_vertices { "move these pins" } else { "allow new vertices, or move these pins" };
+            let unmet = self.newest().map(|newest| newest.step.unmet()).unwrap_or_default();
+            message = message.with_remedy(remedy).with_vertices(unmet);
+        }
+        self.message = Some(messages.say(message));
+    }
+
+    /// Takes away what a solve before said.
+    fn forget_message(&mut self, messages: &mut Messages) {
+        if let Some(stale) = self.message.take() {
+            messages.dismiss(stale);
+        }
+    }
+}
