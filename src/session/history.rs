@@ -159,7 +159,8 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::solver::{Family, Method};
+    use crate::io::Target;
+    use crate::solver::{Family, Method, Settings};
 
     fn pin(vertex: u32, x: f64) -> Command {
         Command::SetPin { vertex: VertexId::new(vertex), target: Some(Target::hard(DVec2::new(x, 0.0))) }
