@@ -35,26 +35,23 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     }
     let embedding = editor.session.outcome().map(|outcome| outcome.step.solution.embedding.as_slice());
     pairs(ui, "vertex", [16.0, 4.0], |ui| {
-        let mut row = |name: &str, value: String| {
-            number(ui, name, value);
-        };
         for (axis, value) in ["x", "y", "z"].iter().zip(position.to_array()) {
-            row(axis, short(value));
+            number(ui, axis, short(value));
         }
         if let Some(z) = embedding.and_then(|embedding| embedding.get(vertex.index())) {
             let frame = editor.session.outcome().map(|outcome| outcome.problem.frame).unwrap_or_default();
             let uv = frame.uv_from_plane(*z);
-            row("u", short(uv.x));
-            row("v", short(uv.y));
+            number(ui, "u", short(uv.x));
+            number(ui, "v", short(uv.y));
         }
         if let Some(disk) = scene.disk() {
             let valence = disk.outgoing(vertex).count();
-            row("Valence", valence.to_string());
+            number(ui, "Valence", valence.to_string());
             let place = disk.boundary_place(vertex);
-            row("Lies", place.map_or_else(|| "inside".to_owned(), |at| format!("on the boundary ({at})")));
-            row("Angles on the mesh", turns(angle_sum_on_mesh(disk, vertex)));
+            number(ui, "Lies", place.map_or_else(|| "inside".to_owned(), |at| format!("on the boundary ({at})")));
+            number(ui, "Angles on the mesh", turns(angle_sum_on_mesh(disk, vertex)));
             if let Some(embedding) = embedding {
-                row("Angles in the plane", turns(angle_sum_in_plane(disk, embedding, vertex)));
+                number(ui, "Angles in the plane", turns(angle_sum_in_plane(disk, embedding, vertex)));
             }
         }
     });
