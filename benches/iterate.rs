@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use freebound::mesh::DiskMesh;
-use freebound::solver::{
+use freebound::solver::{Embedding, 
     Control, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move,
 };
 
@@ -86,16 +86,16 @@ fn main() {
 }
 
 /// The same pins where an embedding has them.
-fn held_in(embedding: &[DVec2], pins: &Pins) -> Pins {
-    fixed_pins(pins.keys().map(|&v| (v, embedding[v.index()])))
+fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
+    fixed_pins(pins.keys().map(|&v| (v, embedding[v])))
 }
 
 /// An embedding in which every fiftieth inner vertex was pushed across a neighbour: a planar one would be left alone.
-fn folded(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<DVec2> {
+fn folded(mesh: &DiskMesh, embedding: &Embedding) -> Embedding {
     let mut folded = embedding.to_vec();
     for v in mesh.vertices().step_by(50).filter(|&v| mesh.boundary_place(v).is_none()) {
         let neighbour = mesh.outgoing(v).next().map_or(v, |h| mesh.head(h));
-        folded[v.index()] += 1.5 * (embedding[neighbour.index()] - embedding[v.index()]);
+        folded[v.index()] += 1.5 * (embedding[neighbour] - embedding[v]);
     }
     folded
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use freebound::io::{Constraints, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Pins, Settings, Step, distortion, verdict};
+use freebound::solver::{Embedding, Pins, Settings, Step, distortion, verdict};
 use glam::DVec2;
 
 use crate::common::table::{Table, seconds};
@@ -107,11 +107,11 @@ fn row(path: &Path) -> Result<[String; 13], String> {
 /// The largest distance of an exactly pinned vertex from its target.
 fn largest_error(step: &Step, pins: &Pins) -> f64 {
     let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
-    exact.map(|(vertex, pin)| step.solution.embedding[vertex.index()].distance(pin.target)).fold(0.0, f64::max)
+    exact.map(|(vertex, pin)| step.solution.embedding[vertex].distance(pin.target)).fold(0.0, f64::max)
 }
 
 /// Mean symmetric Dirichlet energy.
-fn energy(mesh: &DiskMesh, embedding: &[DVec2]) -> String {
+fn energy(mesh: &DiskMesh, embedding: &Embedding) -> String {
     format!("{:.3}", distortion(mesh, embedding).summary.symmetric_dirichlet.mean)
 }
 

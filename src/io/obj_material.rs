@@ -9,6 +9,7 @@ use glam::DVec2;
 use super::obj::{ObjMesh, Statement};
 use super::output::TexturePicture;
 use super::{WriteError, write_atomically, write_obj};
+use crate::solver::Embedding;
 
 /// Name of the material.
 const MATERIAL: &str = "picture";
@@ -27,7 +28,7 @@ const HEAD: &str = "# Freebound: the picture of ";
 /// The file that cannot be written or, of the picture, read.
 pub(super) fn write_obj_with_picture(
     path: &Path,
-    (mesh, coordinates): (&ObjMesh, &[DVec2]),
+    (mesh, coordinates): (&ObjMesh, &Embedding),
     picture: &TexturePicture,
 ) -> Result<(), WriteError> {
     let picture_name = put_picture(path, picture)?;

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::error::TextureError;
 use super::obj::{NO_TEXTURE, ObjMesh, Texture};
 use crate::mesh::{TriMesh, VertexId};
+use crate::solver::Embedding;
 
 /// A mesh over texture vertices, with the embedding that the file gives.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +13,7 @@ pub struct TextureMesh {
     /// The triangles over texture vertices, at their positions in space.
     pub mesh: TriMesh,
     /// The texture coordinates, one per texture vertex.
-    pub embedding: Vec<DVec2>,
+    pub embedding: Embedding,
     /// The file's vertex of each texture vertex.
     pub vertex_of: Vec<VertexId>,
 }

@@ -12,7 +12,7 @@ use super::svg::{SvgPage, write_svg};
 use super::{ObjMesh, WriteError, refined_obj, write_atomically, write_obj};
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement};
-use crate::solver::Verdict;
+use crate::solver::{Embedding, Verdict};
 
 /// Width and height of each half of a picture, pixels.
 const PICTURE_SIZE: u32 = 900;
@@ -55,7 +55,7 @@ impl OutputKind {
 }
 
 /// A picture of an embedding, with the faces red that the verdict on it calls flipped.
-pub fn layout_picture(mesh: &DiskMesh, embedding: &[DVec2], verdict: &Verdict, canvas: &Canvas) -> Picture {
+pub fn layout_picture(mesh: &DiskMesh, embedding: &Embedding, verdict: &Verdict, canvas: &Canvas) -> Picture {
     let mut paint: Vec<Colour> = vec![colours::CLAY; mesh.face_count()];
     for face in &verdict.flipped_faces {
         paint[face.index()] = colours::FLIPPED;
@@ -102,7 +102,7 @@ impl Output<'_> {
         let eye = self.mesh.faces().map(|face| mesh.double_area_vector(face)).sum();
         let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
         let scale = DVec2::new(self.svg_page.aspect(), 1.0);
-        let layout: Vec<DVec2> = self.coordinates.iter().map(|uv| *uv * scale).collect();
+        let layout: Embedding = self.coordinates.iter().map(|uv| *uv * scale).collect();
         let extent = layout.iter().fold(0.0_f64, |m, z| m.max((*z - layout[0]).abs().max_element()));
         let paint = match self.picture {
             Some(picture) => Paint::Picture { coordinates: self.coordinates, picture: picture.pixels },

@@ -15,6 +15,7 @@ use rayon::prelude::*;
 use self::scene::{Scene, vertex_normals};
 use crate::geom::Picture;
 use crate::mesh::{EdgeTable, VertexId};
+use crate::solver::Embedding;
 
 /// A colour without opacity, sRGB.
 pub type Colour = [u8; 3];
@@ -161,7 +162,7 @@ fn seen_from(positions: &[DVec3], view: &View) -> Vec<DVec3> {
 
 /// A picture of an embedding: thin edges, the boundary as a darker line. Which faces are flipped is for the verdict to
 /// say, and for the caller to paint.
-pub fn plane_picture(embedding: &[DVec2], triangles: &[[VertexId; 3]], canvas: &Canvas, paint: Paint) -> Picture {
+pub fn plane_picture(embedding: &Embedding, triangles: &[[VertexId; 3]], canvas: &Canvas, paint: Paint) -> Picture {
     let seen: Vec<DVec3> = embedding.iter().map(|p| p.extend(0.0)).collect();
     let table = EdgeTable::new(embedding.len(), triangles);
     let outer = |sides: &[u32]| (sides.len() == 1).then(|| sides[0] as usize);

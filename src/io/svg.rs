@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use glam::DVec2;
 
 use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{Step, Verdict, VirtualBoundary, to_true_area};
+use crate::solver::{Embedding, Step, Verdict, VirtualBoundary, to_true_area};
 
 /// Longer side of a drawing without its margin, in units of its lines' widths.
 const SIZE: f64 = 1000.0;
@@ -44,7 +44,7 @@ impl SvgPage {
 /// What lies outside the boundary in a step of the virtual boundary.
 struct Outside<'a> {
     /// Places of all vertices, the virtual ones last.
-    positions: Vec<DVec2>,
+    positions: Embedding,
     stages: &'a VirtualBoundary,
 }
 
@@ -57,11 +57,10 @@ struct Outside<'a> {
 pub fn write_svg(
     out: &mut impl Write,
     mesh: &DiskMesh,
-    (coordinates, verdict): (&[DVec2], &Verdict),
+    (coordinates, verdict): (&Embedding, &Verdict),
     page: SvgPage,
 ) -> io::Result<()> {
-    let on_picture =
-        |aspect: f64| -> Vec<DVec2> { coordinates.iter().map(|uv| uv * DVec2::new(aspect, 1.0)).collect() };
+    let on_picture = |aspect: f64| -> Embedding { coordinates.iter().map(|uv| uv * DVec2::new(aspect, 1.0)).collect() };
     match page {
         SvgPage::Layout => write_layout(out, mesh, (coordinates, verdict), &Frame::around(coordinates.iter())),
         SvgPage::Picture { aspect } => {
@@ -94,14 +93,19 @@ pub fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io:
     write_drawing(out, mesh, (embedding, &step.verdict), (&frame, outside.as_ref()))
 }
 
-fn write_layout(out: &mut impl Write, mesh: &DiskMesh, layout: (&[DVec2], &Verdict), frame: &Frame) -> io::Result<()> {
+fn write_layout(
+    out: &mut impl Write,
+    mesh: &DiskMesh,
+    layout: (&Embedding, &Verdict),
+    frame: &Frame,
+) -> io::Result<()> {
     write_drawing(out, mesh, layout, (frame, None))
 }
 
 fn write_drawing(
     out: &mut impl Write,
     mesh: &DiskMesh,
-    (embedding, verdict): (&[DVec2], &Verdict),
+    (embedding, verdict): (&Embedding, &Verdict),
     (frame, outside): (&Frame, Option<&Outside>),
 ) -> io::Result<()> {
     let DVec2 { x: width, y: height } = frame.page();
@@ -116,7 +120,7 @@ fn write_drawing(
     if let Some(outside) = outside {
         pen.write_pockets(out, outside)?;
     }
-    let at = |v: VertexId| frame.place(embedding[v.index()]);
+    let at = |v: VertexId| frame.place(embedding[v]);
     pen.write_faces(out, (mesh, verdict), &at)?;
     if let Some(outside) = outside {
         pen.write_hull(out, outside)?;

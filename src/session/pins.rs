@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{Command, Document, Place, Session};
 use crate::geom::PictureFrame;
 use crate::mesh::VertexId;
-use crate::solver::{Hold, Pin, Pins};
+use crate::solver::{Embedding, Hold, Pin, Pins};
 
 impl Session {
     /// Pins vertices where they lie.

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::errands::{Errand, Purpose};
 use super::{Command, Place, Session};
 use crate::geom::{PictureFrame, Similarity};
-use crate::solver::{Control, Family, GaugeSize, Method, Pin, Pins, Settings, SolveError, flatten};
+use crate::solver::{Control, Embedding, Family, GaugeSize, Method, Pin, Pins, Settings, SolveError, flatten};
 
 /// The mesh flattened without pins, in the middle of the picture.
 pub(super) struct Flat {
@@ -14,7 +14,7 @@ pub(super) struct Flat {
     /// Whether the mesh's faces were turned around.
     faces_turned: bool,
     /// Where vertices lie, in the plane.
-    embedding: Result<Vec<DVec2>, SolveError>,
+    embedding: Result<Embedding, SolveError>,
 }
 
 impl Session {
@@ -59,9 +59,8 @@ impl Session {
             let text = "picture or faces changed while the targets were being fitted".to_owned();
             return self.fail(Place::Embedding, text, Some("fit them again"));
         }
-        let pairs: Vec<[DVec2; 2]> = (self.document.plane_pins().into_iter())
-            .map(|(vertex, pin)| [pin.target, embedding[vertex.index()]])
-            .collect();
+        let pairs: Vec<[DVec2; 2]> =
+            (self.document.plane_pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex]]).collect();
         let fitted = Similarity::fitting(&pairs).map(|similarity| {
             let targets = pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target)));
             targets.collect::<Vec<_>>()

@@ -25,7 +25,7 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::Rest;
-use super::{Control, Hold, Outside, Pin, Pins, Places, Progress, SolveError, verdict};
+use super::{Control, Embedding, Hold, Outside, Pin, Pins, Places, Progress, SolveError, verdict};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -67,7 +67,7 @@ const CRUSHED: f64 = 10.0;
 pub(super) struct Continuation {
     rest: Rest,
     pins: Pins,
-    embedding: Vec<DVec2>,
+    embedding: Embedding,
     /// The way that was left after each step.
     way_left: Vec<f64>,
     /// Mesh and outside after the latest step, all points, and the outside.
@@ -78,9 +78,9 @@ pub(super) struct Continuation {
     loosened: usize,
     is_loose: bool,
     /// Where a second try begins, until it does.
-    start: Option<Vec<DVec2>>,
+    start: Option<Embedding>,
     /// The latest embedding that was not crushed, and the lowest energy so far.
-    sound: (Vec<DVec2>, f64),
+    sound: (Embedding, f64),
 }
 
 struct Settled {
@@ -91,7 +91,7 @@ struct Settled {
 
 /// A state on the way, accepted by the verdict.
 pub(super) struct Accepted {
-    pub(super) embedding: Vec<DVec2>,
+    pub(super) embedding: Embedding,
     pub(super) progress: Progress,
     pub(super) outside: Arc<Outside>,
 }
@@ -104,7 +104,7 @@ impl std::fmt::Debug for Continuation {
 
 impl Continuation {
     /// Begins at a planar embedding, wherever it lies.
-    pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
+    pub(super) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let (rest, pins) = (Rest::new(mesh), pins.clone());
         let sound = (embedding.clone(), rest.progress(mesh, &embedding, 0.0).energy);
         let start = Some(embedding.clone());
@@ -130,7 +130,7 @@ impl Continuation {
     }
 
     /// The present embedding, one-to-one.
-    pub(super) fn embedding(&self) -> &[DVec2] {
+    pub(super) fn embedding(&self) -> &Embedding {
         &self.embedding
     }
 
@@ -143,13 +143,13 @@ impl Continuation {
     /// How far it has come.
     pub(super) fn progress(&self, mesh: &DiskMesh) -> Progress {
         let targets = self.targets();
-        let left = targets.iter().map(|(v, target)| self.embedding[v.index()].distance(*target));
+        let left = targets.iter().map(|(v, target)| self.embedding[v].distance(*target));
         self.rest.progress(mesh, &self.embedding, left.fold(0.0, f64::max))
     }
 
     /// Whether every exact pin is on its target.
     pub(super) fn has_arrived(&self) -> bool {
-        self.targets().iter().all(|(v, target)| self.embedding[v.index()] == *target)
+        self.targets().iter().all(|(v, target)| self.embedding[v] == *target)
     }
 
     /// Goes on as far as can be at once; where it is stuck, once again from the beginning with springs that are tightened
@@ -274,7 +274,7 @@ impl Continuation {
     fn surround(
         &self,
         mesh: &DiskMesh,
-        embedding: &[DVec2],
+        embedding: &Embedding,
         (targets, similar): (&Places, Option<&Membrane>),
     ) -> Result<Option<Settled>, SolveError> {
         let Some(outside) = outside_of(mesh, embedding, targets.values().copied(), FRAME_POINTS) else {
@@ -325,7 +325,7 @@ impl Continuation {
     fn settle(
         &mut self,
         mesh: &DiskMesh,
-        embedding: Vec<DVec2>,
+        embedding: Embedding,
         (targets, similar): (&Places, &Membrane),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {

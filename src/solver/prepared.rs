@@ -18,7 +18,7 @@ use super::pins::{Pins, Places, are_held_alike, check_pins, farthest_pair, fixed
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
-use super::{BoundaryShape, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use super::{BoundaryShape, Control, Embedding, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
 use crate::linalg::{Analysis, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -175,7 +175,7 @@ impl Prepared {
         };
         let in_force = if self.own_places.is_some() {
             complete_gauge(mesh, &mut embedding, (&held, self.settings.size));
-            fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex.index()])))
+            fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))
         } else {
             held
         };
@@ -219,7 +219,7 @@ impl Prescribed {
     }
 
     /// Solves for x and y, which share the matrix.
-    fn solve(&self, site: Site<'_>, places: &Places) -> Result<(Vec<DVec2>, f64), SolveError> {
+    fn solve(&self, site: Site<'_>, places: &Places) -> Result<(Embedding, f64), SolveError> {
         let terms = |axis: usize| {
             let targets: BTreeMap<VertexId, f64> = places.iter().map(|(&v, t)| (v, t[axis])).collect();
             site.system.pinned_terms(site.mesh, &self.equations, &targets)
@@ -228,12 +228,12 @@ impl Prescribed {
         let named = |error| in_vertices(error, site.system.free());
         let solved = self.factor.solve_many(&self.matrix, &both).map_err(named)?;
         let (x, y) = solved.x.split_at(site.system.free().len());
-        let mut embedding = vec![DVec2::ZERO; site.mesh.vertex_count()];
-        for (vertex, (&x, &y)) in site.system.free().iter().zip(x.iter().zip(y)) {
-            embedding[vertex.index()] = DVec2::new(x, y);
+        let mut embedding = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
+        for (&vertex, (&x, &y)) in site.system.free().iter().zip(x.iter().zip(y)) {
+            embedding[vertex] = DVec2::new(x, y);
         }
-        for (vertex, target) in places {
-            embedding[vertex.index()] = *target;
+        for (&vertex, target) in places {
+            embedding[vertex] = *target;
         }
         Ok((embedding, solved.residual))
     }

@@ -30,8 +30,8 @@ use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
 use super::{
-    Control, Family, Method, Outside, Phase, PhaseSeconds, Pins, Prepared, Progress, Settings, Solution, SolveError,
-    fixed_pins, flatten, gauge_pins, verdict,
+    Control, Embedding, Family, Method, Outside, Phase, PhaseSeconds, Pins, Prepared, Progress, Settings, Solution,
+    SolveError, fixed_pins, flatten, gauge_pins, verdict,
 };
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
@@ -87,7 +87,7 @@ pub struct Run {
 /// What the next step goes on from.
 #[derive(Clone, Debug)]
 struct Latest {
-    embedding: Vec<DVec2>,
+    embedding: Embedding,
     /// The pins in force.
     pins: Pins,
     has_simple_boundary: bool,
@@ -375,7 +375,7 @@ impl Run {
     fn is_met(&self) -> bool {
         let Some(latest) = &self.latest else { return false };
         let exact = self.pins.iter().filter(|(_, pin)| self.settings.is_exact(pin.hold));
-        exact.into_iter().all(|(v, pin)| latest.embedding[v.index()] == pin.target)
+        exact.into_iter().all(|(v, pin)| latest.embedding[v] == pin.target)
     }
 
     /// One round of relaxing.
@@ -403,7 +403,7 @@ impl Run {
     }
 
     /// A solution that no linear system stands behind.
-    fn one_to_one(&self, embedding: Vec<DVec2>, pins: Pins, start: Instant) -> Solution {
+    fn one_to_one(&self, embedding: Embedding, pins: Pins, start: Instant) -> Solution {
         Solution {
             embedding,
             pins,
@@ -520,7 +520,7 @@ impl Run {
             complete_gauge(mesh, &mut solution.embedding, (&self.pins, self.settings.size));
             solution.gauge_completed = true;
             for (vertex, pin) in &mut solution.pins {
-                pin.target = solution.embedding[vertex.index()];
+                pin.target = solution.embedding[vertex];
             }
         }
         Ok(Raw::of(Method::Iterate, Family::MeanValue, solution))
@@ -541,6 +541,6 @@ impl Run {
 }
 
 /// The default gauge pins where they lie in an embedding.
-fn gauge_in(mesh: &DiskMesh, embedding: &[DVec2]) -> Pins {
-    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v.index()])))
+fn gauge_in(mesh: &DiskMesh, embedding: &Embedding) -> Pins {
+    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v])))
 }

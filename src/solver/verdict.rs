@@ -26,6 +26,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::Embedding;
 use crate::geom::{Orientation, crossings, orientation, turning_number, winding_number};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 
@@ -62,9 +63,9 @@ fn is_zero(count: &usize) -> bool {
 /// # Panics
 ///
 /// If the embedding does not have one position per vertex.
-pub fn verdict(mesh: &DiskMesh, embedding: &[DVec2]) -> Verdict {
+pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
     assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
-    let at = |vertex: VertexId| embedding[vertex.index()];
+    let at = |vertex: VertexId| embedding[vertex];
     let triangles = &mesh.mesh().triangles;
     let orientations: Vec<Option<Orientation>> =
         triangles.par_iter().with_min_len(FACES_PER_TASK).map(|t| orientation(at(t[0]), at(t[1]), at(t[2]))).collect();
@@ -114,7 +115,7 @@ fn boundary_crossings(mesh: &DiskMesh, boundary: &[DVec2]) -> (Vec<[EdgeId; 2]>,
 /// Interior vertices around which all faces are upright and the link winds more than once.
 fn overwound_vertices(
     mesh: &DiskMesh,
-    embedding: &[DVec2],
+    embedding: &Embedding,
     is_upright: impl Fn(FaceId) -> bool + Sync,
 ) -> Vec<VertexId> {
     let is_overwound = |link: &mut Vec<DVec2>, vertex: VertexId| {
@@ -126,9 +127,9 @@ fn overwound_vertices(
             if !mesh.face_of(halfedge).is_some_and(&is_upright) {
                 return false;
             }
-            link.push(embedding[mesh.head(halfedge).index()]);
+            link.push(embedding[mesh.head(halfedge)]);
         }
-        winding_number(link, embedding[vertex.index()]).is_some_and(|turns| turns.abs() > 1)
+        winding_number(link, embedding[vertex]).is_some_and(|turns| turns.abs() > 1)
     };
     let overwound: Vec<bool> = (0..mesh.vertex_count())
         .into_par_iter()

@@ -16,11 +16,11 @@ use std::time::Instant;
 use glam::DVec2;
 
 use super::equations::{barycentric, uniform};
-use super::plane_weights::{left_over_in_plane, mean_value_in_plane};
+use super::plane_weights::{residuals_in_plane, mean_value_in_plane};
 use super::virtual_boundary::{Extended, Start, VirtualBoundary};
 use super::{
-    Control, Family, Growth, Method, PhaseSeconds, Pins, Places, Prepared, Settings, Solution, SolveError, Treatment,
-    fixed_pins,
+    Control, Embedding, Family, Growth, Method, PhaseSeconds, Pins, Places, Prepared, Settings, Solution, SolveError,
+    Treatment, fixed_pins,
 };
 use crate::mesh::DiskMesh;
 
@@ -67,7 +67,7 @@ pub(super) struct VirtualBoundaryRun {
     boundary: usize,
     extended: Option<Extended>,
     /// The last result, with the outside.
-    solved: Vec<DVec2>,
+    solved: Embedding,
     /// How many weights have been tried on `extended`.
     tried: usize,
     /// Whether nothing is left to do.
@@ -92,7 +92,7 @@ impl VirtualBoundaryRun {
             pinned: 2,
             boundary,
             extended: None,
-            solved: Vec::new(),
+            solved: Embedding::default(),
             tried: 0,
             is_exhausted: false,
             notes: Vec::new(),
@@ -118,7 +118,7 @@ impl VirtualBoundaryRun {
     pub(super) fn step(
         &mut self,
         mesh: &DiskMesh,
-        simple: Option<&[DVec2]>,
+        simple: Option<&Embedding>,
         control: Control<'_>,
     ) -> Result<Bent, SolveError> {
         if self.extended.is_none() && self.tried == 0 {
@@ -177,29 +177,29 @@ impl VirtualBoundaryRun {
 fn bend(
     mesh: &DiskMesh,
     extended: &Extended,
-    (weights, solved, pinned): (Weights, &[DVec2], usize),
+    (weights, solved, pinned): (Weights, &Embedding, usize),
     control: Control<'_>,
 ) -> Result<Bent, SolveError> {
     let start = Instant::now();
-    let from = if weights == Weights::Again && !solved.is_empty() { solved } else { &extended.positions };
+    let from = if weights == Weights::Again && !solved.is_empty() { solved } else { &extended.embedding };
     let has_pockets = !extended.pockets.is_empty();
-    let (equations, left) = match weights {
+    let (equations, residuals) = match weights {
         Weights::Surface if !has_pockets => (barycentric(mesh, 0.0)?, None),
         Weights::Uniform => (uniform(&extended.disk), None),
-        _ => (mean_value_in_plane(&extended.disk, from), Some(left_over_in_plane(&extended.disk, from))),
+        _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
     };
     let bounded_corners = equations.bounded_corners;
-    let start_at = Start { positions: from, left: left.as_deref() };
-    let (positions, residual, stats) = extended.solve(&equations, start_at, control)?;
-    let embedding = positions[..mesh.vertex_count()].to_vec();
+    let start_at = Start { embedding: from, residuals: residuals.as_deref() };
+    let (solved, residual, stats) = extended.solve(&equations, start_at, control)?;
+    let embedding = solved.truncated(mesh.vertex_count());
     let stages = VirtualBoundary {
         pinned,
         outline: extended.outline,
-        before: from.to_vec(),
-        weights_of_before: left.is_some(),
+        before: from.clone(),
+        weights_of_before: residuals.is_some(),
         hull: extended.disk.boundary_loop().to_vec(),
         pockets: extended.pockets.clone(),
-        solved: positions,
+        solved,
     };
     let seconds = PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
     let solution = Solution {

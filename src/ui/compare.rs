@@ -11,7 +11,7 @@ use super::{Editor, Shading};
 use crate::mesh::{TriMesh, VertexId};
 use crate::render::{GhostLayer, LineLayer};
 use crate::session::Outcome;
-use crate::solver::Step;
+use crate::solver::{Embedding, Step};
 use crate::view::{EdgeList, PlaneArrays};
 
 /// The boundary of the compared step, ready to be drawn over the one on the screen.
@@ -93,7 +93,7 @@ impl Editor {
 }
 
 /// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
-pub(super) fn places_in(base: &Step, step: &Step) -> Vec<DVec2> {
+pub(super) fn places_in(base: &Step, step: &Step) -> Embedding {
     let embedding = &base.solution.embedding;
     let Some(refinement) = &step.refinement else { return embedding.clone() };
     if base.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
@@ -101,14 +101,14 @@ pub(super) fn places_in(base: &Step, step: &Step) -> Vec<DVec2> {
     }
     let mut places = embedding[..refinement.old_vertex_count()].to_vec();
     for new in refinement.new_vertices() {
-        let [a, b] = new.edge.map(|v| embedding[v.index()]);
+        let [a, b] = new.edge.map(|v| embedding[v]);
         places.push(a.lerp(b, new.at));
     }
     places
 }
 
 /// How far each face has moved between two embeddings: the mean of its corners.
-pub(super) fn face_moves(mesh: &TriMesh, before: &[DVec2], after: &[DVec2]) -> Vec<f64> {
+pub(super) fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64> {
     let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
     let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
     mesh.triangles.iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()

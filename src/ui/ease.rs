@@ -11,6 +11,7 @@ use glam::DVec2;
 
 use super::Editor;
 use super::scene::PlaneScene;
+use crate::solver::Embedding;
 use crate::view::PlaneCamera;
 
 /// How long the way takes, seconds.
@@ -38,7 +39,7 @@ pub struct Ease {
 /// A way under way.
 #[derive(Debug)]
 struct Way {
-    from: Vec<DVec2>,
+    from: Embedding,
     /// Seconds of the window's clock.
     began: f64,
     /// What is drawn in this frame.

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::mesh::VertexId;
+use crate::solver::Embedding;
 use crate::view::{PlaneBox, Sphere};
 
 /// Half the width of what `Request::GoTo` shows, in lengths of the element's longest edge.
@@ -26,7 +27,7 @@ pub(super) fn grown(points: &[DVec3], all: Sphere) -> Sphere {
 }
 
 /// A box around a few points of the embedding with some of it around.
-pub(super) fn grown_box(embedding: &[DVec2], vertices: &[VertexId], all: PlaneBox) -> PlaneBox {
+pub(super) fn grown_box(embedding: &Embedding, vertices: &[VertexId], all: PlaneBox) -> PlaneBox {
     let points: Vec<DVec2> = vertices.iter().filter_map(|v| embedding.get(v.index()).copied()).collect();
     let tight = PlaneBox::around(&points);
     let reach = (tight.max - tight.min).max_element();

@@ -22,7 +22,7 @@ use crate::geom::{Orientation, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
 use crate::session::{Job, Outcome, Poll};
-use crate::solver::{Outline, Outside, VirtualBoundary};
+use crate::solver::{Embedding, Outline, Outside, VirtualBoundary};
 use crate::view::{EdgeList, FaceList, FacePaint, PlaneCamera};
 
 /// A stage of the virtual boundary.
@@ -155,7 +155,7 @@ impl HullScene {
     /// A step that bent no boundary still has a hull.
     fn of_free_boundary(disk: &DiskMesh, outcome: &Outcome, key: (u64, Stage)) -> Self {
         let boundary = disk.boundary_loop();
-        let points: Vec<DVec2> = boundary.iter().map(|v| outcome.step.solution.embedding[v.index()]).collect();
+        let points: Vec<DVec2> = boundary.iter().map(|v| outcome.step.solution.embedding[v]).collect();
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
         Self {
             key,
@@ -215,9 +215,9 @@ fn sides_of(faces: &[[VertexId; 3]]) -> Vec<[VertexId; 2]> {
     sides
 }
 
-fn flipped_faces(disk: &DiskMesh, positions: &[DVec2]) -> Vec<FaceId> {
+fn flipped_faces(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceId> {
     let is_flipped = |&face: &FaceId| {
-        let [a, b, c] = disk.face(face).map(|v| positions[v.index()]);
+        let [a, b, c] = disk.face(face).map(|v| embedding[v]);
         orientation(a, b, c) != Some(Orientation::CounterClockwise)
     };
     disk.faces().filter(is_flipped).collect()
@@ -234,7 +234,7 @@ struct Similarity {
 impl Similarity {
     /// The similarity that takes one embedding to another which differs by nothing else: found by the first boundary
     /// vertex and the one farthest from it.
-    fn between(disk: &DiskMesh, before: &[DVec2], after: &[DVec2]) -> Self {
+    fn between(disk: &DiskMesh, before: &Embedding, after: &Embedding) -> Self {
         let boundary = disk.boundary_loop();
         let first = boundary[0].index();
         let distance = |v: &VertexId| before[v.index()].distance(before[first]);
@@ -248,8 +248,8 @@ impl Similarity {
         }
     }
 
-    fn moved(self, points: &[DVec2]) -> Vec<DVec2> {
-        points.iter().map(|&z| self.to + self.turn.rotate(z - self.from)).collect()
+    fn moved(self, embedding: &Embedding) -> Embedding {
+        embedding.iter().map(|&z| self.to + self.turn.rotate(z - self.from)).collect()
     }
 }
 

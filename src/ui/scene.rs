@@ -8,7 +8,7 @@ use super::Shading;
 use super::compare::{face_moves, places_in};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
-use crate::solver::{FaceDistortion, Step};
+use crate::solver::{Embedding, FaceDistortion, Step};
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
 
 /// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
@@ -93,7 +93,7 @@ pub struct PlaneScene {
     /// Picks vertices.
     pub picker: Arc<PlanePicker>,
     /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
-    positions: Option<Vec<DVec2>>,
+    positions: Option<Embedding>,
     part: Part,
 }
 
@@ -125,7 +125,7 @@ impl PlaneScene {
 
     /// The same mesh with other points than the outcome's embedding: at a stage on the way to it, or with its outside.
     /// Points beyond the mesh's are drawn with, and not picked.
-    pub(super) fn of_part(&self, part: Part, positions: Vec<DVec2>) -> Self {
+    pub(super) fn of_part(&self, part: Part, positions: Embedding) -> Self {
         let mesh = self.mesh.mesh();
         Self {
             mesh: Arc::clone(&self.mesh),
@@ -140,7 +140,7 @@ impl PlaneScene {
 
     /// The vertices of `mesh`, this one's or the one as given, on their way to where they will lie. Picks them where they
     /// are in this scene.
-    pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Vec<DVec2>) -> Self {
+    pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Embedding) -> Self {
         let picker = if Arc::ptr_eq(mesh, &self.mesh) {
             Arc::clone(&self.picker)
         } else {
@@ -158,7 +158,7 @@ impl PlaneScene {
     }
 
     /// Where vertices lie.
-    pub fn positions(&self) -> &[DVec2] {
+    pub fn positions(&self) -> &Embedding {
         self.positions.as_deref().unwrap_or(&self.outcome.step.solution.embedding)
     }
 

@@ -9,6 +9,7 @@ use super::status::short;
 use super::{Editor, Request, equation_table};
 use crate::mesh::{DiskMesh, NewVertex, VertexId};
 use crate::session::Action;
+use crate::solver::Embedding;
 
 /// Shows the panel.
 pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -93,8 +94,8 @@ fn angle_sum_on_mesh(disk: &DiskMesh, vertex: VertexId) -> f64 {
     corners(disk, vertex).map(|[a, b]| at(a).angle_between(at(b))).sum()
 }
 
-fn angle_sum_in_plane(disk: &DiskMesh, embedding: &[DVec2], vertex: VertexId) -> f64 {
-    let at = |v: VertexId| embedding[v.index()] - embedding[vertex.index()];
+fn angle_sum_in_plane(disk: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> f64 {
+    let at = |v: VertexId| embedding[v] - embedding[vertex];
     corners(disk, vertex).map(|[a, b]| at(a).angle_to(at(b)).abs()).sum()
 }
 

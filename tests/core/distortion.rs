@@ -1,7 +1,7 @@
 //! Distortion against closed forms.
 
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Distortion, DistortionSummary, FaceDistortion, distortion};
+use freebound::solver::{Embedding, Distortion, DistortionSummary, FaceDistortion, distortion};
 use glam::{DMat2, DVec2, DVec3};
 
 /// Relative; sums over a few hundred faces of numbers that are each right to a few units of the last place.
@@ -25,7 +25,7 @@ fn grid(n: u32, place: impl Fn(DVec2) -> DVec3) -> DiskMesh {
 }
 
 /// The same grid's vertices in the unit square, moved by `place`.
-fn flat(n: u32, place: impl Fn(DVec2) -> DVec2) -> Vec<DVec2> {
+fn flat(n: u32, place: impl Fn(DVec2) -> DVec2) -> Embedding {
     (0..=n)
         .flat_map(|j| (0..=n).map(move |i| DVec2::new(f64::from(i), f64::from(j)) / f64::from(n)))
         .map(place)
@@ -152,7 +152,7 @@ fn the_stereographic_map_of_an_octant_keeps_angles_and_scales_as_it_should() {
     };
     let mesh = grid(n, octant);
     let map = |p: DVec3| DVec2::new(p.x, p.y) * 2.0 / (1.0 + p.z);
-    let embedding: Vec<DVec2> = mesh.mesh().positions.iter().copied().map(map).collect();
+    let embedding: Embedding = mesh.mesh().positions.iter().copied().map(map).collect();
     let found = distortion(&mesh, &embedding);
     // A chord of 1/64 of a quarter turn departs from its arc, and the scale changes along it, by about 1/64.
     let chord = 0.03;
@@ -186,7 +186,7 @@ fn a_collapsed_face_is_infinite_and_json_shows_null() {
 fn nothing_is_ever_nan() {
     let spoilt = [DVec2::NAN, DVec2::INFINITY, DVec2::splat(f64::MAX), DVec2::splat(-f64::MAX), DVec2::splat(5e-324)];
     let mesh = grid(2, tilted);
-    let mut embeddings: Vec<Vec<DVec2>> = spoilt.iter().map(|&value| vec![value; 9]).collect();
+    let mut embeddings: Vec<Embedding> = spoilt.iter().map(|&value| vec![value; 9]).collect();
     for value in spoilt {
         let mut embedding = flat(2, |p| p);
         embedding[4] = value;

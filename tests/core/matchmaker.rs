@@ -30,7 +30,7 @@ fn check(mesh: &DiskMesh, pins: &Pins, name: &str) -> Step {
     assert!(!step.verdict.mirrored, "{name}");
     for (v, pin) in pins {
         assert_eq!(
-            embedding[v.index()].to_array().map(f64::to_bits),
+            embedding[v].to_array().map(f64::to_bits),
             pin.target.to_array().map(f64::to_bits),
             "{name}"
         );

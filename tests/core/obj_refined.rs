@@ -5,7 +5,7 @@ use std::fs;
 
 use freebound::io::{ObjMesh, read_mesh, read_obj, refined_obj, write_obj};
 use freebound::mesh::{DiskMesh, FaceId, NewVertex, Refinement, VertexId};
-use freebound::solver::verdict;
+use freebound::solver::{Embedding, verdict};
 use glam::DVec2;
 
 use crate::program::Program;
@@ -65,7 +65,7 @@ fn old_vertices_whole_polygons_and_statements_stay_and_split_polygons_become_tri
 fn the_refined_file_is_the_refined_mesh() {
     let (file, _, refinement) = refined();
     let disk = refinement.disk();
-    let embedding: Vec<DVec2> = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+    let embedding: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
     let back = read_obj(text_of(&refined_obj(&file, &refinement), &embedding).as_bytes()).unwrap();
     let texture = back.texture_mesh().unwrap();
     assert_eq!(texture.mesh.positions, disk.mesh().positions);
@@ -80,7 +80,7 @@ fn the_refined_file_is_the_refined_mesh() {
 fn other_programs_read_it_and_check_proves_it() {
     let (file, _, refinement) = refined();
     let disk = refinement.disk();
-    let embedding: Vec<DVec2> = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+    let embedding: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
     let program = Program::new();
     let path = program.write("out.obj", &text_of(&refined_obj(&file, &refinement), &embedding));
     program.run(&["check", "out.obj"]).expect(0);

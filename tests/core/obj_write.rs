@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 
 use freebound::io::{ObjMesh, Statement, read_mesh, read_obj, write_atomically, write_obj};
+use freebound::solver::Embedding;
 use freebound::mesh::{PolygonMesh, VertexId};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -43,7 +44,7 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 /// Meshes of polygons with any positions, texture coordinates and statements.
-fn any_mesh() -> impl Strategy<Value = (ObjMesh, Vec<DVec2>)> {
+fn any_mesh() -> impl Strategy<Value = (ObjMesh, Embedding)> {
     let points = prop::collection::vec((any_number(), any_number(), any_number(), any_number(), any_number()), 3..20);
     let polygons = prop::collection::vec(prop::collection::vec(any::<prop::sample::Index>(), 3..6), 1..12);
     let statements = prop::collection::vec((0_u32..14, "(o|g|usemtl|mtllib)( [a-zA-Z0-9.é]{1,5}){1,3}|s off"), 0..5);
@@ -101,7 +102,7 @@ fn a_published_map_goes_through_a_file_unchanged() {
     for entry in manifest().iter().filter(|entry| entry.text("role").contains("+uv")) {
         let name = entry.path.file_stem().expect("a name").to_string_lossy().into_owned();
         let map = entry.path.with_file_name(format!("constrained/{name}.publishedmap.txt"));
-        let texture: Vec<DVec2> = fs::read_to_string(map)
+        let texture: Embedding = fs::read_to_string(map)
             .expect("the map is there")
             .lines()
             .filter(|line| !line.starts_with('#'))

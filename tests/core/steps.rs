@@ -8,7 +8,7 @@ use freebound::geom::PictureFrame;
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::session::{Finished, Model, Outcome, OutputFit};
-use freebound::solver::{Control, Family, Method, Pins, Run, Settings, to_unit_square, verdict};
+use freebound::solver::{Embedding, Control, Family, Method, Pins, Run, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;
 
@@ -223,7 +223,7 @@ fn auto_ends_planar_and_proved_on_every_disk_of_the_corpus() {
 }
 
 /// A fan whose embedding is `places`, the centre first, as the outcome of a solve.
-fn outcome_with(mesh: &DiskMesh, places: Vec<DVec2>) -> Outcome {
+fn outcome_with(mesh: &DiskMesh, places: Embedding) -> Outcome {
     let mut run = Run::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
     step.verdict = verdict(mesh, &places);
@@ -231,7 +231,7 @@ fn outcome_with(mesh: &DiskMesh, places: Vec<DVec2>) -> Outcome {
     Outcome::new(mesh, *run.settings(), (PictureFrame::default(), Pins::new()), step)
 }
 
-fn finish(mesh: &TriMesh, places: Vec<DVec2>) -> (bool, String, bool) {
+fn finish(mesh: &TriMesh, places: Embedding) -> (bool, String, bool) {
     let disk = DiskMesh::try_from(mesh.clone()).expect("a disk");
     let program = Program::new();
     let path = program.write("in.obj", &crate::program::obj_text(&crate::program::polygons_of(&disk)));
@@ -247,7 +247,7 @@ fn finish(mesh: &TriMesh, places: Vec<DVec2>) -> (bool, String, bool) {
 fn what_the_unit_square_would_fold_is_written_where_it_was_solved() {
     // A square around the origin so small that its shape is lost when half the extent is added.
     let mesh = grid(3, 3);
-    let mut places: Vec<DVec2> = mesh.positions.iter().map(|p| p.truncate() - DVec2::splat(1.0)).collect();
+    let mut places: Embedding = mesh.positions.iter().map(|p| p.truncate() - DVec2::splat(1.0)).collect();
     // Vertices 5, 6, 9 and 10 are the corners of the square in the middle.
     for (vertex, place) in [(5, [-1e-18, -1e-18]), (6, [1e-18, -1e-18]), (9, [-1e-18, 1e-18]), (10, [1e-18, 1e-18])] {
         places[vertex] = DVec2::from(place);

@@ -1,7 +1,7 @@
 //! The verdict on maps that are known: each kind of failure by itself.
 
 use freebound::mesh::{EdgeId, FaceId, VertexId};
-use freebound::solver::{Verdict, verdict};
+use freebound::solver::{Embedding, Verdict, verdict};
 use glam::DVec2;
 
 use super::common::manifest;
@@ -219,7 +219,7 @@ fn the_report_has_the_fields_of_the_design() {
 fn the_flat_mesh_of_the_corpus_lies_planar_as_it_is() {
     for entry in manifest().iter().filter(|entry| entry.file == "flat_bump_domain.obj") {
         let mesh = entry.disk();
-        let embedding: Vec<DVec2> = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
+        let embedding: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
         let verdict = verdict(&mesh, &embedding);
         assert!(verdict.planar, "{}", verdict.summary());
     }

@@ -1,6 +1,7 @@
 //! Small disks and maps of them into the plane, for the tests of the verdict.
 
 use freebound::mesh::{DiskMesh, TriMesh};
+use freebound::solver::Embedding;
 use glam::{DVec2, DVec3};
 
 /// Random numbers that are the same everywhere: `SplitMix64` (G. Steele, D. Lea, C. Flood, 2014).
@@ -40,7 +41,7 @@ impl Random {
 #[derive(Clone, Debug)]
 pub(super) struct Case {
     pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) embedding: Vec<DVec2>,
+    pub(super) embedding: Embedding,
 }
 
 impl Case {
@@ -60,7 +61,7 @@ pub(super) fn fan(middle: DVec2, link: &[DVec2]) -> Case {
 }
 
 /// A strip of triangles between two rows of vertices, the lower even, the upper odd.
-pub(super) fn strip(embedding: Vec<DVec2>) -> Case {
+pub(super) fn strip(embedding: Embedding) -> Case {
     let last = u32::try_from(embedding.len()).expect("few vertices") - 2;
     let triangles = (0..last).map(|i| if i % 2 == 0 { [i, i + 2, i + 1] } else { [i, i + 1, i + 2] }).collect();
     Case { triangles, embedding }
@@ -106,7 +107,7 @@ fn convex(random: &mut Random) -> Case {
         let angle = std::f64::consts::TAU * (f64::from(i) + turn) / f64::from(corner_count);
         DVec2::new(4.0 * angle.cos(), 3.0 * angle.sin())
     };
-    let mut embedding: Vec<DVec2> = (0..corner_count).map(corner).collect();
+    let mut embedding: Embedding = (0..corner_count).map(corner).collect();
     for _ in 0..random.index(3) {
         let inserted = u32::try_from(embedding.len()).expect("few vertices");
         let face = random.index(triangles.len());
@@ -175,7 +176,7 @@ pub(super) fn nearly_planar_case(random: &mut Random) -> Case {
 }
 
 /// Moves every coordinate by a few units of its last place.
-pub(super) fn nudge(random: &mut Random, embedding: &mut [DVec2]) {
+pub(super) fn nudge(random: &mut Random, embedding: &mut Embedding) {
     for point in embedding {
         for coordinate in [&mut point.x, &mut point.y] {
             for _ in 0..random.index(3) {

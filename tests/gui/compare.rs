@@ -5,7 +5,7 @@ use egui::Key;
 use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Method, Settings};
+use freebound::solver::{Embedding, Method, Settings};
 use freebound::ui::{Shading, Stage};
 use glam::DVec2;
 
@@ -25,7 +25,7 @@ fn two_steps() -> Window {
     window
 }
 
-fn drawn(window: &Window) -> Vec<DVec2> {
+fn drawn(window: &Window) -> Embedding {
     window.editor().drawn_plane().expect("solved").positions().to_vec()
 }
 

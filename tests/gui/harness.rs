@@ -10,6 +10,7 @@ use egui::{Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, HarnessBuilder, Node};
 use freebound::app::{App, Start};
+use freebound::solver::Embedding;
 use freebound::examples::Example;
 use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::{Action, Outcome};
@@ -90,7 +91,7 @@ impl Window {
         Arc::clone(self.editor().session.outcome().expect("solved"))
     }
 
-    pub(crate) fn embedding(&self) -> Vec<DVec2> {
+    pub(crate) fn embedding(&self) -> Embedding {
         self.outcome().step.solution.embedding.clone()
     }
 

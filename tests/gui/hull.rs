@@ -3,6 +3,7 @@
 use eframe::egui;
 use egui::Key;
 use freebound::examples::Example;
+use freebound::solver::Embedding;
 use freebound::ui::Stage;
 use glam::DVec2;
 
@@ -16,7 +17,7 @@ fn bent() -> Window {
     window
 }
 
-fn positions(window: &Window) -> Vec<DVec2> {
+fn positions(window: &Window) -> Embedding {
     window.editor().drawn_plane().expect("solved").positions().to_vec()
 }
 

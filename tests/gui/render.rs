@@ -11,6 +11,7 @@ use eframe::egui_wgpu::{RenderState, RendererOptions};
 use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use freebound::mesh::{FaceId, VertexId};
+use freebound::solver::Embedding;
 use freebound::render::{
     FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Shading, Style, install,
     mesh_pane, plane_pane, stats,
@@ -108,7 +109,7 @@ fn mesh_frame() -> MeshFrame {
 /// The sheet's own x and y as its embedding, with vertex 2, its lower right corner, moved to `corner`.
 fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
     let (positions, triangles) = sheet();
-    let mut embedding: Vec<DVec2> = positions.iter().map(|p| p.truncate()).collect();
+    let mut embedding: Embedding = positions.iter().map(|p| p.truncate()).collect();
     embedding[2] = corner;
     let box_of_sheet = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
     PlaneFrame {
@@ -283,7 +284,7 @@ fn lines_lie_where_their_vertices_lie() {
 fn filled_faces_show_beside_the_mesh_and_under_it_mixed_with_what_is_behind() {
     // The sheet, its lower right corner drawn in to the middle, and two faces: one over the gap, one over the mesh.
     let mut frame = plane_frame(DVec2::new(0.0, -1.0) + 1e-3, &[]);
-    let mut positions: Vec<DVec2> = sheet().0.iter().map(|p| p.truncate()).collect();
+    let mut positions: Embedding = sheet().0.iter().map(|p| p.truncate()).collect();
     positions[2] = DVec2::new(0.0, -1.0) + 1e-3;
     positions.push(DVec2::new(1.0, -1.0));
     frame.plane = Some(Arc::new(PlaneArrays::new(&positions, frame.mesh.triangles())));

@@ -6,7 +6,7 @@ use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::kittest::Queryable;
 use freebound::app::Start;
 use freebound::examples::Example;
-use freebound::solver::Pin;
+use freebound::solver::{Embedding, Pin};
 use freebound::ui::{BINDINGS, Shading, Tab};
 use glam::DVec2;
 

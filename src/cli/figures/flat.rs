@@ -7,11 +7,11 @@ use glam::{DVec2, DVec3};
 use super::{Figure, Numbers, Row};
 use crate::io::figure::{Panel, PlaneDrawing, Sheet};
 use crate::mesh::DiskMesh;
-use crate::solver::{BoundaryShape, Control, Family, Method, Pins, Run, Settings, SolveError, verdict};
+use crate::solver::{BoundaryShape, Control, Embedding, Family, Method, Pins, Run, Settings, SolveError, verdict};
 
 /// A flat mesh, and its embedding by Tutte's method. The paper's panel (c), the padding of Lee et al., is not made yet.
 pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Figure, SolveError> {
-    let input: Vec<DVec2> = mesh.mesh().positions.iter().copied().map(DVec3::truncate).collect();
+    let input: Embedding = mesh.mesh().positions.iter().copied().map(DVec3::truncate).collect();
     let of_input = verdict(mesh, &input);
     let settings = Settings::new(Method::Convex(BoundaryShape::Circle), Family::Uniform);
     let step = Run::new(settings, Pins::new()).step(mesh, control)?;

@@ -129,7 +129,7 @@ pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, S
         let miss = face
             .landmarks
             .iter()
-            .map(|landmark| last.solution.embedding[landmark.vertex.index()].distance(landmark.target.into()));
+            .map(|landmark| last.solution.embedding[landmark.vertex].distance(landmark.target.into()));
         let miss = miss.fold(0.0, f64::max);
         let words = take(&format!("{name} weights: {}", flips_in_words(&first)), &first);
         panels.push(Panel::plane(words, face.layout(&first)));

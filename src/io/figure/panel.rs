@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::{Area, Ink, Page, colours};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::solver::Embedding;
 
 /// Half the side of a pin's square, points.
 const PIN: f64 = 3.2;
@@ -52,12 +53,12 @@ impl Window {
     }
 
     /// The square around some faces of an embedding.
-    pub fn on_faces(mesh: &DiskMesh, places: &[DVec2], faces: &[FaceId]) -> Self {
+    pub fn on_faces(mesh: &DiskMesh, places: &Embedding, faces: &[FaceId]) -> Self {
         Self::around(faces.iter().flat_map(|&face| mesh.face(face)).map(|v| places[v.index()]), WINDOW_MARGIN)
     }
 
     /// The square around some triangles of an embedding, moved to where a panel of the whole shows it.
-    pub fn on_triangles(places: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
+    pub fn on_triangles(places: &Embedding, triangles: &[[VertexId; 3]]) -> Self {
         let whole = Self::around(places.iter().copied(), MARGIN);
         let window = Self::around(triangles.iter().flatten().map(|v| places[v.index()]), TRIANGLES_MARGIN);
         let room = DVec2::splat((whole.half - window.half).max(0.0));
@@ -66,7 +67,7 @@ impl Window {
 }
 
 /// Groups faces that lie near each other in an embedding, the largest group first.
-pub fn zones_of(mesh: &DiskMesh, places: &[DVec2], faces: &[FaceId]) -> Vec<Vec<FaceId>> {
+pub fn zones_of(mesh: &DiskMesh, places: &Embedding, faces: &[FaceId]) -> Vec<Vec<FaceId>> {
     let reach = ZONE * 2.0 * Window::around(places.iter().copied(), 0.0).half;
     let centre = |face: FaceId| mesh.face(face).iter().map(|v| places[v.index()]).sum::<DVec2>() / 3.0;
     let mut zones: Vec<Vec<FaceId>> = Vec::new();
@@ -109,7 +110,7 @@ pub struct PlaneDrawing {
     /// The mesh.
     pub mesh: Arc<DiskMesh>,
     /// Where its vertices lie, and virtual vertices after them.
-    pub places: Vec<DVec2>,
+    pub places: Embedding,
     /// Faces drawn red.
     pub flipped: Vec<FaceId>,
     /// Faces tinted: those that were flipped before.
@@ -128,7 +129,7 @@ pub struct PlaneDrawing {
 
 impl PlaneDrawing {
     /// An embedding without anything special.
-    pub fn new(mesh: &Arc<DiskMesh>, places: Vec<DVec2>) -> Self {
+    pub fn new(mesh: &Arc<DiskMesh>, places: Embedding) -> Self {
         Self {
             mesh: Arc::clone(mesh),
             places,

@@ -12,7 +12,7 @@ use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::equations::Equations;
 use crate::solver::free_solve::in_vertices;
 use crate::solver::plane_weights::mean_value_in_plane;
-use crate::solver::{Control, FreeSystem, Places, SolveError};
+use crate::solver::{Control, Embedding, FreeSystem, Places, SolveError};
 
 /// What the free vertices are drawn by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ pub(super) fn straightened(
     held: &Places,
     weights: Weights,
     control: Control<'_>,
-) -> Result<Vec<DVec2>, SolveError> {
+) -> Result<Embedding, SolveError> {
     let mut places = cells.places.clone();
     for (v, &place) in held {
         places[v.index()] = place;
