@@ -111,7 +111,7 @@ fn main() {
         table.row([
             family.to_string(),
             found.flipped_faces.len().to_string(),
-            (found.boundary_crossings.len() + found.unlisted_crossings).to_string(),
+            found.crossing_count().to_string(),
             found.overwound_vertices.len().to_string(),
             found.turning_number.map_or_else(|| "-".to_owned(), |turns| turns.to_string()),
             format!("{:.1e}", solution.residual),

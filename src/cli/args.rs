@@ -202,11 +202,9 @@ fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
         Some((VertexId::new(vertex.trim().parse().ok()?), Pin { target, hold }))
     };
     let (vertex, pin) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
-    match pin.hold {
-        Hold::Weighted(weight) if !pin.hold.is_valid() => {
-            Err(format!("the weight {weight} of vertex {vertex} is not a positive number"))
-        }
-        _ => Ok((vertex, pin)),
+    match pin.hold.invalid_weight() {
+        Some(weight) => Err(format!("the weight {weight} of vertex {vertex} is not a positive number")),
+        None => Ok((vertex, pin)),
     }
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 
 use crate::mesh::VertexId;
-use crate::solver::{Hold, Pin, Pins};
+use crate::solver::{Hold, Pin, Pins, TakenTargets};
 
 /// What a constraint file says, with the line of each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -131,7 +131,7 @@ impl Constraints {
     /// The first line at fault, counted from 1.
     pub fn parse(text: &str, vertex_count: usize) -> Result<Self, (u64, ConstraintFault)> {
         let mut found = Self::default();
-        let mut taken: BTreeMap<[u64; 2], VertexId> = BTreeMap::new();
+        let mut taken = TakenTargets::default();
         // Some editors begin a text with a byte-order mark.
         for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
             let text = text.split('#').next().unwrap_or_default().trim();
@@ -151,7 +151,7 @@ impl Constraints {
         vertex: VertexId,
         pin: &Pin,
         vertex_count: usize,
-        taken: &mut BTreeMap<[u64; 2], VertexId>,
+        taken: &mut TakenTargets,
     ) -> Result<(), ConstraintFault> {
         if vertex.index() >= vertex_count {
             return Err(ConstraintFault::NoSuchVertex { vertex, count: vertex_count });
@@ -159,15 +159,10 @@ impl Constraints {
         if let Some(&first) = self.lines.get(&vertex) {
             return Err(ConstraintFault::Twice { vertex, first });
         }
-        if pin.hold.is_exact() {
-            // Adding zero makes one bit pattern of the two zeros.
-            let place = (pin.target + 0.0).to_array().map(f64::to_bits);
-            if let Some(&other) = taken.get(&place) {
-                return Err(ConstraintFault::OnePlace { vertex, other, first: self.lines[&other] });
-            }
-            taken.insert(place, vertex);
+        match taken.take(vertex, pin) {
+            Some(other) => Err(ConstraintFault::OnePlace { vertex, other, first: self.lines[&other] }),
+            None => Ok(()),
         }
-        Ok(())
     }
 }
 
@@ -189,9 +184,9 @@ fn parse_line(text: &str) -> Result<(VertexId, Pin), ConstraintFault> {
         None => Hold::Hard,
         Some(word) => Hold::Weighted(number(word)?),
     };
-    match hold {
-        Hold::Weighted(weight) if !hold.is_valid() => Err(ConstraintFault::WeightNotPositive { vertex, weight }),
-        _ => Ok((vertex, Pin { target, hold })),
+    match hold.invalid_weight() {
+        Some(weight) => Err(ConstraintFault::WeightNotPositive { vertex, weight }),
+        None => Ok((vertex, Pin { target, hold })),
     }
 }
 

@@ -98,8 +98,10 @@ impl Visitor<'_> for WeightVisitor {
     }
 
     fn visit_f64<E: Error>(self, weight: f64) -> Result<RawWeight, E> {
-        let is_weight = Hold::Weighted(weight).is_valid();
-        is_weight.then_some(RawWeight(weight)).ok_or_else(|| E::custom(format!("the weight {weight} is not positive")))
+        match Hold::Weighted(weight).invalid_weight() {
+            Some(_) => Err(E::custom(format!("the weight {weight} is not positive"))),
+            None => Ok(RawWeight(weight)),
+        }
     }
 
     fn visit_u64<E: Error>(self, weight: u64) -> Result<RawWeight, E> {

@@ -29,7 +29,8 @@ impl Session {
     /// Pins a vertex, or places its pin anew.
     pub(super) fn place(&mut self, vertex: VertexId, pin: Pin) {
         let count = self.model.as_ref().map_or(0, |model| model.mesh().vertex_count());
-        if vertex.index() < count && pin.target.is_finite() && pin.hold.is_valid() && self.takes_pins() {
+        if vertex.index() < count && pin.target.is_finite() && pin.hold.invalid_weight().is_none() && self.takes_pins()
+        {
             self.edit(vec![Command::SetPin { vertex, pin: Some(pin) }]);
         }
     }
@@ -75,7 +76,7 @@ impl Session {
     }
 
     fn holds(&self, vertices: &[VertexId], hold: Hold) -> Vec<Command> {
-        if !hold.is_valid() {
+        if hold.invalid_weight().is_some() {
             return Vec::new();
         }
         let command = |&vertex: &VertexId| {

@@ -25,7 +25,7 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::Rest;
-use super::{Control, Embedding, Hold, Outside, Pin, Pins, Places, Progress, SolveError, verdict};
+use super::{Control, Embedding, Hold, Outside, Pin, PinPositions, Pins, Progress, SolveError, verdict};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -135,7 +135,7 @@ impl Continuation {
     }
 
     /// Where exact pins are to go.
-    fn targets(&self) -> Places {
+    fn targets(&self) -> PinPositions {
         let exact = self.pins.iter().filter(|(_, pin)| pin.hold.is_exact());
         exact.map(|(&vertex, pin)| (vertex, pin.target)).collect()
     }
@@ -230,7 +230,7 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         settled: &Settled,
-        (targets, moves): (&Places, &[DVec2]),
+        (targets, moves): (&PinPositions, &[DVec2]),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let longest = settled.membrane.longest_step(&settled.points, moves, mesh.face_count());
@@ -247,7 +247,7 @@ impl Continuation {
     fn loosen(
         &mut self,
         mesh: &DiskMesh,
-        (targets, weight): (&Places, f64),
+        (targets, weight): (&PinPositions, f64),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let loose = self.pins.iter().map(|(&v, pin)| match pin.hold {
@@ -275,7 +275,7 @@ impl Continuation {
         &self,
         mesh: &DiskMesh,
         embedding: &Embedding,
-        (targets, similar): (&Places, Option<&Membrane>),
+        (targets, similar): (&PinPositions, Option<&Membrane>),
     ) -> Result<Option<Settled>, SolveError> {
         let Some(outside) = outside_of(mesh, embedding, targets.values().copied(), FRAME_POINTS) else {
             return Ok(None);
@@ -290,7 +290,7 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        (targets, moves): (&Places, &[DVec2]),
+        (targets, moves): (&PinPositions, &[DVec2]),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let mut z = moved(points, moves, 1.0, targets);
@@ -306,7 +306,7 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        (targets, moves, longest): (&Places, &[DVec2], f64),
+        (targets, moves, longest): (&PinPositions, &[DVec2], f64),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let mut share = (ADVANCE_SHARE * longest).min(1.0);
@@ -326,7 +326,7 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         embedding: Embedding,
-        (targets, similar): (&Places, &Membrane),
+        (targets, similar): (&PinPositions, &Membrane),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let Some(mut settled) = self.surround(mesh, &embedding, (targets, Some(similar)))? else { return Ok(false) };
@@ -347,7 +347,7 @@ impl Continuation {
 }
 
 /// The points moved by a share of the moves; those with targets exactly onto them by all of it.
-fn moved(points: &[DVec2], moves: &[DVec2], share: f64, targets: &Places) -> Vec<DVec2> {
+fn moved(points: &[DVec2], moves: &[DVec2], share: f64, targets: &PinPositions) -> Vec<DVec2> {
     let mut z: Vec<DVec2> = points.iter().zip(moves).map(|(z, by)| *z + share * *by).collect();
     if share >= 1.0 {
         for (v, target) in targets {

@@ -68,6 +68,15 @@ impl Index<VertexId> for Embedding {
     }
 }
 
+/// As maps and lists of vertices hand them out.
+impl Index<&VertexId> for Embedding {
+    type Output = DVec2;
+
+    fn index(&self, vertex: &VertexId) -> &DVec2 {
+        &self.0[vertex.index()]
+    }
+}
+
 impl IndexMut<VertexId> for Embedding {
     fn index_mut(&mut self, vertex: VertexId) -> &mut DVec2 {
         &mut self.0[vertex.index()]

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::equations::Equations;
 use super::least_squares::{Factored, LeastSquares, Rest, Spring};
 use super::system::FreeSystem;
-use super::{Control, Embedding, Hold, Phase, PhaseSeconds, Pins, Places, SolveError, Treatment};
+use super::{Control, Embedding, Hold, Phase, PhaseSeconds, PinPositions, Pins, SolveError, Treatment};
 use crate::linalg::{Analysis, Factor, FactorStats, LinalgError};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -118,7 +118,7 @@ impl FreeSolve {
 
     /// The embedding with the pins on their targets, or as near as their weights bring them, and how well the system is
     /// solved. It is linear in the targets.
-    pub(super) fn solve(&self, site: Site<'_>, targets: &Places) -> Result<(Embedding, f64), SolveError> {
+    pub(super) fn solve(&self, site: Site<'_>, targets: &PinPositions) -> Result<(Embedding, f64), SolveError> {
         let mut start = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
         for (&vertex, target) in targets {
             start[vertex] = *target;
@@ -137,7 +137,7 @@ impl FreeSolve {
         &self,
         site: Site<'_>,
         at: (&Embedding, &[Complex<f64>]),
-        targets: &Places,
+        targets: &PinPositions,
     ) -> Result<(Embedding, f64), SolveError> {
         self.move_from(site, at, targets, Begin::Near)
     }
@@ -147,7 +147,7 @@ impl FreeSolve {
         &self,
         site: Site<'_>,
         (start, left): (&Embedding, &[Complex<f64>]),
-        targets: &Places,
+        targets: &PinPositions,
         begin: Begin,
     ) -> Result<(Embedding, f64), SolveError> {
         let named = |error: LinalgError| in_vertices(error, site.system.free());
@@ -185,7 +185,7 @@ impl FreeSolve {
         &self,
         site: Site<'_>,
         embedding: &Embedding,
-        (springs, targets): (&[Spring], &Places),
+        (springs, targets): (&[Spring], &PinPositions),
     ) -> f64 {
         let mesh = site.mesh;
         let mut left = self.left_over(mesh, embedding);
@@ -230,7 +230,7 @@ impl FreeSolve {
     }
 
     /// ‖Ax − b‖ / ‖b‖ of the free vertices' equations, b being what the pins give.
-    fn relative_residual(&self, site: Site<'_>, embedding: &Embedding, targets: &Places) -> f64 {
+    fn relative_residual(&self, site: Site<'_>, embedding: &Embedding, targets: &PinPositions) -> f64 {
         let targets: BTreeMap<VertexId, Complex<f64>> =
             targets.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
         let rhs = site.system.pinned_terms(site.mesh, &self.equations, &targets);

@@ -12,7 +12,7 @@ use num_complex::Complex;
 use super::free_solve::{FreeSolve, Layout, Site};
 use super::left_kernel::gauge_or_farthest;
 use super::pins::targets_of;
-use super::plane_weights::{residuals_in_plane, mean_edge_length_in_plane, natural_in_plane};
+use super::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};
 use super::system::FreeSystem;
 use super::{
     Control, Embedding, Phase, PhaseSeconds, Pin, Pins, Solution, SolveError, Treatment, are_held_alike, check_pins,

@@ -47,7 +47,10 @@ pub use error::SolveError;
 pub use iterate::Iteration;
 pub use method::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 pub use outside::Outside;
-pub use pins::{Hold, Pin, Pins, Places, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, hard_pins};
+pub use pins::{
+    Hold, Pin, PinPositions, Pins, TakenTargets, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins,
+    hard_pins,
+};
 pub use prepared::{Prepared, flatten};
 pub use run::{Ending, Run};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};

@@ -50,7 +50,7 @@ pub(super) fn outside_of(
     further: impl Iterator<Item = DVec2> + Clone,
     per_side: u32,
 ) -> Option<Outside> {
-    let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|&v| embedding[v]).collect();
+    let boundary = embedding.boundary(mesh);
     let frame = frame_around(boundary.iter().copied().chain(further), per_side);
     let vertex = |corner: u32| {
         let corner = corner as usize;

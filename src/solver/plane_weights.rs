@@ -115,7 +115,7 @@ pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &Embedding) 
 pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
     let scale = scale_of(embedding, mesh.face_count());
     let is_upright = |face: &FaceId| {
-        let [a, b, c] = mesh.face(*face).map(|v| embedding[v]);
+        let [a, b, c] = embedding.corners(mesh, *face);
         orientation(a, b, c) == Some(Orientation::CounterClockwise)
     };
     let folded: Vec<FaceId> = mesh.faces().collect::<Vec<_>>().into_par_iter().filter(|f| !is_upright(f)).collect();

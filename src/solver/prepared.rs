@@ -14,7 +14,7 @@ use super::equations::mean_edge_length;
 use super::equations::{self, Equations};
 use super::free_solve::{FreeSolve, Layout, Site, in_vertices};
 use super::left_kernel::gauge_or_farthest;
-use super::pins::{Pins, Places, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of};
+use super::pins::{PinPositions, Pins, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of};
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
@@ -31,7 +31,7 @@ pub struct Prepared {
     /// The user's pins that it was made for: whether it fits others is asked of these.
     asked: Pins,
     /// Gauge pins or the convex boundary, where the solver places vertices by itself.
-    own_places: Option<Places>,
+    own_places: Option<PinPositions>,
     system: FreeSystem,
     values: Values,
     seconds: PhaseSeconds,
@@ -149,7 +149,7 @@ impl Prepared {
             return Ok(vec![DVec2::X; mesh.vertex_count()]);
         }
         let target = |v: VertexId| if moved.contains(&v) { DVec2::X } else { DVec2::ZERO };
-        let targets: Places = self.asked.keys().map(|&v| (v, target(v))).collect();
+        let targets: PinPositions = self.asked.keys().map(|&v| (v, target(v))).collect();
         Ok(free.solve(Site { mesh, system: &self.system }, &targets)?.0)
     }
 
@@ -219,7 +219,7 @@ impl Prescribed {
     }
 
     /// Solves for x and y, which share the matrix.
-    fn solve(&self, site: Site<'_>, places: &Places) -> Result<(Embedding, f64), SolveError> {
+    fn solve(&self, site: Site<'_>, places: &PinPositions) -> Result<(Embedding, f64), SolveError> {
         let terms = |axis: usize| {
             let targets: BTreeMap<VertexId, f64> = places.iter().map(|(&v, t)| (v, t[axis])).collect();
             site.system.pinned_terms(site.mesh, &self.equations, &targets)

@@ -75,7 +75,7 @@ impl Rest {
         let flat: f64 = mesh
             .faces()
             .map(|face| {
-                let [a, b, c] = mesh.face(face).map(|v| embedding[v]);
+                let [a, b, c] = embedding.corners(mesh, face);
                 0.5 * (b - a).perp_dot(c - a)
             })
             .sum();

@@ -67,12 +67,6 @@ impl Step {
         pins.iter().filter(is_unmet).map(|(&vertex, _)| vertex).collect()
     }
 
-    /// Flipped faces, boundary crossings and overwound vertices together.
-    pub fn defect_count(&self) -> usize {
-        let Verdict { flipped_faces, boundary_crossings, unlisted_crossings, overwound_vertices, .. } = &self.verdict;
-        flipped_faces.len() + boundary_crossings.len() + unlisted_crossings + overwound_vertices.len()
-    }
-
     /// Whether the boundary is simple and runs counter-clockwise.
     pub fn has_simple_boundary(&self) -> bool {
         self.verdict.boundary_crossings.is_empty() && self.verdict.turning_number == Some(1)

@@ -16,11 +16,11 @@ use std::time::Instant;
 use glam::DVec2;
 
 use super::equations::{barycentric, uniform};
-use super::plane_weights::{residuals_in_plane, mean_value_in_plane};
+use super::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use super::virtual_boundary::{Extended, Start, VirtualBoundary};
 use super::{
-    Control, Embedding, Family, Growth, Method, PhaseSeconds, Pins, Places, Prepared, Settings, Solution, SolveError,
-    Treatment, fixed_pins,
+    Control, Embedding, Family, Growth, Method, PhaseSeconds, PinPositions, Pins, Prepared, Settings, Solution,
+    SolveError, Treatment, fixed_pins,
 };
 use crate::mesh::DiskMesh;
 
@@ -219,7 +219,7 @@ fn bend(
 
 /// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, at distances that follow the
 /// lengths between them.
-fn on_circle(mesh: &DiskMesh, count: usize) -> Places {
+fn on_circle(mesh: &DiskMesh, count: usize) -> PinPositions {
     let boundary = mesh.boundary_loop();
     let chosen: Vec<usize> = (0..count).map(|j| j * boundary.len() / count).collect();
     let edge = |place: usize| {
@@ -233,7 +233,7 @@ fn on_circle(mesh: &DiskMesh, count: usize) -> Places {
     let lengths: Vec<f64> = lengths.into_iter().map(|length| length.max(floor)).collect();
     let widened: f64 = lengths.iter().sum();
     let mut walked = 0.0;
-    let mut places = Places::new();
+    let mut places = PinPositions::new();
     for (place, length) in chosen.into_iter().zip(lengths) {
         places.insert(boundary[place], DVec2::from_angle(walked / widened * TAU) * (total / TAU));
         walked += length;

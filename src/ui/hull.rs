@@ -217,7 +217,7 @@ fn sides_of(faces: &[[VertexId; 3]]) -> Vec<[VertexId; 2]> {
 
 fn flipped_faces(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceId> {
     let is_flipped = |&face: &FaceId| {
-        let [a, b, c] = disk.face(face).map(|v| embedding[v]);
+        let [a, b, c] = embedding.corners(disk, face);
         orientation(a, b, c) != Some(Orientation::CounterClockwise)
     };
     disk.faces().filter(is_flipped).collect()

@@ -132,7 +132,7 @@ fn preview_words(editor: &Editor) -> String {
 fn short_verdict(verdict: &Verdict) -> String {
     let counts = [
         (verdict.flipped_faces.len(), "flipped"),
-        (verdict.boundary_crossings.len() + verdict.unlisted_crossings, "crossing"),
+        (verdict.crossing_count(), "crossing"),
         (verdict.overwound_vertices.len(), "overwound"),
     ];
     let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, words)| {

@@ -40,7 +40,7 @@ fn examples() -> Vec<(String, DiskMesh)> {
 fn the_boundary_lies_on_a_circle_in_the_order_of_the_loop() {
     for (name, mesh) in examples() {
         let embedding = embed(&mesh, &convex(BoundaryShape::Circle, Family::Uniform), &name);
-        let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| embedding[v]).collect();
+        let boundary = embedding.boundary(mesh);
         let radius = boundary[0].length();
         assert!(boundary.iter().all(|z| (z.length() / radius - 1.0).abs() < 1e-14), "{name}");
         // Arcs are as long as edges, in proportion, and go around once.
@@ -65,7 +65,7 @@ fn the_boundary_lies_on_a_square_in_the_order_of_the_loop() {
         let embedding = embed(&mesh, &convex(BoundaryShape::Square, Family::Uniform), &name);
         let side = mesh.boundary_loop().iter().map(|v| embedding[v].max_element()).fold(0.0, f64::max);
         let corners = [DVec2::ZERO, DVec2::new(side, 0.0), DVec2::splat(side), DVec2::new(0.0, side)];
-        let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| embedding[v]).collect();
+        let boundary = embedding.boundary(mesh);
         for corner in corners {
             assert!(boundary.contains(&corner), "{name}: no vertex at {corner}");
         }

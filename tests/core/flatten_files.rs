@@ -109,7 +109,7 @@ fn the_result_fits_the_unit_square_or_has_the_area_of_the_surface() {
     assert!(high.max_element() == 1.0 && high.min_element() > 0.5, "{high}");
     let embedding = coordinates("true");
     let area = |face| {
-        let [a, b, c] = mesh.face(face).map(|v: VertexId| embedding[v]);
+        let [a, b, c] = embedding.corners(mesh, face);
         (b - a).perp_dot(c - a) / 2.0
     };
     let ratio = mesh.faces().map(area).sum::<f64>() / mesh.mesh().area();

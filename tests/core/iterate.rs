@@ -166,7 +166,7 @@ fn on_cubes(count: u32, treatment: Treatment) -> (u32, usize) {
             planar += 1;
             most = most.max(last.index);
         } else {
-            let folded: Vec<usize> = steps.iter().map(Step::defect_count).collect();
+            let folded: Vec<usize> = steps.iter().map(|step: &Step| step.verdict.defect_count()).collect();
             println!(
                 "case {case}, {} faces, {treatment:?}: {} after {folded:?}",
                 mesh.face_count(),

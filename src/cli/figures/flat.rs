@@ -17,7 +17,7 @@ pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     let step = Run::new(settings, Pins::new()).step(mesh, control)?;
     let input_numbers = Numbers {
         flips: of_input.flipped_faces.len(),
-        crossings: of_input.boundary_crossings.len(),
+        crossings: of_input.crossing_count(),
         turning_number: of_input.turning_number,
         steps: 0,
     };

@@ -62,7 +62,7 @@ impl Numbers {
         let verdict = &step.verdict;
         Self {
             flips: verdict.flipped_faces.len(),
-            crossings: verdict.boundary_crossings.len() + verdict.unlisted_crossings,
+            crossings: verdict.crossing_count(),
             turning_number: verdict.turning_number,
             steps: step.index + 1,
         }

@@ -12,7 +12,7 @@ use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::equations::Equations;
 use crate::solver::free_solve::in_vertices;
 use crate::solver::plane_weights::mean_value_in_plane;
-use crate::solver::{Control, Embedding, FreeSystem, Places, SolveError};
+use crate::solver::{Control, Embedding, FreeSystem, PinPositions, SolveError};
 
 /// What the free vertices are drawn by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,9 +25,9 @@ pub(super) enum Weights {
 
 /// Places of all vertices that are not free: path vertices share their line in proportion to the lengths that the parts
 /// had, made a little more equal, so that none is too small.
-pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec<u32>]) -> Places {
+pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec<u32>]) -> PinPositions {
     let place = |v: u32| cells.places[v as usize];
-    let mut held = Places::new();
+    let mut held = PinPositions::new();
     for (line, ends) in lines.iter().zip(&graph.edges) {
         let [from, to] = ends.map(|end| graph.points[end as usize]);
         let lengths: Vec<f64> = line.windows(2).map(|pair| place(pair[0]).distance(place(pair[1]))).collect();
@@ -52,7 +52,7 @@ pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec
 pub(super) fn straightened(
     mesh: &DiskMesh,
     cells: &Subdivision,
-    held: &Places,
+    held: &PinPositions,
     weights: Weights,
     control: Control<'_>,
 ) -> Result<Embedding, SolveError> {
