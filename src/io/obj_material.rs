@@ -4,8 +4,6 @@ use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use glam::DVec2;
-
 use super::obj::{ObjMesh, Statement};
 use super::output::TexturePicture;
 use super::{WriteError, write_atomically, write_obj};

@@ -39,7 +39,9 @@ impl ObjMesh {
         let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
         let bits = |place: u32| (coordinate(place) + DVec2::ZERO).to_array().map(f64::to_bits);
         let mut texture_vertex = vec![0_u32; corners.len()];
-        let mut found = TextureMesh { mesh: TriMesh::default(), embedding: Vec::new(), vertex_of: Vec::new() };
+        let mut found =
+            TextureMesh { mesh: TriMesh::default(), embedding: Embedding::default(), vertex_of: Vec::new() };
+        let mut embedding = Vec::new();
         let mut first_places: Vec<u32> = Vec::new();
         for places in &mut places_by_vertex(corners, self.polygons.positions.len()) {
             // Equal coordinates side by side, then the groups by their first corner.
@@ -56,10 +58,11 @@ impl ObjMesh {
             for &place in &first_places {
                 let vertex = corners[place as usize];
                 found.vertex_of.push(vertex);
-                found.embedding.push(coordinate(place));
+                embedding.push(coordinate(place));
                 found.mesh.positions.push(self.polygons.positions[vertex.index()]);
             }
         }
+        found.embedding = embedding.into();
         let (triangles, polygon_of) = self.polygons.triangle_places();
         found.mesh.triangles =
             triangles.iter().map(|places| places.map(|place| VertexId::new(texture_vertex[place as usize]))).collect();

@@ -82,7 +82,7 @@ pub struct Output<'a> {
     /// The mesh with its new vertices, where there are any.
     pub refinement: Option<&'a Refinement>,
     /// One texture coordinate per vertex.
-    pub coordinates: &'a [DVec2],
+    pub coordinates: &'a Embedding,
     /// The verdict on these coordinates.
     pub verdict: &'a Verdict,
     /// What the run has to say.

@@ -114,14 +114,14 @@ pub enum Paint<'a> {
     /// A checker in coordinates given per vertex.
     Checker {
         /// One per vertex.
-        coordinates: &'a [DVec2],
+        coordinates: &'a Embedding,
         /// Width of a field.
         size: f64,
     },
     /// A picture at texture coordinates given per vertex, v up; beyond its edges the nearest colour.
     Picture {
         /// One per vertex.
-        coordinates: &'a [DVec2],
+        coordinates: &'a Embedding,
         /// What is at them.
         picture: &'a Picture,
     },

@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 use super::recovery::{Recoverable, Slot, left_behind};
 use super::{Document, Job, Place, Poll, Session};
 use crate::io::{PathStyle, RecoveryNote, WriteError};
-use crate::solver::Embedding;
 
 /// Time from one copy to the next: what a crash may cost.
 const INTERVAL: Duration = Duration::from_secs(5);

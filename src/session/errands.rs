@@ -8,7 +8,6 @@ use super::state::{REPORT_IT, lost};
 use super::targets::Flat;
 use super::{Command, Job, JobContext, Model, PictureFile, Place, Poll, Session};
 use crate::io::{Constraints, ConstraintsError, PictureError};
-use crate::solver::Embedding;
 
 /// What an errand brings back.
 pub(super) enum Errand {

@@ -6,7 +6,7 @@ use super::state::{REPORT_IT, lost};
 use super::{Finished, Job, Message, Place, Poll, SaveRequest, Session, Severity};
 use crate::geom::Picture;
 use crate::io::{WriteError, write_atomically, write_constraints, write_durably};
-use crate::solver::{Embedding, Verdict};
+use crate::solver::Verdict;
 
 /// A file being written.
 pub(super) type SaveJob = Job<(), Result<Saved, WriteError>>;

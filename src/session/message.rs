@@ -1,7 +1,6 @@
 //! What the session has to tell a person: what happened, where, and what to do.
 
 use crate::mesh::VertexId;
-use crate::solver::Embedding;
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

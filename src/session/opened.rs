@@ -9,7 +9,7 @@ use crate::io::{
     FileStamp, PROJECT_EXTENSION, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError, RecoveryNote,
     material_picture,
 };
-use crate::solver::{Embedding, Pins};
+use crate::solver::Pins;
 
 /// Something that was opened, ready to be put on the table.
 #[derive(Debug)]

@@ -5,14 +5,14 @@ use glam::DVec2;
 use super::{Command, Document, Place, Session};
 use crate::geom::PictureFrame;
 use crate::mesh::VertexId;
-use crate::solver::{Embedding, Hold, Pin, Pins};
+use crate::solver::{Hold, Pin, Pins};
 
 impl Session {
     /// Pins vertices where they lie.
     pub(super) fn fix(&mut self, vertices: &[VertexId]) {
         let Some(outcome) = self.outcome().cloned().filter(|_| self.takes_pins()) else { return };
         // What the screen shows is the preview, where there is one.
-        let preview = self.preview().map(|preview| (self.document.frame(), preview.embedding.as_slice()));
+        let preview = self.preview().map(|preview| (self.document.frame(), &*preview.embedding));
         let (frame, shown) = preview.unwrap_or((outcome.frame, &outcome.step.solution.embedding));
         // New vertices belong to one embedding alone: they cannot be pinned.
         let count = self.model.as_ref().map_or(0, |model| model.mesh().vertex_count());

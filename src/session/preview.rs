@@ -74,9 +74,9 @@ impl Follow {
             return None;
         }
         let place = |(base, column): (&DVec2, &DVec2)| *base + by.rotate(*column);
-        let mut embedding: Embedding = self.base.par_iter().zip(&self.column).map(place).collect();
+        let mut embedding: Embedding = self.base.par_iter().zip(&self.column).map(place).collect::<Vec<_>>().into();
         for (vertex, pin) in to.iter().filter(|(_, pin)| document.settings.is_exact(pin.hold)) {
-            embedding[vertex] = pin.target;
+            embedding[*vertex] = pin.target;
         }
         Some(embedding)
     }

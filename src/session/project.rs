@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use super::state::{REPORT_IT, lost};
 use super::{Document, Job, Model, PictureFile, Place, Poll, Session};
 use crate::io::{PathStyle, ProjectFile, ProjectSource, ProjectView, WriteError};
-use crate::solver::Embedding;
 
 type SaveJob = Job<(), Result<(), WriteError>>;
 

@@ -2,7 +2,6 @@
 
 use super::stop::Goal;
 use super::{Place, Session};
-use crate::solver::Embedding;
 
 /// The most rounds of relaxing that are asked for at once.
 const ROUNDS: usize = 20;

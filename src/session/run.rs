@@ -19,7 +19,7 @@ use super::stop::Goal;
 use super::{Document, Job, JobContext, Outcome, Place, Poll, Session, Severity, Stop, Timeline, Wake};
 use crate::geom::PictureFrame;
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Embedding, Ending, Phase, Pins, Run, SolveError, are_held_alike};
+use crate::solver::{Control, Ending, Phase, Pins, Run, SolveError, are_held_alike};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;

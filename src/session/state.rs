@@ -20,7 +20,7 @@ use super::{
 };
 use crate::io::ProjectView;
 use crate::mesh::VertexId;
-use crate::solver::{Embedding, Ending, Phase, Prepared, Run, Settings};
+use crate::solver::{Ending, Phase, Prepared, Run, Settings};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;

@@ -117,7 +117,7 @@ impl ConstrainedRun {
             Ok(None) | Err(_) => {}
         }
         let is_crushed = continuation.go_back_to_sound();
-        let (embedding, progress) = (continuation.embedding().to_vec(), Some(continuation.progress(mesh)));
+        let (embedding, progress) = (continuation.embedding().clone(), Some(continuation.progress(mesh)));
         if self.settings.method == Method::Auto && self.settings.new_vertices {
             self.stage = Stage::Matchmaker(embedding);
             return self.step(mesh, control);
@@ -191,11 +191,11 @@ fn planar_start(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> R
 fn fitted(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Embedding {
     let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v], pin.target]).collect();
     let is_planar = |embedding: &Embedding| verdict(mesh, embedding).planar;
-    let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Vec<_>>();
+    let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Embedding>();
     if let Some(embedding) = Similarity::fitting(&pairs).map(fit).filter(is_planar) {
         return embedding;
     }
     let shift = pairs.iter().map(|[is, wanted]| *wanted - *is).sum::<DVec2>() / pairs.len().max(1) as f64;
-    let shifted = embedding.iter().map(|&z| z + shift).collect();
+    let shifted = embedding.iter().map(|&z| z + shift).collect::<Embedding>();
     if is_planar(&shifted) { shifted } else { embedding }
 }

@@ -257,12 +257,12 @@ impl Continuation {
         let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied(), FRAME_POINTS) else {
             return Ok(false);
         };
-        let around = (self.embedding.as_slice(), &outside);
+        let around = (&self.embedding, &outside);
         let (membrane, mut z) = self.rest.membrane(mesh, around, &loose.collect(), (OUTSIDE_WEIGHT, None))?;
         let unfolded = Energy::Foldover(0.0);
         let limits = Limits { unfolded, steps: LOOSE_STEPS, until_unfolded: false, tolerance: TOLERANCE };
         membrane.descend(&mut z, limits, control)?;
-        z.truncate(mesh.vertex_count());
+        let z = Embedding::of_mesh(mesh, &z);
         let is_planar = verdict(mesh, &z).planar;
         if is_planar {
             (self.embedding, self.settled) = (z, None);
@@ -297,7 +297,7 @@ impl Continuation {
         let unfolded = Energy::Foldover(0.0);
         let limits = Limits { unfolded, steps: UNFOLD_STEPS, until_unfolded: true, tolerance: TOLERANCE };
         let is_unfolded = membrane.descend(&mut z, limits, control)?.least_determinant > 0.0;
-        z.truncate(mesh.vertex_count());
+        let z = Embedding::of_mesh(mesh, &z);
         Ok(is_unfolded && verdict(mesh, &z).planar && self.settle(mesh, z, (targets, membrane), control)?)
     }
 
@@ -311,8 +311,8 @@ impl Continuation {
     ) -> Result<bool, SolveError> {
         let mut share = (ADVANCE_SHARE * longest).min(1.0);
         while share > SMALLEST_ADVANCE {
-            let mut z = moved(points, moves, share, targets);
-            z.truncate(mesh.vertex_count());
+            let z = moved(points, moves, share, targets);
+            let z = Embedding::of_mesh(mesh, &z);
             if verdict(mesh, &z).planar {
                 return self.settle(mesh, z, (targets, membrane), control);
             }
@@ -334,9 +334,9 @@ impl Continuation {
         let limits = Limits { unfolded, steps: SETTLE_STEPS, until_unfolded: false, tolerance: TOLERANCE };
         let mut z = settled.points.clone();
         settled.membrane.descend(&mut z, limits, control)?;
-        let lower = &z[..mesh.vertex_count()];
-        if verdict(mesh, lower).planar {
-            self.embedding = lower.to_vec();
+        let lower = Embedding::of_mesh(mesh, &z);
+        if verdict(mesh, &lower).planar {
+            self.embedding = lower;
             settled.points = z;
         } else {
             self.embedding = embedding;

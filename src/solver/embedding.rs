@@ -22,10 +22,9 @@ impl Embedding {
         mesh.boundary_loop().iter().map(|&v| self[v]).collect()
     }
 
-    /// That of the first vertices alone, where further ones are virtual.
-    #[must_use]
-    pub fn truncated(&self, vertex_count: usize) -> Self {
-        Self(self.0[..vertex_count].to_vec())
+    /// The first of some points, which are the vertices of a mesh: those after them are virtual.
+    pub fn of_mesh(mesh: &DiskMesh, points: &[DVec2]) -> Self {
+        Self(points[..mesh.vertex_count()].to_vec())
     }
 
     /// The list of positions.

@@ -5,7 +5,6 @@
 
 use std::ops::Mul;
 
-use glam::DVec2;
 use num_complex::Complex;
 use rayon::prelude::*;
 

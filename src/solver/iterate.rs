@@ -125,7 +125,7 @@ fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
 /// The answer to an embedding that leaves nothing of its equations and that no pin pulls: itself.
 fn unmoved(embedding: &Embedding, pins: Pins, seconds: f64) -> Solution {
     Solution {
-        embedding: embedding.to_vec(),
+        embedding: embedding.clone(),
         pins,
         gauge_completed: false,
         residual: 0.0,

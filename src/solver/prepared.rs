@@ -150,7 +150,7 @@ impl Prepared {
         }
         let target = |v: VertexId| if moved.contains(&v) { DVec2::X } else { DVec2::ZERO };
         let targets: PinPositions = self.asked.keys().map(|&v| (v, target(v))).collect();
-        Ok(free.solve(Site { mesh, system: &self.system }, &targets)?.0)
+        Ok(free.solve(Site { mesh, system: &self.system }, &targets)?.0.into_inner())
     }
 
     /// Solves for the embedding that has the pins on their targets.

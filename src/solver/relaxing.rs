@@ -6,8 +6,6 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
@@ -91,7 +89,7 @@ impl Relaxing {
         let limits = Limits { unfolded, steps, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
         let gain = membrane.descend(&mut z, limits, control)?.gain;
         self.membrane = Some(membrane);
-        z.truncate(mesh.vertex_count());
+        let z = Embedding::of_mesh(mesh, &z);
         // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
         let progress = self.rest.progress(mesh, &z, 0.0);

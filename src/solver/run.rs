@@ -390,7 +390,7 @@ impl Run {
         if held.is_empty() {
             let before = embedding.clone();
             complete_gauge(mesh, &mut embedding, (&self.pins, self.settings.size));
-            let pairs: Vec<[DVec2; 2]> = before.into_iter().zip(&embedding).map(|(a, b)| [a, *b]).collect();
+            let pairs: Vec<[DVec2; 2]> = before.iter().zip(&embedding).map(|(a, b)| [*a, *b]).collect();
             if let Some(similarity) = Similarity::fitting(&pairs) {
                 let frame = outside.frame.iter().map(|&z| similarity.apply(z)).collect();
                 outside = Arc::new(Outside { frame, triangles: outside.triangles.clone() });
@@ -529,7 +529,7 @@ impl Run {
     fn virtual_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
         let run = self.virtual_boundary.get_or_insert_with(|| VirtualBoundaryRun::new(mesh, &self.settings));
         let simple = self.latest.as_ref().filter(|latest| latest.has_simple_boundary);
-        let bent = run.step(mesh, simple.map(|latest| latest.embedding.as_slice()), control);
+        let bent = run.step(mesh, simple.map(|latest| &latest.embedding), control);
         for note in run.take_notes() {
             self.say(note);
         }

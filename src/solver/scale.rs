@@ -46,7 +46,7 @@ pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, (pins, 
         for z in &mut *embedding {
             *z += shift;
         }
-        embedding[vertex] = *target;
+        embedding[*vertex] = *target;
     }
 }
 
@@ -69,8 +69,8 @@ pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut Embedding, (pins, size)
     for z in &mut *embedding {
         *z = *a + turn.rotate(*z - origin);
     }
-    embedding[first] = *a;
-    embedding[second] = *b;
+    embedding[*first] = *a;
+    embedding[*second] = *b;
     true
 }
 

@@ -1,7 +1,5 @@
 //! What a solve gives back.
 
-use glam::DVec2;
-
 use super::{Embedding, Pins};
 
 /// An embedding and the numbers of the solve that made it.

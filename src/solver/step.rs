@@ -63,7 +63,7 @@ impl Step {
     pub fn unmet(&self) -> Vec<VertexId> {
         let Solution { embedding, pins, .. } = &self.solution;
         let is_unmet =
-            |(vertex, pin): &(&VertexId, &super::Pin)| pin.hold.is_exact() && embedding[vertex] != pin.target;
+            |(vertex, pin): &(&VertexId, &super::Pin)| pin.hold.is_exact() && embedding[*vertex] != pin.target;
         pins.iter().filter(is_unmet).map(|(&vertex, _)| vertex).collect()
     }
 
@@ -84,7 +84,7 @@ impl Step {
 }
 
 /// The largest distance between the same vertices of two embeddings.
-pub fn largest_move(before: &Embedding, after: &Embedding) -> f64 {
+pub fn largest_move(before: &[DVec2], after: &[DVec2]) -> f64 {
     before.iter().zip(after).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
 }
 

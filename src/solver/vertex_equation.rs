@@ -107,7 +107,7 @@ pub fn equation_of_step(
     (step, before): (&Step, Option<&Embedding>),
     vertex: VertexId,
 ) -> Result<(VertexEquation, WeightSource), NoEquation> {
-    let embedding = step.solution.embedding.as_slice();
+    let embedding = &step.solution.embedding;
     let on_surface = |family| (on_surface(mesh, family, embedding, vertex), WeightSource::Surface);
     match step.rung {
         Method::Levy => Err(NoEquation::OfTriangles),
@@ -212,7 +212,7 @@ fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: Ve
 
 /// Mean-value weights of one embedding, another one put into them.
 fn in_plane(fan: &Fan, weights_from: &Embedding, embedding: &Embedding) -> VertexEquation {
-    let at = |v: VertexId| weights_from[v.index()];
+    let at = |v: VertexId| weights_from[v];
     let shares = |next, previous| corner_weights([fan.vertex, next, previous].map(at));
     let weights = fan.sums(shares);
     let mut radii: Vec<f64> = fan.neighbours().iter().map(|&v| at(v).distance(at(fan.vertex))).collect();

@@ -164,7 +164,7 @@ impl VirtualBoundaryRun {
                 Err(error) => self.notes.push(format!("{pinned} boundary pins gave nothing: {error}")),
                 Ok(solution) => {
                     (self.pinned, self.extended, self.tried) = (pinned, None, 0);
-                    self.solved.clear();
+                    self.solved = Embedding::default();
                     return Ok(Bent { solution, pinned, family, stages: None });
                 }
             }
@@ -191,7 +191,7 @@ fn bend(
     let bounded_corners = equations.bounded_corners;
     let start_at = Start { embedding: from, residuals: residuals.as_deref() };
     let (solved, residual, stats) = extended.solve(&equations, start_at, control)?;
-    let embedding = solved.truncated(mesh.vertex_count());
+    let embedding = Embedding::of_mesh(mesh, &solved);
     let stages = VirtualBoundary {
         pinned,
         outline: extended.outline,

@@ -104,7 +104,7 @@ pub(super) fn places_in(base: &Step, step: &Step) -> Embedding {
         let [a, b] = new.edge.map(|v| embedding[v]);
         places.push(a.lerp(b, new.at));
     }
-    places
+    places.into()
 }
 
 /// How far each face has moved between two embeddings: the mean of its corners.

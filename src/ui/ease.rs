@@ -7,8 +7,6 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use glam::DVec2;
-
 use super::Editor;
 use super::scene::PlaneScene;
 use crate::solver::Embedding;
@@ -81,7 +79,7 @@ impl Editor {
         let is_too_large = self.ease.too_large == Some(self.session.model_revision());
         if self.ease.wanted && is_other_step && is_same_run && is_same_mesh && !is_too_large {
             let began = self.context.input(|input| input.time);
-            let from = before.positions().to_vec();
+            let from = before.positions().clone();
             let cameras = self.camera_along(&target);
             self.ease.under_way = Some(Way { from, began, drawn: target, cameras });
         } else if let Some([_, goal]) = self.camera_along(&target).filter(|_| is_other_step && from.pins == to.pins) {

@@ -10,7 +10,6 @@ use super::scene::Legend;
 use super::theme::theme_of;
 use super::{Editor, Pane, Request, Shading, keys_of};
 use crate::session::{Action, Message, Place, Severity};
-use crate::solver::Embedding;
 
 /// A point of the screen as the camera takes it, relative to the pane.
 pub(super) fn in_pane(rect: Rect, position: Pos2) -> DVec2 {

@@ -17,7 +17,6 @@ use super::{Editor, Pane, Request, constrain, pair_magnifier, pin_drag, pins};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::{Place, Surface};
-use crate::solver::Embedding;
 use crate::view::PlaneCamera;
 
 /// Marks drawn at most for a large selection.

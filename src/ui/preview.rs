@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Editor;
 use super::scene::PlaneScene;
-use crate::solver::Verdict;
+use crate::solver::{Embedding, Verdict};
 use crate::view::FacePaint;
 
 /// The embedding that follows a drag, ready to be drawn.
@@ -57,9 +57,9 @@ impl Editor {
         let scene = match &before {
             Some(before) if before.key == key => Arc::clone(&before.scene),
             Some(before) if before.scene.outcome_revision == base.outcome_revision => {
-                Arc::new(before.scene.with_positions(mesh, preview.embedding.to_vec()))
+                Arc::new(before.scene.with_positions(mesh, Embedding::clone(&preview.embedding)))
             }
-            _ => Arc::new(base.with_positions(mesh, preview.embedding.to_vec())),
+            _ => Arc::new(base.with_positions(mesh, Embedding::clone(&preview.embedding))),
         };
         let same_faces = |before: &&PreviewScene| match (&before.verdict, &verdict) {
             (None, None) => true,

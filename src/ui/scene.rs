@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::Shading;
 use super::compare::{face_moves, places_in};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
@@ -159,7 +157,7 @@ impl PlaneScene {
 
     /// Where vertices lie.
     pub fn positions(&self) -> &Embedding {
-        self.positions.as_deref().unwrap_or(&self.outcome.step.solution.embedding)
+        self.positions.as_ref().unwrap_or(&self.outcome.step.solution.embedding)
     }
 
     /// Whether this is a stage on the way to the result.

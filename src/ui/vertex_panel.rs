@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use eframe::egui;
-use glam::DVec2;
 
 use super::status::short;
 use super::{Editor, Request, equation_table};
@@ -34,7 +33,7 @@ pub(super) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     if let Some(new) = scene.new_vertex(vertex) {
         ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }
-    let embedding = editor.session.outcome().map(|outcome| outcome.step.solution.embedding.as_slice());
+    let embedding = editor.session.outcome().map(|outcome| &outcome.step.solution.embedding);
     egui::Grid::new("vertex").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
         let mut row = |name: &str, value: String| {
             ui.label(name);

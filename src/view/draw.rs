@@ -12,7 +12,6 @@ use glam::{DVec2, DVec3};
 use super::space::split_point;
 use super::{PlaneBox, Range, Scale, Sphere, UnitFrame, UnitPlane, crease_normals};
 use crate::mesh::{FaceId, VertexId};
-use crate::solver::Embedding;
 
 /// Says whether two arrays are the same: every array made in this process has its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -125,7 +124,7 @@ impl PlaneArrays {
     /// # Panics
     ///
     /// If a corner names a vertex that is not there.
-    pub fn new(embedding: &Embedding, triangles: &[[VertexId; 3]]) -> Self {
+    pub fn new(embedding: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
         Self::in_frame(embedding, triangles, UnitPlane::of(PlaneBox::around(embedding)))
     }
 
@@ -134,7 +133,7 @@ impl PlaneArrays {
     /// # Panics
     ///
     /// If a corner names a vertex that is not there.
-    pub fn in_frame(embedding: &Embedding, triangles: &[[VertexId; 3]], frame: UnitPlane) -> Self {
+    pub fn in_frame(embedding: &[DVec2], triangles: &[[VertexId; 3]], frame: UnitPlane) -> Self {
         let bounds = PlaneBox::around(embedding);
         let points: Vec<[f32; 4]> = embedding.iter().map(|&p| split_point(frame.unit_from_embedding(p))).collect();
         let corners = triangles.iter().flatten().map(|v| points[v.index()]).collect();

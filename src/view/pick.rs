@@ -7,7 +7,6 @@ use super::kdtree::KdTree;
 use super::orbit::pane_from_clip;
 use super::{OrbitCamera, PlaneCamera, Ray};
 use crate::mesh::{FaceId, VertexId};
-use crate::solver::Embedding;
 
 /// How far from the pointer a vertex can be picked, points.
 pub const PICK_RADIUS: f64 = 12.0;
@@ -161,7 +160,7 @@ pub struct PlanePicker {
 
 impl PlanePicker {
     /// Prepares picking of the vertices of an embedding.
-    pub fn new(embedding: &Embedding) -> Self {
+    pub fn new(embedding: &[DVec2]) -> Self {
         Self { tree: KdTree::new(embedding) }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::{Figure, Numbers, Row};
 use crate::io::figure::{Panel, PlaneDrawing, Sheet};

@@ -31,7 +31,7 @@ use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
 use super::outside::outside_of;
 use super::rest::mean_edge_length;
-use super::{Control, Outside, Pins, SolveError, verdict};
+use super::{Control, Embedding, Outside, Pins, SolveError, verdict};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, TriMesh, VertexId};
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
@@ -157,12 +157,12 @@ fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::{Embedding, Pin};
+    use crate::solver::Pin;
 
     /// A flat square of 2·n² triangles, and where its vertices lie.
-    fn square(n: u32) -> (DiskMesh, Vec<DVec2>) {
+    fn square(n: u32) -> (DiskMesh, Embedding) {
         let stride = n + 1;
-        let flat: Vec<DVec2> =
+        let flat: Embedding =
             (0..stride * stride).map(|v| DVec2::new(f64::from(v % stride), f64::from(v / stride))).collect();
         let cell = |v: u32| [[v, v + 1, v + stride + 1], [v, v + stride + 1, v + stride]];
         let triangles: Vec<[u32; 3]> = (0..n * n).flat_map(|k| cell(k / n * stride + k % n)).collect();

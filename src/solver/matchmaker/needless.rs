@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
-use super::Matched;
 use super::triangulate::shortest_triangulation;
+use super::{Embedding, Matched};
 use crate::geom::{Orientation, orientation, segments_meet};
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
@@ -36,7 +36,7 @@ struct Removal<'a> {
     mesh: &'a DiskMesh,
     refined: &'a DiskMesh,
     new_vertices: &'a [NewVertex],
-    embedding: &'a [DVec2],
+    embedding: &'a Embedding,
     /// Triangles of each old face that has new vertices, or had.
     parts: Parts,
     /// An inner halfedge of each split old edge.

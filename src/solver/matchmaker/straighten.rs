@@ -56,16 +56,17 @@ pub(super) fn straightened(
     weights: Weights,
     control: Control<'_>,
 ) -> Result<Embedding, SolveError> {
-    let mut places = cells.places.clone();
-    for (v, &place) in held {
-        places[v.index()] = place;
+    let start = Embedding::from(cells.places.clone());
+    let mut places = start.clone();
+    for (&v, &place) in held {
+        places[v] = place;
     }
     let system = FreeSystem::new(mesh, |v| cells.roles[v.index()] != Role::Free);
     if system.free().is_empty() {
         return Ok(places);
     }
     let (equations, kind) = match weights {
-        Weights::MeanValue => (mean_value_in_plane(mesh, &cells.places), Kind::General),
+        Weights::MeanValue => (mean_value_in_plane(mesh, &start), Kind::General),
         Weights::Uniform => {
             let coefficients = vec![1.0; mesh.halfedge_count()];
             (Equations { coefficients, bounded_corners: 0 }, Kind::Hermitian)
@@ -80,8 +81,8 @@ pub(super) fn straightened(
     let both: Vec<f64> = terms.iter().map(|z| z.x).chain(terms.iter().map(|z| z.y)).collect();
     let solved = factor.solve_many(&matrix, &both).map_err(named)?;
     let (x, y) = solved.x.split_at(terms.len());
-    for (v, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
-        places[v.index()] = DVec2::new(x, y);
+    for (&v, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
+        places[v] = DVec2::new(x, y);
     }
     Ok(places)
 }
