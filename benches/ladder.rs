@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Family, Method, Pins, Run, Settings, Step, fixed_pins};
+use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, Step, fixed_pins};
 use glam::DVec2;
 
 use common::machine::print_machine;
@@ -130,7 +130,7 @@ fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
 
 /// Where a run ended, and after how many steps.
 fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> (End, usize) {
-    let mut run = Run::new(Settings::new(Method::Auto, family), pins.clone());
+    let mut run = Ladder::new(Settings::new(Method::Auto, family), pins.clone());
     let mut steps: Vec<(StepReport, bool)> = Vec::new();
     let outcome = run.finish(mesh, Control::unattended(), |step: Step| {
         let report = StepReport::of(&step);

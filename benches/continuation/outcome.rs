@@ -6,7 +6,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Pins, Run, Settings, SolveError, Step};
+use freebound::solver::{Control, Ladder, Pins, Settings, SolveError, Step};
 
 /// The longest that a run may take.
 const LIMIT: Duration = Duration::from_mins(2);
@@ -37,7 +37,7 @@ impl Outcome {
         let start = Instant::now();
         let mut found = Self { ending: String::new(), solved: None, last: None, steps: 0, seconds: 0.0 };
         let ending = within(LIMIT, &cancel, || {
-            let mut run = Run::new(settings, pins.clone());
+            let mut run = Ladder::new(settings, pins.clone());
             let take = |step: Step| {
                 found.steps += 1;
                 if SHOWS_STEPS.load(Ordering::Relaxed) {

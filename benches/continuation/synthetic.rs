@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
 use freebound::examples::bumpy_cap_of;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Embedding, Control, Pins, Run, Settings, Step, hard_pins};
+use freebound::solver::{Embedding, Control, Ladder, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::common::Times;
@@ -59,7 +59,7 @@ impl Cap {
     pub(crate) fn of(vertices: usize, seed: u64) -> Result<Self, String> {
         let mesh = DiskMesh::try_from(bumpy_cap_of(vertices, seed)).map_err(|diagnosis| diagnosis.to_string())?;
         let mut last = None::<Step>;
-        let mut run = Run::new(Settings::default(), Pins::new());
+        let mut run = Ladder::new(Settings::default(), Pins::new());
         run.finish(&mesh, Control::unattended(), |step| last = Some(step)).map_err(|error| error.to_string())?;
         let step = last.filter(|step| step.verdict.planar).ok_or("no planar embedding without constraints")?;
         Ok(Self { mesh, embedding: step.solution.embedding })

@@ -54,7 +54,8 @@ impl PhaseTimes {
         self.solve.add(solve);
         self.verify.run(|| (verdict(&mesh, &solution.embedding), distortion(&mesh, &solution.embedding)));
         self.write.run(|| write(result, &file, &solution.embedding));
-        (solution.factor_bytes, solution.residual)
+        let linear = solution.linear.expect("a linear method");
+        (linear.factor_bytes, linear.residual)
     }
 
     fn in_order(&self) -> [&Times; 8] {

@@ -12,7 +12,7 @@ use super::{Failure, Status};
 use crate::io::{OutputKind, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
 use crate::session::{Document, Finished, Model, Outcome, OutputFit, PictureFile, Surface};
-use crate::solver::{Control, Ending, Phase, Run, SolveError, Step, conflicts};
+use crate::solver::{Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     if let Some((option, why)) = arguments.idle_option() {
@@ -125,7 +125,7 @@ impl HeadlessJob<'_> {
         if settings.method.uses_pins() {
             print_conflicts(&conflicts(mesh, &settings.held(&pins)));
         }
-        let mut run = Run::new(settings, pins);
+        let mut run = Ladder::new(settings, pins);
         let placed = |step: Step| Outcome::new(mesh, settings, (document.frame(), document.pins.clone()), step);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;

@@ -102,7 +102,7 @@ pub(super) fn print_summary(report: &Report, verdict: &str) {
     );
     let family = report.family.as_deref().map(|family| format!(", {family} weights")).unwrap_or_default();
     // Where there is no linear system, there is no residual.
-    let residual = report.steps.last().map(|step| step.residual).filter(|residual| residual.is_finite());
+    let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());
     let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
     println!("{}{family}: {verdict}{residual}", report.method.unwrap_or("check"));
     if report.new_vertices > 0 {

@@ -127,9 +127,9 @@ pub struct StepReport {
     /// Largest move of a vertex since the step before.
     pub max_move: Option<f64>,
     /// ‖Ax − b‖ / ‖b‖ of the linear solve; null where there is none, as in the next.
-    pub residual: f64,
+    pub residual: Option<f64>,
     /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sum of their terms' sizes.
-    pub equation_residual: f64,
+    pub equation_residual: Option<f64>,
     /// Pivots that were too small and replaced.
     pub replaced_pivots: usize,
     /// Degenerate corners whose weight was bounded.
@@ -198,8 +198,8 @@ impl StepReport {
             self.overwound_vertices.to_string(),
             self.turning_number.map(|turns| turns.to_string()).unwrap_or_default(),
             self.max_move.map(cell).unwrap_or_default(),
-            cell(self.residual),
-            cell(self.equation_residual),
+            self.residual.map(cell).unwrap_or_default(),
+            self.equation_residual.map(cell).unwrap_or_default(),
             self.replaced_pivots.to_string(),
             self.bounded_corners.to_string(),
             self.bent_vertices.to_string(),
@@ -216,6 +216,7 @@ impl StepReport {
     /// The numbers of a step.
     pub fn of(step: &Step) -> Self {
         let Step { solution, verdict, .. } = step;
+        let counts = solution.linear.unwrap_or_default();
         Self {
             rung: step.rung.name(),
             index: step.index,
@@ -224,12 +225,12 @@ impl StepReport {
             overwound_vertices: verdict.overwound_vertices.len(),
             turning_number: verdict.turning_number,
             max_move: step.max_move,
-            residual: solution.residual,
-            equation_residual: solution.equation_residual,
-            replaced_pivots: solution.replaced_pivots,
-            bounded_corners: solution.bounded_corners,
+            residual: solution.linear.map(|linear| linear.residual),
+            equation_residual: solution.linear.map(|linear| linear.equation_residual),
+            replaced_pivots: counts.replaced_pivots,
+            bounded_corners: counts.bounded_corners,
             bent_vertices: step.bent_vertices,
-            factor_bytes: solution.factor_bytes,
+            factor_bytes: counts.factor_bytes,
             seconds: step.seconds(),
             planar: verdict.planar,
             energy: step.progress.map(|progress| progress.energy),

@@ -11,7 +11,7 @@ impl Session {
     pub fn can_relax(&self) -> bool {
         let newest = self.timeline.newest().and_then(|newest| self.timeline.outcome(newest));
         let is_planar = newest.is_some_and(|newest| newest.step.verdict.planar && newest.step.unmet().is_empty());
-        let is_of_document = |run: &crate::solver::Run| self.document.is_solved_by(run.settings(), run.pins());
+        let is_of_document = |run: &crate::solver::Ladder| self.document.is_solved_by(run.settings(), run.pins());
         is_planar && self.is_current() && self.resting.as_ref().is_some_and(is_of_document)
     }
 

@@ -19,7 +19,7 @@ use super::stop::Goal;
 use super::{Document, Job, JobContext, Outcome, Place, Poll, Session, Severity, Stop, Timeline, Wake};
 use crate::geom::PictureFrame;
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Ending, Phase, Pins, Run, SolveError, are_held_alike};
+use crate::solver::{Control, Ending, Ladder, Phase, Pins, SolveError, are_held_alike};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;
@@ -34,7 +34,7 @@ struct Delivery {
 /// A run with the steps that it takes in the background.
 pub(super) struct Running {
     /// Gives the run back when it comes to rest.
-    job: Job<Phase, (Run, Result<(), SolveError>)>,
+    job: Job<Phase, (Ladder, Result<(), SolveError>)>,
     deliveries: Receiver<Delivery>,
     goal: Arc<Mutex<Goal>>,
     /// What it was begun for.
@@ -93,7 +93,7 @@ struct Courier {
 
 impl Courier {
     /// Takes steps until the goal is reached, and hands each over. What nobody waits for any more is given up.
-    fn take_steps(&self, run: &mut Run, mesh: &DiskMesh, context: &JobContext<Phase>) -> Result<(), SolveError> {
+    fn take_steps(&self, run: &mut Ladder, mesh: &DiskMesh, context: &JobContext<Phase>) -> Result<(), SolveError> {
         let report = |phase| context.report(phase);
         let control = Control::new(context.cancel_flag(), &report);
         loop {
@@ -149,11 +149,11 @@ impl Session {
             return;
         }
         let (settings, pins) = (self.document.run_settings(), self.document.plane_pins());
-        self.spawn(Run::new(settings, pins).with_prepared(self.prepared.clone()), goal);
+        self.spawn(Ladder::new(settings, pins).with_prepared(self.prepared.clone()), goal);
     }
 
     /// Takes steps of a run in the background. A run that is under way is given up.
-    pub(super) fn spawn(&mut self, mut run: Run, goal: Goal) {
+    pub(super) fn spawn(&mut self, mut run: Ladder, goal: Goal) {
         self.running = None;
         self.solve_again = false;
         let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
@@ -309,7 +309,7 @@ impl Session {
     }
 
     /// Takes back a run that has come to rest, and lets it go on where the goal has changed meanwhile.
-    fn take_back(&mut self, run: Run, result: Result<(), SolveError>) {
+    fn take_back(&mut self, run: Ladder, result: Result<(), SolveError>) {
         let Some(running) = self.running.take() else { return };
         self.resting = Some(run);
         let goal = match result {

@@ -186,7 +186,7 @@ mod tests {
     use super::*;
     use crate::examples::Example;
     use crate::geom::PictureFrame;
-    use crate::solver::{Control, Pins, Run, Settings, hard_pins};
+    use crate::solver::{Control, Ladder, Pins, Settings, hard_pins};
 
     /// The dome's first step with hard pins, on a picture twice as wide as high.
     fn first_step() -> Outcome {
@@ -196,7 +196,7 @@ mod tests {
         let targets = [(3, [0.2, 0.2]), (40, [0.8, 0.3]), (11, [0.7, 0.9])];
         let uv: Pins = hard_pins(targets.map(|(vertex, target)| (VertexId::new(vertex), target.into())));
         let placed = |(&vertex, pin): (&VertexId, &Pin)| (vertex, frame.plane_from_uv(pin.target));
-        let mut run = Run::new(Settings::default(), hard_pins(uv.iter().map(placed)));
+        let mut run = Ladder::new(Settings::default(), hard_pins(uv.iter().map(placed)));
         let step = run.step(mesh, Control::unattended()).expect("a dome can be solved");
         Outcome::new(mesh, Settings::default(), (frame, uv), step)
     }

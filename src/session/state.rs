@@ -20,7 +20,7 @@ use super::{
 };
 use crate::io::ProjectView;
 use crate::mesh::VertexId;
-use crate::solver::{Ending, Phase, Prepared, Run, Settings};
+use crate::solver::{Ending, Ladder, Phase, Prepared, Settings};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
@@ -76,7 +76,7 @@ pub struct Session {
     /// The run that takes steps in the background.
     pub(super) running: Option<Running>,
     /// The run that waits to be taken on.
-    pub(super) resting: Option<Run>,
+    pub(super) resting: Option<Ladder>,
     /// Whether the document changed since the step under way began.
     pub(super) solve_again: bool,
     /// What is known to be amiss with the constraints before they are solved for.

@@ -8,7 +8,7 @@ use super::continuation::{Accepted, Continuation};
 use super::matchmaker::{Matched, matched, without_needless_vertices};
 use super::relaxing::Relaxing;
 use super::{
-    Conflict, Control, Embedding, Method, Outside, Pins, Progress, Run, Settings, SolveError, Step, check_pins,
+    Conflict, Control, Embedding, Ladder, Method, Outside, Pins, Progress, Settings, SolveError, Step, check_pins,
     conflicts, verdict,
 };
 use crate::geom::Similarity;
@@ -173,7 +173,7 @@ pub(super) fn check_distances(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveE
 fn planar_start(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Embedding, SolveError> {
     let unconstrained = Settings { size: settings.size, ..Settings::default() };
     let mut planar: Option<Step> = None;
-    let result = Run::new(unconstrained, Pins::new()).finish(mesh, control, |step| {
+    let result = Ladder::new(unconstrained, Pins::new()).finish(mesh, control, |step| {
         if step.verdict.planar {
             planar = Some(step);
         }

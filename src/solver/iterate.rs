@@ -15,8 +15,8 @@ use super::pins::targets_of;
 use super::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};
 use super::system::FreeSystem;
 use super::{
-    Control, Embedding, Phase, PhaseSeconds, Pin, Pins, Solution, SolveError, Treatment, are_held_alike, check_pins,
-    farthest_pair,
+    Control, Embedding, LinearSolve, Phase, PhaseSeconds, Pin, Pins, Solution, SolveError, Treatment, are_held_alike,
+    check_pins, farthest_pair,
 };
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
@@ -93,11 +93,13 @@ impl Iteration {
             embedding,
             pins,
             gauge_completed: false,
-            residual,
-            equation_residual,
-            replaced_pivots: stats.replaced_pivots,
-            bounded_corners: solve.bounded_corners(),
-            factor_bytes: stats.factor_bytes,
+            linear: Some(LinearSolve {
+                residual,
+                equation_residual,
+                replaced_pivots: stats.replaced_pivots,
+                bounded_corners: solve.bounded_corners(),
+                factor_bytes: stats.factor_bytes,
+            }),
             seconds,
         })
     }
@@ -128,11 +130,7 @@ fn unmoved(embedding: &Embedding, pins: Pins, seconds: f64) -> Solution {
         embedding: embedding.clone(),
         pins,
         gauge_completed: false,
-        residual: 0.0,
-        equation_residual: 0.0,
-        replaced_pivots: 0,
-        bounded_corners: 0,
-        factor_bytes: 0,
+        linear: Some(LinearSolve::default()),
         seconds: PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() },
     }
 }

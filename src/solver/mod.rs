@@ -52,10 +52,10 @@ pub use pins::{
     hard_pins,
 };
 pub use prepared::{Prepared, flatten};
-pub use run::{Ending, Run};
+pub use run::{Ending, Ladder};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use shape_preserving::shape_preserving;
-pub use solution::{PhaseSeconds, Solution};
+pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use step::{Progress, Step, diameter, largest_move};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, verdict};

@@ -18,7 +18,9 @@ use super::pins::{PinPositions, Pins, are_held_alike, check_pins, farthest_pair,
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
-use super::{BoundaryShape, Control, Embedding, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use super::{
+    BoundaryShape, Control, Embedding, Family, LinearSolve, Method, Phase, PhaseSeconds, Settings, Solution, SolveError,
+};
 use crate::linalg::{Analysis, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -190,11 +192,13 @@ impl Prepared {
             embedding,
             pins: in_force,
             gauge_completed: self.own_places.is_some(),
-            residual,
-            equation_residual,
-            replaced_pivots: stats.replaced_pivots,
-            bounded_corners,
-            factor_bytes: stats.factor_bytes,
+            linear: Some(LinearSolve {
+                residual,
+                equation_residual,
+                replaced_pivots: stats.replaced_pivots,
+                bounded_corners,
+                factor_bytes: stats.factor_bytes,
+            }),
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..self.seconds },
         })
     }

@@ -62,7 +62,7 @@ const ITERATIONS_WITH_CONSTRAINTS: usize = 8;
 
 /// A method under way on one mesh with one set of pins.
 #[derive(Debug)]
-pub struct Run {
+pub struct Ladder {
     settings: Settings,
     pins: Pins,
     prepared: Option<Arc<Prepared>>,
@@ -127,7 +127,7 @@ impl Raw {
     }
 }
 
-impl Run {
+impl Ladder {
     /// A run that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
         let pins = if settings.method.uses_pins() { pins } else { Pins::new() };
@@ -179,7 +179,7 @@ impl Run {
         self.step_count
     }
 
-    /// Why the method has come to its end, if it has. [`Run::step`] goes on all the same.
+    /// Why the method has come to its end, if it has. [`Ladder::step`] goes on all the same.
     pub fn ending(&self) -> Option<Ending> {
         self.ending
     }
@@ -188,7 +188,7 @@ impl Run {
     ///
     /// # Errors
     ///
-    /// As [`Run::step`]; steps handed over before are good.
+    /// As [`Ladder::step`]; steps handed over before are good.
     pub fn finish(
         &mut self,
         mesh: &DiskMesh,
@@ -408,11 +408,7 @@ impl Run {
             embedding,
             pins,
             gauge_completed: self.pins.len() < 2,
-            residual: f64::NAN,
-            equation_residual: f64::NAN,
-            replaced_pivots: 0,
-            bounded_corners: 0,
-            factor_bytes: 0,
+            linear: None,
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() },
         }
     }

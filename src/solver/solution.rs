@@ -11,7 +11,16 @@ pub struct Solution {
     pub pins: Pins,
     /// Whether the pins are gauge pins that the solver chose by itself.
     pub gauge_completed: bool,
-    /// ‖Ax − b‖ / ‖b‖ of the linear solve, measured on the original system.
+    /// The linear solve; none where an energy was minimised.
+    pub linear: Option<LinearSolve>,
+    /// Where the time went.
+    pub seconds: PhaseSeconds,
+}
+
+/// The numbers of a linear solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinearSolve {
+    /// ‖Ax − b‖ / ‖b‖, measured on the original system.
     pub residual: f64,
     /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sizes of their terms: how far the
     /// embedding is from satisfying the boundary condition everywhere. Vertices on a convex boundary have no equation.
@@ -22,8 +31,6 @@ pub struct Solution {
     pub bounded_corners: usize,
     /// Bytes of the matrix's factors.
     pub factor_bytes: usize,
-    /// Where the time went.
-    pub seconds: PhaseSeconds,
 }
 
 /// Seconds by phase of a solve.

@@ -19,8 +19,8 @@ use super::equations::{barycentric, uniform};
 use super::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use super::virtual_boundary::{Extended, Start, VirtualBoundary};
 use super::{
-    Control, Embedding, Family, Growth, Method, PhaseSeconds, PinPositions, Pins, Prepared, Settings, Solution,
-    SolveError, Treatment, fixed_pins,
+    Control, Embedding, Family, Growth, LinearSolve, Method, PhaseSeconds, PinPositions, Pins, Prepared, Settings,
+    Solution, SolveError, Treatment, fixed_pins,
 };
 use crate::mesh::DiskMesh;
 
@@ -206,12 +206,14 @@ fn bend(
         embedding,
         pins: Pins::new(),
         gauge_completed: true,
-        residual,
-        // All equations of the extended mesh are solved; those of the outline are prescribed.
-        equation_residual: extended.equation_residual(&equations, &stages.solved),
-        replaced_pivots: stats.replaced_pivots,
-        bounded_corners,
-        factor_bytes: stats.factor_bytes,
+        linear: Some(LinearSolve {
+            residual,
+            // All equations of the extended mesh are solved; those of the outline are prescribed.
+            equation_residual: extended.equation_residual(&equations, &stages.solved),
+            replaced_pivots: stats.replaced_pivots,
+            bounded_corners,
+            factor_bytes: stats.factor_bytes,
+        }),
         seconds,
     };
     Ok(Bent { solution, pinned, family: Family::MeanValue, stages: Some(Arc::new(stages)) })

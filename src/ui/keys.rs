@@ -3,8 +3,9 @@
 use eframe::egui;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::{Editor, Purpose, Request, Shading, StepTarget, Tool, nudge};
+use super::{Editor, Purpose, Request, Shading, StepTarget, Tool};
 use crate::session::Action;
+use crate::ui::editor::nudge;
 
 /// One shortcut.
 pub struct Binding {

@@ -6,7 +6,7 @@ use std::path::Path;
 use freebound::examples::Example;
 use freebound::io::read_mesh;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Pins, Run, Settings, Step};
+use freebound::solver::{Control, Ladder, Pins, Settings, Step};
 use glam::DVec2;
 use serde_json::Value;
 
@@ -293,7 +293,7 @@ fn face_steps() -> (DiskMesh, Pins, Vec<Step>) {
     let landmarks = Example::Face.landmarks();
     let pins = freebound::solver::hard_pins(landmarks.iter().map(|l| (l.vertex, DVec2::from(l.target))));
     let mut steps = Vec::new();
-    let mut run = Run::new(Settings::default(), pins.clone());
+    let mut run = Ladder::new(Settings::default(), pins.clone());
     run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     (mesh, pins, steps)
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Ending, Family, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step};
+use freebound::solver::{Control, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step};
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -15,7 +15,7 @@ use crate::shapes::{finger, irregular_cube};
 /// All steps of a run and why it ended.
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Result<(Vec<Step>, Ending), SolveError> {
     let mut steps = Vec::new();
-    let ending = Run::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step))?;
+    let ending = Ladder::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step))?;
     Ok((steps, ending))
 }
 
@@ -128,7 +128,7 @@ fn a_weighted_constraint_pulls_the_nearer_the_heavier_it_is() {
 fn a_step_that_is_cancelled_anywhere_leaves_the_way_as_it_was() {
     let (mesh, pins) = swirl();
     let (whole, _) = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap();
-    let mut run = Run::new(one_to_one(Method::Continuation), pins);
+    let mut run = Ladder::new(one_to_one(Method::Continuation), pins);
     let mut steps: Vec<Step> = Vec::new();
     for allowed in 0.. {
         if run.ending().is_some() {
@@ -167,7 +167,7 @@ fn without_leave_for_new_vertices_what_cannot_be_met_is_named_and_the_rest_is_pl
     let corners = face.map(|v| mesh.position(v).truncate());
     let turned = [(face[0], corners[1]), (face[1], corners[0]), (face[2], corners[2])];
     let pins: Pins = turned.into_iter().map(|(v, target)| (v, Pin::hard(target))).collect();
-    let mut run = Run::new(Settings { new_vertices: false, ..Settings::default() }, pins.clone());
+    let mut run = Ladder::new(Settings { new_vertices: false, ..Settings::default() }, pins.clone());
     let mut last = None;
     let error = run.finish(&mesh, Control::unattended(), |step| last = Some(step)).unwrap_err();
     assert_eq!(error, SolveError::Unmet);
@@ -205,7 +205,7 @@ fn pins_that_no_continuation_reaches_do_not_keep_it_busy_for_ever() {
     let pins: Pins =
         face.into_iter().zip([30.0, 49.0, 45.0]).map(|(v, x)| (v, Pin::hard(DVec2::new(x, 0.0)))).collect();
     let mut last = None;
-    let mut run = Run::new(one_to_one(Method::Continuation), pins);
+    let mut run = Ladder::new(one_to_one(Method::Continuation), pins);
     let error = run.finish(&mesh, Control::unattended(), |step| last = Some(step)).unwrap_err();
     assert_eq!(error, SolveError::Unmet);
     let last = last.unwrap();

@@ -26,7 +26,11 @@ fn convex(shape: BoundaryShape, family: Family) -> Settings {
 fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Vec<DVec2> {
     let solution = flatten(mesh, settings, &Pins::new(), Control::unattended())
         .unwrap_or_else(|error| panic!("{name}, {settings:?}: {error}"));
-    assert!(solution.residual <= RESIDUAL, "{name}, {settings:?}: residual {:e}", solution.residual);
+    assert!(
+        solution.linear.unwrap().residual <= RESIDUAL,
+        "{name}, {settings:?}: residual {:e}",
+        solution.linear.unwrap().residual
+    );
     solution.embedding
 }
 

@@ -7,7 +7,7 @@ use freebound::examples::Example;
 use freebound::io::figure::{has_glyph, zones_of};
 use freebound::io::raster::Colour;
 use freebound::mesh::{DiskMesh, FaceId};
-use freebound::solver::{Embedding, Control, Ending, Method, Run, Settings, Step, fixed_pins};
+use freebound::solver::{Embedding, Control, Ending, Ladder, Method, Settings, Step, fixed_pins};
 use glam::DVec2;
 
 use crate::common::{csv_rows, grid};
@@ -167,13 +167,13 @@ fn the_pairs_fold_as_measured_and_both_methods_repair_what_they_fold() {
         let distance = mesh.position(a).distance(mesh.position(b));
         let pins = fixed_pins([(a, DVec2::ZERO), (b, DVec2::new(distance, 0.0))]);
         for (weights, (name, ..)) in WEIGHTS.iter().enumerate() {
-            let folded = Run::new(settings(weights), pins.clone()).step(&mesh, Control::unattended()).unwrap();
+            let folded = Ladder::new(settings(weights), pins.clone()).step(&mesh, Control::unattended()).unwrap();
             assert_eq!(folded.verdict.flipped_faces.len(), pair.flipped_faces[weights], "{a}, {b}, {name}");
             assert!(folded.has_simple_boundary(), "{a}, {b}, {name}");
             let repaired = |method: Method| {
                 let settings = Settings { method, ..settings(weights) };
                 let (mut count, mut last) = (0, None::<Step>);
-                let mut run = Run::new(settings, pins.clone()).after(&folded);
+                let mut run = Ladder::new(settings, pins.clone()).after(&folded);
                 let ending = run.finish(&mesh, Control::unattended(), |step| {
                     count += 1;
                     last = Some(step);

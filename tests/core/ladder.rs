@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{Embedding, 
-    Control, Ending, Family, Method, Phase, Pin, Pins, Run, Settings, SolveError, Step, hard_pins, verdict,
+    Control, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step, hard_pins, verdict,
 };
 use glam::DVec2;
 
@@ -20,7 +20,7 @@ fn disk(example: Example) -> DiskMesh {
 
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Vec<Step> {
     let mut steps = Vec::new();
-    Run::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+    Ladder::new(settings, pins.clone()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     steps
 }
 
@@ -111,7 +111,7 @@ fn a_free_boundary_is_looked_for_before_one_is_bent() {
 fn a_singular_first_rung_is_noted_and_stepped_over() {
     let Some(entry) = corpus_disks().into_iter().find(|entry| entry.file == "maze.obj") else { return };
     let mesh = entry.disk();
-    let alone = Run::new(Settings::new(Method::Natural, Family::MeanValue), Pins::new()).finish(
+    let alone = Ladder::new(Settings::new(Method::Natural, Family::MeanValue), Pins::new()).finish(
         &mesh,
         Control::unattended(),
         |_| (),
@@ -127,10 +127,10 @@ fn a_singular_first_rung_is_noted_and_stepped_over() {
 fn what_the_user_got_wrong_is_an_error_and_no_rung_hides_it() {
     let mesh = disk(Example::Dome);
     let twice = hard_pins([(VertexId::new(1), DVec2::ONE), (VertexId::new(2), DVec2::ONE)]);
-    let outcome = Run::new(Settings::default(), twice).step(&mesh, Control::unattended());
+    let outcome = Ladder::new(Settings::default(), twice).step(&mesh, Control::unattended());
     assert!(matches!(outcome, Err(SolveError::CoincidentPins { .. })));
     let uniform =
-        Run::new(Settings::new(Method::Auto, Family::Uniform), Pins::new()).step(&mesh, Control::unattended());
+        Ladder::new(Settings::new(Method::Auto, Family::Uniform), Pins::new()).step(&mesh, Control::unattended());
     assert!(matches!(uniform, Err(SolveError::FamilyNotApplicable { .. })));
 }
 
@@ -144,7 +144,7 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
         let v = boundary[k * boundary.len() / 5];
         pins.insert(v, Pin::hard(DVec2::from_angle(2.0 * std::f64::consts::TAU * k as f64 / 5.0) * 10.0));
     }
-    let mut run = Run::new(Settings { max_steps: 4, ..Settings::default() }, pins.clone());
+    let mut run = Ladder::new(Settings { max_steps: 4, ..Settings::default() }, pins.clone());
     let mut steps = Vec::new();
     let ending = run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     assert_eq!(ending, Ending::Planar);
@@ -157,7 +157,7 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
 }
 
 /// A run whose every step is first cancelled at each of its phases in turn, then let through.
-fn disturbed(mesh: &DiskMesh, mut run: Run) -> Vec<Step> {
+fn disturbed(mesh: &DiskMesh, mut run: Ladder) -> Vec<Step> {
     let (mut found, mut allowed, mut cancelled): (Vec<Step>, _, _) = (Vec::new(), 0, 0);
     while run.ending().is_none() {
         let (flag, phases) = (AtomicBool::new(false), AtomicUsize::new(0));
@@ -194,7 +194,7 @@ fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
     }
     for (mesh, settings, pins) in cases {
         let undisturbed = steps_of(&mesh, settings, &pins);
-        let found = disturbed(&mesh, Run::new(settings, pins));
+        let found = disturbed(&mesh, Ladder::new(settings, pins));
         let told = |steps: &[Step]| -> Vec<(usize, Method, Option<String>, Embedding)> {
             let told = |s: &Step| (s.bent_vertices, s.rung, s.note.clone(), s.solution.embedding.clone());
             steps.iter().map(told).collect()
@@ -219,7 +219,7 @@ fn a_virtual_boundary_refuses_constraints_and_says_what_to_choose() {
     let boundary = mesh.boundary_loop();
     let pins = hard_pins((0..3).map(|k| (boundary[7 * k], DVec2::from_angle(k as f64))));
     let outcome =
-        Run::new(Settings::new(Method::VirtualBoundary, Family::Conformal), pins).step(&mesh, Control::unattended());
+        Ladder::new(Settings::new(Method::VirtualBoundary, Family::Conformal), pins).step(&mesh, Control::unattended());
     assert_eq!(outcome.err(), Some(SolveError::TooManyPins { count: 3, most: 2 }));
 }
 
@@ -230,7 +230,7 @@ fn every_ladder_ends_however_far_apart_the_numbers_are() {
     let boundary = mesh.boundary_loop();
     let far = hard_pins([(boundary[0], DVec2::ZERO), (boundary[4], DVec2::new(1e61, 0.0))]);
     for (pins, limit) in [(Pins::new(), 200), (far, 200)] {
-        let mut run = Run::new(Settings { max_steps: 5, ..Settings::default() }, pins);
+        let mut run = Ladder::new(Settings { max_steps: 5, ..Settings::default() }, pins);
         let mut taken = 0;
         while run.ending().is_none() && taken < limit {
             taken += 1;
@@ -251,7 +251,7 @@ fn small_disks_and_disks_without_inner_vertices_end_planar_too() {
     for mesh in [triangle, fan, strip] {
         let mesh = DiskMesh::try_from(mesh).unwrap();
         for family in FAMILIES {
-            let mut run = Run::new(Settings::new(Method::Auto, family), Pins::new());
+            let mut run = Ladder::new(Settings::new(Method::Auto, family), Pins::new());
             let mut planar = false;
             run.finish(&mesh, Control::unattended(), |step| planar = step.verdict.planar).unwrap();
             assert!(planar, "{} faces, {family}", mesh.face_count());
@@ -264,7 +264,7 @@ fn every_method_can_be_taken_on_by_hand() {
     let mesh = disk(Example::Cube);
     let convex = Method::Convex(freebound::solver::BoundaryShape::Circle);
     for method in [convex, Method::Lscm, Method::Levy, Method::Natural, Method::VirtualBoundary] {
-        let mut run = Run::new(Settings::new(method, Family::MeanValue), Pins::new());
+        let mut run = Ladder::new(Settings::new(method, Family::MeanValue), Pins::new());
         run.finish(&mesh, Control::unattended(), |_| ()).unwrap();
         let further = run.step(&mesh, Control::unattended()).unwrap();
         assert_eq!(further.rung, Method::Iterate, "after {method:?}");

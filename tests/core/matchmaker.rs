@@ -2,7 +2,7 @@
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Family, Method, Pin, Pins, Run, Settings, SolveError, Step, verdict};
+use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings, SolveError, Step, verdict};
 use glam::DVec2;
 
 use crate::common::{Random, fan, grid};
@@ -13,7 +13,7 @@ const SAME_AREA: f64 = 1e-12;
 
 /// The step that makes the new vertices: the one after the planar start.
 fn matched(mesh: &DiskMesh, pins: &Pins) -> Result<Step, SolveError> {
-    let mut run = Run::new(Settings::new(Method::Matchmaker, Family::default()), pins.clone());
+    let mut run = Ladder::new(Settings::new(Method::Matchmaker, Family::default()), pins.clone());
     let start = run.step(mesh, Control::unattended())?;
     assert!(start.verdict.planar && start.refinement.is_none());
     let step = run.step(mesh, Control::unattended())?;
@@ -75,7 +75,7 @@ fn random_pins(mesh: &DiskMesh, count: usize, random: &mut Random) -> Pins {
 /// Vertices pinned to where others of them lie without pins.
 fn permuted_pins(mesh: &DiskMesh, count: usize, random: &mut Random) -> Pins {
     let mut last = None;
-    let mut run = Run::new(Settings::default(), Pins::new());
+    let mut run = Ladder::new(Settings::default(), Pins::new());
     run.finish(mesh, Control::unattended(), |step| last = Some(step)).unwrap();
     let flat = last.unwrap().solution.embedding;
     let pinned = vertices(mesh, count, random);
@@ -151,7 +151,7 @@ fn a_face_with_three_pinned_corners_can_be_turned_over() {
 #[test]
 fn without_pins_nothing_is_split() {
     let mesh = DiskMesh::try_from(Example::Dome.mesh()).unwrap();
-    let mut run = Run::new(Settings::new(Method::Matchmaker, Family::default()), Pins::new());
+    let mut run = Ladder::new(Settings::new(Method::Matchmaker, Family::default()), Pins::new());
     for _ in 0..2 {
         let step = run.step(&mesh, Control::unattended()).unwrap();
         assert!(step.verdict.planar && step.refinement.is_none());

@@ -8,7 +8,7 @@ use freebound::geom::{Picture, PictureFrame, VAxis};
 use freebound::io::{OutputKind, material_picture, read_mesh, read_picture};
 use freebound::mesh::DiskMesh;
 use freebound::session::{Finished, Model, Outcome, OutputFit, PictureFile};
-use freebound::solver::{Control, Pin, Pins, Run, Settings};
+use freebound::solver::{Control, Ladder, Pin, Pins, Settings};
 use glam::DVec2;
 
 use crate::program::{Program, coordinates_by_vertex, example_file};
@@ -153,7 +153,7 @@ fn where_names_are_taken_again_and_again_they_are_counted_up() {
 fn a_picture_of_no_file_is_not_written_over_files_of_others() {
     let model = Model::example(Example::Dome);
     let mesh: &DiskMesh = model.disk().unwrap();
-    let step = Run::new(Settings::default(), Pins::new()).step(mesh, Control::unattended()).unwrap();
+    let step = Ladder::new(Settings::default(), Pins::new()).step(mesh, Control::unattended()).unwrap();
     let outcome = Outcome::new(mesh, Settings::default(), (PictureFrame::default(), Pins::new()), step);
     let picture = PictureFile { name: "four".into(), path: None, stamp: None, pixels: quarters(4, 2).into() };
     let finished = Finished::new((&model, mesh), &outcome, Vec::new(), OutputFit::Unit, 0.0);
@@ -198,7 +198,7 @@ fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
     let targets = [(3, [0.2, 0.8]), (40, [0.8, 0.7]), (11, [0.7, 0.1])];
     let uv: Pins = targets.iter().map(|&(v, z)| (freebound::mesh::VertexId::new(v), Pin::hard(z.into()))).collect();
     let plane = uv.iter().map(|(&v, pin)| (v, Pin { target: frame.plane_from_uv(pin.target), ..*pin })).collect();
-    let step = Run::new(Settings::default(), plane).step(mesh, Control::unattended()).unwrap();
+    let step = Ladder::new(Settings::default(), plane).step(mesh, Control::unattended()).unwrap();
     let outcome = Outcome::new(mesh, Settings::default(), (frame, uv), step);
     let finished = Finished::new((&model, mesh), &outcome, Vec::new(), OutputFit::Unit, 0.0);
     let folder = tempfile::tempdir().unwrap();

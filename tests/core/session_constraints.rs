@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use freebound::geom::PictureFrame;
 use freebound::mesh::{DiskMesh, NewVertex, Refinement, VertexId};
 use freebound::session::{Action, Outcome, OutputFit, Session, Stop};
-use freebound::solver::{Control, Family, Method, Pin, Pins, Run, Settings};
+use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings};
 use glam::DVec2;
 
 use crate::common::grid;
@@ -194,7 +194,7 @@ fn split_square() -> (DiskMesh, Arc<Refinement>) {
 #[test]
 fn an_outcome_with_new_vertices_is_measured_and_proved_on_its_own_mesh() {
     let (disk, refinement) = split_square();
-    let mut run = Run::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
+    let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(&disk, Control::unattended()).expect("a square can be solved");
     let [a, b] = [0, 3].map(|v: usize| step.solution.embedding[v]);
     step.solution.embedding.push(a.midpoint(b));

@@ -8,7 +8,7 @@ use freebound::examples::Example;
 use freebound::io::OutputKind;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop, StopConditions};
-use freebound::solver::{Embedding, Control, Family, Method, Pin, Pins, Run, Settings, Step, hard_pins};
+use freebound::solver::{Embedding, Control, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::common::grid;
@@ -29,7 +29,7 @@ fn embedding(session: &Session) -> Embedding {
 fn uninterrupted(session: &Session, count: usize) -> Vec<Step> {
     let disk = session.model().expect("open").disk().expect("a disk");
     let document = session.document();
-    let mut run = Run::new(document.run_settings(), document.plane_pins());
+    let mut run = Ladder::new(document.run_settings(), document.plane_pins());
     (0..count).map(|_| run.step(disk, Control::unattended()).expect("solvable")).collect()
 }
 

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use freebound::geom::PictureFrame;
 use freebound::mesh::{DiskMesh, FaceId};
 use freebound::session::{Outcome, Timeline};
-use freebound::solver::{Control, Family, Method, Pins, Run, Settings};
+use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
 
 use crate::common::grid;
 
 /// The first step of a small run.
 fn first() -> Outcome {
     let disk = DiskMesh::try_from(grid(4, 4)).expect("a disk");
-    let mut run = Run::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
+    let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let step = run.step(&disk, Control::unattended()).expect("solvable");
     Outcome::new(&disk, *run.settings(), (PictureFrame::default(), Pins::new()), step)
 }

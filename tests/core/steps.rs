@@ -8,7 +8,7 @@ use freebound::geom::PictureFrame;
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::session::{Finished, Model, Outcome, OutputFit};
-use freebound::solver::{Embedding, Control, Family, Method, Pins, Run, Settings, to_unit_square, verdict};
+use freebound::solver::{Embedding, Control, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;
 
@@ -224,7 +224,7 @@ fn auto_ends_planar_and_proved_on_every_disk_of_the_corpus() {
 
 /// A fan whose embedding is `places`, the centre first, as the outcome of a solve.
 fn outcome_with(mesh: &DiskMesh, places: Embedding) -> Outcome {
-    let mut run = Run::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
+    let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
     step.verdict = verdict(mesh, &places);
     step.solution.embedding = places;

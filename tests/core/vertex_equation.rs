@@ -5,7 +5,7 @@ use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::plane_weights::natural_in_plane;
 use freebound::solver::{Embedding, 
-    BoundaryShape, Control, Family, Method, NoEquation, Pins, Run, Settings, Step, Treatment, VertexEquation,
+    BoundaryShape, Control, Family, Ladder, Method, NoEquation, Pins, Settings, Step, Treatment, VertexEquation,
     WeightSource, equation_of_step,
 };
 use glam::DVec2;
@@ -25,7 +25,7 @@ fn disk(example: Example) -> DiskMesh {
 
 fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
     let mut steps = Vec::new();
-    Run::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+    Ladder::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     steps
 }
 

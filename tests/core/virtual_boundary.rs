@@ -7,7 +7,7 @@ use freebound::geom::{Orientation, orientation};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::plane_weights::{residuals_in_plane, mean_value_in_plane};
 use freebound::solver::{Embedding, 
-    Control, Extended, Family, Growth, Method, Outline, Pins, Run, Settings, Start, Step, diameter, largest_move,
+    Control, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, diameter, largest_move,
     verdict,
 };
 use glam::{DVec2, DVec3};
@@ -52,7 +52,7 @@ fn grid_with_ears(columns: u32, heights: &[(u32, f64)]) -> (DiskMesh, Embedding)
 
 fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
     let mut steps = Vec::new();
-    Run::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+    Ladder::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     steps
 }
 
@@ -214,7 +214,7 @@ fn more_boundary_vertices_are_pinned_until_the_boundary_is_simple() {
     let last = steps.last().unwrap();
     assert!(last.verdict.planar && last.has_convex_boundary());
 
-    let mut one_by_one = Run::new(Settings { growth: Growth::One, ..settings }, Pins::new());
+    let mut one_by_one = Ladder::new(Settings { growth: Growth::One, ..settings }, Pins::new());
     let bent: Vec<usize> =
         (0..4).map(|_| one_by_one.step(&mesh, Control::unattended()).unwrap().bent_vertices).collect();
     assert_eq!(bent, [0, 3, 4, 5], "as the paper has it");

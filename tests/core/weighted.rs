@@ -209,7 +209,7 @@ fn a_weight_means_the_same_at_every_size_of_the_mesh() {
         for method in [Method::Natural, Method::Iterate] {
             let settings = Settings { max_steps: 1, ..Settings::new(method, family) };
             let last = |mesh: &DiskMesh| {
-                let mut run = freebound::solver::Run::new(settings, pins.clone());
+                let mut run = freebound::solver::Ladder::new(settings, pins.clone());
                 let mut found = Vec::new();
                 run.finish(mesh, Control::unattended(), |step| found = step.solution.embedding).unwrap();
                 found
@@ -252,7 +252,7 @@ fn the_face_takes_its_landmarks_with_any_weight() {
             let pins: Pins = landmarks.iter().map(|l| (l.vertex, Pin::weighted(l.target.into(), weight))).collect();
             let settings = Settings::new(Method::Natural, family);
             let solved = flatten(&mesh, &settings, &pins, Control::unattended());
-            let residual = solved.map(|solution| solution.residual);
+            let residual = solved.map(|solution| solution.linear.unwrap().residual);
             assert!(residual.as_ref().is_ok_and(|&residual| residual < 1e-12), "{weight} {family}: {residual:?}");
         }
     }
@@ -285,7 +285,7 @@ fn exact_constraints_are_met_to_the_last_bit_beside_weighted_ones_at_every_step(
     let mesh = disk(Example::Dome.mesh());
     let mut random = Random(8);
     let pins = mixed(9, |_| 1.0, &mesh, &mut random);
-    let mut run = freebound::solver::Run::new(
+    let mut run = freebound::solver::Ladder::new(
         Settings { max_steps: 5, ..Settings::new(Method::Iterate, Family::default()) },
         pins.clone(),
     );

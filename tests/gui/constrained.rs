@@ -133,7 +133,7 @@ fn a_constraint_that_needs_new_vertices_is_marked() {
     let mut window = window();
     window.choose("Method", "Natural boundary");
     place(&mut window, &TURNED);
-    window.editor_mut().tab = Tab::Pins;
+    window.editor_mut().layout.show_tab(Tab::Pins);
     window.settle();
     assert_eq!(window.words().iter().filter(|words| *words == "conflict").count(), 3);
     assert!(window.shows("1 conflict needs new vertices"));

@@ -130,7 +130,7 @@ fn go_to_finds_vertices_edges_and_faces_by_number() {
         selected.sort_unstable();
         expected.sort_unstable();
         assert_eq!(selected, expected, "{text}");
-        assert!(window.editor().go_to.is_none(), "it closes");
+        assert!(window.editor().layout.go_to.is_none(), "it closes");
     }
     window.menu(&["View", "Go to…"]);
     window.type_text("e0");
@@ -148,7 +148,7 @@ fn go_to_says_so_where_there_is_no_such_element() {
     assert!(!window.is_enabled("Go"));
     window.key(Key::Enter);
     assert!(window.editor().selection.is_empty());
-    assert!(window.editor().go_to.is_some(), "it stays for a better number");
+    assert!(window.editor().layout.go_to.is_some(), "it stays for a better number");
     window.key(Key::Escape);
-    assert!(window.editor().go_to.is_none());
+    assert!(window.editor().layout.go_to.is_none());
 }

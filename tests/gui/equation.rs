@@ -25,7 +25,7 @@ fn window(vertex: VertexId) -> Window {
 }
 
 fn select(window: &mut Window, vertex: VertexId) {
-    window.editor_mut().tab = Tab::Vertex;
+    window.editor_mut().layout.show_tab(Tab::Vertex);
     window.editor_mut().selection = [vertex].into();
     window.settle();
 }

@@ -247,7 +247,7 @@ fn tabs_are_opened_and_panels_hidden() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     for tab in [Tab::Pins, Tab::Defects, Tab::Vertex, Tab::Method] {
         window.click_last(tab.title());
-        assert_eq!(window.editor().tab, tab);
+        assert_eq!(window.editor().layout.tab(), tab);
     }
     window.menu(&["View", "Panels"]);
     assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Method").is_none());

@@ -72,7 +72,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::GoToStep(StepTarget::Next | StepTarget::Last) => steps(&window) == (3, Some(2)),
             // Never saved before: it asks where.
             Request::Ask(_) | Request::SaveProject => editor.dialogs.is_open(),
-            Request::ToggleExports => editor.exports_shown,
+            Request::ToggleExports => editor.layout.exports_shown,
             // There is work that is not saved.
             Request::Quit => editor.unsaved.is_asked(),
             // Nothing is wrong here to go to.
@@ -80,13 +80,13 @@ fn shortcuts_do_what_the_table_says() {
             Request::SetTool(tool) => editor.tool == tool,
             Request::UnpinSelected => document(&window).pins.len() == pins - 1,
             Request::Frame => editor.orbit != orbit,
-            Request::AskGoTo => editor.go_to.is_some(),
-            Request::SetShading(shading) => editor.shading == shading,
+            Request::AskGoTo => editor.layout.go_to.is_some(),
+            Request::SetShading(shading) => editor.look.shading == shading,
             Request::ToggleHull => editor.hull.shown,
-            Request::ToggleWireframe => editor.wireframe,
-            Request::TogglePane => editor.full == Some(Pane::Plane),
+            Request::ToggleWireframe => editor.look.wireframe,
+            Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
             Request::Escape => editor.tool == Tool::Select,
-            Request::ToggleKeys => editor.keys_shown,
+            Request::ToggleKeys => editor.layout.keys_shown,
             other => panic!("{other:?} has a key that no test knows"),
         };
         assert!(done, "{}: {:?}", binding.about, binding.shortcut);
@@ -100,9 +100,9 @@ fn tab_shows_the_pane_under_the_pointer_in_full_size_and_back() {
         window.harness.hover_at(view.center());
         window.settle();
         window.key(Key::Tab);
-        assert_eq!(window.editor().full, Some(pane));
+        assert_eq!(window.editor().layout.full(), Some(pane));
         window.key(Key::Tab);
-        assert_eq!(window.editor().full, None);
+        assert_eq!(window.editor().layout.full(), None);
     }
 }
 
@@ -114,7 +114,7 @@ fn tab_leaves_the_keyboard_with_the_window() {
     }
     assert_eq!(window.harness.ctx.memory(egui::Memory::focused), None, "no control takes the keyboard");
     window.key(Key::W);
-    assert!(window.editor().wireframe, "shortcuts still reach the window");
+    assert!(window.editor().look.wireframe, "shortcuts still reach the window");
 }
 
 #[test]
@@ -130,8 +130,8 @@ fn typing_into_a_field_triggers_no_shortcut() {
     window.press(Modifiers::COMMAND, Key::Z);
     let editor = window.editor();
     assert_eq!(document(&window), before);
-    assert_eq!((editor.tool, editor.shading, editor.wireframe), (Tool::Select, Shading::Checker, false));
-    assert!(editor.go_to.is_some() && !editor.keys_shown && editor.defect.is_none());
+    assert_eq!((editor.tool, editor.look.shading, editor.look.wireframe), (Tool::Select, Shading::Checker, false));
+    assert!(editor.layout.go_to.is_some() && !editor.layout.keys_shown && editor.defect.is_none());
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn escape_closes_what_has_the_keyboard() {
     window.key(Key::G);
     window.type_text("12");
     window.key(Key::Escape);
-    assert!(window.editor().go_to.is_none());
+    assert!(window.editor().layout.go_to.is_none());
     assert_eq!(window.editor().tool, Tool::Fix, "and nothing else");
 }
 
@@ -184,6 +184,6 @@ fn escape_closes_an_open_menu_and_nothing_else() {
 fn shift_and_tab_walk_through_the_controls() {
     let mut window = window();
     window.press(Modifiers::SHIFT, Key::Tab);
-    assert_eq!(window.editor().full, None);
+    assert_eq!(window.editor().layout.full(), None);
     assert!(window.harness.ctx.memory(egui::Memory::focused).is_some());
 }

@@ -7,14 +7,14 @@ use glam::DVec3;
 use super::{Figure, Numbers, Row};
 use crate::io::figure::{Panel, PlaneDrawing, Sheet};
 use crate::mesh::DiskMesh;
-use crate::solver::{BoundaryShape, Control, Embedding, Family, Method, Pins, Run, Settings, SolveError, verdict};
+use crate::solver::{BoundaryShape, Control, Embedding, Family, Ladder, Method, Pins, Settings, SolveError, verdict};
 
 /// A flat mesh, and its embedding by Tutte's method. The paper's panel (c), the padding of Lee et al., is not made yet.
 pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Figure, SolveError> {
     let input: Embedding = mesh.mesh().positions.iter().copied().map(DVec3::truncate).collect();
     let of_input = verdict(mesh, &input);
     let settings = Settings::new(Method::Convex(BoundaryShape::Circle), Family::Uniform);
-    let step = Run::new(settings, Pins::new()).step(mesh, control)?;
+    let step = Ladder::new(settings, Pins::new()).step(mesh, control)?;
     let input_numbers = Numbers {
         flips: of_input.flipped_faces.len(),
         crossings: of_input.crossing_count(),

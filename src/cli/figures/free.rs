@@ -9,7 +9,7 @@ use super::{Figure, Numbers, Row};
 use crate::io::figure::{Panel, PlaneDrawing, Sheet, SpaceDrawing, Window, zones_of};
 use crate::io::raster::View;
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Pins, Run, SolveError, Step, fixed_pins};
+use crate::solver::{Control, Ladder, Pins, SolveError, Step, fixed_pins};
 
 /// Insets that a panel has room for.
 const INSETS: usize = 2;
@@ -44,7 +44,7 @@ pub(super) fn embedding(
     (pair, weights): (&PinPair, usize),
     control: Control<'_>,
 ) -> Result<Step, SolveError> {
-    Run::new(settings(weights), pins_of(mesh, pair)).step(mesh, control)
+    Ladder::new(settings(weights), pins_of(mesh, pair)).step(mesh, control)
 }
 
 /// A pair of vertices on the x-axis, as far apart as in space.

@@ -7,7 +7,7 @@ use super::pairs::{PinPair, TOP_AND_BOUNDARY, settings};
 use super::{Figure, Numbers, Row};
 use crate::io::figure::{Outside, Panel, PlaneDrawing, Pockets, Sheet, Window, zones_of};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::solver::{Control, Method, Run, Settings, SolveError, Step, VirtualBoundary};
+use crate::solver::{Control, Ladder, Method, Settings, SolveError, Step, VirtualBoundary};
 
 /// What figures 5 and 6 begin with, by its letter in figure 4 and its place among the weights.
 const INPUTS: [(char, usize); 2] = [('a', 0), ('b', 1)];
@@ -28,7 +28,7 @@ impl Repair {
     ) -> Result<Self, SolveError> {
         let input = embedding(mesh, (pair, weights), control)?;
         let settings = Settings { method, ..settings(weights) };
-        let mut run = Run::new(settings, pins_of(mesh, pair)).after(&input);
+        let mut run = Ladder::new(settings, pins_of(mesh, pair)).after(&input);
         let mut output = input.clone();
         run.finish(mesh, control, |step| output = step)?;
         let zones = zones_of(mesh, &input.solution.embedding, &input.verdict.flipped_faces);

@@ -11,7 +11,7 @@ use crate::geom::Picture;
 use crate::io::figure::{Panel, PhotoDrawing, PlaneDrawing, Sheet, Window, zones_of};
 use crate::io::raster::{Canvas, Paint, View, mesh_picture, mesh_places};
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Method, Pin, Pins, Run, Settings, SolveError, Step};
+use crate::solver::{Control, Ladder, Method, Pin, Pins, Settings, SolveError, Step};
 
 /// Pixels across the pictures of the mesh.
 const PIXELS: u32 = 580;
@@ -48,7 +48,7 @@ impl Subject {
     fn solved(&self, pins: Pins, control: Control<'_>) -> Result<[Step; 2], SolveError> {
         let settings = Settings { method: Method::Iterate, ..Settings::default() };
         let mut steps: Vec<Step> = Vec::new();
-        Run::new(settings, pins).finish(&self.mesh, control, |step| steps.push(step))?;
+        Ladder::new(settings, pins).finish(&self.mesh, control, |step| steps.push(step))?;
         let last = steps.last().expect("a run that ends well has a step").clone();
         Ok([steps.swap_remove(0), last])
     }

@@ -1,0 +1,105 @@
+//! What is wrong with the embedding, as a list to jump from; or with the mesh.
+
+use eframe::egui;
+use egui::RichText;
+
+use crate::mesh::VertexId;
+use crate::session::Surface;
+use crate::ui::theme::theme_of;
+use crate::ui::{Defect, Editor, Request, keys_of};
+
+/// Height of a row, points.
+const ROW: f32 = 22.0;
+
+/// Shows the panel.
+pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    if let Some(Surface::Faulty(_, diagnosis)) = editor.session.model().map(|model| &model.surface) {
+        ui.label("The mesh cannot be flattened as it is:");
+        for fault in &diagnosis.faults {
+            ui.colored_label(theme.flipped, super::method_panel::sentence(&fault.message()));
+        }
+        return;
+    }
+    let Some(outcome) = editor.session.outcome().cloned() else {
+        ui.label("Nothing is solved yet.");
+        return;
+    };
+    let verdict = &outcome.step.verdict;
+    if verdict.planar {
+        ui.colored_label(theme.planar, "Planar: proved one-to-one");
+        ui.label(
+            "Every face lies the right way up and the boundary does not meet itself, decided in exact arithmetic.",
+        );
+        unmet_list(ui, &outcome.step.unmet(), requests);
+        let new = outcome.new_vertex_count();
+        if new > 0 {
+            let noun = if new == 1 { "vertex" } else { "vertices" };
+            ui.label(format!("{new} new {noun} on old edges: the surface is the same, cut into more triangles."));
+        }
+        return;
+    }
+    let rows = [
+        (theme.flipped, "flipped faces", verdict.flipped_faces.len()),
+        (theme.crossing, "boundary crossings", verdict.crossing_count()),
+        (theme.overwound, "overwound vertices", verdict.overwound_vertices.len()),
+    ];
+    for (colour, words, count) in rows {
+        ui.horizontal(|ui| {
+            let (square, _) = ui.allocate_exact_size(egui::Vec2::splat(10.0), egui::Sense::hover());
+            ui.painter().rect_filled(square, 1.0, colour);
+            ui.label(format!("{count} {words}"));
+        });
+    }
+    let turns = verdict.turning_number.map_or_else(|| "undefined".to_owned(), |turns| turns.to_string());
+    ui.label(RichText::new(format!("Turning number of the boundary: {turns}")).color(theme.weak_text))
+        .on_hover_text("1 for a boundary that goes around once; undefined where an edge has no length or turns back");
+    ui.horizontal(|ui| {
+        for (words, by) in [("Previous", -1), ("Next", 1)] {
+            let request = Request::StepDefect(by);
+            let tip = keys_of(ui.ctx(), &request);
+            if ui.button(words).on_hover_text(tip).clicked() {
+                requests.push(request);
+            }
+        }
+        if let Some(at) = editor.defect {
+            ui.weak(format!("{} of {}", at + 1, editor.defect_count()));
+        }
+    });
+    ui.separator();
+    list(ui, editor, requests);
+}
+
+/// The exact pins that are not on their targets, to jump from.
+fn unmet_list(ui: &mut egui::Ui, unmet: &[VertexId], requests: &mut Vec<Request>) {
+    if unmet.is_empty() {
+        return;
+    }
+    ui.colored_label(theme_of(ui).unmet, format!("Constraints not met: {}", unmet.len()));
+    ui.horizontal_wrapped(|ui| {
+        for &vertex in unmet {
+            if ui.link(vertex.to_string()).on_hover_text("Show this vertex").clicked() {
+                requests.push(Request::GoTo(vec![vertex]));
+            }
+        }
+    });
+}
+
+/// All defects, to jump from.
+fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    let defects = editor.defects();
+    egui::ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, defects.len(), |ui, range| {
+        for place in range {
+            let colour = match defects[place] {
+                Defect::Flipped(_) => theme.flipped,
+                Defect::Crossing(_) => theme.crossing,
+                Defect::Overwound(_) => theme.overwound,
+            };
+            let words = RichText::new(defects[place].words()).color(colour);
+            if ui.selectable_label(editor.defect == Some(place), words).clicked() {
+                requests.push(Request::GoToDefect(place));
+            }
+        }
+    });
+}
