@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use freebound::io::{ObjMesh, write_obj};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, RecentFiles, Session};
-use freebound::solver::{Family, Hold, Method, Pin, Settings, verdict};
+use freebound::solver::{Embedding, Family, Hold, Method, Pin, Settings, verdict};
 use freebound::view::{PlaneArrays, PlaneBox, UnitPlane};
 use glam::DVec2;
 
@@ -57,7 +57,8 @@ fn opened(vertices: usize) -> Session {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("sheet.obj");
     let mut text = Vec::new();
-    write_obj(&mut text, &ObjMesh::from(&sheet_of_faces(2 * vertices)), &[]).expect("memory takes it");
+    write_obj(&mut text, &ObjMesh::from(&sheet_of_faces(2 * vertices)), &Embedding::default())
+        .expect("memory takes it");
     std::fs::write(&path, text).expect("a file");
     let mut session = Session::new(Arc::new(|| ()), RecentFiles::default());
     session.handle(Action::Open(path));

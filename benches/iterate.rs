@@ -9,11 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Embedding, 
-    Control, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move,
+use freebound::solver::{
+    Control, Embedding, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move,
 };
-
-use glam::DVec2;
 
 use common::machine::{print_machine, processor_seconds};
 use common::sheet::sheet_of_faces;
@@ -92,10 +90,10 @@ fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
 
 /// An embedding in which every fiftieth inner vertex was pushed across a neighbour: a planar one would be left alone.
 fn folded(mesh: &DiskMesh, embedding: &Embedding) -> Embedding {
-    let mut folded = embedding.to_vec();
+    let mut folded = embedding.clone();
     for v in mesh.vertices().step_by(50).filter(|&v| mesh.boundary_place(v).is_none()) {
         let neighbour = mesh.outgoing(v).next().map_or(v, |h| mesh.head(h));
-        folded[v.index()] += 1.5 * (embedding[neighbour] - embedding[v]);
+        folded[v] += 1.5 * (embedding[neighbour] - embedding[v]);
     }
     folded
 }

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use freebound::io::{ObjMesh, write_atomically, write_obj};
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Control, Family, Method, Pins, Settings, distortion, flatten, verdict};
+use freebound::solver::{Control, Embedding, Family, Method, Pins, Settings, distortion, flatten, verdict};
 use glam::{DVec2, DVec3};
 
 use common::machine::print_machine;
@@ -83,7 +83,8 @@ fn main() {
     let mesh = terrain();
     if let Some(path) = arguments().first() {
         let file = ObjMesh::from(&mesh);
-        write_atomically(Path::new(path), |out| write_obj(out, &file, &[])).expect("the file can be written");
+        write_atomically(Path::new(path), |out| write_obj(out, &file, &Embedding::default()))
+            .expect("the file can be written");
         println!("wrote {path}");
         return;
     }

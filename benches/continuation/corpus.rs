@@ -118,7 +118,7 @@ fn energy(mesh: &DiskMesh, embedding: &Embedding) -> String {
 /// The energy of the map that was published with a mesh, with what its verdict is where it is not planar.
 fn published(set: &Path, mesh: &DiskMesh) -> Option<String> {
     let text = fs::read_to_string(set.with_file_name(format!("{}.publishedmap.txt", stem_of(set)))).ok()?;
-    let mut map = vec![DVec2::NAN; mesh.vertex_count()];
+    let mut map = Embedding::from(vec![DVec2::NAN; mesh.vertex_count()]);
     for line in text.lines().filter(|line| !line.starts_with('#')) {
         let mut words = line.split_whitespace();
         let vertex: usize = words.next()?.parse().ok()?;

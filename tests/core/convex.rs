@@ -6,7 +6,8 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::{
-    BoundaryShape, Control, Family, Method, Pins, Prepared, Settings, flatten, hard_pins, shape_preserving, verdict,
+    BoundaryShape, Control, Embedding, Family, Method, Pins, Prepared, Settings, flatten, hard_pins, shape_preserving,
+    verdict,
 };
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -23,7 +24,7 @@ fn convex(shape: BoundaryShape, family: Family) -> Settings {
     Settings::new(Method::Convex(shape), family)
 }
 
-fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Vec<DVec2> {
+fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Embedding {
     let solution = flatten(mesh, settings, &Pins::new(), Control::unattended())
         .unwrap_or_else(|error| panic!("{name}, {settings:?}: {error}"));
     assert!(
@@ -44,7 +45,7 @@ fn examples() -> Vec<(String, DiskMesh)> {
 fn the_boundary_lies_on_a_circle_in_the_order_of_the_loop() {
     for (name, mesh) in examples() {
         let embedding = embed(&mesh, &convex(BoundaryShape::Circle, Family::Uniform), &name);
-        let boundary = embedding.boundary(mesh);
+        let boundary = embedding.boundary(&mesh);
         let radius = boundary[0].length();
         assert!(boundary.iter().all(|z| (z.length() / radius - 1.0).abs() < 1e-14), "{name}");
         // Arcs are as long as edges, in proportion, and go around once.
@@ -69,7 +70,7 @@ fn the_boundary_lies_on_a_square_in_the_order_of_the_loop() {
         let embedding = embed(&mesh, &convex(BoundaryShape::Square, Family::Uniform), &name);
         let side = mesh.boundary_loop().iter().map(|v| embedding[v].max_element()).fold(0.0, f64::max);
         let corners = [DVec2::ZERO, DVec2::new(side, 0.0), DVec2::splat(side), DVec2::new(0.0, side)];
-        let boundary = embedding.boundary(mesh);
+        let boundary = embedding.boundary(&mesh);
         for corner in corners {
             assert!(boundary.contains(&corner), "{name}: no vertex at {corner}");
         }

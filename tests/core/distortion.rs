@@ -1,7 +1,7 @@
 //! Distortion against closed forms.
 
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Embedding, Distortion, DistortionSummary, FaceDistortion, distortion};
+use freebound::solver::{Distortion, DistortionSummary, Embedding, FaceDistortion, distortion};
 use glam::{DMat2, DVec2, DVec3};
 
 /// Relative; sums over a few hundred faces of numbers that are each right to a few units of the last place.
@@ -134,7 +134,7 @@ fn the_percentile_leaves_out_one_hundredth_of_the_surface() {
         let positions = (0..=count).flat_map(|i| [0.0, 1.0].map(|y| DVec3::new(i as f64, y, 0.0))).collect();
         let square = |i: u32| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]];
         let mesh = TriMesh::new(positions, &(0..300).flat_map(square).collect::<Vec<_>>());
-        distortion(&DiskMesh::try_from(mesh).expect("a row is a disk"), &embedding).summary.angle
+        distortion(&DiskMesh::try_from(mesh).expect("a row is a disk"), &embedding.into()).summary.angle
     };
     assert_near(row(2).p99, 1.0, TOLERANCE);
     assert_near(row(4).p99, 2.0, TOLERANCE);
@@ -186,7 +186,7 @@ fn a_collapsed_face_is_infinite_and_json_shows_null() {
 fn nothing_is_ever_nan() {
     let spoilt = [DVec2::NAN, DVec2::INFINITY, DVec2::splat(f64::MAX), DVec2::splat(-f64::MAX), DVec2::splat(5e-324)];
     let mesh = grid(2, tilted);
-    let mut embeddings: Vec<Embedding> = spoilt.iter().map(|&value| vec![value; 9]).collect();
+    let mut embeddings: Vec<Embedding> = spoilt.iter().map(|&value| vec![value; 9].into()).collect();
     for value in spoilt {
         let mut embedding = flat(2, |p| p);
         embedding[4] = value;

@@ -7,7 +7,7 @@ use freebound::examples::Example;
 use freebound::io::figure::{has_glyph, zones_of};
 use freebound::io::raster::Colour;
 use freebound::mesh::{DiskMesh, FaceId};
-use freebound::solver::{Embedding, Control, Ending, Ladder, Method, Settings, Step, fixed_pins};
+use freebound::solver::{Control, Embedding, Ending, Ladder, Method, Settings, Step, fixed_pins};
 use glam::DVec2;
 
 use crate::common::{csv_rows, grid};

@@ -67,7 +67,7 @@ fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random
             triangles.extend(squares[random.below(2) as usize]);
         }
     }
-    (plane, triangles)
+    (plane.into(), triangles)
 }
 
 /// A grid with a rectangular bite out of its upper side.
@@ -108,7 +108,7 @@ fn blob(random: &mut Random) -> Flat {
             triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
-    Flat::laid_out(format!("blob of {lobes} lobes"), plane, &triangles, random)
+    Flat::laid_out(format!("blob of {lobes} lobes"), plane.into(), &triangles, random)
 }
 
 /// A strip wound up nearly one and a half times.

@@ -4,10 +4,10 @@ use faer::Mat;
 use faer::linalg::solvers::SolveLstsq as _;
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, HalfedgeId, VertexId};
-use freebound::solver::plane_weights::{residuals_in_plane, natural_in_plane};
-use freebound::solver::{Embedding, 
-    Control, Family, Iteration, Ladder, Method, Pins, Settings, Step, Treatment, diameter, flatten, hard_pins,
-    largest_move, verdict,
+use freebound::solver::plane_weights::{natural_in_plane, residuals_in_plane};
+use freebound::solver::{
+    Control, Embedding, Family, Iteration, Ladder, Method, Pins, Settings, Step, Treatment, diameter, flatten,
+    hard_pins, largest_move, verdict,
 };
 use glam::DVec2;
 use num_complex::Complex;
@@ -47,8 +47,7 @@ fn step(mesh: &DiskMesh, embedding: &Embedding, pinned: &[VertexId], treatment: 
 fn crumpled(columns: u32, random: &mut Random) -> (DiskMesh, Embedding) {
     let mesh = DiskMesh::try_from(grid(columns, columns)).unwrap();
     let mut jitter = || 1.4 * (random.unit() - 0.5);
-    let embedding =
-        mesh.mesh().positions.iter().map(|x| DVec2::new(x.x + jitter(), x.y + jitter())).collect::<Vec<_>>();
+    let embedding = mesh.mesh().positions.iter().map(|x| DVec2::new(x.x + jitter(), x.y + jitter())).collect();
     (mesh, embedding)
 }
 
@@ -72,9 +71,9 @@ fn dense_least_squares(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins) -> E
         }
     }
     let solved = matrix.qr().solve_lstsq(&rhs);
-    let mut found = embedding.to_vec();
+    let mut found = embedding.clone();
     for (row, v) in free.iter().enumerate() {
-        found[v.index()] = DVec2::new(solved[(row, 0)].re, solved[(row, 0)].im);
+        found[*v] = DVec2::new(solved[(row, 0)].re, solved[(row, 0)].im);
     }
     found
 }

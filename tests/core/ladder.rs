@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::{Embedding, 
-    Control, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step, hard_pins, verdict,
+use freebound::solver::{
+    Control, Embedding, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step, hard_pins,
+    verdict,
 };
 use glam::DVec2;
 
@@ -64,11 +65,7 @@ fn auto_ends_planar_from_any_two_pins_and_any_family() {
                 assert!(last.verdict.planar, "{name}, {family}, pins {pair:?}: {}", last.verdict.summary());
                 assert!(verdict(&mesh, &last.solution.embedding).planar);
                 for (v, target) in &pins {
-                    assert_eq!(
-                        last.solution.embedding[v],
-                        target.target,
-                        "{name}: pins are met to the last bit"
-                    );
+                    assert_eq!(last.solution.embedding[v], target.target, "{name}: pins are met to the last bit");
                 }
             }
         }

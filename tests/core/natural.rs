@@ -8,9 +8,9 @@ use freebound::examples::Example;
 use freebound::linalg::{Analysis, Kind, LinalgError};
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
-use freebound::solver::{Embedding, 
-    Control, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, fixed_pins, flatten, gauge_pins,
-    hard_pins, verdict,
+use freebound::solver::{
+    Control, Embedding, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, fixed_pins, flatten,
+    gauge_pins, hard_pins, verdict,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;

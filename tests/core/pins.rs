@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::{Embedding, 
-    BoundaryShape, Control, Family, Method, Pins, Settings, SolveError, farthest_pair, flatten, gauge_pins, hard_pins,
-    to_true_area, to_unit_square,
+use freebound::solver::{
+    BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, farthest_pair, flatten, gauge_pins,
+    hard_pins, to_true_area, to_unit_square,
 };
 use glam::{DVec2, DVec3};
 
@@ -105,7 +105,7 @@ fn without_pins_the_embedding_has_the_area_of_the_surface() {
         let flat: f64 = mesh
             .faces()
             .map(|face| {
-                let [a, b, c] = embedding.corners(mesh, face);
+                let [a, b, c] = embedding.corners(&mesh, face);
                 (b - a).perp_dot(c - a).abs() / 2.0
             })
             .sum();

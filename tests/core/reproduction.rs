@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::{Embedding, Control, Family, Method, Pins, Settings, equations, flatten, hard_pins, verdict};
+use freebound::solver::{Control, Embedding, Family, Method, Pins, Settings, equations, flatten, hard_pins, verdict};
 use glam::{DVec2, DVec3};
 use nalgebra::DMatrix;
 use num_complex::Complex;

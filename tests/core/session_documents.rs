@@ -6,7 +6,7 @@ use freebound::geom::{Picture, VAxis};
 use freebound::io::read_mesh;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, OutputFit, Place, SaveRequest, Session, Severity};
-use freebound::solver::{Embedding, Hold, Pin};
+use freebound::solver::{Hold, Pin};
 use glam::{DVec2, DVec3};
 use tempfile::TempDir;
 

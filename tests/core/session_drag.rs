@@ -5,7 +5,7 @@ use std::sync::Arc;
 use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Session};
-use freebound::solver::{Embedding, Control, Hold, Pin, flatten, verdict};
+use freebound::solver::{Control, Embedding, Hold, Pin, flatten, verdict};
 use glam::DVec2;
 
 use crate::session::{opened, settle, settled};

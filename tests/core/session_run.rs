@@ -8,7 +8,7 @@ use freebound::examples::Example;
 use freebound::io::OutputKind;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop, StopConditions};
-use freebound::solver::{Embedding, Control, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
+use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::common::grid;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::Embedding;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use crate::common::Random;
 

@@ -8,7 +8,7 @@ use freebound::geom::PictureFrame;
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::session::{Finished, Model, Outcome, OutputFit};
-use freebound::solver::{Embedding, Control, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
+use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;
 
@@ -267,7 +267,8 @@ fn what_the_division_would_fold_is_scaled_by_a_power_of_two() {
     let mut found = 0;
     for k in 1..200 {
         let x = f64::from(k) / 64.0;
-        let places = vec![DVec2::new(x, x.next_up()), DVec2::ZERO, DVec2::new(3.0, 3.0), DVec2::new(0.0, 3.0)];
+        let corners = [DVec2::new(x, x.next_up()), DVec2::ZERO, DVec2::new(3.0, 3.0), DVec2::new(0.0, 3.0)];
+        let places = Embedding::from(corners.to_vec());
         let mut square = places.clone();
         to_unit_square(&mut square);
         if !verdict(&disk, &places).planar || verdict(&disk, &square).planar {

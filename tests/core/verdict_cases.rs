@@ -107,7 +107,7 @@ fn convex(random: &mut Random) -> Case {
         let angle = std::f64::consts::TAU * (f64::from(i) + turn) / f64::from(corner_count);
         DVec2::new(4.0 * angle.cos(), 3.0 * angle.sin())
     };
-    let mut embedding: Embedding = (0..corner_count).map(corner).collect();
+    let mut embedding: Vec<DVec2> = (0..corner_count).map(corner).collect();
     for _ in 0..random.index(3) {
         let inserted = u32::try_from(embedding.len()).expect("few vertices");
         let face = random.index(triangles.len());
@@ -118,7 +118,7 @@ fn convex(random: &mut Random) -> Case {
         triangles[face] = [a, b, inserted];
         triangles.extend([[b, c, inserted], [c, a, inserted]]);
     }
-    Case { triangles, embedding }
+    Case { triangles, embedding: embedding.into() }
 }
 
 /// A fan whose link goes around once or twice, sometimes folded.
@@ -139,7 +139,7 @@ pub(super) fn grid_case(random: &mut Random) -> Case {
         0 => star(random),
         1 => {
             let count = random.index(4) + 3;
-            strip(vec![DVec2::ZERO; count])
+            strip(vec![DVec2::ZERO; count].into())
         }
         _ => {
             let mut case = convex(random);

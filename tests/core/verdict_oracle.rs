@@ -3,10 +3,9 @@
 //! Coordinates are taken as rational numbers; multiplied by their common denominator once, they stay whole, because
 //! every definition below is a matter of signs.
 
-use std::collections::BTreeMap;
 use freebound::solver::Embedding;
+use std::collections::BTreeMap;
 
-use glam::DVec2;
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 

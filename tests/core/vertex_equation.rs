@@ -4,9 +4,9 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::plane_weights::natural_in_plane;
-use freebound::solver::{Embedding, 
-    BoundaryShape, Control, Family, Ladder, Method, NoEquation, Pins, Settings, Step, Treatment, VertexEquation,
-    WeightSource, equation_of_step,
+use freebound::solver::{
+    BoundaryShape, Control, Embedding, Family, Ladder, Method, NoEquation, Pins, Settings, Step, Treatment,
+    VertexEquation, WeightSource, equation_of_step,
 };
 use glam::DVec2;
 use num_complex::Complex;
@@ -157,7 +157,7 @@ fn a_linear_solve_and_an_iteration_satisfy_theirs_but_at_pins() {
         Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Iterate, Family::MeanValue) };
     let steps = steps_of(&mesh, settings);
     assert!(steps.len() > 1, "the first step folds");
-    let mut before: Option<&[DVec2]> = None;
+    let mut before: Option<&Embedding> = None;
     for step in &steps {
         for vertex in mesh.vertices().filter(|v| !step.solution.pins.contains_key(v)) {
             let (found, _) = equation_of_step(&mesh, (step, before), vertex).unwrap();

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use freebound::examples::Example;
 use freebound::geom::{Orientation, orientation};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::plane_weights::{residuals_in_plane, mean_value_in_plane};
-use freebound::solver::{Embedding, 
-    Control, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, diameter, largest_move,
-    verdict,
+use freebound::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
+use freebound::solver::{
+    Control, Embedding, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, diameter,
+    largest_move, verdict,
 };
 use glam::{DVec2, DVec3};
 
@@ -32,14 +32,14 @@ fn solved(mesh: &DiskMesh, extended: &Extended) -> Embedding {
     let start = Start { embedding: &extended.embedding, residuals: None };
     let (positions, residual, _) = extended.solve(&equations, start, Control::unattended()).unwrap();
     assert!(residual <= 1e-10, "{residual:.1e}");
-    positions[..mesh.vertex_count()].to_vec()
+    Embedding::of_mesh(mesh, &positions)
 }
 
 /// A grid with further triangles on its lower side, whose tips lie at the given heights above that side's edge.
 fn grid_with_ears(columns: u32, heights: &[(u32, f64)]) -> (DiskMesh, Embedding) {
     let TriMesh { mut positions, triangles, .. } = grid(columns, columns);
     let mut faces: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(VertexId::number)).collect();
-    let mut places: Embedding = positions.iter().map(|x| DVec2::new(x.x, x.y)).collect();
+    let mut places: Vec<DVec2> = positions.iter().map(|x| DVec2::new(x.x, x.y)).collect();
     for &(column, height) in heights {
         let tip = u32::try_from(positions.len()).unwrap();
         let middle = f64::from(column) + 0.5;
@@ -47,7 +47,7 @@ fn grid_with_ears(columns: u32, heights: &[(u32, f64)]) -> (DiskMesh, Embedding)
         places.push(DVec2::new(middle, height));
         faces.push([column, tip, column + 1]);
     }
-    (disk(TriMesh::new(positions, &faces)), places)
+    (disk(TriMesh::new(positions, &faces)), places.into())
 }
 
 fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {

@@ -5,9 +5,9 @@ use faer::linalg::solvers::SolveLstsq;
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::plane_weights::natural_in_plane;
-use freebound::solver::{Embedding, 
-    Control, Family, Iteration, Method, Pin, Pins, Prepared, Settings, SolveError, Treatment, diameter, flatten,
-    hard_pins, largest_move,
+use freebound::solver::{
+    Control, Embedding, Family, Iteration, Method, Pin, Pins, Prepared, Settings, SolveError, Treatment, diameter,
+    flatten, hard_pins, largest_move,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
@@ -120,7 +120,7 @@ fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Embedding {
     flatten(mesh, settings, pins, Control::unattended()).unwrap().embedding
 }
 
-fn apart(a: &[DVec2], b: &[DVec2]) -> f64 {
+fn apart(a: &Embedding, b: &Embedding) -> f64 {
     largest_move(a, b) / diameter(a)
 }
 
@@ -210,7 +210,7 @@ fn a_weight_means_the_same_at_every_size_of_the_mesh() {
             let settings = Settings { max_steps: 1, ..Settings::new(method, family) };
             let last = |mesh: &DiskMesh| {
                 let mut run = freebound::solver::Ladder::new(settings, pins.clone());
-                let mut found = Vec::new();
+                let mut found = Embedding::default();
                 run.finish(mesh, Control::unattended(), |step| found = step.solution.embedding).unwrap();
                 found
             };

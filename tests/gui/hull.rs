@@ -18,7 +18,7 @@ fn bent() -> Window {
 }
 
 fn positions(window: &Window) -> Embedding {
-    window.editor().drawn_plane().expect("solved").positions().to_vec()
+    window.editor().drawn_plane().expect("solved").positions().clone()
 }
 
 #[test]

@@ -11,11 +11,11 @@ use eframe::egui_wgpu::{RenderState, RendererOptions};
 use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use freebound::mesh::{FaceId, VertexId};
-use freebound::solver::Embedding;
 use freebound::render::{
     FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Shading, Style, install,
     mesh_pane, plane_pane, stats,
 };
+use freebound::solver::Embedding;
 use freebound::view::{
     EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera,
     Sphere, Srgb, UpAxis,
@@ -284,7 +284,7 @@ fn lines_lie_where_their_vertices_lie() {
 fn filled_faces_show_beside_the_mesh_and_under_it_mixed_with_what_is_behind() {
     // The sheet, its lower right corner drawn in to the middle, and two faces: one over the gap, one over the mesh.
     let mut frame = plane_frame(DVec2::new(0.0, -1.0) + 1e-3, &[]);
-    let mut positions: Embedding = sheet().0.iter().map(|p| p.truncate()).collect();
+    let mut positions: Vec<DVec2> = sheet().0.iter().map(|p| p.truncate()).collect();
     positions[2] = DVec2::new(0.0, -1.0) + 1e-3;
     positions.push(DVec2::new(1.0, -1.0));
     frame.plane = Some(Arc::new(PlaneArrays::new(&positions, frame.mesh.triangles())));

@@ -46,7 +46,7 @@ mod tests {
         let near = grown(&[DVec3::X], all);
         assert!(near.center == DVec3::X && near.radius < 0.2 * all.radius, "{near:?}");
         let whole = PlaneBox { min: DVec2::ZERO, max: DVec2::splat(3.0) };
-        let part = grown_box(&[DVec2::ONE], &[VertexId::new(0)], whole);
+        let part = grown_box(&vec![DVec2::ONE].into(), &[VertexId::new(0)], whole);
         assert!(part.center() == DVec2::ONE && part.extent() < 0.2 * whole.extent(), "{part:?}");
     }
 

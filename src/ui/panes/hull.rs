@@ -367,9 +367,9 @@ mod tests {
     #[test]
     fn a_similarity_is_found_again() {
         let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
-        let before: Vec<DVec2> = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+        let before: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
         let turn = DVec2::new(-0.3, 2.0);
-        let after: Vec<DVec2> = before.iter().map(|&z| turn.rotate(z) + DVec2::new(5.0, -1.0)).collect();
+        let after: Embedding = before.iter().map(|&z| turn.rotate(z) + DVec2::new(5.0, -1.0)).collect();
         let moved = Similarity::between(&disk, &before, &after).moved(&before);
         assert!(moved.iter().zip(&after).all(|(a, b)| a.distance(*b) < 1e-12));
     }
@@ -377,7 +377,7 @@ mod tests {
     #[test]
     fn an_embedding_at_one_point_stays_where_it_is() {
         let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
-        let before = vec![DVec2::ONE; disk.vertex_count()];
+        let before = Embedding::from(vec![DVec2::ONE; disk.vertex_count()]);
         assert_eq!(Similarity::between(&disk, &before, &before).moved(&before), before);
     }
 }
