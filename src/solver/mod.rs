@@ -1,6 +1,6 @@
 //! The paper: weights, systems, methods, verdict and distortion. Knows no screen and no file.
 
-mod catalogue;
+mod choice;
 mod conflicts;
 mod constrained_run;
 mod continuation;
@@ -10,6 +10,7 @@ mod distortion;
 mod embedding;
 pub mod equations;
 mod error;
+mod family;
 mod foldover_energy;
 mod free_solve;
 mod iterate;
@@ -26,6 +27,7 @@ mod relaxing;
 mod rest;
 mod run;
 mod scale;
+mod settings;
 mod shape_preserving;
 mod solution;
 mod stall;
@@ -37,15 +39,16 @@ mod virtual_boundary;
 mod virtual_boundary_run;
 pub mod weights;
 
-pub use catalogue::{CatalogueEntry, Choice, FAMILIES, METHODS};
+pub use choice::{Choice, Words};
 pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use control::{Control, Phase};
 pub use convex::convex_boundary;
 pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
 pub use embedding::Embedding;
 pub use error::SolveError;
+pub use family::Family;
 pub use iterate::Iteration;
-pub use method::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
+pub use method::{BoundaryShape, Method};
 pub use outside::Outside;
 pub use pins::{
     Hold, Pin, PinPositions, Pins, TakenTargets, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins,
@@ -54,6 +57,7 @@ pub use pins::{
 pub use prepared::{Prepared, flatten};
 pub use run::{Ending, Ladder};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
+pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use step::{Progress, Step, diameter, largest_move};

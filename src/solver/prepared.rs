@@ -19,7 +19,8 @@ use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
 use super::{
-    BoundaryShape, Control, Embedding, Family, LinearSolve, Method, Phase, PhaseSeconds, Settings, Solution, SolveError,
+    BoundaryShape, Choice as _, Control, Embedding, Family, LinearSolve, Method, Phase, PhaseSeconds, Settings,
+    Solution, SolveError,
 };
 use crate::linalg::{Analysis, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};

@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `window.rs` | one frame: all panels and panes in their places |
+//! | `controls.rs` | what panels are put together from |
 //! | `editor/` | the editor's state and what a request does to it |
 //! | `panes/` | mesh and embedding |
 //! | `panels/` | menus, bars, panels, dialogs |
@@ -11,6 +12,7 @@
 //! | `icons.rs` | signs of tools and verdicts |
 //! | `theme.rs` | colours and sizes |
 
+mod controls;
 mod editor;
 mod icons;
 mod keys;
@@ -20,12 +22,13 @@ pub mod theme;
 mod timeline;
 mod window;
 
+pub use controls::sentence;
 pub use editor::{
     Defect, Ease, Editor, Element, Host, Layout, Look, MeshScene, Nudge, Opened, Paint, PaintKey, Pane, PlaneScene,
-    Purpose, Request, Shading, StepTarget, Tab, Tool,
+    Pointer, Purpose, Request, Selection, Shading, StepTarget, Tab, Tool, ToolState,
 };
 pub use keys::{BINDINGS, Binding, keys_of};
-pub use panels::{Answer, Choice, Dialogs, Unsaved, sentence};
+pub use panels::{Answer, Choice, Dialogs, Unsaved};
 pub use panes::{Half, HullScene, HullView, Intent, PinDrag, PinKind, PinShown, Stage};
 pub use timeline::TimelineView;
 pub use window::window_ui;

@@ -57,14 +57,13 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         .resizable(false)
         .frame(tool_frame)
         .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
-    editor.pane_under_pointer = None;
-    editor.pointer_in_embedding = None;
-    editor.intent = Intent::Nothing;
+    editor.pointer.begin_frame();
+    editor.tools.set_intent(Intent::Nothing);
     editor.pane_rects = [None; 2];
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
-    if editor.pane_under_pointer.is_none() && editor.dragged_pin.is_none() {
+    if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Not before: the pane drawn first shows what the pointer found in the other.
-        editor.hovered = None;
+        editor.pointer.set_vertex(None);
     }
     constrain::line_across(ui, editor);
     floating::floating_windows(ui.ctx(), editor, &mut requests);

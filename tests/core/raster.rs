@@ -1,7 +1,7 @@
 //! Pictures without a screen.
 
 use freebound::geom::Picture;
-use freebound::io::layout_picture;
+use freebound::io::ProvedEmbedding;
 use freebound::io::raster::{Canvas, Colour, Paint, Shading, View, colours, mesh_picture, plane_picture};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{Embedding, verdict};
@@ -30,7 +30,8 @@ fn a_picture_is_as_red_as_the_verdict_says() {
     let mirrored = points.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
     let verdict = verdict(&mesh, &mirrored);
     assert!(verdict.planar && verdict.mirrored);
-    let picture = layout_picture(&mesh, &mirrored, &verdict, &Canvas::drawing(100, 100));
+    let proved = ProvedEmbedding { mesh: &mesh, embedding: &mirrored, verdict: &verdict };
+    let picture = proved.picture(&Canvas::drawing(100, 100));
     assert_eq!(share_of(&picture, colours::FLIPPED), 0.0);
     assert!(share_of(&picture, colours::CLAY) > 0.5);
 }
@@ -124,7 +125,7 @@ fn a_flipped_face_is_red_and_the_boundary_dark() {
     let mesh = disk(&points, &fan);
     let picture_of = |points: &[DVec2]| {
         let embedding = points.to_vec().into();
-        layout_picture(&mesh, &embedding, &verdict(&mesh, &embedding), &canvas)
+        ProvedEmbedding { mesh: &mesh, embedding: &embedding, verdict: &verdict(&mesh, &embedding) }.picture(&canvas)
     };
     let sound = picture_of(&points);
     assert!(share_of(&sound, colours::FLIPPED) == 0.0);

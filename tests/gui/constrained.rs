@@ -76,7 +76,7 @@ fn a_planar_step_with_constraints_not_met_says_so_and_marks_them() {
     assert!(window.has_ring_at(place), "{unmet:?}");
     let pill = format!("Verdict: {}", window.verdict());
     window.click(&pill);
-    assert!(window.editor().selection.iter().eq(&unmet), "a click shows them");
+    assert!(window.editor().selection.vertices().iter().eq(&unmet), "a click shows them");
 }
 
 #[test]

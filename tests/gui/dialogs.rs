@@ -320,7 +320,7 @@ fn a_message_is_copied_gone_to_and_dismissed() {
         .any(|command| matches!(command, egui::OutputCommand::CopyText(text) if text.contains(&message.text)));
     assert!(copied, "{:?}", window.harness.output().platform_output.commands);
     window.click("Go to");
-    let selected: Vec<VertexId> = window.editor().selection.iter().copied().collect();
+    let selected: Vec<VertexId> = window.editor().selection.vertices().iter().copied().collect();
     let mut expected = message.vertices.clone();
     expected.sort_unstable();
     assert_eq!(selected, expected);

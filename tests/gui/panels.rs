@@ -205,7 +205,7 @@ fn delete_frees_the_selected_pins() {
         let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
         pin(&mut window, &[0, 24, 48]);
         window.click("v24");
-        assert!(window.editor().selection.contains(&VertexId::new(24)));
+        assert!(window.editor().selection.contains(VertexId::new(24)));
         window.key(key);
         assert_eq!(window.editor().session.document().pins.len(), 2, "{key:?}");
     }
@@ -233,7 +233,7 @@ fn the_vertex_tab_tells_of_the_selected_vertex_and_fixes_it() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.click("Vertex");
     assert!(window.shows("Select a vertex"));
-    window.editor_mut().selection.insert(VertexId::new(24));
+    window.editor_mut().selection.add([VertexId::new(24)]);
     window.settle();
     assert!(window.shows("v24") && window.shows("inside"));
     window.click("Fix");

@@ -55,7 +55,7 @@ const STATES: [State; 30] = [
     ("the Defects tab", |window| window.click("Defects")),
     ("the Vertex tab", |window| {
         window.click("Vertex");
-        window.editor_mut().selection.insert(freebound::mesh::VertexId::new(3));
+        window.editor_mut().selection.add([freebound::mesh::VertexId::new(3)]);
         window.settle();
     }),
     ("a list of methods", |window| window.open_list("Method")),
@@ -103,7 +103,7 @@ fn constraints(window: &mut Window) {
         let vertex = freebound::mesh::VertexId::new(vertex);
         window.editor_mut().session.handle(freebound::session::Action::Place { vertex, pin });
     }
-    window.editor_mut().selection = [0, 4, 20, 24].map(freebound::mesh::VertexId::new).into();
+    window.editor_mut().selection.select([0, 4, 20, 24].map(freebound::mesh::VertexId::new));
     window.settle();
 }
 

@@ -68,7 +68,7 @@ impl Editor {
     pub(super) fn take_plane_scene(&mut self, scene: PlaneScene) {
         let before = self.result_plane().cloned();
         let count = scene.mesh.mesh().vertex_count();
-        self.selection.retain(|vertex| vertex.index() < count);
+        self.selection.keep_below(count);
         self.plane_scene = Some(Arc::new(scene));
         self.ease.under_way = None;
         let (Some(before), Some(target)) = (before, self.plane_scene.clone()) else { return };
@@ -110,7 +110,8 @@ impl Editor {
 
     /// The camera now, and the one that shows all of an embedding: where that is wanted.
     fn camera_along(&self, target: &PlaneScene) -> Option<[PlaneCamera; 2]> {
-        let now = self.plane_camera.filter(|_| self.is_framed() && !self.hull.shown && self.dragged_pin.is_none())?;
+        let now =
+            self.plane_camera.filter(|_| self.is_framed() && !self.hull.shown && self.tools.dragged().is_none())?;
         let (bounds, seen) = (self.framed_box(target.arrays.bounds()), now.visible(self.plane_pane_size));
         let is_seen = seen.min.cmple(bounds.min).all() && seen.max.cmpge(bounds.max).all();
         let mut goal = now;

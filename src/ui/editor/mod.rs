@@ -9,6 +9,8 @@
 //! | `steps.rs`, `ease.rs` | moves along the timeline, and the way between two steps |
 //! | `views.rs`, `framing.rs` | what the cameras look at |
 //! | `project_view.rs` | how the window looks, for the project file |
+//! | `selection.rs` | what is selected, and what is under the pointer |
+//! | `tools.rs` | the tool in hand, and what it has begun |
 //! | `look.rs` | how faces show: shading, wireframe, picture, colours |
 //! | `picture.rs` | where the picture lies in the plane |
 //! | `layout.rs` | what of the window is open |
@@ -33,7 +35,9 @@ mod request;
 mod requests;
 pub(super) mod scene;
 mod scenes;
+mod selection;
 mod steps;
+mod tools;
 mod views;
 
 pub use defect::Defect;
@@ -46,21 +50,20 @@ pub use opened::Opened;
 pub use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
 pub use scene::{Element, MeshScene, Paint, PaintKey, PlaneScene};
+pub use selection::{Pointer, Selection};
+pub use tools::ToolState;
 
 use eframe::egui;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
-use crate::mesh::VertexId;
 use crate::session::{Busy, Job, OutputFit, RecentFiles, Session};
-use crate::solver::Hold;
 use crate::ui::panels::dialogs::Dialogs;
 use crate::ui::panels::exports::PaneShot;
 use crate::ui::panes::compare::Ghost;
-use crate::ui::{Half, HullView, Intent, PinDrag, TimelineView, Unsaved};
+use crate::ui::{HullView, TimelineView, Unsaved};
 use crate::view::{OrbitCamera, PlaneCamera};
 use preview::PreviewScene;
 
@@ -71,6 +74,12 @@ const COPY_INTERVAL: Duration = Duration::from_secs(5);
 pub struct Editor {
     /// The document and the work on it.
     pub session: Session,
+    /// What is selected.
+    pub selection: Selection,
+    /// What is under the pointer.
+    pub pointer: Pointer,
+    /// The tool in hand.
+    pub tools: ToolState,
     /// How faces show.
     pub look: Look,
     /// What of the window is open.
@@ -79,36 +88,10 @@ pub struct Editor {
     pub opened: Opened,
     /// What shows the window.
     pub host: Host,
-    /// The tool in hand.
-    pub tool: Tool,
     /// Hull and pockets of the virtual boundary.
     pub hull: HullView,
     /// The way between steps.
     pub ease: Ease,
-    /// Selected vertices.
-    pub selection: BTreeSet<VertexId>,
-    /// The vertex under the pointer, in whichever pane.
-    pub hovered: Option<VertexId>,
-    /// The pane under the pointer.
-    pub pane_under_pointer: Option<Pane>,
-    /// The pointer in the plane of the embedding.
-    pub pointer_in_embedding: Option<DVec2>,
-    /// The pin being dragged.
-    pub dragged_pin: Option<VertexId>,
-    /// From where the pointer grabbed it to its middle, points.
-    pub grab_offset: egui::Vec2,
-    /// What else is known of that drag.
-    pub drag: PinDrag,
-    /// The half of a pair that the constrain tool has placed.
-    pub pair: Option<Half>,
-    /// What a click of that tool would do.
-    pub intent: Intent,
-    /// How the next constraint is held.
-    pub hold: Hold,
-    /// Whether arrow keys are moving pins.
-    pub nudging: bool,
-    /// The box being drawn with Ctrl, from its first corner, in window points.
-    pub selection_box: Option<(Pane, egui::Pos2)>,
     /// Camera of the mesh's pane.
     pub orbit: Option<OrbitCamera>,
     /// Camera of the embedding's pane.
@@ -119,8 +102,6 @@ pub struct Editor {
     pub plane_pane_size: DVec2,
     /// Where the panes of mesh and embedding lie, points; `None` where one does not show.
     pub pane_rects: [Option<egui::Rect>; 2],
-    /// The defect shown last, by place in [`Editor::defects`].
-    pub defect: Option<usize>,
     /// The question about unsaved work.
     pub unsaved: Unsaved,
     /// The timeline under the panes.
@@ -145,7 +126,7 @@ pub struct Editor {
 
 impl std::fmt::Debug for Editor {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Editor").field("session", &self.session).field("tool", &self.tool).finish_non_exhaustive()
+        f.debug_struct("Editor").field("session", &self.session).field("tools", &self.tools).finish_non_exhaustive()
     }
 }
 
@@ -155,31 +136,20 @@ impl Editor {
         let waker = context.clone();
         Self {
             session: Session::new(Arc::new(move || waker.request_repaint()), recent),
+            selection: Selection::default(),
+            pointer: Pointer::default(),
+            tools: ToolState::default(),
             look: Look::default(),
             layout: Layout::default(),
             opened: Opened::default(),
             host: Host::new(context),
-            tool: Tool::default(),
             hull: HullView::default(),
             ease: Ease::default(),
-            selection: BTreeSet::new(),
-            hovered: None,
-            pane_under_pointer: None,
-            pointer_in_embedding: None,
-            dragged_pin: None,
-            grab_offset: egui::Vec2::ZERO,
-            drag: PinDrag::default(),
-            pair: None,
-            intent: Intent::default(),
-            hold: Hold::Hard,
-            nudging: false,
-            selection_box: None,
             orbit: None,
             plane_camera: None,
             mesh_pane_size: DVec2::new(400.0, 400.0),
             plane_pane_size: DVec2::new(400.0, 400.0),
             pane_rects: [None; 2],
-            defect: None,
             unsaved: Unsaved::default(),
             timeline: TimelineView::default(),
             fit: OutputFit::default(),

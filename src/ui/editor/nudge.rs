@@ -32,14 +32,14 @@ pub(in crate::ui) fn requests(context: &egui::Context, editor: &Editor) -> Vec<R
         || egui::Popup::is_any_open(context)
         || context.memory(egui::Memory::focused).is_some();
     let mut requests = Vec::new();
-    if !is_elsewhere && editor.dragged_pin.is_none() && editor.pins_selected().next().is_some() {
+    if !is_elsewhere && editor.tools.dragged().is_none() && editor.pins_selected().next().is_some() {
         let push = context.input_mut(take_push);
         if push != DVec2::ZERO {
             requests.push(Request::Nudge(Nudge(push)));
         }
     }
     let is_held = context.input(|input| ARROWS.iter().any(|(key, _)| input.key_down(*key)));
-    if !is_held && (editor.nudging || !requests.is_empty()) {
+    if !is_held && (editor.tools.is_nudging() || !requests.is_empty()) {
         requests.push(Request::EndNudge);
     }
     requests
@@ -73,8 +73,8 @@ impl Editor {
         let by = frame.uv_from_plane(pixels * step);
         let nudged = |vertex: VertexId| Some((vertex, document.pins.get(&vertex)?.target + by));
         let moves: Vec<(VertexId, DVec2)> = self.pins_selected().filter_map(nudged).collect();
-        if !self.nudging {
-            self.nudging = true;
+        if !self.tools.is_nudging() {
+            self.tools.set_nudging(true);
             self.session.handle(Action::EndGesture);
         }
         self.session.handle(Action::MovePins(moves));
@@ -82,7 +82,7 @@ impl Editor {
 
     /// Ends the gesture.
     pub(super) fn end_nudge(&mut self) {
-        self.nudging = false;
+        self.tools.set_nudging(false);
         self.session.handle(Action::EndGesture);
     }
 }

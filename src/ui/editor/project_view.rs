@@ -25,14 +25,14 @@ const PROBE: f64 = 100.0;
 impl Editor {
     /// How the person looks at it now.
     fn view(&self) -> ProjectView {
-        let tool = TOOLS.iter().find(|(tool, _)| *tool == self.tool).map(|(_, name)| (*name).to_owned());
+        let tool = TOOLS.iter().find(|(tool, _)| *tool == self.tools.tool()).map(|(_, name)| (*name).to_owned());
         let shading = Some(self.look.shading.title().to_owned());
         ProjectView {
             mesh_shading: shading.clone(),
             plane_shading: shading,
             mesh_camera: self.orbit.as_ref().and_then(orbit_numbers),
             plane_camera: self.plane_camera_numbers(),
-            selection: self.selection.iter().map(|vertex| vertex.number()).collect(),
+            selection: self.selection.vertices().iter().map(|vertex| vertex.number()).collect(),
             tool,
         }
     }
@@ -68,7 +68,7 @@ impl Editor {
         self.plane_camera_wanted = view.plane_camera;
         let count = self.session.model().map_or(0, |model| model.mesh().vertex_count());
         let there = view.selection.into_iter().map(VertexId::new).filter(|vertex| vertex.index() < count);
-        self.selection = there.collect();
+        self.selection.select(there);
     }
 
     /// Puts on the plane's camera of what was opened. Call once its embedding is framed.

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crate::io::OutputKind;
 use crate::session::OutputFit;
 use crate::ui::Pane;
 
@@ -31,56 +30,59 @@ pub enum Purpose {
     Report,
 }
 
+/// Files of one type.
+#[derive(Clone, Copy)]
+pub(in crate::ui) struct FileType {
+    /// What they are called.
+    pub(in crate::ui) name: &'static str,
+    /// How their names end, the first one where a name has no ending.
+    pub(in crate::ui) extensions: &'static [&'static str],
+}
+
+const OPENED: FileType = FileType { name: "Meshes and projects", extensions: &["obj", "freebound"] };
+const PICTURES: FileType = FileType { name: "Pictures", extensions: &["png", "jpg", "jpeg"] };
+const CONSTRAINTS: FileType = FileType { name: "Constraints", extensions: &["txt"] };
+const PROJECT: FileType = FileType { name: "Freebound project", extensions: &["freebound"] };
+const OBJ: FileType = FileType { name: "OBJ mesh", extensions: &["obj"] };
+const SVG: FileType = FileType { name: "SVG drawing", extensions: &["svg"] };
+const PNG: FileType = FileType { name: "PNG picture", extensions: &["png"] };
+const JSON: FileType = FileType { name: "JSON report", extensions: &["json"] };
+
+impl FileType {
+    /// Whether a name ends as those of such files do.
+    pub(in crate::ui) fn fits(self, path: &Path) -> bool {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        self.extensions.contains(&extension.as_str())
+    }
+}
+
+/// The dialog of a purpose.
+pub(in crate::ui) struct DialogForm {
+    pub(in crate::ui) title: &'static str,
+    /// What its button says.
+    pub(in crate::ui) button: &'static str,
+    pub(in crate::ui) files: FileType,
+    /// The end of a suggested name.
+    pub(in crate::ui) ending: &'static str,
+}
+
 impl Purpose {
-    pub(in crate::ui) const fn title(self) -> &'static str {
-        match self {
-            Self::Open => "Open a mesh or a project",
-            Self::OpenPicture => "Open a picture",
-            Self::ImportConstraints => "Import constraints",
-            Self::ExportConstraints => "Export the constraints",
-            Self::SaveProject => "Save the project",
-            Self::Save => "Save the mesh with texture coordinates",
-            Self::Drawing(_) => "Export a drawing of the layout",
-            Self::Overview => "Export a picture of mesh and layout",
-            Self::PanePicture(_) => "Export a picture of the pane",
-            Self::Report => "Export the report",
-        }
-    }
-
-    pub(in crate::ui) const fn button(self) -> &'static str {
-        match self {
-            Self::Open | Self::OpenPicture => "Open",
-            Self::ImportConstraints => "Import",
-            Self::Save | Self::SaveProject => "Save",
-            _ => "Export",
-        }
-    }
-
-    /// What such files are called.
-    pub(in crate::ui) const fn files(self) -> &'static str {
-        match self {
-            Self::Open => "Meshes and projects",
-            Self::OpenPicture => "Pictures",
-            Self::ImportConstraints | Self::ExportConstraints => "Constraints",
-            Self::SaveProject => "Freebound project",
-            Self::Save => "OBJ mesh",
-            Self::Drawing(_) => "SVG drawing",
-            Self::Overview | Self::PanePicture(_) => "PNG picture",
-            Self::Report => "JSON report",
-        }
-    }
-
-    pub(in crate::ui) const fn extensions(self) -> &'static [&'static str] {
-        match self {
-            Self::Open => &["obj", "freebound"],
-            Self::OpenPicture => &["png", "jpg", "jpeg"],
-            Self::ImportConstraints | Self::ExportConstraints => &["txt"],
-            Self::SaveProject => &["freebound"],
-            Self::Save => &["obj"],
-            Self::Drawing(_) => &["svg"],
-            Self::Overview | Self::PanePicture(_) => &["png"],
-            Self::Report => &["json"],
-        }
+    /// The dialog that asks for the file.
+    pub(in crate::ui) const fn form(self) -> DialogForm {
+        let (title, button, files, ending) = match self {
+            Self::Open => ("Open a mesh or a project", "Open", OPENED, ""),
+            Self::OpenPicture => ("Open a picture", "Open", PICTURES, ""),
+            Self::ImportConstraints => ("Import constraints", "Import", CONSTRAINTS, ""),
+            Self::ExportConstraints => ("Export the constraints", "Export", CONSTRAINTS, "-constraints.txt"),
+            Self::SaveProject => ("Save the project", "Save", PROJECT, ".freebound"),
+            Self::Save => ("Save the mesh with texture coordinates", "Save", OBJ, "-flat.obj"),
+            Self::Drawing(_) => ("Export a drawing of the layout", "Export", SVG, "-flat.svg"),
+            Self::Overview => ("Export a picture of mesh and layout", "Export", PNG, "-flat.png"),
+            Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", "Export", PNG, "-mesh.png"),
+            Self::PanePicture(Pane::Plane) => ("Export a picture of the pane", "Export", PNG, "-embedding.png"),
+            Self::Report => ("Export the report", "Export", JSON, "-report.json"),
+        };
+        DialogForm { title, button, files, ending }
     }
 
     /// Whether a file is asked for that is there already.
@@ -91,37 +93,6 @@ impl Purpose {
     /// Whether a name will do: what is written has the extension that says so.
     pub(in crate::ui) fn takes(self, path: &Path) -> bool {
         let is_free = self.is_reading() || matches!(self, Self::Save | Self::ExportConstraints);
-        is_free || has_extension(path, self.extensions())
-    }
-
-    /// The end of a suggested name.
-    pub(super) const fn ending(self) -> &'static str {
-        match self {
-            Self::SaveProject => ".freebound",
-            Self::ExportConstraints => "-constraints.txt",
-            Self::Drawing(_) => "-flat.svg",
-            Self::Overview => "-flat.png",
-            Self::PanePicture(Pane::Mesh) => "-mesh.png",
-            Self::PanePicture(Pane::Plane) => "-embedding.png",
-            Self::Report => "-report.json",
-            Self::Open | Self::OpenPicture | Self::ImportConstraints | Self::Save => "-flat.obj",
-        }
-    }
-}
-
-/// Whether a name ends in one of these.
-pub(in crate::ui) fn has_extension(path: &Path, extensions: &[&str]) -> bool {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    extensions.contains(&extension.as_str())
-}
-
-/// The kind of file that a purpose asks for, where the session makes it.
-pub(super) const fn kind_of(purpose: Purpose) -> Option<OutputKind> {
-    match purpose {
-        Purpose::Save => Some(OutputKind::Obj),
-        Purpose::Drawing(_) => Some(OutputKind::Svg),
-        Purpose::Overview => Some(OutputKind::Png),
-        Purpose::Report => Some(OutputKind::Json),
-        _ => None,
+        is_free || self.form().files.fits(path)
     }
 }

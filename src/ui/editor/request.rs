@@ -18,6 +18,20 @@ pub enum Tool {
     Constrain,
 }
 
+impl Tool {
+    /// All tools, from top to bottom.
+    pub const ALL: [Self; 3] = [Self::Select, Self::Fix, Self::Constrain];
+
+    /// What it does.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Select => "Select vertices",
+            Self::Fix => "Fix: pin a vertex where it lies",
+            Self::Constrain => "Constrain: join a vertex with its place",
+        }
+    }
+}
+
 /// How faces are coloured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
@@ -45,27 +59,28 @@ impl Shading {
 
     /// Its name in menus.
     pub const fn title(self) -> &'static str {
-        match self {
-            Self::Plain => "Plain",
-            Self::Checker => "Checker",
-            Self::Picture => "Picture",
-            Self::Angle => "Angle distortion",
-            Self::Area => "Area distortion",
-            Self::Stretch => "Stretch",
-            Self::Move => "Move",
-        }
+        self.words()[0]
     }
 
     /// What it shows.
     pub const fn about(self) -> &'static str {
+        self.words()[1]
+    }
+
+    const fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Plain => "no colours but those of defects",
-            Self::Checker => "squares of the plane, carried to the mesh: they show angles and sizes at a glance",
-            Self::Picture => "the picture, carried to the mesh; a checker where there is none",
-            Self::Angle => "ratio of the singular values σ₁/σ₂ per face: 1 keeps angles",
-            Self::Area => "area in the plane over area on the mesh per face, at equal total areas: 1 keeps areas",
-            Self::Stretch => "root mean square stretch from the plane to the mesh per face (L²)",
-            Self::Move => "how far faces have moved since the compared step, or else since the one before",
+            Self::Plain => ["Plain", "no colours but those of defects"],
+            Self::Checker => {
+                ["Checker", "squares of the plane, carried to the mesh: they show angles and sizes at a glance"]
+            }
+            Self::Picture => ["Picture", "the picture, carried to the mesh; a checker where there is none"],
+            Self::Angle => ["Angle distortion", "ratio of the singular values σ₁/σ₂ per face: 1 keeps angles"],
+            Self::Area => [
+                "Area distortion",
+                "area in the plane over area on the mesh per face, at equal total areas: 1 keeps areas",
+            ],
+            Self::Stretch => ["Stretch", "root mean square stretch from the plane to the mesh per face (L²)"],
+            Self::Move => ["Move", "how far faces have moved since the compared step, or else since the one before"],
         }
     }
 }
@@ -206,4 +221,10 @@ pub enum Request {
     SetFit(OutputFit),
     /// Ends the program.
     Quit,
+}
+
+impl From<Action> for Request {
+    fn from(action: Action) -> Self {
+        Self::Do(action)
+    }
 }

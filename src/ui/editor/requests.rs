@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::purpose::kind_of;
+use crate::io::OutputKind;
 use crate::mesh::VertexId;
-use crate::session::{Action, SaveRequest};
+use crate::session::{Action, OutputFit, SaveRequest};
 use crate::solver::Hold;
 use crate::ui::panels::dialogs::Choice;
 use crate::ui::panels::unsaved::Wish;
@@ -19,7 +19,7 @@ impl Editor {
             Request::GoToStep(target) => self.go_to_step(target),
             Request::TogglePlay => self.toggle_play(),
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
-            Request::SetTool(tool) => (self.tool, self.pair) = (tool, None),
+            Request::SetTool(tool) => self.tools.take_up(tool),
             Request::SetShading(shading) => self.look.shading = shading,
             Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
             Request::ToggleEase => self.ease.wanted = !self.ease.wanted,
@@ -32,23 +32,19 @@ impl Editor {
             Request::GoTo(vertices) => self.go_to_vertices(vertices),
             Request::GoToDefect(place) => self.go_to_defect(place),
             Request::StepDefect(by) => self.step_defect(by),
-            Request::Select(vertices) => self.selection = vertices.into_iter().collect(),
-            Request::AddToSelection(vertices) => self.selection.extend(vertices),
-            Request::ToggleSelected(vertex) => {
-                if !self.selection.remove(&vertex) {
-                    self.selection.insert(vertex);
-                }
-            }
+            Request::Select(vertices) => self.selection.select(vertices),
+            Request::AddToSelection(vertices) => self.selection.add(vertices),
+            Request::ToggleSelected(vertex) => self.selection.toggle(vertex),
             Request::Nudge(nudge) => self.nudge(nudge),
             Request::EndNudge => self.end_nudge(),
             Request::SetHold(hold) => self.set_hold(hold),
             Request::SetOpacity(opacity) => self.look.opacity = opacity.clamp(0.0, 1.0),
             Request::ToggleSharp => self.look.toggle_sharp(),
-            Request::UnpinSelected => self.act(Action::Unpin(self.selection.iter().copied().collect())),
+            Request::UnpinSelected => self.act(Action::Unpin(self.selection.vertices().iter().copied().collect())),
             Request::Escape => self.escape(),
             Request::ToggleFull(pane) => self.layout.toggle_full(pane),
             Request::TogglePane => {
-                let pane = self.pane_under_pointer.unwrap_or(Pane::Plane);
+                let pane = self.pointer.pane().unwrap_or(Pane::Plane);
                 self.handle(Request::ToggleFull(pane));
             }
             Request::Ask(purpose) => self.ask(purpose),
@@ -93,28 +89,32 @@ impl Editor {
                 self.act(Action::SaveProject(path));
             }
             Purpose::PanePicture(pane) => self.shoot_pane(pane, path),
-            Purpose::Save | Purpose::Drawing(_) | Purpose::Overview | Purpose::Report => {
-                let fit = if let Purpose::Drawing(fit) = purpose { fit } else { self.fit };
-                if let Some(kind) = kind_of(purpose) {
-                    self.act(Action::Save(SaveRequest { path, kind, fit }));
-                }
-            }
+            Purpose::Save => self.save(path, OutputKind::Obj, self.fit),
+            Purpose::Drawing(fit) => self.save(path, OutputKind::Svg, fit),
+            Purpose::Overview => self.save(path, OutputKind::Png, self.fit),
+            Purpose::Report => self.save(path, OutputKind::Json, self.fit),
         }
+    }
+
+    fn save(&mut self, path: PathBuf, kind: OutputKind, fit: OutputFit) {
+        self.act(Action::Save(SaveRequest { path, kind, fit }));
     }
 
     /// What a file that was dropped on the window asks for, by its name.
     pub(in crate::ui) fn dropped(path: PathBuf) -> Request {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        Request::Do(match extension.as_str() {
-            "png" | "jpg" | "jpeg" => Action::OpenPicture(path),
-            "txt" => Action::ImportConstraints(path),
-            _ => Action::Open(path),
+        let is_for = |purpose: Purpose| purpose.form().files.fits(&path);
+        Request::Do(if is_for(Purpose::OpenPicture) {
+            Action::OpenPicture(path)
+        } else if is_for(Purpose::ImportConstraints) {
+            Action::ImportConstraints(path)
+        } else {
+            Action::Open(path)
         })
     }
 
     fn set_hold(&mut self, hold: Hold) {
         if hold != Hold::Fixed {
-            self.hold = hold;
+            self.tools.set_hold(hold);
         }
         let vertices: Vec<VertexId> = self.pins_selected().collect();
         self.act(Action::SetHold { vertices, hold });
@@ -132,7 +132,7 @@ impl Editor {
 
     /// A name for a file made from the mesh on the screen.
     fn suggested_name(&self, purpose: Purpose) -> PathBuf {
-        let ending = purpose.ending();
+        let ending = purpose.form().ending;
         let Some(model) = self.session.model() else { return PathBuf::from(format!("layout{ending}")) };
         let stem = Path::new(&model.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let folder = model.path.as_ref().and_then(|path| path.parent()).map(PathBuf::from).unwrap_or_default();
@@ -141,11 +141,13 @@ impl Editor {
 
     fn escape(&mut self) {
         if self.close_question() || self.dialogs.close() || self.layout.close_window() {
-        } else if self.dragged_pin.take().is_some() {
+        } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
-        } else if self.selection_box.take().is_some() || self.pair.take().is_some() {
-        } else if self.tool != Tool::Select {
-            self.tool = Tool::Select;
+        } else if self.pointer.end_box() {
+        } else if self.tools.pair().is_some() {
+            self.tools.set_pair(None);
+        } else if self.tools.tool() != Tool::Select {
+            self.tools.take_up(Tool::Select);
         } else {
             self.selection.clear();
         }

@@ -42,10 +42,10 @@ impl Editor {
             self.selection.clear();
             self.put_on_view();
         }
-        self.hovered = None;
-        self.defect = None;
-        self.dragged_pin = None;
-        self.pair = None;
+        self.pointer.set_vertex(None);
+        self.selection.set_defect(None);
+        self.tools.end_drag();
+        self.tools.set_pair(None);
         self.preview = None;
         self.mesh_scene = Some(Arc::new(scene));
     }

@@ -9,7 +9,7 @@ impl Editor {
     pub(in crate::ui) fn frame(&mut self) {
         let (Some(scene), Some(mut orbit)) = (self.mesh_scene(), self.orbit) else { return };
         let positions = &scene.mesh().positions;
-        let selected: Vec<VertexId> = self.selection.iter().copied().collect();
+        let selected: Vec<VertexId> = self.selection.vertices().iter().copied().collect();
         let ball =
             if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
         orbit.frame(ball, self.mesh_pane_size);
@@ -26,7 +26,7 @@ impl Editor {
 
     pub(super) fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {
         if !vertices.is_empty() {
-            self.selection = vertices.into_iter().collect();
+            self.selection.select(vertices);
             self.frame();
         }
     }
@@ -37,17 +37,17 @@ impl Editor {
             return;
         }
         let count = defects.len().cast_signed();
-        let next = match self.defect {
+        let next = match self.selection.defect() {
             Some(at) => (at.cast_signed() + by).rem_euclid(count),
             None if by < 0 => count - 1,
             None => 0,
         };
-        self.defect = Some(next.cast_unsigned());
+        self.selection.set_defect(Some(next.cast_unsigned()));
         self.go_to_defect(next.cast_unsigned());
     }
 
     pub(super) fn go_to_defect(&mut self, place: usize) {
-        self.defect = Some(place);
+        self.selection.set_defect(Some(place));
         let (Some(scene), Some(defect)) = (self.mesh_scene().cloned(), self.defects().get(place).copied()) else {
             return;
         };

@@ -5,6 +5,7 @@ use egui::RichText;
 
 use crate::mesh::VertexId;
 use crate::session::Surface;
+use crate::ui::controls::{Control, counted, sentence};
 use crate::ui::theme::theme_of;
 use crate::ui::{Defect, Editor, Request, keys_of};
 
@@ -17,7 +18,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     if let Some(Surface::Faulty(_, diagnosis)) = editor.session.model().map(|model| &model.surface) {
         ui.label("The mesh cannot be flattened as it is:");
         for fault in &diagnosis.faults {
-            ui.colored_label(theme.flipped, super::method_panel::sentence(&fault.message()));
+            ui.colored_label(theme.flipped, sentence(&fault.message()));
         }
         return;
     }
@@ -34,8 +35,8 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
         unmet_list(ui, &outcome.step.unmet(), requests);
         let new = outcome.new_vertex_count();
         if new > 0 {
-            let noun = if new == 1 { "vertex" } else { "vertices" };
-            ui.label(format!("{new} new {noun} on old edges: the surface is the same, cut into more triangles."));
+            let words = counted(new, "new vertex", "new vertices");
+            ui.label(format!("{words} on old edges: the surface is the same, cut into more triangles."));
         }
         return;
     }
@@ -57,12 +58,9 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     ui.horizontal(|ui| {
         for (words, by) in [("Previous", -1), ("Next", 1)] {
             let request = Request::StepDefect(by);
-            let tip = keys_of(ui.ctx(), &request);
-            if ui.button(words).on_hover_text(tip).clicked() {
-                requests.push(request);
-            }
+            ui.button(words).on_hover_text(keys_of(ui.ctx(), &request)).asks(request, requests);
         }
-        if let Some(at) = editor.defect {
+        if let Some(at) = editor.selection.defect() {
             ui.weak(format!("{} of {}", at + 1, editor.defect_count()));
         }
     });
@@ -78,9 +76,8 @@ fn unmet_list(ui: &mut egui::Ui, unmet: &[VertexId], requests: &mut Vec<Request>
     ui.colored_label(theme_of(ui).unmet, format!("Constraints not met: {}", unmet.len()));
     ui.horizontal_wrapped(|ui| {
         for &vertex in unmet {
-            if ui.link(vertex.to_string()).on_hover_text("Show this vertex").clicked() {
-                requests.push(Request::GoTo(vec![vertex]));
-            }
+            let link = ui.link(vertex.to_string()).on_hover_text("Show this vertex");
+            link.asks(Request::GoTo(vec![vertex]), requests);
         }
     });
 }
@@ -97,9 +94,8 @@ fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 Defect::Overwound(_) => theme.overwound,
             };
             let words = RichText::new(defects[place].words()).color(colour);
-            if ui.selectable_label(editor.defect == Some(place), words).clicked() {
-                requests.push(Request::GoToDefect(place));
-            }
+            ui.selectable_label(editor.selection.defect() == Some(place), words)
+                .asks(Request::GoToDefect(place), requests);
         }
     });
 }

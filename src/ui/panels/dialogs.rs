@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 
 use crate::session::{Job, Poll};
-use crate::ui::editor::purpose::{Purpose, has_extension};
+use crate::ui::editor::purpose::{DialogForm, Purpose};
 
 /// A dialog that answers faster than this was not seen by a person: the system has none.
 const TOO_QUICK: Duration = Duration::from_millis(1200);
@@ -87,17 +87,12 @@ impl Dialogs {
     /// Shows the dialog inside the window, where one is open. Gives the file chosen.
     pub fn show(&mut self, context: &egui::Context) -> Option<Choice> {
         let browser = self.browser.as_mut()?;
-        match browser.show(context) {
-            Answer::None => None,
-            Answer::Cancelled => {
-                self.browser = None;
-                None
-            }
-            Answer::Chosen(path) => {
-                let purpose = browser.purpose;
-                self.browser = None;
-                Some(Choice { purpose, path })
-            }
+        let answer = browser.show(context)?;
+        let purpose = browser.purpose;
+        self.browser = None;
+        match answer {
+            Answer::Cancelled => None,
+            Answer::Chosen(path) => Some(Choice { purpose, path }),
         }
     }
 
@@ -119,17 +114,24 @@ fn may_have_native() -> bool {
 }
 
 fn native_dialog(purpose: Purpose, suggestion: &Path) -> impl Future<Output = Option<PathBuf>> + Send + use<> {
-    let mut dialog = rfd::AsyncFileDialog::new().set_title(purpose.title());
+    let DialogForm { title, files, .. } = purpose.form();
+    let mut dialog = rfd::AsyncFileDialog::new().set_title(title).add_filter(files.name, files.extensions);
     if let Some(folder) = suggestion.parent().filter(|folder| folder.is_dir()) {
         dialog = dialog.set_directory(folder);
     }
-    let name = suggestion.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let dialog = dialog.add_filter(purpose.files(), purpose.extensions());
-    let dialog = if purpose.is_reading() { dialog.add_filter("All files", &["*"]) } else { dialog.set_file_name(name) };
+    dialog = if purpose.is_reading() {
+        dialog.add_filter("All files", &["*"])
+    } else {
+        dialog.set_file_name(name_of(suggestion))
+    };
     async move {
         let file = if purpose.is_reading() { dialog.pick_file().await } else { dialog.save_file().await };
         file.map(|file| file.path().to_owned())
     }
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// A file dialog inside the window: a folder's contents and a name.
@@ -142,16 +144,18 @@ struct Browser {
     problem: Option<String>,
     /// Whether it has not been shown yet: the name then takes the keyboard.
     is_fresh: bool,
+    answer: Option<Answer>,
 }
 
+/// A folder's entry. Folders come before files.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Entry {
     Folder(String),
     File(String),
 }
 
+#[derive(Debug)]
 enum Answer {
-    None,
     Cancelled,
     Chosen(PathBuf),
 }
@@ -162,42 +166,30 @@ impl Browser {
         let folder = suggestion.parent().filter(|f| f.is_dir()).map_or(here, Path::to_owned);
         // Without the dots of a relative path, so that going up always works.
         let folder = folder.canonicalize().unwrap_or(folder);
-        let name = if purpose.is_reading() {
-            String::new()
-        } else {
-            suggestion.file_name().unwrap_or_default().to_string_lossy().into_owned()
-        };
-        let mut browser = Self { purpose, folder, name, entries: Vec::new(), problem: None, is_fresh: true };
+        let name = if purpose.is_reading() { String::new() } else { name_of(suggestion) };
+        let (entries, problem, answer) = (Vec::new(), None, None);
+        let mut browser = Self { purpose, folder, name, entries, problem, is_fresh: true, answer };
         browser.list();
         browser
     }
 
     fn list(&mut self) {
-        self.entries.clear();
-        let read = match std::fs::read_dir(&self.folder) {
-            Ok(read) => read,
-            Err(error) => {
-                self.problem = Some(format!("cannot list this folder: {error}"));
-                return;
+        let files = self.purpose.form().files;
+        let listed = |entry: std::fs::DirEntry| {
+            let name = name_of(&entry.path());
+            if name.starts_with('.') {
+                None
+            } else if entry.path().is_dir() {
+                Some(Entry::Folder(name))
+            } else {
+                files.fits(Path::new(&name)).then_some(Entry::File(name))
             }
         };
-        self.problem = None;
-        for entry in read.flatten() {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            if name.starts_with('.') {
-                continue;
-            }
-            if entry.path().is_dir() {
-                self.entries.push(Entry::Folder(name));
-            } else if self.fits(&name) {
-                self.entries.push(Entry::File(name));
-            }
-        }
+        (self.entries, self.problem) = match std::fs::read_dir(&self.folder) {
+            Ok(read) => (read.flatten().filter_map(listed).collect(), None),
+            Err(error) => (Vec::new(), Some(format!("cannot list this folder: {error}"))),
+        };
         self.entries.sort();
-    }
-
-    fn fits(&self, name: &str) -> bool {
-        has_extension(Path::new(name), self.purpose.extensions())
     }
 
     fn enter(&mut self, folder: PathBuf) {
@@ -205,22 +197,21 @@ impl Browser {
         self.list();
     }
 
-    fn show(&mut self, context: &egui::Context) -> Answer {
-        let mut answer = Answer::None;
+    /// Shows it, and gives the answer once there is one.
+    fn show(&mut self, context: &egui::Context) -> Option<Answer> {
         let mut open = true;
-        egui::Window::new(self.purpose.title())
+        egui::Window::new(self.purpose.form().title)
             .id(egui::Id::unique("file dialog"))
             .open(&mut open)
             .collapsible(false)
             .default_size([460.0, 380.0])
             .pivot(egui::Align2::CENTER_CENTER)
             .default_pos(context.content_rect().center())
-            .show(context, |ui| answer = self.contents(ui));
-        if open { answer } else { Answer::Cancelled }
+            .show(context, |ui| self.contents(ui));
+        if open { self.answer.take() } else { Some(Answer::Cancelled) }
     }
 
-    fn contents(&mut self, ui: &mut egui::Ui) -> Answer {
-        let mut answer = Answer::None;
+    fn contents(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
             let parent = self.folder.parent().map(Path::to_owned);
             let up = ui.add_enabled(parent.is_some(), egui::Button::new("Up")).on_hover_text("The folder above");
@@ -230,51 +221,19 @@ impl Browser {
             ui.add(egui::Label::new(self.folder.display().to_string()).truncate());
         });
         ui.separator();
-        let list_height = (ui.available_height() - 72.0).max(120.0);
-        egui::ScrollArea::vertical().max_height(list_height).min_scrolled_height(120.0).auto_shrink(false).show(
-            ui,
-            |ui| {
-                if let Some(chosen) = self.entries_ui(ui) {
-                    answer = chosen;
-                }
-            },
-        );
+        let height = (ui.available_height() - 72.0).max(120.0);
+        let area = egui::ScrollArea::vertical().max_height(height).min_scrolled_height(120.0).auto_shrink(false);
+        area.show(ui, |ui| self.entries_ui(ui));
         if let Some(problem) = &self.problem {
             ui.colored_label(crate::ui::theme::theme_of(ui).flipped, problem);
         }
         ui.separator();
-        let mut entered = false;
-        ui.horizontal(|ui| {
-            let label = ui.label("Name");
-            let field = egui::TextEdit::singleline(&mut self.name).desired_width(f32::INFINITY);
-            let field = ui.add(field).labelled_by(label.id);
-            if std::mem::take(&mut self.is_fresh) {
-                field.request_focus();
-            }
-            entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-        });
-        ui.horizontal(|ui| {
-            let path = self.path();
-            let exists = !self.purpose.is_reading() && path.as_ref().is_some_and(|path| path.is_file());
-            let words = if exists { "Replace" } else { self.purpose.button() };
-            let go = ui.add_enabled(path.is_some(), egui::Button::new(words)).clicked();
-            if go || (entered && !exists) {
-                match path {
-                    Some(path) if path.is_dir() => self.enter(path),
-                    Some(path) => answer = Answer::Chosen(path),
-                    None => {}
-                }
-            }
-            if ui.button("Cancel").clicked() {
-                answer = Answer::Cancelled;
-            }
-        });
-        answer
+        let is_entered = ui.horizontal(|ui| self.name_ui(ui)).inner;
+        ui.horizontal(|ui| self.buttons(ui, is_entered));
     }
 
-    fn entries_ui(&mut self, ui: &mut egui::Ui) -> Option<Answer> {
+    fn entries_ui(&mut self, ui: &mut egui::Ui) {
         let mut folder_to_enter = None;
-        let mut answer = None;
         for entry in &self.entries {
             match entry {
                 Entry::Folder(name) => {
@@ -285,7 +244,7 @@ impl Browser {
                 Entry::File(name) => {
                     let response = ui.selectable_label(self.name == *name, name);
                     if response.double_clicked() && self.purpose.is_reading() {
-                        answer = Some(Answer::Chosen(self.folder.join(name)));
+                        self.answer = Some(Answer::Chosen(self.folder.join(name)));
                     }
                     if response.clicked() {
                         self.name.clone_from(name);
@@ -298,7 +257,32 @@ impl Browser {
         } else if self.entries.is_empty() && self.problem.is_none() {
             ui.weak("Nothing here that fits. Go up, or type a name.");
         }
-        answer
+    }
+
+    /// The field for the name. Returns whether Enter was pressed in it.
+    fn name_ui(&mut self, ui: &mut egui::Ui) -> bool {
+        let label = ui.label("Name");
+        let field = egui::TextEdit::singleline(&mut self.name).desired_width(f32::INFINITY);
+        let field = ui.add(field).labelled_by(label.id);
+        if std::mem::take(&mut self.is_fresh) {
+            field.request_focus();
+        }
+        field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter))
+    }
+
+    fn buttons(&mut self, ui: &mut egui::Ui, is_entered: bool) {
+        let path = self.path();
+        let exists = !self.purpose.is_reading() && path.as_ref().is_some_and(|path| path.is_file());
+        let words = if exists { "Replace" } else { self.purpose.form().button };
+        let is_clicked = ui.add_enabled(path.is_some(), egui::Button::new(words)).clicked();
+        match path.filter(|_| is_clicked || (is_entered && !exists)) {
+            Some(path) if path.is_dir() => self.enter(path),
+            Some(path) => self.answer = Some(Answer::Chosen(path)),
+            None => {}
+        }
+        if ui.button("Cancel").clicked() {
+            self.answer = Some(Answer::Cancelled);
+        }
     }
 
     /// The file named, with the extension that the purpose asks for where it has none.
@@ -309,6 +293,6 @@ impl Browser {
         }
         let path = self.folder.join(name);
         let bare = !self.purpose.is_reading() && path.extension().is_none();
-        Some(if bare { path.with_extension(self.purpose.extensions()[0]) } else { path })
+        Some(if bare { path.with_extension(self.purpose.form().files.extensions[0]) } else { path })
     }
 }

@@ -10,6 +10,7 @@ use super::status::short;
 use crate::mesh::VertexId;
 use crate::session::Outcome;
 use crate::solver::{NoEquation, VertexEquation, WeightSource, equation_of_step};
+use crate::ui::controls::{Control, number, pairs, remark};
 use crate::ui::editor::scene::PlaneScene;
 use crate::ui::panes::pane;
 use crate::ui::theme::theme_of;
@@ -43,15 +44,14 @@ pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, 
     let Some(found) = equation_of(editor, outcome, vertex) else { return };
     ui.add_space(8.0);
     ui.strong("Equation");
-    let weak = theme_of(ui).weak_text;
     let (equation, source) = match found {
         Ok(found) => found,
         Err(reason) => {
-            ui.label(RichText::new(reason.words()).color(weak));
+            ui.label(RichText::new(reason.words()).color(theme_of(ui).weak_text));
             return;
         }
     };
-    ui.label(RichText::new(source_words(source, &equation)).small().color(weak));
+    remark(ui, source_words(source, &equation));
     table(ui, editor, &equation, requests);
     ui.add_space(4.0);
     numbers(ui, &equation);
@@ -66,7 +66,7 @@ pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, 
             "Not met exactly: the step meets all equations together as well as it can, or held more vertices."
         }
     };
-    ui.label(RichText::new(words).small().color(weak));
+    remark(ui, words);
 }
 
 fn source_words(source: WeightSource, equation: &VertexEquation) -> &'static str {
@@ -101,9 +101,7 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
         for term in &equation.terms {
             if term.neighbour.index() < count {
                 let link = ui.link(term.neighbour.to_string()).on_hover_text("Select this neighbour");
-                if link.clicked() {
-                    requests.push(Request::Select(vec![term.neighbour]));
-                }
+                link.asks(Request::Select(vec![term.neighbour]), requests);
             } else {
                 ui.label("virtual").on_hover_text("A vertex of the frame around the mesh");
             }
@@ -117,11 +115,9 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
 }
 
 fn numbers(ui: &mut egui::Ui, equation: &VertexEquation) {
-    egui::Grid::new("equation in sum").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
+    pairs(ui, "equation in sum", [16.0, 4.0], |ui| {
         let mut row = |name: &str, value: String, tip: &str| {
-            ui.label(name).on_hover_text(tip);
-            ui.monospace(value);
-            ui.end_row();
+            number(ui, name, value).on_hover_text(tip);
         };
         row("Sum of k", compact(equation.weight_sum), "What the offset is divided by");
         let of_terms = "What the equation leaves in this step, relative to the sizes of its terms";
@@ -156,7 +152,7 @@ pub(in crate::ui) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &Pl
     if !(editor.layout.shows(Tab::Vertex)) || plane.is_stage() {
         return;
     }
-    let Some(&vertex) = editor.selection.first() else { return };
+    let Some(&vertex) = editor.selection.vertices().first() else { return };
     let Some(Ok((equation, source))) = equation_of(editor, &plane.outcome, vertex) else { return };
     if source == WeightSource::Extended {
         // Its barycentre belongs to the stage that was solved.

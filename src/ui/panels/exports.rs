@@ -9,6 +9,7 @@ use egui::{Align2, Rect};
 
 use crate::geom::Picture;
 use crate::session::OutputFit;
+use crate::ui::controls::Control;
 use crate::ui::{Editor, Pane, Purpose, Request};
 
 /// Everything that can be exported: what it is, and what it is good for.
@@ -37,13 +38,8 @@ pub(super) fn exports_window(context: &egui::Context, editor: &mut Editor, reque
     let window = egui::Window::new("Export").open(&mut editor.layout.exports_shown).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
         for (purpose, words, about) in EXPORTS {
-            if ui
-                .add_enabled(solved, egui::Button::new(words).min_size(egui::vec2(250.0, 24.0)))
-                .on_hover_text(about)
-                .clicked()
-            {
-                requests.push(Request::Ask(purpose));
-            }
+            let button = ui.add_enabled(solved, egui::Button::new(words).min_size(egui::vec2(250.0, 24.0)));
+            button.on_hover_text(about).asks(Request::Ask(purpose), requests);
         }
         if !solved {
             ui.weak("There is nothing to export yet: open a mesh.");

@@ -1,12 +1,13 @@
 //! The bar at the top: menus, what is open, and the verdict.
 
 use eframe::egui;
-use egui::{Button, RichText, Role, WidgetInfo};
+use egui::{Button, RichText, Role, ThemePreference};
 
 use super::exports::EXPORTS;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::session::{Action, OutputFit};
+use crate::ui::controls::Control;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of};
 
@@ -15,18 +16,16 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut 
     let bar = ui.max_rect();
     ui.horizontal_centered(|ui| {
         let menus = egui::MenuBar::new().ui(ui, |ui| {
-            ui.menu_button("File", |ui| file_menu(ui, editor, requests));
-            ui.menu_button("Edit", |ui| edit_menu(ui, editor, requests));
-            ui.menu_button("View", |ui| view_menu(ui, editor, requests));
-            ui.menu_button("Solve", |ui| solve_menu(ui, editor, requests));
-            let help = ui.menu_button("Help", |ui| item(ui, true, "All keys", Request::ToggleKeys, requests));
-            help.response.rect.right()
+            let mut menu = Menu { ui, editor, requests };
+            menu.part("File", file_menu);
+            menu.part("Edit", edit_menu);
+            menu.part("View", view_menu);
+            menu.part("Solve", solve_menu);
+            menu.part("Help", |menu| menu.item(true, "All keys", Request::ToggleKeys)).rect.right()
         });
         let right = ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let panels = ui.selectable_label(editor.layout.panels_shown(), "Panels");
-            if panels.on_hover_text("Show or hide the panels at the right").clicked() {
-                requests.push(Request::TogglePanels);
-            }
+            panels.on_hover_text("Show or hide the panels at the right").asks(Request::TogglePanels, requests);
             verdict_pill(ui, editor, requests);
             ui.min_rect().left()
         });
@@ -43,178 +42,181 @@ fn title_between(ui: &egui::Ui, bar: egui::Rect, room: std::ops::RangeInclusive<
     }
     let galley = text.into_galley(ui, Some(egui::TextWrapMode::Truncate), width, egui::TextStyle::Body);
     let half = galley.size() / 2.0;
-    let middle = bar
-        .center()
-        .x
-        .clamp(room.start() + 12.0 + half.x, (room.end() - 12.0 - half.x).max(room.start() + 12.0 + half.x));
+    let leftmost = room.start() + 12.0 + half.x;
+    let middle = bar.center().x.clamp(leftmost, (room.end() - 12.0 - half.x).max(leftmost));
     let place = egui::Rect::from_center_size(egui::pos2(middle, bar.center().y), galley.size());
     let response = ui.interact(place, ui.scope_id().with("title"), egui::Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
+    response.named(Role::Label, words);
     ui.painter().galley(egui::pos2(middle - half.x, bar.center().y - half.y), galley, theme_of(ui).weak_text);
 }
 
-/// A menu entry with its shortcut.
-fn item(ui: &mut egui::Ui, enabled: bool, words: &str, request: Request, requests: &mut Vec<Request>) {
-    let keys = keys_of(ui.ctx(), &request);
-    if ui.add_enabled(enabled, Button::new(words).shortcut_text(keys)).clicked() {
-        requests.push(request);
-        ui.close();
+/// A menu, or the bar of menus, as it is put together.
+struct Menu<'a> {
+    ui: &'a mut egui::Ui,
+    editor: &'a Editor,
+    requests: &'a mut Vec<Request>,
+}
+
+impl Menu<'_> {
+    /// A menu in this one.
+    fn part(&mut self, words: &str, add: impl FnOnce(&mut Menu<'_>)) -> egui::Response {
+        let (editor, requests) = (self.editor, &mut *self.requests);
+        self.ui.menu_button(words, |ui| add(&mut Menu { ui, editor, requests })).response
+    }
+
+    /// An entry with its shortcut.
+    fn item(&mut self, enabled: bool, words: &str, request: impl Into<Request>) {
+        self.entry(enabled, Button::new(words), request);
+    }
+
+    /// An entry that is on or off.
+    fn choice(&mut self, on: bool, words: &str, request: Request) {
+        self.entry(true, Button::selectable(on, words), request);
+    }
+
+    fn entry(&mut self, enabled: bool, button: Button<'_>, request: impl Into<Request>) {
+        let request = request.into();
+        let button = button.shortcut_text(keys_of(self.ui.ctx(), &request));
+        if self.ui.add_enabled(enabled, button).asks(request, self.requests) {
+            self.ui.close();
+        }
+    }
+
+    /// An entry without a shortcut that says more in a tip.
+    fn explained(&mut self, enabled: bool, [words, tip]: [&str; 2], request: impl Into<Request>) {
+        let button = self.ui.add_enabled(enabled, Button::new(words)).on_hover_text(tip);
+        if button.asks(request, self.requests) {
+            self.ui.close();
+        }
+    }
+
+    fn separator(&mut self) {
+        self.ui.separator();
     }
 }
 
-/// A menu entry that is on or off.
-fn choice(ui: &mut egui::Ui, on: bool, words: &str, request: Request, requests: &mut Vec<Request>) {
-    let keys = keys_of(ui.ctx(), &request);
-    if ui.add(Button::selectable(on, words).shortcut_text(keys)).clicked() {
-        requests.push(request);
-        ui.close();
-    }
-}
-
-fn file_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    item(ui, true, "Open…", Request::Ask(Purpose::Open), requests);
-    ui.menu_button("Recent", |ui| {
+fn file_menu(menu: &mut Menu<'_>) {
+    let editor = menu.editor;
+    menu.item(true, "Open…", Request::Ask(Purpose::Open));
+    menu.part("Recent", |menu| {
         let paths = editor.session.recent().paths();
         for path in paths {
-            let open = Request::Do(Action::Open(path.clone()));
-            item(ui, true, &path.display().to_string(), open, requests);
+            menu.item(true, &path.display().to_string(), Action::Open(path.clone()));
         }
         if paths.is_empty() {
-            ui.weak("No files yet");
+            menu.ui.weak("No files yet");
         } else {
-            ui.separator();
-            item(ui, true, "Forget these", Request::Do(Action::ClearRecent), requests);
+            menu.separator();
+            menu.item(true, "Forget these", Action::ClearRecent);
         }
     });
-    ui.menu_button("Examples", |ui| {
+    menu.part("Examples", |menu| {
         for example in Example::ALL {
-            let button = ui.button(example.title()).on_hover_text(example.about());
-            if button.clicked() {
-                requests.push(Request::Do(Action::OpenExample(example)));
-                ui.close();
-            }
+            menu.explained(true, [example.title(), example.about()], Action::OpenExample(example));
         }
     });
-    ui.separator();
+    menu.separator();
     let has_model = editor.session.model().is_some();
-    item(ui, has_model, "Save project", Request::SaveProject, requests);
-    item(ui, has_model, "Save project as…", Request::Ask(Purpose::SaveProject), requests);
-    ui.separator();
-    picture_entries(ui, editor, requests);
-    ui.separator();
-    let solved = editor.session.outcome().is_some();
-    ui.menu_button("Export", |ui| {
-        for (purpose, words, about) in EXPORTS {
-            let button = ui.add_enabled(solved, Button::new(words)).on_hover_text(about);
-            if button.clicked() {
-                requests.push(Request::Ask(purpose));
-                ui.close();
-            }
-        }
-    });
-    ui.menu_button("Size in files", |ui| {
-        let fits =
-            [(OutputFit::Unit, "Fit into the unit square"), (OutputFit::True, "True scale: the mesh's own area")];
-        for (fit, words) in fits {
-            choice(ui, editor.fit == fit, words, Request::SetFit(fit), requests);
-        }
-        ui.separator();
-        ui.weak("With pins, coordinates stay as they are.");
-    });
-    ui.separator();
-    item(ui, true, "Quit", Request::Quit, requests);
-}
-
-/// Picture and constraints come from files and go to files.
-fn picture_entries(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let has_disk = editor.session.model().is_some_and(|model| model.disk().is_some());
+    menu.item(has_model, "Save project", Request::SaveProject);
+    menu.item(has_model, "Save project as…", Request::Ask(Purpose::SaveProject));
+    menu.separator();
+    // Picture and constraints come from files and go to files.
+    let has_disk = editor.has_disk();
+    menu.item(has_disk, "Open picture…", Request::Ask(Purpose::OpenPicture));
+    menu.item(editor.has_picture(), "Remove picture", Action::RemovePicture);
+    menu.item(has_disk, "Import constraints…", Request::Ask(Purpose::ImportConstraints));
     let has_pins = !editor.session.document().pins.is_empty();
-    item(ui, has_disk, "Open picture…", Request::Ask(Purpose::OpenPicture), requests);
-    item(ui, editor.has_picture(), "Remove picture", Request::Do(Action::RemovePicture), requests);
-    item(ui, has_disk, "Import constraints…", Request::Ask(Purpose::ImportConstraints), requests);
-    item(ui, has_pins, "Export constraints…", Request::Ask(Purpose::ExportConstraints), requests);
+    menu.item(has_pins, "Export constraints…", Request::Ask(Purpose::ExportConstraints));
+    menu.separator();
+    menu.part("Export", |menu| {
+        for (purpose, words, about) in EXPORTS {
+            menu.explained(editor.session.outcome().is_some(), [words, about], Request::Ask(purpose));
+        }
+    });
+    menu.part("Size in files", |menu| {
+        let (unit, true_size) = (OutputFit::Unit, OutputFit::True);
+        menu.choice(editor.fit == unit, "Fit into the unit square", Request::SetFit(unit));
+        menu.choice(editor.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
+        menu.separator();
+        menu.ui.weak("With pins, coordinates stay as they are.");
+    });
+    menu.separator();
+    menu.item(true, "Quit", Request::Quit);
 }
 
-fn edit_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let history = editor.session.history();
-    item(ui, history.can_undo(), "Undo", Request::Do(Action::Undo), requests);
-    item(ui, history.can_redo(), "Redo", Request::Do(Action::Redo), requests);
-    ui.separator();
-    choice(ui, editor.tool == Tool::Select, "Select vertices", Request::SetTool(Tool::Select), requests);
-    choice(ui, editor.tool == Tool::Fix, "Fix vertices", Request::SetTool(Tool::Fix), requests);
-    let constrains = editor.tool == Tool::Constrain;
-    choice(ui, constrains, "Constrain vertices", Request::SetTool(Tool::Constrain), requests);
-    ui.separator();
-    let fixable = !editor.selection.is_empty() && editor.session.outcome().is_some();
-    let fix = Request::Do(Action::Fix(editor.selection.iter().copied().collect()));
-    item(ui, fixable, "Fix the selection", fix, requests);
-    item(ui, editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected, requests);
-    let pinned = !editor.session.document().pins.is_empty();
-    item(ui, pinned, "Free all pins", Request::Do(Action::UnpinAll), requests);
-    ui.separator();
-    item(ui, pinned, "Mirror the targets", Request::Do(Action::MirrorTargets), requests);
-    let several = editor.session.document().pins.len() > 1;
-    item(ui, several, "Fit the targets to the mesh", Request::Do(Action::FitTargets), requests);
-    let has_model = editor.session.model().is_some();
-    item(ui, has_model, "Turn the faces around", Request::Do(Action::TurnFaces), requests);
+fn edit_menu(menu: &mut Menu<'_>) {
+    let (editor, session) = (menu.editor, &menu.editor.session);
+    menu.item(session.history().can_undo(), "Undo", Action::Undo);
+    menu.item(session.history().can_redo(), "Redo", Action::Redo);
+    menu.separator();
+    for (tool, words) in
+        [(Tool::Select, "Select vertices"), (Tool::Fix, "Fix vertices"), (Tool::Constrain, "Constrain vertices")]
+    {
+        menu.choice(editor.tools.tool() == tool, words, Request::SetTool(tool));
+    }
+    menu.separator();
+    let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
+    menu.item(fixable, "Fix the selection", Action::Fix(editor.selection.vertices().iter().copied().collect()));
+    menu.item(editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected);
+    let pin_count = session.document().pins.len();
+    menu.item(pin_count > 0, "Free all pins", Action::UnpinAll);
+    menu.separator();
+    menu.item(pin_count > 0, "Mirror the targets", Action::MirrorTargets);
+    menu.item(pin_count > 1, "Fit the targets to the mesh", Action::FitTargets);
+    menu.item(session.model().is_some(), "Turn the faces around", Action::TurnFaces);
 }
 
-fn view_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    ui.menu_button("Shading", |ui| {
+fn view_menu(menu: &mut Menu<'_>) {
+    let editor = menu.editor;
+    menu.part("Shading", |menu| {
         for shading in Shading::ALL {
-            choice(ui, editor.look.shading == shading, shading.title(), Request::SetShading(shading), requests);
+            menu.choice(editor.look.shading == shading, shading.title(), Request::SetShading(shading));
         }
     });
-    choice(ui, editor.look.wireframe, "Wireframe", Request::ToggleWireframe, requests);
-    choice(ui, editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp, requests);
-    choice(ui, editor.hull.shown, "Hull and pockets", Request::ToggleHull, requests);
-    choice(ui, editor.look.magnifier, "Magnifier", Request::ToggleMagnifier, requests);
-    choice(ui, editor.ease.wanted, "Glide from step to step", Request::ToggleEase, requests);
-    choice(ui, editor.layout.panels_shown(), "Panels", Request::TogglePanels, requests);
-    choice(ui, editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves, requests);
-    ui.separator();
-    item(ui, true, "Frame the selection, or all", Request::Frame, requests);
-    item(ui, true, "Go to…", Request::AskGoTo, requests);
-    let defects = editor.has_defects();
-    item(ui, defects, "Next defect", Request::StepDefect(1), requests);
-    item(ui, defects, "Previous defect", Request::StepDefect(-1), requests);
-    ui.separator();
-    ui.menu_button("Theme", |ui| {
-        let now = ui.ctx().options(|options| options.theme_preference);
-        let themes = [
-            (egui::ThemePreference::System, "As the system"),
-            (egui::ThemePreference::Light, "Light"),
-            (egui::ThemePreference::Dark, "Dark"),
-        ];
-        for (theme, words) in themes {
-            choice(ui, now == theme, words, Request::SetTheme(theme), requests);
+    menu.choice(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
+    menu.choice(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
+    menu.choice(editor.hull.shown, "Hull and pockets", Request::ToggleHull);
+    menu.choice(editor.look.magnifier, "Magnifier", Request::ToggleMagnifier);
+    menu.choice(editor.ease.wanted, "Glide from step to step", Request::ToggleEase);
+    menu.choice(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
+    menu.choice(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
+    menu.separator();
+    menu.item(true, "Frame the selection, or all", Request::Frame);
+    menu.item(true, "Go to…", Request::AskGoTo);
+    menu.item(editor.has_defects(), "Next defect", Request::StepDefect(1));
+    menu.item(editor.has_defects(), "Previous defect", Request::StepDefect(-1));
+    menu.separator();
+    menu.part("Theme", |menu| {
+        let now = menu.ui.ctx().options(|options| options.theme_preference);
+        for (theme, words) in [
+            (ThemePreference::System, "As the system"),
+            (ThemePreference::Light, "Light"),
+            (ThemePreference::Dark, "Dark"),
+        ] {
+            menu.choice(now == theme, words, Request::SetTheme(theme));
         }
     });
 }
 
-fn solve_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let disk = editor.session.model().is_some_and(|model| model.disk().is_some());
-    let session = &editor.session;
-    let timeline = session.timeline();
-    let shown = timeline.shown();
-    item(ui, disk, "Take one step", Request::Do(Action::Step), requests);
+fn solve_menu(menu: &mut Menu<'_>) {
+    let (editor, session) = (menu.editor, &menu.editor.session);
+    menu.item(editor.has_disk(), "Take one step", Action::Step);
     let (run, can_run) = if session.is_running() { ("Pause the run", true) } else { ("Run on", session.can_run()) };
-    item(ui, can_run, run, Request::RunOrPause, requests);
-    item(ui, session.can_relax(), "Relax", Request::Do(Action::Relax), requests);
-    ui.separator();
-    let has_previous = shown.and_then(|shown| timeline.previous_kept(shown)).is_some();
-    let has_next = shown.and_then(|shown| timeline.next_kept(shown)).is_some();
-    item(ui, has_previous, "First step", Request::GoToStep(StepTarget::First), requests);
-    item(ui, has_previous, "Previous step", Request::GoToStep(StepTarget::Previous), requests);
-    item(ui, has_next, "Next step", Request::GoToStep(StepTarget::Next), requests);
-    item(ui, has_next, "Last step", Request::GoToStep(StepTarget::Last), requests);
+    menu.item(can_run, run, Request::RunOrPause);
+    menu.item(session.can_relax(), "Relax", Action::Relax);
+    menu.separator();
+    let [has_previous, has_next] = editor.steps_around();
+    menu.item(has_previous, "First step", Request::GoToStep(StepTarget::First));
+    menu.item(has_previous, "Previous step", Request::GoToStep(StepTarget::Previous));
+    menu.item(has_next, "Next step", Request::GoToStep(StepTarget::Next));
+    menu.item(has_next, "Last step", Request::GoToStep(StepTarget::Last));
     let play = if editor.timeline.playing_since.is_some() { "Stop the play" } else { "Play all steps" };
-    item(ui, has_previous || has_next, play, Request::TogglePlay, requests);
-    ui.separator();
-    item(ui, disk, "Solve again", Request::Do(Action::Solve), requests);
-    item(ui, editor.session.busy().is_some(), "Cancel", Request::Do(Action::Cancel), requests);
-    ui.separator();
-    item(ui, true, "Method and weights", Request::ShowTab(Tab::Method), requests);
+    menu.item(has_previous || has_next, play, Request::TogglePlay);
+    menu.separator();
+    menu.item(editor.has_disk(), "Solve again", Action::Solve);
+    menu.item(session.busy().is_some(), "Cancel", Action::Cancel);
+    menu.separator();
+    menu.item(true, "Method and weights", Request::ShowTab(Tab::Method));
 }
 
 /// What is open: name, vertices, faces.

@@ -1,13 +1,13 @@
 //! Method and weights, and the numbers of the last solve.
 
 use eframe::egui;
-use egui::{RichText, Role, WidgetInfo};
+use egui::{Role, WidgetInfo};
 
 use crate::session::{Action, Outcome};
-use crate::solver::{BoundaryShape, FAMILIES, Family, Growth, METHODS, Method, Settings, Treatment};
-use crate::ui::theme::theme_of;
+use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
+use crate::ui::controls::{Control, list, pairs, remark, sentence, tip_with_keys};
 use crate::ui::timeline::chips::residual_words;
-use crate::ui::{Editor, Request, keys_of};
+use crate::ui::{Editor, Request};
 
 /// The slider's ends: beyond them weights grow wild.
 const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
@@ -15,48 +15,47 @@ const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
 /// Shows the panel.
 pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let settings = editor.session.document().settings;
-    let mut chosen = settings;
-    egui::Grid::new("method").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
+    let mut edit = Edit { settings, slides: false, ends: false };
+    let chosen = &mut edit.settings;
+    pairs(ui, "method", [12.0, 8.0], |ui| {
         ui.label("Method");
-        method_menu(ui, &mut chosen);
+        method_list(ui, chosen);
         ui.end_row();
         if let Method::Convex(shape) = &mut chosen.method {
             ui.label("Boundary");
             ui.horizontal(|ui| {
-                ui.selectable_value(shape, BoundaryShape::Circle, "Circle");
-                ui.selectable_value(shape, BoundaryShape::Square, "Square");
+                for &choice in BoundaryShape::ALL {
+                    ui.selectable_value(shape, choice, choice.words().title);
+                }
             });
             ui.end_row();
         }
         if chosen.method.uses_family() {
             ui.label("Weights");
-            family_menu(ui, &mut chosen);
+            family_list(ui, chosen);
             ui.end_row();
         }
     });
     if settings.method.uses_family()
         && let Some(power) = settings.family.power()
     {
-        power_slider(ui, settings, power, requests);
+        power_slider(ui, power, &mut edit);
     }
+    let chosen = &mut edit.settings;
     if chosen.method.uses_pins() {
         ui.add_space(2.0);
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 12.0;
             ui.label("Pinned");
-            treatment_menu(ui, &mut chosen);
+            treatment_list(ui, &mut chosen.treatment);
         });
     }
-    new_vertices_box(ui, &mut chosen);
-    if chosen != settings {
-        requests.push(Request::Do(Action::SetSettings(chosen)));
-    }
+    new_vertices_box(ui, chosen);
     ui.add_space(6.0);
-    if let Some(entry) = METHODS.iter().find(|entry| entry.name == settings.method.name()) {
-        let words = format!("{}. {}.", sentence(entry.about), entry.source);
-        ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
-    }
-    more(ui, settings, requests);
+    let words = settings.method.words();
+    remark(ui, format!("{}. {}.", sentence(words.about), words.source));
+    more(ui, &mut edit);
+    edit.ask_for(settings, requests);
     ui.add_space(8.0);
     solve_and_cancel(ui, editor, requests);
     if let Some(outcome) = editor.session.outcome() {
@@ -67,55 +66,51 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     }
 }
 
+/// What a frame changes of the settings.
+struct Edit {
+    settings: Settings,
+    /// Whether it is part of a gesture.
+    slides: bool,
+    /// Whether a gesture ends.
+    ends: bool,
+}
+
+impl Edit {
+    fn ask_for(self, before: Settings, requests: &mut Vec<Request>) {
+        if self.settings != before {
+            let action = if self.slides { Action::SlideSettings } else { Action::SetSettings };
+            requests.push(action(self.settings).into());
+        }
+        if self.ends {
+            requests.push(Action::EndGesture.into());
+        }
+    }
+}
+
 fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let disk = editor.session.model().is_some_and(|model| model.disk().is_some());
+    let disk = editor.has_disk();
     let busy = editor.session.busy().is_some();
     ui.horizontal(|ui| {
         let solve = ui.add_enabled(disk && !busy, egui::Button::new("Solve"));
         let tip = "Solve again (Ctrl+Enter). A change of method, weights or pins solves by itself.";
-        if solve.on_hover_text(tip).clicked() {
-            requests.push(Request::Do(Action::Solve));
-        }
-        let relax = Request::Do(Action::Relax);
-        let tip = format!(
-            "Lower the distortion of a planar embedding: one-to-one throughout, constraints exact ({})",
-            keys_of(ui.ctx(), &relax)
-        );
+        solve.on_hover_text(tip).asks(Action::Solve, requests);
+        let relax = Action::Relax.into();
+        let tip = "Lower the distortion of a planar embedding: one-to-one throughout, constraints exact";
+        let tip = tip_with_keys(ui, tip, &relax);
         let button = ui.add_enabled(editor.session.can_relax(), egui::Button::new("Relax"));
-        if button.on_hover_text(&tip).on_disabled_hover_text(tip).clicked() {
-            requests.push(relax);
-        }
-        if busy && editor.busy_for_long().is_some() && ui.button("Cancel").clicked() {
-            requests.push(Request::Do(Action::Cancel));
+        button.on_hover_text(&tip).on_disabled_hover_text(tip).asks(relax, requests);
+        if busy && editor.busy_for_long().is_some() {
+            ui.button("Cancel").asks(Action::Cancel, requests);
         }
     });
 }
 
-/// The words with a capital at the beginning.
-pub fn sentence(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-fn method_menu(ui: &mut egui::Ui, settings: &mut Settings) {
-    let title = METHODS.iter().find(|e| e.name == settings.method.name()).map_or("", |e| e.title);
-    let menu = egui::ComboBox::from_id_salt("method menu").selected_text(title).width(150.0).show_ui(ui, |ui| {
-        for entry in METHODS {
-            let method = match entry.name {
-                "convex" => Method::Convex(BoundaryShape::default()),
-                "lscm" => Method::Lscm,
-                "levy" => Method::Levy,
-                "continuation" => Method::Continuation,
-                "matchmaker" => Method::Matchmaker,
-                "natural" => Method::Natural,
-                "iterate" => Method::Iterate,
-                "virtual-boundary" => Method::VirtualBoundary,
-                _ => Method::Auto,
-            };
-            let on = settings.method.name() == entry.name;
-            let label =
-                ui.selectable_label(on, entry.title).on_hover_text(format!("{} ({})", entry.about, entry.source));
-            if label.clicked() && !on {
+fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
+    list(ui, "Method", 150.0, settings.method.words().title, |ui| {
+        for &method in Method::ALL {
+            let is_chosen = settings.method.name() == method.name();
+            let label = ui.selectable_label(is_chosen, method.words().title).on_hover_text(method.words().tip());
+            if label.clicked() && !is_chosen {
                 settings.method = method;
                 // Uniform and shape-preserving weights need a convex boundary.
                 if settings.family.power().is_none() && !matches!(method, Method::Convex(_)) {
@@ -124,52 +119,48 @@ fn method_menu(ui: &mut egui::Ui, settings: &mut Settings) {
             }
         }
     });
-    menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Method"));
 }
 
-fn family_menu(ui: &mut egui::Ui, settings: &mut Settings) {
-    let name = settings.family.to_string();
-    let stem = |text: &str| text.split(':').next().unwrap_or_default().to_owned();
-    let title = FAMILIES.iter().find(|e| stem(e.name) == stem(&name)).map_or("", |e| e.title);
-    let convex = matches!(settings.method, Method::Convex(_));
-    let menu = egui::ComboBox::from_id_salt("family menu").selected_text(title).width(150.0).show_ui(ui, |ui| {
-        for entry in FAMILIES {
-            let family = entry.name.parse().unwrap_or_else(|_| Family::Power(settings.family.power().unwrap_or(0.5)));
-            if family.power().is_none() && !convex {
-                continue;
-            }
-            let on = stem(entry.name) == stem(&name);
-            let label =
-                ui.selectable_label(on, entry.title).on_hover_text(format!("{} ({})", entry.about, entry.source));
-            if label.clicked() && !on {
-                settings.family = family;
+fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
+    let is_convex = matches!(settings.method, Method::Convex(_));
+    list(ui, "Weights", 150.0, settings.family.words().title, |ui| {
+        for &family in Family::ALL.iter().filter(|family| is_convex || family.power().is_some()) {
+            let is_chosen = settings.family.name() == family.name();
+            let label = ui.selectable_label(is_chosen, family.words().title).on_hover_text(family.words().tip());
+            if label.clicked() && !is_chosen {
+                settings.family = match family {
+                    // A power begins as the family before it.
+                    Family::Power(usual) => Family::Power(settings.family.power().unwrap_or(usual)),
+                    named => named,
+                };
             }
         }
     });
-    menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Weights"));
 }
 
-/// What each treatment of the pinned vertices' equations does.
-const TREATMENTS: [(Option<Treatment>, &str, &str); 4] = [
-    (None, "Automatic", "Two pins only fix size and place: eliminated. More are constraints: least squares"),
-    (Some(Treatment::Eliminate), "Eliminate", "The equations of pinned vertices are dropped (paper §3.3)"),
-    (
-        Some(Treatment::LeastSquares),
-        "Least squares",
-        "All equations are kept and met as well as can be, the pins exactly (paper §6)",
-    ),
-    (Some(Treatment::Weighted), "Weighted", "All equations are kept, and all pins pull by their weights (paper §6)"),
-];
-
-fn treatment_menu(ui: &mut egui::Ui, settings: &mut Settings) {
-    let title = TREATMENTS.iter().find(|(treatment, ..)| *treatment == settings.treatment).map_or("", |entry| entry.1);
-    let menu = egui::ComboBox::from_id_salt("treatment menu").selected_text(title).width(150.0).show_ui(ui, |ui| {
-        for (treatment, title, about) in TREATMENTS {
-            ui.selectable_value(&mut settings.treatment, treatment, title).on_hover_text(about);
+fn treatment_list(ui: &mut egui::Ui, chosen: &mut Option<Treatment>) {
+    let automatic = "Automatic";
+    let shown = chosen.map_or(automatic, |treatment| treatment.words().title);
+    let list = list(ui, "Equations of pinned vertices", 150.0, shown, |ui| {
+        let tip = "Two pins only fix size and place: eliminated. More are constraints: least squares";
+        ui.selectable_value(chosen, None, automatic).on_hover_text(tip);
+        for &treatment in Treatment::ALL {
+            let label = ui.selectable_value(chosen, Some(treatment), treatment.words().title);
+            label.on_hover_text(sentence(&treatment.words().tip()));
         }
     });
-    menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Equations of pinned vertices"));
-    menu.response.on_hover_text("What becomes of the equations of pinned vertices");
+    list.on_hover_text("What becomes of the equations of pinned vertices");
+}
+
+fn growth_list(ui: &mut egui::Ui, chosen: &mut Growth) {
+    let list = list(ui, "How the virtual boundary goes on", 130.0, chosen.words().title, |ui| {
+        for &growth in Growth::ALL {
+            let label = ui.selectable_value(chosen, growth, growth.words().title);
+            label.on_hover_text(sentence(&growth.words().tip()));
+        }
+    });
+    let tip = "Where the boundary crosses itself, vertices of it are bent to a convex polygon: how many the next time";
+    list.on_hover_text(tip);
 }
 
 /// Whether edges may be split, where the method can.
@@ -182,64 +173,38 @@ fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
 }
 
 /// What few people need: how long the iteration may go on, and how the virtual boundary does.
-fn more(ui: &mut egui::Ui, settings: Settings, requests: &mut Vec<Request>) {
-    let iterates = matches!(settings.method, Method::Auto | Method::Iterate);
-    let bends = matches!(settings.method, Method::Auto | Method::VirtualBoundary);
-    if !iterates && !bends {
+fn more(ui: &mut egui::Ui, edit: &mut Edit) {
+    let method = edit.settings.method;
+    if !method.iterates() && !method.bends_boundary() {
         return;
     }
     ui.add_space(4.0);
     egui::CollapsingHeader::new("More").default_open(false).show(ui, |ui| {
-        egui::Grid::new("more").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
-            if iterates {
+        pairs(ui, "more", [12.0, 8.0], |ui| {
+            if method.iterates() {
                 ui.label("Step limit");
-                step_limit(ui, settings, requests);
+                step_limit(ui, edit);
                 ui.end_row();
             }
-            if bends {
+            if method.bends_boundary() {
                 ui.label("Bent vertices");
-                let mut chosen = settings;
-                growth_menu(ui, &mut chosen);
-                if chosen != settings {
-                    requests.push(Request::Do(Action::SetSettings(chosen)));
-                }
+                growth_list(ui, &mut edit.settings.growth);
                 ui.end_row();
             }
         });
     });
 }
 
-fn step_limit(ui: &mut egui::Ui, settings: Settings, requests: &mut Vec<Request>) {
-    let mut limit = settings.max_steps;
-    let field = ui.add(egui::DragValue::new(&mut limit).range(1..=10_000).suffix(" steps"));
-    field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "Step limit"));
-    let field = field.on_hover_text("The most mean-value iterations of a run. Drag, or click to type.");
-    if field.changed() {
-        requests.push(Request::Do(Action::SlideSettings(Settings { max_steps: limit, ..settings })));
-    }
-    if field.drag_stopped() || field.lost_focus() {
-        requests.push(Request::Do(Action::EndGesture));
-    }
-}
-
-fn growth_menu(ui: &mut egui::Ui, settings: &mut Settings) {
-    let entries = [
-        (Growth::Double, "Twice as many", "Quick: as many again are bent each time"),
-        (Growth::One, "One more", "As the paper's §5 has it: the least that is enough, found slowly"),
-    ];
-    let title = entries.iter().find(|(growth, ..)| *growth == settings.growth).map_or("", |entry| entry.1);
-    let menu = egui::ComboBox::from_id_salt("growth menu").selected_text(title).width(130.0).show_ui(ui, |ui| {
-        for (growth, title, about) in entries {
-            ui.selectable_value(&mut settings.growth, growth, title).on_hover_text(about);
-        }
-    });
-    menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "How the virtual boundary goes on"));
-    let tip = "Where the boundary crosses itself, vertices of it are bent to a convex polygon: how many the next time";
-    menu.response.on_hover_text(tip);
+fn step_limit(ui: &mut egui::Ui, edit: &mut Edit) {
+    let field = ui.add(egui::DragValue::new(&mut edit.settings.max_steps).range(1..=10_000).suffix(" steps"));
+    let field = field.named(Role::SpinButton, "Step limit");
+    edit.slides |= field.changed();
+    edit.ends |= field.has_ended();
+    field.on_hover_text("The most mean-value iterations of a run. Drag, or click to type.");
 }
 
 /// From Wachspress over mean value to conformal.
-fn power_slider(ui: &mut egui::Ui, settings: Settings, power: f64, requests: &mut Vec<Request>) {
+fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
     let mut wanted = power;
     ui.horizontal(|ui| {
         ui.spacing_mut().slider_width = (ui.available_width() - 62.0).max(60.0);
@@ -252,20 +217,17 @@ fn power_slider(ui: &mut egui::Ui, settings: Settings, power: f64, requests: &mu
             wanted = Family::CONFORMAL_POWER;
         }
         if response.changed() || response.double_clicked() {
-            let settings = Settings { family: named_family(wanted), ..settings };
-            requests.push(Request::Do(Action::SlideSettings(settings)));
+            edit.settings.family = named_family(wanted);
+            edit.slides = true;
         }
         // Neither a key nor a double click is the beginning of a drag: nothing else ends its gesture.
         let is_whole = response.changed() && !response.dragged() && !ui.ctx().text_edit_focused();
-        if is_whole || response.double_clicked() || response.drag_stopped() || response.lost_focus() {
-            requests.push(Request::Do(Action::EndGesture));
-        }
+        edit.ends |= is_whole || response.double_clicked() || response.has_ended();
     });
     ui.horizontal(|ui| {
         for (words, power) in [("Wachspress", -1.0), ("Mean value", 0.0), ("Conformal", 1.0)] {
             if ui.small_button(words).clicked() {
-                let settings = Settings { family: named_family(power), ..settings };
-                requests.push(Request::Do(Action::SetSettings(settings)));
+                edit.settings.family = named_family(power);
             }
         }
     });
@@ -320,35 +282,31 @@ fn figure(value: f64) -> String {
 
 fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
     let solution = &outcome.step.solution;
+    let linear = solution.linear.unwrap_or_default();
+    let residual = solution.linear.map(|linear| linear.residual);
+    let equation_residual = solution.linear.map(|linear| linear.equation_residual);
+    let seconds = &solution.seconds;
+    let milliseconds = |seconds: f64| format!("{:.1} ms", 1000.0 * seconds);
+    let of_all = "|A z| of all equations, pinned vertices included, relative to their terms";
+    let rows = [
+        ("Residual", "|Ax − b| / |b| of the linear solve", residual_words(residual)),
+        ("Equation residual", of_all, residual_words(equation_residual)),
+        ("Assembly", "milliseconds", milliseconds(seconds.assemble)),
+        ("Ordering", "milliseconds", milliseconds(seconds.analyze)),
+        ("Factoring", "milliseconds", milliseconds(seconds.factor)),
+        ("Substitution", "milliseconds", milliseconds(seconds.solve)),
+        ("Proof", "milliseconds", milliseconds(outcome.step.verify_seconds)),
+        ("Factors", "memory of the factors", format!("{:.1} MB", linear.factor_bytes as f64 / 1e6)),
+        ("Pivots replaced", "pivots too small to divide by", linear.replaced_pivots.to_string()),
+        ("Corners bounded", "degenerate corners with a bounded weight", linear.bounded_corners.to_string()),
+    ];
     egui::CollapsingHeader::new("Numbers of the solve").default_open(false).show(ui, |ui| {
-        egui::Grid::new("numbers").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
-            let mut row = |name: &str, tip: &str, value: String| {
+        pairs(ui, "numbers", [16.0, 4.0], |ui| {
+            for (name, tip, value) in rows {
                 ui.label(name).on_hover_text(tip);
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.monospace(value));
                 ui.end_row();
-            };
-            row(
-                "Residual",
-                "|Ax − b| / |b| of the linear solve",
-                residual_words(solution.linear.map(|linear| linear.residual)),
-            );
-            let tip = "|A z| of all equations, pinned vertices included, relative to their terms";
-            row("Equation residual", tip, residual_words(solution.linear.map(|linear| linear.equation_residual)));
-            let seconds = &solution.seconds;
-            let phases = [
-                ("Assembly", seconds.assemble),
-                ("Ordering", seconds.analyze),
-                ("Factoring", seconds.factor),
-                ("Substitution", seconds.solve),
-                ("Proof", outcome.step.verify_seconds),
-            ];
-            for (name, seconds) in phases {
-                row(name, "milliseconds", format!("{:.1} ms", 1000.0 * seconds));
             }
-            let counts = solution.linear.unwrap_or_default();
-            row("Factors", "memory of the factors", format!("{:.1} MB", counts.factor_bytes as f64 / 1e6));
-            row("Pivots replaced", "pivots too small to divide by", counts.replaced_pivots.to_string());
-            row("Corners bounded", "degenerate corners with a bounded weight", counts.bounded_corners.to_string());
         });
     });
 }

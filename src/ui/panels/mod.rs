@@ -31,5 +31,4 @@ mod verdict_pill;
 mod vertex_panel;
 
 pub use dialogs::{Choice, Dialogs};
-pub use method_panel::sentence;
 pub use unsaved::{Answer, Unsaved};

@@ -5,6 +5,7 @@ use egui::RichText;
 
 use crate::geom::VAxis;
 use crate::session::Action;
+use crate::ui::controls::Control;
 use crate::ui::panes::constrain::axis_words;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Purpose, Request};
@@ -26,15 +27,11 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let has_disk = editor.session.model().is_some_and(|model| model.disk().is_some());
+        let has_disk = editor.has_disk();
         let open = ui.add_enabled(has_disk, egui::Button::new("Open picture…").small());
-        if open.on_hover_text("A PNG or JPEG file to map on the mesh").clicked() {
-            requests.push(Request::Ask(Purpose::OpenPicture));
-        }
+        open.on_hover_text("A PNG or JPEG file to map on the mesh").asks(Request::Ask(Purpose::OpenPicture), requests);
         let remove = ui.add_enabled(document.picture.is_some(), egui::Button::new("Remove").small());
-        if remove.on_hover_text("Go without a picture").clicked() {
-            requests.push(Request::Do(Action::RemovePicture));
-        }
+        remove.on_hover_text("Go without a picture").asks(Action::RemovePicture, requests);
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -44,16 +41,12 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
         ] {
             let on = document.v_axis == v_axis;
             if ui.selectable_label(on, axis_words(v_axis)).on_hover_text(tip).clicked() && !on {
-                requests.push(Request::Do(Action::SetVAxis(v_axis)));
+                requests.push(Action::SetVAxis(v_axis).into());
             }
         }
-        if ui
-            .selectable_label(editor.look.is_sharp(), "Sharp")
-            .on_hover_text("Pixels are squares of one colour")
-            .clicked()
-        {
-            requests.push(Request::ToggleSharp);
-        }
+        let sharp =
+            ui.selectable_label(editor.look.is_sharp(), "Sharp").on_hover_text("Pixels are squares of one colour");
+        sharp.asks(Request::ToggleSharp, requests);
     });
     if document.picture.is_some() {
         let mut percent = editor.look.opacity * 100.0;

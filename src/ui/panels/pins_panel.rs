@@ -1,13 +1,13 @@
 //! The pins as a table: select, move by typing, choose how each is held, free. Below it what concerns all of them.
 
 use eframe::egui;
-use egui::{DragValue, RichText, Role, Sense, Vec2, WidgetInfo};
-use glam::DVec2;
+use egui::{DragValue, RichText, Role, Sense, Vec2};
 
 use super::picture_panel;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::{Hold, Pin};
+use crate::ui::controls::{Control, counted, remark};
 use crate::ui::panes::pin_drag::conflict_words;
 use crate::ui::panes::pins::{self, Emphasis, PinKind};
 use crate::ui::theme::theme_of;
@@ -45,8 +45,7 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
 }
 
 fn no_pins(ui: &mut egui::Ui) {
-    let fix = keys_of(ui.ctx(), &Request::SetTool(Tool::Fix));
-    let constrain = keys_of(ui.ctx(), &Request::SetTool(Tool::Constrain));
+    let [fix, constrain] = [Tool::Fix, Tool::Constrain].map(|tool| keys_of(ui.ctx(), &Request::SetTool(tool)));
     ui.label(format!(
         "No pins of yours. The hollow squares are gauge pins: they only fix position, turn and size.\n\nConstrain \
          ({constrain}): click a vertex and its place on the picture. Fix ({fix}): pin vertices where they lie, then drag \
@@ -86,9 +85,9 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
-    let Row { vertex, pin, held, speed } = row;
+    let Row { vertex, pin, held, .. } = row;
     hold_button(ui, row, requests);
-    let selected = editor.selection.contains(&vertex);
+    let selected = editor.selection.contains(vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
     let label = label.on_hover_text("Select; Shift selects all up to it, Ctrl adds it, a double click shows it");
     if label.double_clicked() {
@@ -96,19 +95,18 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     } else if label.clicked() {
         requests.push(chosen(ui, editor, vertex));
     }
-    coordinates(ui, (vertex, pin.target, speed), requests);
+    coordinates(ui, row, requests);
     match (pin.hold, held) {
-        (Hold::Weighted(weight), _) => weight_field(ui, (vertex, weight), requests),
+        (Hold::Weighted(weight), _) => {
+            weight_field(ui, &format!("Weight of pin {vertex}"), weight, &[vertex], requests);
+        }
         (Hold::Fixed | Hold::Hard, Hold::Weighted(weight)) => {
             ui.weak(weight_words(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
         }
         (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => exact(ui, editor, vertex),
     }
-    let free = ui.small_button("×").on_hover_text("Free this pin");
-    free.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Free pin {vertex}")));
-    if free.clicked() {
-        requests.push(Request::Do(Action::Unpin(vec![vertex])));
-    }
+    let free = ui.small_button("×").on_hover_text("Free this pin").named(Role::Button, &format!("Free pin {vertex}"));
+    free.asks(Action::Unpin(vec![vertex]), requests);
 }
 
 /// What there is to say about a pin that is to be met exactly.
@@ -129,24 +127,23 @@ fn hold_button(ui: &mut egui::Ui, Row { vertex, pin, held, .. }: Row, requests: 
     let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
     pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(held), emphasis));
-    let (words, other) = match pin.hold {
-        Hold::Weighted(_) => ("weighted", Hold::Hard),
-        Hold::Fixed => ("fixed", Hold::Weighted(Pin::DEFAULT_WEIGHT)),
-        Hold::Hard => ("hard", Hold::Weighted(Pin::DEFAULT_WEIGHT)),
+    let words = match pin.hold {
+        Hold::Weighted(_) => "weighted",
+        Hold::Fixed => "fixed",
+        Hold::Hard => "hard",
     };
-    let is_weighed = pin.hold != held;
-    let note = if is_weighed { ", weighed by the treatment" } else { "" };
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Hold of pin {vertex}: {words}{note}")));
-    let tip = match other {
-        Hold::Weighted(_) if is_weighed => {
-            "To be met exactly, but this treatment of pinned vertices weighs it. Click: give it a weight of its own"
-        }
-        Hold::Weighted(_) => "Met exactly. Click: let it pull with a weight instead",
-        Hold::Fixed | Hold::Hard => "Pulls with a weight. Click: meet it exactly",
+    let (note, tip) = if pin.hold != held {
+        let tip =
+            "To be met exactly, but this treatment of pinned vertices weighs it. Click: give it a weight of its own";
+        (", weighed by the treatment", tip)
+    } else if pin.hold.is_exact() {
+        ("", "Met exactly. Click: let it pull with a weight instead")
+    } else {
+        ("", "Pulls with a weight. Click: meet it exactly")
     };
-    if response.on_hover_text(tip).clicked() {
-        requests.push(Request::Do(Action::SetHold { vertices: vec![vertex], hold: other }));
-    }
+    let hold = if pin.hold.is_exact() { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { Hold::Hard };
+    let response = response.named(Role::Button, &format!("Hold of pin {vertex}: {words}{note}")).on_hover_text(tip);
+    response.asks(Action::SetHold { vertices: vec![vertex], hold }, requests);
 }
 
 /// What a click on a row selects.
@@ -164,32 +161,25 @@ fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
     }
 }
 
-fn coordinates(ui: &mut egui::Ui, (vertex, target, speed): (VertexId, DVec2, f64), requests: &mut Vec<Request>) {
+fn coordinates(ui: &mut egui::Ui, Row { vertex, pin, speed, .. }: Row, requests: &mut Vec<Request>) {
+    let target = pin.target;
     let mut moved = target;
-    let mut ended = false;
+    let mut has_ended = false;
     for (axis, name) in [(0, "u"), (1, "v")] {
         let tip = format!("{name} = {:?}", target[axis]);
         let field = ui.add_sized([FIELDS[0], 20.0], coordinate(&mut moved[axis], speed)).on_hover_text(tip);
-        field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, format!("{name} of pin {vertex}")));
-        ended |= field.drag_stopped() || field.lost_focus();
+        has_ended |= field.named(Role::SpinButton, &format!("{name} of pin {vertex}")).has_ended();
     }
     if moved != target && moved.is_finite() {
-        requests.push(Request::Do(Action::MovePin { vertex, target: moved }));
+        requests.push(Action::MovePin { vertex, target: moved }.into());
     }
-    if ended {
-        requests.push(Request::Do(Action::EndGesture));
-    }
-}
-
-fn weight_field(ui: &mut egui::Ui, (vertex, weight): (VertexId, f64), requests: &mut Vec<Request>) {
-    let name = format!("Weight of pin {vertex}");
-    if let Some(request) = weight_request(ui, (weight, &name), &[vertex]) {
-        requests.push(request);
+    if has_ended {
+        requests.push(Action::EndGesture.into());
     }
 }
 
-/// A field for a weight: what is typed is one edit, made when the field is left; a drag is one gesture.
-fn weight_request(ui: &mut egui::Ui, (weight, name): (f64, &str), vertices: &[VertexId]) -> Option<Request> {
+/// A field for the weight of some pins: what is typed is one edit, made when the field is left; a drag is one gesture.
+fn weight_field(ui: &mut egui::Ui, name: &str, weight: f64, vertices: &[VertexId], requests: &mut Vec<Request>) {
     let mut typed = weight;
     let shown = weight_words(weight);
     let drag = DragValue::new(&mut typed).range(1e-9..=1e9).speed(weight * 0.02).update_while_editing(false);
@@ -199,16 +189,15 @@ fn weight_request(ui: &mut egui::Ui, (weight, name): (f64, &str), vertices: &[Ve
         if text == shown { Some(weight) } else { text.parse().ok().filter(|weight: &f64| weight.is_finite()) }
     });
     let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("How strongly it pulls: drag, or type");
-    field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, name));
-    let vertices = vertices.to_vec();
+    let field = field.named(Role::SpinButton, name);
+    let (vertices, hold) = (vertices.to_vec(), Hold::Weighted(typed));
     if field.drag_stopped() {
-        return Some(Request::Do(Action::EndGesture));
+        requests.push(Action::EndGesture.into());
+    } else if typed.to_bits() != weight.to_bits() {
+        let is_sliding = field.dragged();
+        let action = if is_sliding { Action::SlideHold { vertices, hold } } else { Action::SetHold { vertices, hold } };
+        requests.push(action.into());
     }
-    let hold = Hold::Weighted(typed);
-    let has_changed = typed.to_bits() != weight.to_bits();
-    let action =
-        if field.dragged() { Action::SlideHold { vertices, hold } } else { Action::SetHold { vertices, hold } };
-    has_changed.then_some(Request::Do(action))
 }
 
 /// What is done to several selected pins at once.
@@ -221,24 +210,19 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(format!("{} selected:", selected.len()));
-        if ui.small_button("Hard").on_hover_text("Meet them exactly").clicked() {
-            requests.push(Request::SetHold(Hold::Hard));
-        }
+        ui.small_button("Hard").on_hover_text("Meet them exactly").asks(Request::SetHold(Hold::Hard), requests);
         let pins = &editor.session.document().pins;
         let weights = selected.iter().filter_map(|vertex| match pins.get(vertex)?.hold {
             Hold::Weighted(weight) => Some(weight),
             Hold::Fixed | Hold::Hard => None,
         });
         let weight = weights.max_by(f64::total_cmp);
-        if ui.small_button("Weighted").on_hover_text("Let them pull with a weight").clicked() {
-            requests.push(Request::SetHold(Hold::Weighted(weight.unwrap_or(Pin::DEFAULT_WEIGHT))));
-        }
+        let hold = Hold::Weighted(weight.unwrap_or(Pin::DEFAULT_WEIGHT));
+        ui.small_button("Weighted").on_hover_text("Let them pull with a weight").asks(Request::SetHold(hold), requests);
         if let Some(weight) = weight {
-            requests.extend(weight_request(ui, (weight, "Weight of the selected pins"), &selected));
+            weight_field(ui, "Weight of the selected pins", weight, &selected, requests);
         }
-        if ui.small_button("Free").on_hover_text("Free the selected pins").clicked() {
-            requests.push(Request::UnpinSelected);
-        }
+        ui.small_button("Free").on_hover_text("Free the selected pins").asks(Request::UnpinSelected, requests);
     });
 }
 
@@ -249,13 +233,10 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.add_space(4.0);
     let words = match found.iter().filter(|conflict| conflict.needs_new_vertices()).count() {
         0 => "Targets too near to each other".to_owned(),
-        1 => "1 conflict needs new vertices".to_owned(),
-        count => format!("{count} conflicts need new vertices"),
+        count => counted(count, "conflict needs new vertices", "conflicts need new vertices"),
     };
     let link = ui.link(RichText::new(words).color(theme_of(ui).stale));
-    if link.on_hover_text(conflict_words(first)).clicked() {
-        requests.push(Request::GoTo(first.vertices()));
-    }
+    link.on_hover_text(conflict_words(first)).asks(Request::GoTo(first.vertices()), requests);
 }
 
 /// How far the worst of the exact and of the weighted pins is from its target, in texture coordinates.
@@ -273,37 +254,29 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
         })
         .collect();
     if !words.is_empty() {
-        let words = format!("Largest error: {}", words.join(", "));
-        ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
+        remark(ui, format!("Largest error: {}", words.join(", ")));
     }
     if editor.session.document().pins.len() == 1 {
-        let words = "One pin only moves the embedding. A second one turns and scales it, more bend it.";
-        ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
+        remark(ui, "One pin only moves the embedding. A second one turns and scales it, more bend it.");
     }
 }
 
 /// What concerns all pins.
 fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let count = editor.session.document().pins.len();
-    let has_disk = editor.session.model().is_some_and(|model| model.disk().is_some());
+    let has_disk = editor.has_disk();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let buttons = [
-            (count > 0, "Mirror", "Mirror all targets left to right", Request::Do(Action::MirrorTargets)),
-            (
-                count > 1,
-                "Fit",
-                "Turn, scale and move all targets together, to fit the mesh",
-                Request::Do(Action::FitTargets),
-            ),
+        let buttons: [(bool, &str, &str, Request); 5] = [
+            (count > 0, "Mirror", "Mirror all targets left to right", Action::MirrorTargets.into()),
+            (count > 1, "Fit", "Turn, scale and move all targets together, to fit the mesh", Action::FitTargets.into()),
             (has_disk, "Import…", "Take over the constraints of a file", Request::Ask(Purpose::ImportConstraints)),
             (count > 0, "Export…", "Write the pins as a constraint file", Request::Ask(Purpose::ExportConstraints)),
-            (count > 0, "Free all", "Free all pins; undo brings them back", Request::Do(Action::UnpinAll)),
+            (count > 0, "Free all", "Free all pins; undo brings them back", Action::UnpinAll.into()),
         ];
         for (enabled, words, tip, request) in buttons {
-            if ui.add_enabled(enabled, egui::Button::new(words).small()).on_hover_text(tip).clicked() {
-                requests.push(request);
-            }
+            let button = ui.add_enabled(enabled, egui::Button::new(words).small());
+            button.on_hover_text(tip).asks(request, requests);
         }
     });
 }

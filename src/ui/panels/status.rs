@@ -8,7 +8,6 @@ use egui::RichText;
 use super::vertex_panel::new_vertex_words;
 use crate::ui::theme::theme_of;
 use crate::ui::timeline::PRESS_SPACE;
-use crate::ui::timeline::chips::rung_words;
 use crate::ui::{Editor, Tool};
 
 /// Shows the bar.
@@ -27,8 +26,8 @@ pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
 }
 
 fn hint(editor: &Editor) -> Cow<'static, str> {
-    let is_over_new = editor.hovered.is_some_and(|vertex| editor.is_new_vertex(vertex));
-    let is_constraining = editor.tool == Tool::Constrain && editor.dragged_pin.is_none();
+    let is_over_new = editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex));
+    let is_constraining = editor.tools.tool() == Tool::Constrain && editor.tools.dragged().is_none();
     if is_constraining && !is_over_new && editor.session.model().is_some() {
         return editor.constrain_words().into();
     }
@@ -36,7 +35,7 @@ fn hint(editor: &Editor) -> Cow<'static, str> {
 }
 
 fn fixed_hint(editor: &Editor) -> &'static str {
-    if editor.dragged_pin.is_some() {
+    if editor.tools.dragged().is_some() {
         return "Move the pin; the embedding follows. Esc gives up.";
     }
     if editor.session.model().is_none() {
@@ -45,13 +44,14 @@ fn fixed_hint(editor: &Editor) -> &'static str {
     if editor.session.is_held() && !editor.timeline.curves_shown() {
         return PRESS_SPACE;
     }
-    if editor.tool != Tool::Select && editor.hovered.is_some_and(|vertex| editor.is_new_vertex(vertex)) {
+    if editor.tools.tool() != Tool::Select && editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex))
+    {
         return "A new vertex belongs to this embedding alone, and cannot be pinned.";
     }
-    if editor.selected_pins() > 0 && editor.tool == Tool::Select {
+    if editor.selected_pins() > 0 && editor.tools.tool() == Tool::Select {
         return "Drag a selected pin to move them all, arrows nudge by a pixel (Shift: ten), Delete frees them.";
     }
-    match editor.tool {
+    match editor.tools.tool() {
         Tool::Select | Tool::Constrain => {
             "Click a vertex to select it, Shift adds, Ctrl and a drag draw a box. Drag a square to move a pin."
         }
@@ -61,11 +61,11 @@ fn fixed_hint(editor: &Editor) -> &'static str {
 
 fn numbers(editor: &Editor) -> String {
     let mut parts = Vec::new();
-    if let Some(place) = editor.pointer_in_embedding {
+    if let Some(place) = editor.pointer.in_embedding() {
         let at = editor.session.document().frame().uv_from_plane(place);
         parts.push(format!("u {} v {}", short(at.x), short(at.y)));
     }
-    if let (Some(vertex), Some(scene)) = (editor.hovered, editor.mesh_scene()) {
+    if let (Some(vertex), Some(scene)) = (editor.pointer.vertex(), editor.mesh_scene()) {
         parts.push(vertex.to_string());
         parts.extend(scene.new_vertex(vertex).map(new_vertex_words));
         if let Some(x) = scene.mesh().positions.get(vertex.index()) {
@@ -73,7 +73,7 @@ fn numbers(editor: &Editor) -> String {
         }
     }
     if let Some(outcome) = editor.session.outcome().filter(|_| editor.session.preview().is_none()) {
-        parts.push(rung_words(outcome.step.rung.name()).to_owned());
+        parts.push(outcome.step.rung.as_short_rung().to_owned());
         parts.push(format!("{:.0} ms", 1000.0 * (outcome.step.solution.seconds.total() + outcome.step.verify_seconds)));
     }
     parts.join("  ·  ")

@@ -3,27 +3,21 @@
 use eframe::egui;
 use egui::{Role, Sense, Vec2, WidgetInfo};
 
+use crate::ui::controls::{Control, tip_with_keys};
 use crate::ui::icons;
 use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request, Tool, keys_of};
+use crate::ui::{Editor, Request, Tool};
 
 /// Side of a tool's button, points.
 const BUTTON: f32 = 32.0;
 
-/// The tools with their names.
-const TOOLS: [(Tool, &str); 3] = [
-    (Tool::Select, "Select vertices"),
-    (Tool::Fix, "Fix: pin a vertex where it lies"),
-    (Tool::Constrain, "Constrain: join a vertex with its place"),
-];
-
 /// Shows the tools.
 pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.vertical_centered(|ui| {
-        for (tool, name) in TOOLS {
+        for tool in Tool::ALL {
             let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
-            let on = editor.tool == tool;
-            response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
+            let on = editor.tools.tool() == tool;
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, tool.about()));
             let theme = theme_of(ui);
             if on || response.hovered() {
                 let share = if on { 0.22 } else { 0.10 };
@@ -39,10 +33,7 @@ pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut
                 Tool::Constrain => icons::pair(ui.painter(), rect, colour),
             }
             let request = Request::SetTool(tool);
-            let tip = format!("{name} ({})", keys_of(ui.ctx(), &request));
-            if response.on_hover_text(tip).clicked() {
-                requests.push(request);
-            }
+            response.on_hover_text(tip_with_keys(ui, tool.about(), &request)).asks(request, requests);
         }
     });
 }

@@ -4,6 +4,7 @@
 use eframe::egui;
 
 use crate::session::Action;
+use crate::ui::controls::Control;
 use crate::ui::{Editor, Purpose, Request};
 
 /// What waits for the answer.
@@ -132,9 +133,7 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
             for (answer, words) in
                 [(Answer::Save, "Save"), (Answer::DontSave, "Don't save"), (Answer::Cancel, "Cancel")]
             {
-                if ui.button(words).clicked() {
-                    requests.push(Request::Answer(answer));
-                }
+                ui.button(words).asks(Request::Answer(answer), requests);
             }
         });
     });

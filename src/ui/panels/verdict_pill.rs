@@ -1,15 +1,13 @@
 //! The verdict at one glance, in the bar at the top; beside it, or in its place, what goes on in the background.
 
-use std::borrow::Cow;
-
 use eframe::egui;
-use egui::{RichText, Role, WidgetInfo};
+use egui::{RichText, Role};
 
 use crate::session::{Action, Busy, Surface};
 use crate::solver::{Phase, Step, Verdict};
+use crate::ui::controls::{Control, counted};
 use crate::ui::icons::{self, Sign};
-use crate::ui::theme::{Theme, theme_of};
-use crate::ui::timeline::chips::rung_words;
+use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Request, Tab};
 
 /// Side of the sign in the pill, points.
@@ -18,14 +16,19 @@ const SIGN: f32 = 11.0;
 /// What the pill says.
 struct Pill {
     sign: Sign,
-    colour: egui::Color32,
     words: String,
-    tip: Cow<'static, str>,
+    tip: String,
+}
+
+impl Pill {
+    fn new(sign: Sign, words: impl Into<String>, tip: impl Into<String>) -> Self {
+        Self { sign, words: words.into(), tip: tip.into() }
+    }
 }
 
 /// The truth at one glance: proved, wrong and how, being solved, or not up to date.
 pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let (pill, busy) = shown(theme_of(ui), editor);
+    let (pill, busy) = shown(editor);
     if let Some(pill) = &pill
         && show_pill(ui, pill).clicked()
     {
@@ -37,9 +40,7 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
         });
     }
     let Some(busy) = busy else { return };
-    if ui.small_button("Stop").on_hover_text("Stop the work in the background").clicked() {
-        requests.push(Request::Do(Action::Cancel));
-    }
+    ui.small_button("Stop").on_hover_text("Stop the work in the background").asks(Action::Cancel, requests);
     if pill.is_none() {
         ui.label(RichText::new(busy_words(busy)).color(theme_of(ui).weak_text));
     }
@@ -48,10 +49,10 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
 
 /// The pill, and the work that goes on. Work takes the pill's place, but never where it says that the screen shows a
 /// preview: that stays true, whatever is being solved, until a first step is there.
-fn shown(theme: &Theme, editor: &Editor) -> (Option<Pill>, Option<Busy>) {
+fn shown(editor: &Editor) -> (Option<Pill>, Option<Busy>) {
     let busy = editor.busy_for_long();
     let is_replaced = busy.is_some() && editor.session.preview().is_none();
-    (if is_replaced { None } else { pill(theme, editor) }, busy)
+    (if is_replaced { None } else { pill(editor) }, busy)
 }
 
 fn busy_words(busy: Busy) -> String {
@@ -63,58 +64,49 @@ fn busy_words(busy: Busy) -> String {
     }
 }
 
-fn pill(theme: &Theme, editor: &Editor) -> Option<Pill> {
+fn pill(editor: &Editor) -> Option<Pill> {
     let session = &editor.session;
     let model = session.model()?;
     if let Surface::Faulty(_, diagnosis) = &model.surface {
-        let count = diagnosis.faults.len();
-        let words = if count == 1 { "1 fault".to_owned() } else { format!("{count} faults") };
-        let tip = "The bars over the mesh say what is wrong and what to do";
-        return Some(Pill { sign: Sign::Bad, colour: theme.flipped, words, tip: tip.into() });
+        let words = counted(diagnosis.faults.len(), "fault", "faults");
+        return Some(Pill::new(Sign::Bad, words, "The bars over the mesh say what is wrong and what to do"));
     }
     if session.is_preview() || session.preview().is_some() {
         let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
-        let words = preview_words(editor);
-        return Some(Pill { sign: Sign::Warning, colour: theme.stale, words, tip: tip.into() });
+        return Some(Pill::new(Sign::Warning, preview_words(editor), tip));
     }
     let more_to_come = session.is_running() && session.timeline().records().len() <= 1;
     let is_at_work = session.busy().is_some() || session.is_following();
     if more_to_come || (is_at_work && !session.is_current()) {
         let words = if session.outcome().is_some() && !more_to_come { "following…" } else { "solving…" };
-        let tip = "The solve is on its way";
-        return Some(Pill { sign: Sign::Working, colour: theme.weak_text, words: words.to_owned(), tip: tip.into() });
+        return Some(Pill::new(Sign::Working, words, "The solve is on its way"));
     }
-    let Some(outcome) = session.outcome().filter(|_| session.is_current()) else {
-        let tip = "The embedding does not belong to these settings and pins: press Solve";
-        return Some(Pill {
-            sign: Sign::Warning,
-            colour: theme.stale,
-            words: "not solved".to_owned(),
-            tip: tip.into(),
-        });
-    };
-    Some(of_step(theme, &outcome.step))
+    Some(match session.outcome().filter(|_| session.is_current()) {
+        Some(outcome) => of_step(&outcome.step),
+        None => {
+            let tip = "The embedding does not belong to these settings and pins: press Solve";
+            Pill::new(Sign::Warning, "not solved", tip)
+        }
+    })
 }
 
 /// The verdict on a step that is up to date, and the rung that a planar one comes from.
-fn of_step(theme: &Theme, step: &Step) -> Pill {
-    let (unmet, rung) = (step.unmet().len(), rung_words(step.rung.name()));
+fn of_step(step: &Step) -> Pill {
+    let (unmet, rung) = (step.unmet().len(), step.rung.as_short_rung());
     if !step.verdict.planar {
-        let tip = "Not planar. Click for the next defect (D)".into();
-        return Pill { sign: Sign::Bad, colour: theme.flipped, words: short_verdict(&step.verdict), tip };
+        return Pill::new(Sign::Bad, short_verdict(&step.verdict), "Not planar. Click for the next defect (D)");
     }
     if unmet > 0 {
-        let words = format!("Planar, constraints not met: {unmet} · {rung}");
-        let tip = "No two faces overlap, but exact pins are not on their targets. Click shows them".into();
-        return Pill { sign: Sign::Warning, colour: theme.unmet, words, tip };
+        let tip = "No two faces overlap, but exact pins are not on their targets. Click shows them";
+        return Pill::new(Sign::Unmet, format!("Planar, constraints not met: {unmet} · {rung}"), tip);
     }
     let new = step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len());
-    let tip = match new {
-        0 => "Exact arithmetic shows that no two faces overlap".into(),
-        1 => "Exact arithmetic shows that no two faces overlap. The mesh has 1 new vertex".into(),
-        _ => format!("Exact arithmetic shows that no two faces overlap. The mesh has {new} new vertices").into(),
+    let note = match new {
+        0 => String::new(),
+        _ => format!(". The mesh has {}", counted(new, "new vertex", "new vertices")),
     };
-    Pill { sign: Sign::Good, colour: theme.planar, words: format!("Planar: proved · {rung}"), tip }
+    let tip = format!("Exact arithmetic shows that no two faces overlap{note}");
+    Pill::new(Sign::Good, format!("Planar: proved · {rung}"), tip)
 }
 
 /// What follows a drag, and what is known of it.
@@ -131,36 +123,33 @@ fn preview_words(editor: &Editor) -> String {
 /// The verdict in the fewest words.
 fn short_verdict(verdict: &Verdict) -> String {
     let counts = [
-        (verdict.flipped_faces.len(), "flipped"),
-        (verdict.crossing_count(), "crossing"),
-        (verdict.overwound_vertices.len(), "overwound"),
+        (verdict.flipped_faces.len(), ["flipped"; 2]),
+        (verdict.crossing_count(), ["crossing", "crossings"]),
+        (verdict.overwound_vertices.len(), ["overwound"; 2]),
     ];
-    let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, words)| {
-        let plural = if *words == "crossing" && *count > 1 { "s" } else { "" };
-        format!("{count} {words}{plural}")
-    });
+    let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, [one, many])| counted(*count, one, many));
     words.collect::<Vec<_>>().join(" · ")
 }
 
 fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
-    let text = egui::WidgetText::from(RichText::new(&pill.words).color(pill.colour).strong());
+    let theme = theme_of(ui);
+    let colour = pill.sign.colour(theme);
+    let text = egui::WidgetText::from(RichText::new(&pill.words).color(colour).strong());
     let galley = text.into_galley(ui, None, f32::INFINITY, egui::TextStyle::Body);
     let size = galley.size() + egui::vec2(20.0 + SIGN + 6.0, 6.0);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
     let strength = if response.hovered() { 0.24 } else { 0.13 };
-    ui.painter().rect_filled(rect, rect.height() / 2.0, pill.colour.gamma_multiply(strength));
+    ui.painter().rect_filled(rect, rect.height() / 2.0, colour.gamma_multiply(strength));
     if response.has_focus() {
-        let stroke = egui::Stroke::new(1.0, pill.colour);
+        let stroke = egui::Stroke::new(1.0, colour);
         ui.painter().rect_stroke(rect, rect.height() / 2.0, stroke, egui::StrokeKind::Inside);
     }
     let square =
         egui::Rect::from_center_size(rect.left_center() + egui::vec2(10.0 + SIGN / 2.0, 0.0), egui::Vec2::splat(SIGN));
-    icons::sign(ui.painter(), square, pill.sign, pill.colour);
+    icons::sign(ui.painter(), square, pill.sign, theme);
     let at = egui::pos2(square.right() + 6.0, rect.center().y - galley.size().y / 2.0);
-    ui.painter().galley(at, galley, pill.colour);
-    let name = format!("Verdict: {}", pill.words);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-    response.on_hover_text(pill.tip.as_ref())
+    ui.painter().galley(at, galley, colour);
+    response.named(Role::Button, &format!("Verdict: {}", pill.words)).on_hover_text(&pill.tip)
 }
 
 #[cfg(test)]
@@ -211,7 +200,7 @@ mod tests {
         editor.session.handle(Action::Rest);
         // As if it had begun a while ago. Nothing is taken in meanwhile, so that no step has replaced the preview.
         editor.host.note_work(true, a_while_ago());
-        let (pill, busy) = shown(&LIGHT, &editor);
+        let (pill, busy) = shown(&editor);
         assert!(matches!(busy, Some(Busy::Solving(_))), "{busy:?}");
         let words = pill.expect("the preview says what it is").words;
         assert!(words.starts_with("preview, not repaired"), "{words}");
@@ -224,7 +213,7 @@ mod tests {
         wait(&mut editor, is_solved);
         editor.session.handle(Action::Solve);
         editor.host.note_work(true, a_while_ago());
-        let (pill, busy) = shown(&LIGHT, &editor);
+        let (pill, busy) = shown(&editor);
         assert!(pill.is_none() && busy.is_some());
     }
 }

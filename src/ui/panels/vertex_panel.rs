@@ -9,16 +9,17 @@ use super::status::short;
 use crate::mesh::{DiskMesh, NewVertex, VertexId};
 use crate::session::Action;
 use crate::solver::Embedding;
+use crate::ui::controls::{Control, number, pairs};
 use crate::ui::{Editor, Request};
 
 /// Shows the panel.
 pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let Some(&vertex) = editor.selection.first() else {
+    let Some(&vertex) = editor.selection.vertices().first() else {
         ui.label("Select a vertex: click one in either pane, or press G and type its number.");
         return;
     };
-    if editor.selection.len() > 1 {
-        ui.weak(format!("{} selected; this is the first", editor.selection.len()));
+    if editor.selection.vertices().len() > 1 {
+        ui.weak(format!("{} selected; this is the first", editor.selection.vertices().len()));
     }
     let Some(scene) = editor.mesh_scene() else { return };
     let Some(position) = scene.mesh().positions.get(vertex.index()) else { return };
@@ -27,19 +28,15 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         if ui.small_button("Copy").on_hover_text("Copy the number").clicked() {
             ui.ctx().copy_text(vertex.number().to_string());
         }
-        if ui.small_button("Frame").clicked() {
-            requests.push(Request::GoTo(vec![vertex]));
-        }
+        ui.small_button("Frame").asks(Request::GoTo(vec![vertex]), requests);
     });
     if let Some(new) = scene.new_vertex(vertex) {
         ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }
     let embedding = editor.session.outcome().map(|outcome| &outcome.step.solution.embedding);
-    egui::Grid::new("vertex").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
+    pairs(ui, "vertex", [16.0, 4.0], |ui| {
         let mut row = |name: &str, value: String| {
-            ui.label(name);
-            ui.monospace(value);
-            ui.end_row();
+            number(ui, name, value);
         };
         for (axis, value) in ["x", "y", "z"].iter().zip(position.to_array()) {
             row(axis, short(value));
@@ -64,14 +61,9 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     equation_table::equation_ui(ui, editor, vertex, requests);
     ui.add_space(8.0);
     if editor.session.document().pins.contains_key(&vertex) {
-        if ui.button("Free").on_hover_text("Take its pin away").clicked() {
-            requests.push(Request::Do(Action::Unpin(vec![vertex])));
-        }
-    } else if embedding.is_some()
-        && scene.new_vertex(vertex).is_none()
-        && ui.button("Fix").on_hover_text("Pin it where it lies").clicked()
-    {
-        requests.push(Request::Do(Action::Fix(vec![vertex])));
+        ui.button("Free").on_hover_text("Take its pin away").asks(Action::Unpin(vec![vertex]), requests);
+    } else if embedding.is_some() && scene.new_vertex(vertex).is_none() {
+        ui.button("Fix").on_hover_text("Pin it where it lies").asks(Action::Fix(vec![vertex]), requests);
     }
 }
 

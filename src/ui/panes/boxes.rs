@@ -11,13 +11,13 @@ pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, 
     if response.drag_started_by(egui::PointerButton::Primary) && ui.input(|input| input.modifiers.command) {
         // From where the button went down, not from where egui was sure of a drag.
         let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
-        editor.selection_box = origin.map(|at| (pane, at));
+        editor.pointer.begin_box(pane, origin);
     }
-    let (_, from) = editor.selection_box.filter(|(of, _)| *of == pane)?;
+    let from = editor.pointer.box_in(pane)?;
     let to = ui.input(|input| input.pointer.latest_pos())?;
     let chosen = Rect::from_two_pos(from, to);
     if response.drag_stopped() {
-        editor.selection_box = None;
+        editor.pointer.end_box();
         return Some(chosen);
     }
     let theme = theme_of(ui);

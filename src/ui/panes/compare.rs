@@ -125,8 +125,7 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
         return;
     }
     ui.painter_at(rect).rect_filled(place, 4.0, theme.panel.gamma_multiply(0.92));
-    let [r, g, b, _] = theme.ghost.0;
-    let ink = crate::ui::theme::rgb([r, g, b]);
+    let ink = crate::ui::theme::on_screen(theme.ghost);
     let middle = place.left_center() + Vec2::new(8.0, 0.0);
     ui.painter_at(rect).line_segment([middle, middle + Vec2::new(18.0, 0.0)], Stroke::new(2.0, ink));
     let words = RichText::new(format!("Outline of step {step}")).small().color(theme.weak_text);

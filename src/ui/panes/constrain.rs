@@ -46,19 +46,19 @@ impl Editor {
     /// Takes in where the pointer is, and what a click there would do. Call in each pane, once it knows the vertex under
     /// the pointer; `grip` is the vertex of the pin whose mark would take the click.
     pub(super) fn aim(&mut self, ui: &egui::Ui, pane: Pane, grip: Option<VertexId>) {
-        if self.tool != Tool::Constrain {
+        if self.tools.tool() != Tool::Constrain {
             return;
         }
         let modifiers = ui.input(|input| input.modifiers);
-        let target = self.pointer_in_embedding.map(|place| self.target_at(place, modifiers));
-        self.intent = match pane {
+        let target = self.pointer.in_embedding().map(|place| self.target_at(place, modifiers));
+        self.tools.set_intent(match pane {
             Pane::Mesh => self.intent_on_mesh(),
             Pane::Plane => self.intent_in_plane(target, modifiers, grip),
-        };
+        });
     }
 
     fn intent_on_mesh(&self) -> Intent {
-        match (self.pair, self.vertex_to_pin()) {
+        match (self.tools.pair(), self.vertex_to_pin()) {
             (Some(Half::Target(target)), Some(vertex)) => Intent::Join(vertex, target),
             (_, Some(vertex)) => self.first_half(vertex),
             (_, None) => Intent::Nothing,
@@ -67,7 +67,7 @@ impl Editor {
 
     fn intent_in_plane(&self, target: Option<DVec2>, modifiers: egui::Modifiers, grip: Option<VertexId>) -> Intent {
         let Some(target) = target else { return Intent::Nothing };
-        match (self.pair, self.vertex_to_pin()) {
+        match (self.tools.pair(), self.vertex_to_pin()) {
             (Some(Half::Vertex(vertex)), _) => Intent::Join(vertex, target),
             (Some(Half::Target(first)), Some(vertex)) => Intent::Join(vertex, first),
             (None, Some(vertex)) if grip == Some(vertex) => Intent::Select(vertex),
@@ -81,7 +81,7 @@ impl Editor {
 
     /// The vertex under the pointer, where it can be pinned: new vertices belong to one embedding alone.
     pub(super) fn vertex_to_pin(&self) -> Option<VertexId> {
-        self.hovered.filter(|&vertex| !self.is_new_vertex(vertex))
+        self.pointer.vertex().filter(|&vertex| !self.is_new_vertex(vertex))
     }
 
     /// Whether the mesh on the screen has a vertex that the mesh as given does not have.
@@ -91,7 +91,7 @@ impl Editor {
 
     fn first_half(&self, vertex: VertexId) -> Intent {
         let is_pinned = self.session.document().pins.contains_key(&vertex);
-        if is_pinned && self.pair.is_none() { Intent::Select(vertex) } else { Intent::TakeVertex(vertex) }
+        if is_pinned && self.tools.pair().is_none() { Intent::Select(vertex) } else { Intent::TakeVertex(vertex) }
     }
 
     /// The texture coordinates of a place in the plane: those of a pixel's corner or middle, where pixels are large on
@@ -107,20 +107,20 @@ impl Editor {
 
     /// Carries out what a click would do.
     pub(in crate::ui) fn constrain(&mut self) -> Vec<Request> {
-        match std::mem::take(&mut self.intent) {
-            Intent::Nothing if self.pair.is_some() => Vec::new(),
+        match self.tools.take_intent() {
+            Intent::Nothing if self.tools.pair().is_some() => Vec::new(),
             Intent::Nothing => vec![Request::Select(Vec::new())],
             Intent::TakeVertex(vertex) => {
-                self.pair = Some(Half::Vertex(vertex));
+                self.tools.set_pair(Some(Half::Vertex(vertex)));
                 vec![Request::Select(vec![vertex])]
             }
             Intent::TakeTarget(target) => {
-                self.pair = Some(Half::Target(target));
+                self.tools.set_pair(Some(Half::Target(target)));
                 vec![Request::Select(Vec::new())]
             }
             Intent::Join(vertex, target) => {
-                self.pair = None;
-                let pin = Pin { target, hold: self.hold };
+                self.tools.set_pair(None);
+                let pin = Pin { target, hold: self.tools.hold() };
                 vec![Request::Do(Action::Place { vertex, pin }), Request::Select(vec![vertex])]
             }
             Intent::Select(vertex) => vec![Request::Select(vec![vertex])],
@@ -130,7 +130,7 @@ impl Editor {
     /// What the tool does, in words.
     pub(in crate::ui) fn constrain_words(&self) -> String {
         let numbers = |target: DVec2| format!("u {:.4} v {:.4}", target.x, target.y);
-        match (self.intent, self.pair) {
+        match (self.tools.intent(), self.tools.pair()) {
             (Intent::Join(vertex, target), _) => format!("Click: {vertex} goes to {}.", numbers(target)),
             (Intent::Select(vertex), _) => format!("Click: select the pin of {vertex}."),
             (Intent::TakeVertex(vertex), _) => format!("Click: take {vertex}; its place comes next."),
@@ -169,7 +169,7 @@ impl Editor {
 
     /// The target of the pair that is being placed, in the plane: taken already, or under the pointer.
     pub(super) fn target_of_pair(&self) -> Option<DVec2> {
-        match (self.pair, self.intent) {
+        match (self.tools.pair(), self.tools.intent()) {
             (Some(Half::Target(target)), _) | (_, Intent::Join(_, target) | Intent::TakeTarget(target)) => {
                 Some(self.in_plane(target))
             }
@@ -179,7 +179,7 @@ impl Editor {
 
     /// The vertex of the pair that is being placed.
     pub(super) fn vertex_of_pair(&self) -> Option<VertexId> {
-        match (self.pair, self.intent) {
+        match (self.tools.pair(), self.tools.intent()) {
             (Some(Half::Vertex(vertex)), _) | (_, Intent::Join(vertex, _)) => Some(vertex),
             _ => None,
         }
@@ -197,7 +197,7 @@ fn snapped(target: DVec2, pixels: DVec2) -> DVec2 {
 
 /// What a click would place, over the embedding, and the line from the vertex that goes there.
 pub(in crate::ui) fn preview(painter: &Painter, ui: &egui::Ui, editor: &Editor, spot: &dyn Fn(DVec2) -> Pos2) {
-    if editor.tool != Tool::Constrain {
+    if editor.tools.tool() != Tool::Constrain {
         return;
     }
     let theme = theme_of(ui);
@@ -213,14 +213,14 @@ pub(in crate::ui) fn preview(painter: &Painter, ui: &egui::Ui, editor: &Editor, 
 /// The line across both panes, from the vertex on the mesh to its place.
 pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
     let [Some(mesh), Some(plane)] = editor.pane_rects else { return };
-    if editor.tool != Tool::Constrain || editor.pair.is_none() {
+    if editor.tools.tool() != Tool::Constrain || editor.tools.pair().is_none() {
         return;
     }
     let theme = theme_of(ui);
-    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|_| editor.pane_under_pointer.is_some());
+    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|_| editor.pointer.pane().is_some());
     let vertex = editor.vertex_of_pair().and_then(|vertex| editor.on_mesh(vertex));
     let target = editor.target_of_pair().and_then(|target| editor.in_embedding_pane(target));
-    let ends = match editor.pair {
+    let ends = match editor.tools.pair() {
         Some(Half::Vertex(_)) => vertex.zip(target.or(pointer)),
         _ => vertex.or(pointer).zip(target),
     };

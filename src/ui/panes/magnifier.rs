@@ -51,7 +51,7 @@ impl Magnifier {
             return None;
         }
         let verdict = &scene.outcome.step.verdict;
-        let chosen = editor.defect.and_then(|place| Some((place, Defect::nth(verdict, place)?)));
+        let chosen = editor.selection.defect().and_then(|place| Some((place, Defect::nth(verdict, place)?)));
         let (place, defect) = chosen.or_else(|| Some((0, Defect::nth(verdict, 0)?)))?;
         let side = (SHARE * pane.width().min(pane.height())).clamp(SIDE[0], SIDE[1]);
         if pane.width() < 2.0 * side || pane.height() < 2.0 * side {

@@ -43,9 +43,8 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         ui.ctx().request_repaint();
     }
     if let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(rect, at)) {
-        editor.pane_under_pointer = Some(Pane::Mesh);
         let pick = scene.picker.nearest_vertex(&camera, editor.mesh_pane_size, pointer, Visibility::Visible);
-        editor.hovered = pick.map(|pick| pick.vertex);
+        editor.pointer.over_mesh(pick.map(|pick| pick.vertex));
         editor.aim(ui, Pane::Mesh, None);
     }
     select(ui, &response, editor, &scene, requests);
@@ -111,13 +110,13 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, scene: &MeshS
 
 /// What a click of the tool in hand asks for.
 pub(in crate::ui) fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
-    if editor.tool == Tool::Constrain {
+    if editor.tools.tool() == Tool::Constrain {
         return editor.constrain();
     }
-    let Some(vertex) = editor.hovered else { return vec![Request::Select(Vec::new())] };
+    let Some(vertex) = editor.pointer.vertex() else { return vec![Request::Select(Vec::new())] };
     let adds = ui.input(|input| input.modifiers.shift);
     let select = if adds { Request::AddToSelection(vec![vertex]) } else { Request::Select(vec![vertex]) };
-    match editor.tool {
+    match editor.tools.tool() {
         Tool::Select | Tool::Constrain => vec![select],
         Tool::Fix if editor.is_new_vertex(vertex) => vec![select],
         Tool::Fix => vec![Request::Do(Action::Fix(vec![vertex])), select],
@@ -126,7 +125,7 @@ pub(in crate::ui) fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request>
 
 /// The cursor says what a click would do.
 pub(super) fn cursor(editor: &Editor) -> CursorIcon {
-    match (editor.tool, editor.hovered) {
+    match (editor.tools.tool(), editor.pointer.vertex()) {
         (Tool::Constrain, _) | (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
         (_, None) => CursorIcon::Default,
         (Tool::Select, Some(_)) => CursorIcon::PointingHand,
@@ -223,19 +222,19 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
             } else if editor.session.conflict_of(pin.vertex).is_some() {
                 pins::conflict_mark(&painter, at, theme);
             }
-            let is_strong = editor.selection.contains(&pin.vertex);
+            let is_strong = editor.selection.contains(pin.vertex);
             let emphasis = if is_strong { Emphasis::Strong } else { Emphasis::Plain };
             pins::mark(&painter, at, theme, (pin.kind, emphasis));
         }
     }
-    for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
+    for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
         if let Some((at, true)) = place(vertex) {
             pane::halo(&painter, at, theme.selection, 6.0);
         }
     }
-    if let (Some(vertex), Some((at, true))) = (editor.hovered, editor.hovered.and_then(place)) {
-        pane::halo(&painter, at, theme.selection, if editor.tool == Tool::Fix { 7.0 } else { 5.0 });
-        match editor.tool {
+    if let (Some(vertex), Some((at, true))) = (editor.pointer.vertex(), editor.pointer.vertex().and_then(place)) {
+        pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });
+        match editor.tools.tool() {
             _ if editor.is_new_vertex(vertex) => {}
             Tool::Select => {}
             Tool::Fix => pins::mark(&painter, at, theme, (PinKind::Gauge, Emphasis::Plain)),

@@ -10,9 +10,9 @@ use super::pins::{self, Emphasis};
 use super::plane_pane;
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId};
+use crate::ui::Editor;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::theme::{Theme, theme_of};
-use crate::ui::{Editor, Tool};
 use crate::view::{PlaneBox, PlaneCamera, Sphere};
 
 /// Share of the pane's lesser side that the inset takes.
@@ -29,16 +29,16 @@ const LEAST_MAGNIFICATION: f64 = 1.5;
 impl Editor {
     /// The vertex that is magnified: that of the pair being placed, or the one selected pin.
     fn vertex_in_hand(&self) -> Option<VertexId> {
-        if self.tool == Tool::Constrain && self.pair.is_some() {
+        if self.tools.is_placing_pair() {
             return self.vertex_of_pair();
         }
         let mut pins = self.pins_selected();
-        pins.next().filter(|_| self.selection.len() == 1)
+        pins.next().filter(|_| self.selection.vertices().len() == 1)
     }
 
     /// The target that is magnified, in the plane.
     fn target_in_hand(&self) -> Option<DVec2> {
-        if self.tool == Tool::Constrain && self.pair.is_some() {
+        if self.tools.is_placing_pair() {
             return self.target_of_pair();
         }
         let document = self.session.document();
@@ -48,8 +48,7 @@ impl Editor {
 
     /// Whether a pair is magnified in the embedding's pane.
     pub(super) fn magnifies_pair(&self) -> bool {
-        let places_pair = self.tool == Tool::Constrain && self.pair.is_some();
-        self.look.magnifier && (places_pair || self.target_in_hand().is_some())
+        self.look.magnifier && (self.tools.is_placing_pair() || self.target_in_hand().is_some())
     }
 }
 
@@ -122,7 +121,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
             pins::mark(&painter, spot(pin.target), theme, (pin.kind, Emphasis::Plain));
         }
     }
-    if editor.pair.is_some() {
+    if editor.tools.pair().is_some() {
         pins::ghost(&painter, spot(target), theme);
     }
     let cross = Stroke::new(1.0, theme.selection);

@@ -1,15 +1,15 @@
 //! What both panes share: header, message bars, marks and legend.
 
 use eframe::egui;
-use egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, Vec2, WidgetInfo};
+use egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, Vec2};
 use glam::DVec2;
 
 use crate::session::{Action, Message, Place, Severity};
+use crate::ui::controls::{Control, list, sentence, tip_with_keys};
 use crate::ui::editor::scene::Legend;
 use crate::ui::icons::{self, Sign};
-use crate::ui::panels::method_panel::sentence;
 use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Pane, Request, Shading, keys_of};
+use crate::ui::{Editor, Pane, Request, Shading};
 
 /// A point of the screen as the camera takes it, relative to the pane.
 pub(super) fn in_pane(rect: Rect, position: Pos2) -> DVec2 {
@@ -44,12 +44,9 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
             } else {
                 ("Full", "Show this pane alone")
             };
-            let tip = format!("{words} ({})", keys_of(ui.ctx(), &Request::TogglePane));
+            let tip = tip_with_keys(ui, words, &Request::TogglePane);
             let button = ui.add(egui::Button::new(glyph).frame(false)).on_hover_text(tip);
-            button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{words}: {title}")));
-            if button.clicked() {
-                requests.push(Request::ToggleFull(pane));
-            }
+            button.named(Role::Button, &format!("{words}: {title}")).asks(Request::ToggleFull(pane), requests);
             if pane == Pane::Plane {
                 hull_switch(ui, editor, requests);
             }
@@ -61,29 +58,24 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
 }
 
 fn hull_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let switch = ui.selectable_label(editor.hull.shown, "Hull");
-    let tip = format!("Hull and pockets of the virtual boundary ({})", keys_of(ui.ctx(), &Request::ToggleHull));
-    if switch.on_hover_text(tip).clicked() {
-        requests.push(Request::ToggleHull);
-    }
+    let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
+    let switch = ui.selectable_label(editor.hull.shown, "Hull").on_hover_text(tip);
+    switch.asks(Request::ToggleHull, requests);
 }
 
 fn shading_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let wire = ui.selectable_label(editor.look.wireframe, "Wire");
-    let tip = format!("Wireframe ({})", keys_of(ui.ctx(), &Request::ToggleWireframe));
-    if wire.on_hover_text(tip).clicked() {
-        requests.push(Request::ToggleWireframe);
-    }
-    let menu = egui::ComboBox::from_id_salt("shading").selected_text(editor.look.shading.title()).show_ui(ui, |ui| {
+    let tip = tip_with_keys(ui, "Wireframe", &Request::ToggleWireframe);
+    let wire = ui.selectable_label(editor.look.wireframe, "Wire").on_hover_text(tip);
+    wire.asks(Request::ToggleWireframe, requests);
+    let width = ui.spacing().combo_width;
+    list(ui, "Shading of both panes", width, editor.look.shading.title(), |ui| {
         for shading in Shading::ALL {
             let request = Request::SetShading(shading);
-            let tip = format!("{} ({})", shading.about(), keys_of(ui.ctx(), &request));
-            if ui.selectable_label(editor.look.shading == shading, shading.title()).on_hover_text(tip).clicked() {
-                requests.push(request);
-            }
+            let tip = tip_with_keys(ui, shading.about(), &request);
+            let entry = ui.selectable_label(editor.look.shading == shading, shading.title()).on_hover_text(tip);
+            entry.asks(request, requests);
         }
     });
-    menu.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Shading of both panes"));
 }
 
 /// Messages that belong to a pane: what happened, where, what to do. They stay until dismissed or mended.
@@ -102,11 +94,11 @@ pub(super) fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: Place, req
 
 fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
-    let (colour, sign) = match message.severity {
-        Severity::Note => (theme.planar, Sign::Good),
-        Severity::Error => (theme.flipped, Sign::Bad),
+    let sign = match message.severity {
+        Severity::Note => Sign::Good,
+        Severity::Error => Sign::Bad,
     };
-    bar(ui, (colour, sign), |ui| {
+    bar(ui, sign, |ui| {
         ui.add(egui::Label::new(sentence(&message.text)).wrap());
         if let Some(remedy) = &message.remedy {
             ui.add(egui::Label::new(egui::RichText::new(sentence(remedy)).color(theme.weak_text)).wrap());
@@ -116,31 +108,31 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
 }
 
 /// A bar over a pane, with its sign at the left.
-pub(in crate::ui) fn bar(ui: &mut egui::Ui, (colour, sign): (Color32, Sign), add: impl FnOnce(&mut egui::Ui)) {
+pub(in crate::ui) fn bar(ui: &mut egui::Ui, sign: Sign, add: impl FnOnce(&mut egui::Ui)) {
+    let theme = theme_of(ui);
     let frame = egui::Frame::new()
-        .fill(colour.gamma_multiply(0.14))
+        .fill(sign.colour(theme).gamma_multiply(0.14))
         .inner_margin(8)
         .outer_margin(egui::Margin::symmetric(4, 2));
     frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.horizontal_top(|ui| {
             let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
-            icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), sign, colour);
+            icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), sign, theme);
             ui.vertical(add);
         });
     });
 }
 
 fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
-    if !message.vertices.is_empty() && ui.small_button("Go to").on_hover_text("Show it in the mesh").clicked() {
-        requests.push(Request::GoTo(message.vertices.clone()));
+    if !message.vertices.is_empty() {
+        let go = ui.small_button("Go to").on_hover_text("Show it in the mesh");
+        go.asks(Request::GoTo(message.vertices.clone()), requests);
     }
     if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
         ui.ctx().copy_text(message.text.clone());
     }
-    if ui.small_button("Dismiss").clicked() {
-        requests.push(Request::Do(Action::Dismiss(message.id)));
-    }
+    ui.small_button("Dismiss").asks(Action::Dismiss(message.id), requests);
 }
 
 /// Words in the middle of a pane that has nothing to show.
@@ -213,9 +205,7 @@ pub(in crate::ui) fn legend(ui: &egui::Ui, rect: Rect, legend: &Legend, title: &
 pub(in crate::ui) fn surface(ui: &mut egui::Ui, name: &str) -> (Rect, egui::Response) {
     let size = ui.available_size().max(Vec2::splat(16.0));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-    let name = name.to_owned();
-    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    (rect, response)
+    (rect, response.named(Role::Image, name))
 }
 
 /// What the wheel and the trackpad did over a pane.

@@ -91,7 +91,7 @@ impl Editor {
     /// The selected vertices that are pins of the user's.
     pub fn pins_selected(&self) -> impl Iterator<Item = VertexId> + '_ {
         let pins = &self.session.document().pins;
-        self.selection.iter().copied().filter(|vertex| pins.contains_key(vertex))
+        self.selection.vertices().iter().copied().filter(|vertex| pins.contains_key(vertex))
     }
 }
 

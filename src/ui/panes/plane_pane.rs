@@ -87,12 +87,11 @@ fn look_under(
     pointer: Option<Pos2>,
 ) {
     let size = pane::size_of(rect);
-    editor.pane_under_pointer = Some(Pane::Plane);
     let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, rect, camera, at));
     let pointer = pointer.map(|at| pane::in_pane(rect, at));
-    editor.pointer_in_embedding = pointer.map(|at| camera.embedding_from_pane(at, size));
     let pick = pointer.and_then(|at| plane.picker.nearest_vertex(&camera, size, at));
-    editor.hovered = grip.or(pick.map(|pick| pick.vertex));
+    let place = pointer.map(|at| camera.embedding_from_pane(at, size));
+    editor.pointer.over_plane(place, grip.or(pick.map(|pick| pick.vertex)));
     editor.aim(ui, Pane::Plane, grip);
 }
 
@@ -207,10 +206,10 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
         let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
         constrain::preview(&over, ui, editor, &spot);
     }
-    for &vertex in editor.selection.iter().take(MARKS_SHOWN) {
+    for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
         pane::halo(&over, spot(vertex), theme.selection, 6.0);
     }
-    if let Some(vertex) = editor.hovered {
+    if let Some(vertex) = editor.pointer.vertex() {
         pane::halo(&over, spot(vertex), theme.selection, 5.0);
     }
 }

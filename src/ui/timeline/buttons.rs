@@ -2,12 +2,13 @@
 
 use eframe::egui;
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, Color32, PopupCloseBehavior, Rect, RichText, Role, Sense, Shape, Stroke, Vec2, WidgetInfo};
+use egui::{Button, Color32, PopupCloseBehavior, Rect, RichText, Role, Sense, Shape, Stroke, Vec2};
 
 use super::Room;
 use crate::session::{Action, StopConditions};
+use crate::ui::controls::{Control, tip_with_keys};
 use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request, StepTarget, keys_of};
+use crate::ui::{Editor, Request, StepTarget};
 
 /// Side of a button with a drawing, points.
 const BUTTON: f32 = 24.0;
@@ -28,13 +29,10 @@ enum Drawing {
 /// Through the steps that there are.
 pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.spacing_mut().item_spacing.x = 2.0;
-    let timeline = editor.session.timeline();
-    let shown = timeline.shown();
-    let has_previous = shown.and_then(|shown| timeline.previous_kept(shown)).is_some();
-    let has_next = shown.and_then(|shown| timeline.next_kept(shown)).is_some();
+    let [has_previous, has_next] = editor.steps_around();
     let is_playing = editor.timeline.playing_since.is_some();
-    let play = if is_playing { Drawing::Pause } else { Drawing::Play };
-    let play_name = if is_playing { "Stop playing" } else { "Play the steps" };
+    let (play, play_name) =
+        if is_playing { (Drawing::Pause, "Stop playing") } else { (Drawing::Play, "Play the steps") };
     let buttons = [
         (Drawing::First, "First step", has_previous, Request::GoToStep(StepTarget::First)),
         (Drawing::Previous, "Previous step", has_previous, Request::GoToStep(StepTarget::Previous)),
@@ -43,10 +41,7 @@ pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mu
         (Drawing::Last, "Last step", has_next, Request::GoToStep(StepTarget::Last)),
     ];
     for (drawing, name, enabled, request) in buttons {
-        let clicked = ui.add_enabled_ui(enabled, |ui| drawn_button(ui, drawing, name, &request)).inner;
-        if clicked {
-            requests.push(request);
-        }
+        ui.add_enabled_ui(enabled, |ui| drawn_button(ui, drawing, name, request, requests));
     }
 }
 
@@ -54,17 +49,13 @@ pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mu
 pub(super) fn fold_button(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let shown = editor.timeline.curves_shown();
     let (drawing, name) = if shown { (Drawing::FoldDown, "Hide the curves") } else { (Drawing::FoldUp, "Curves") };
-    if drawn_button(ui, drawing, name, &Request::ToggleCurves) {
-        requests.push(Request::ToggleCurves);
-    }
+    drawn_button(ui, drawing, name, Request::ToggleCurves, requests);
 }
 
-fn drawn_button(ui: &mut egui::Ui, drawing: Drawing, name: &str, request: &Request) -> bool {
-    let enabled = ui.is_enabled();
+fn drawn_button(ui: &mut egui::Ui, drawing: Drawing, name: &str, request: Request, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
     let theme = theme_of(ui);
-    if enabled && response.hovered() {
+    if ui.is_enabled() && response.hovered() {
         ui.painter().rect_filled(rect, 4.0, theme.accent.gamma_multiply(0.12));
     }
     if response.has_focus() {
@@ -72,45 +63,47 @@ fn drawn_button(ui: &mut egui::Ui, drawing: Drawing, name: &str, request: &Reque
     }
     // Where it does nothing, egui draws it faintly.
     draw(ui.painter(), rect, drawing, theme.text);
-    let keys = keys_of(ui.ctx(), request);
-    let tip = if keys.is_empty() { name.to_owned() } else { format!("{name} ({keys})") };
-    response.on_hover_text(&tip).on_disabled_hover_text(&tip).clicked()
+    let tip = tip_with_keys(ui, name, &request);
+    let response = response.named(Role::Button, name).on_hover_text(&tip).on_disabled_hover_text(&tip);
+    response.asks(request, requests);
 }
 
 fn draw(painter: &egui::Painter, rect: Rect, drawing: Drawing, colour: Color32) {
     let middle = rect.center();
-    let triangle = |x: f32, towards: f32| {
-        let tip = middle + Vec2::new(x + 4.0 * towards, 0.0);
-        let base = [-4.5, 4.5].map(|y| middle + Vec2::new(x - 4.0 * towards, y));
-        painter.add(Shape::convex_polygon(vec![tip, base[0], base[1]], colour, Stroke::NONE));
+    let at = |x: f32, y: f32| middle + Vec2::new(x, y);
+    // From the tip to the base and half as high, points.
+    let triangle = |tip: f32, base: f32, half: f32| {
+        let corners = vec![at(tip, 0.0), at(base, -half), at(base, half)];
+        painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
     };
     let bar = |x: f32| {
-        painter.rect_filled(Rect::from_center_size(middle + Vec2::new(x, 0.0), Vec2::new(2.0, 9.0)), 0.0, colour);
+        painter.rect_filled(Rect::from_center_size(at(x, 0.0), Vec2::new(2.0, 9.0)), 0.0, colour);
+    };
+    let ring = || {
+        painter.circle_stroke(middle, 9.0, Stroke::new(1.3, colour));
     };
     let chevron = |up: f32| {
-        let points = [(-4.0, 2.0), (0.0, -2.0), (4.0, 2.0)].map(|(x, y)| middle + Vec2::new(x, y * up));
-        painter.add(Shape::line(points.to_vec(), Stroke::new(1.6, colour)));
+        let points = vec![at(-4.0, 2.0 * up), at(0.0, -2.0 * up), at(4.0, 2.0 * up)];
+        painter.add(Shape::line(points, Stroke::new(1.6, colour)));
     };
     match drawing {
         Drawing::First => {
             bar(-5.0);
-            triangle(1.0, -1.0);
+            triangle(-3.0, 5.0, 4.5);
         }
-        Drawing::Previous => triangle(-0.5, -1.0),
+        Drawing::Previous => triangle(-4.5, 3.5, 4.5),
         Drawing::Play => {
-            painter.circle_stroke(middle, 9.0, Stroke::new(1.3, colour));
-            let tip = middle + Vec2::new(5.0, 0.0);
-            let base = [-4.0, 4.0].map(|y| middle + Vec2::new(-2.5, y));
-            painter.add(Shape::convex_polygon(vec![tip, base[0], base[1]], colour, Stroke::NONE));
+            ring();
+            triangle(5.0, -2.5, 4.0);
         }
         Drawing::Pause => {
-            painter.circle_stroke(middle, 9.0, Stroke::new(1.3, colour));
+            ring();
             bar(-2.5);
             bar(2.5);
         }
-        Drawing::Next => triangle(0.5, 1.0),
+        Drawing::Next => triangle(4.5, -3.5, 4.5),
         Drawing::Last => {
-            triangle(-1.0, 1.0);
+            triangle(3.0, -5.0, 4.5);
             bar(5.0);
         }
         Drawing::FoldDown => chevron(-1.0),
@@ -123,31 +116,26 @@ pub(super) fn run_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec
     ui.spacing_mut().item_spacing.x = 4.0;
     let session = &editor.session;
     let theme = theme_of(ui);
-    let is_disk = session.model().is_some_and(|model| model.disk().is_some());
-    let step = Request::Do(Action::Step);
+    let is_disk = editor.has_disk();
     let button = if session.is_held() {
         // The one thing to do for whoever has just begun.
         Button::new(RichText::new("Step").color(theme.panel)).fill(theme.accent)
     } else {
         Button::new("Step")
     };
-    let tip = format!("Take one further step ({})", keys_of(ui.ctx(), &step));
-    if ui.add_enabled(is_disk, button).on_hover_text(tip).clicked() {
-        requests.push(step);
-    }
-    let run = Request::RunOrPause;
-    let keys = keys_of(ui.ctx(), &run);
+    let step = Action::Step.into();
+    let tip = tip_with_keys(ui, "Take one further step", &step);
+    ui.add_enabled(is_disk, button).on_hover_text(tip).asks(step, requests);
     let (words, enabled, tip) = if session.is_running() {
-        ("Pause", true, format!("Rest after the steps that there are ({keys})"))
+        ("Pause", true, "Rest after the steps that there are")
     } else {
-        ("Run", session.can_run(), format!("Go on until something stops it ({keys})"))
+        ("Run", session.can_run(), "Go on until something stops it")
     };
+    let tip = tip_with_keys(ui, tip, &Request::RunOrPause);
     let at_rest = session.stopped().map_or("", crate::session::Stop::words);
     let response = ui.add_enabled(enabled, Button::new(words).min_size(Vec2::new(50.0, 0.0)));
     let response = response.on_disabled_hover_text(format!("At rest: {at_rest}. A single step goes on all the same."));
-    if response.on_hover_text(tip).clicked() {
-        requests.push(run);
-    }
+    response.on_hover_text(tip).asks(Request::RunOrPause, requests);
     ui.add_space(4.0);
 }
 
@@ -169,15 +157,14 @@ pub(super) fn stop_menu(ui: &mut egui::Ui, editor: &Editor, room: Room, requests
             }
             if let Some(step) = &mut stop.at_step {
                 let field = ui.add(egui::DragValue::new(step).range(0..=100_000)).on_hover_text("Step, counted from 0");
-                field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "Step to stop at"));
+                field.named(Role::SpinButton, "Step to stop at");
             }
         });
         ui.weak("The end of the method always counts.");
     });
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Where a run stops"));
-    response.on_hover_text("Where a run comes to rest");
+    response.named(Role::Button, "Where a run stops").on_hover_text("Where a run comes to rest");
     if stop != before {
-        requests.push(Request::Do(Action::SetStop(stop)));
+        requests.push(Action::SetStop(stop).into());
     }
 }
 

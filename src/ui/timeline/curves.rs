@@ -1,13 +1,14 @@
 //! The numbers of the steps as curves, side by side. A click goes to the step under the pointer.
 
 use eframe::egui;
-use egui::{Align, Color32, Layout, Rect, RichText, Role, Sense, WidgetInfo};
+use egui::{Align, Color32, Layout, Rect, RichText, Role, Sense};
 use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoints, PlotResponse, Points, VLine};
 
 use super::TimelineView;
 use super::buttons::lasting_menu;
 use crate::io::StepReport;
 use crate::session::{Action, Standing, Timeline};
+use crate::ui::controls::{Control, remark};
 use crate::ui::panels::status::short;
 use crate::ui::theme::{Theme, theme_of};
 use crate::ui::{Editor, Request};
@@ -35,8 +36,8 @@ struct Curve {
     title: &'static str,
     about: &'static str,
     scale: CurveScale,
-    value: fn(&StepReport, &Standing) -> Option<f64>,
-    colour: fn(&Theme) -> Color32,
+    value: ValueOf,
+    colour: ColourOf,
 }
 
 /// How a number goes up.
@@ -48,70 +49,67 @@ enum CurveScale {
     Powers,
 }
 
+type ValueOf = fn(&StepReport, &Standing) -> Option<f64>;
+type ColourOf = fn(&Theme) -> Color32;
+
+const fn count(title: &'static str, about: &'static str, value: ValueOf, colour: ColourOf) -> Curve {
+    Curve { title, about, scale: CurveScale::Count, value, colour }
+}
+
+const fn size(title: &'static str, about: &'static str, value: ValueOf, colour: ColourOf) -> Curve {
+    Curve { title, about, scale: CurveScale::Powers, value, colour }
+}
+
 const CURVES: [Curve; CURVE_COUNT] = [
-    Curve {
-        title: "Flipped",
-        about: "flipped faces",
-        scale: CurveScale::Count,
-        value: |record, _| Some(record.flipped_faces as f64),
-        colour: |theme| theme.flipped,
-    },
-    Curve {
-        title: "Crossings",
-        about: "pairs of boundary edges that cross",
-        scale: CurveScale::Count,
-        value: |record, _| Some(record.boundary_crossings as f64),
-        colour: |theme| theme.crossing,
-    },
-    Curve {
-        title: "Largest move",
-        about: "largest move of a vertex since the step before, in units of the plane; by powers of ten",
-        scale: CurveScale::Powers,
-        value: |record, _| record.max_move,
-        colour: |theme| theme.accent,
-    },
-    Curve {
-        title: "Distance left",
-        about: "largest distance of an exact pin from its target, in units of the plane; by powers of ten",
-        scale: CurveScale::Powers,
-        value: |_, standing| standing.progress.map(|progress| progress.distance_left),
-        colour: |theme| theme.unmet,
-    },
-    Curve {
-        title: "Energy",
-        about: "mean symmetric Dirichlet energy: 4 where nothing is distorted",
-        scale: CurveScale::Powers,
-        value: |_, standing| standing.progress.map(|progress| progress.energy),
-        colour: |theme| theme.constraint,
-    },
-    Curve {
-        title: "Equation residual",
-        about: "|A z| of all equations relative to their terms; by powers of ten",
-        scale: CurveScale::Powers,
-        value: |record, _| record.equation_residual.filter(|residual| residual.is_finite()),
-        colour: |theme| theme.accent,
-    },
-    Curve {
-        title: "Overwound",
-        about: "overwound vertices",
-        scale: CurveScale::Count,
-        value: |record, _| Some(record.overwound_vertices as f64),
-        colour: |theme| theme.overwound,
-    },
-    Curve {
-        title: "Residual",
-        about: "|Ax − b| / |b| of the step's linear solve; by powers of ten",
-        scale: CurveScale::Powers,
-        value: |record, _| record.residual.filter(|residual| residual.is_finite()),
-        colour: |theme| theme.weak_text,
-    },
-    Curve {
-        title: "Determinant",
-        about: "smallest determinant of a face's map, at equal total areas; by powers of ten",
-        scale: CurveScale::Powers,
-        value: |_, standing| standing.progress.map(|progress| progress.least_determinant),
-        colour: |theme| theme.planar,
-    },
+    count("Flipped", "flipped faces", |record, _| Some(record.flipped_faces as f64), |theme| theme.flipped),
+    count(
+        "Crossings",
+        "pairs of boundary edges that cross",
+        |record, _| Some(record.boundary_crossings as f64),
+        |theme| theme.crossing,
+    ),
+    size(
+        "Largest move",
+        "largest move of a vertex since the step before, in units of the plane; by powers of ten",
+        |record, _| record.max_move,
+        |theme| theme.accent,
+    ),
+    size(
+        "Distance left",
+        "largest distance of an exact pin from its target, in units of the plane; by powers of ten",
+        |_, standing| Some(standing.progress?.distance_left),
+        |theme| theme.unmet,
+    ),
+    size(
+        "Energy",
+        "mean symmetric Dirichlet energy: 4 where nothing is distorted",
+        |_, standing| Some(standing.progress?.energy),
+        |theme| theme.constraint,
+    ),
+    size(
+        "Equation residual",
+        "|A z| of all equations relative to their terms; by powers of ten",
+        |record, _| record.equation_residual.filter(|residual| residual.is_finite()),
+        |theme| theme.accent,
+    ),
+    count(
+        "Overwound",
+        "overwound vertices",
+        |record, _| Some(record.overwound_vertices as f64),
+        |theme| theme.overwound,
+    ),
+    size(
+        "Residual",
+        "|Ax − b| / |b| of the step's linear solve; by powers of ten",
+        |record, _| record.residual.filter(|residual| residual.is_finite()),
+        |theme| theme.weak_text,
+    ),
+    size(
+        "Determinant",
+        "smallest determinant of a face's map, at equal total areas; by powers of ten",
+        |_, standing| Some(standing.progress?.least_determinant),
+        |theme| theme.planar,
+    ),
 ];
 
 impl Curve {
@@ -129,13 +127,12 @@ impl Curve {
     }
 
     /// A value in words.
-    fn words(&self, timeline: &Timeline, index: usize) -> String {
-        match (self.value_at(timeline, index), self.scale) {
-            (None, _) => NO_NUMBER.to_owned(),
-            (Some(value), CurveScale::Count) => format!("{value:.0}"),
-            (Some(0.0), CurveScale::Powers) => "0".to_owned(),
-            (Some(value), CurveScale::Powers) if (0.01..1e4).contains(&value) => short(value),
-            (Some(value), CurveScale::Powers) => format!("{value:.1e}"),
+    fn words(&self, value: f64) -> String {
+        match self.scale {
+            CurveScale::Count => format!("{value:.0}"),
+            CurveScale::Powers if value == 0.0 => "0".to_owned(),
+            CurveScale::Powers if (0.01..1e4).contains(&value) => short(value),
+            CurveScale::Powers => format!("{value:.1e}"),
         }
     }
 }
@@ -149,8 +146,7 @@ pub(super) fn curves_menu(ui: &mut egui::Ui, view: &mut TimelineView) {
             *hidden = !shown;
         }
     });
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Which curves show"));
-    response.on_hover_text(
+    response.named(Role::Button, "Which curves show").on_hover_text(
         "Which curves show: those that the steps have numbers for, as many as there is room for, the first ones first.",
     );
 }
@@ -160,12 +156,10 @@ pub(in crate::ui) fn curves(ui: &mut egui::Ui, editor: &Editor, requests: &mut V
     let all = ui.available_rect_before_wrap().shrink2(egui::vec2(4.0, 0.0));
     let timeline = editor.session.timeline();
     let has_numbers = |curve: &Curve| (0..timeline.records().len()).any(|i| curve.value_at(timeline, i).is_some());
-    let wanted =
-        CURVES.iter().zip(editor.timeline.curves_hidden).filter(|(curve, hidden)| !hidden && has_numbers(curve));
-    let wanted = wanted.map(|(curve, _)| curve);
+    let wanted = CURVES.iter().zip(editor.timeline.curves_hidden).filter(|(_, hidden)| !hidden).map(|(curve, _)| curve);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few curves have room")]
     let room = (((all.width() + GAP) / (LEAST_WIDTH + GAP)) as usize).max(1);
-    let shown: Vec<&Curve> = wanted.take(room).collect();
+    let shown: Vec<&Curve> = wanted.filter(|curve| has_numbers(curve)).take(room).collect();
     let width = (all.width() + GAP) / shown.len().max(1) as f32 - GAP;
     for (place, curve) in shown.into_iter().enumerate() {
         let left = all.left() + place as f32 * (width + GAP);
@@ -180,15 +174,16 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
     let theme = theme_of(ui);
     let records = timeline.records();
     ui.horizontal(|ui| {
-        ui.label(RichText::new(curve.title).small().color(theme.weak_text)).on_hover_text(curve.about);
+        remark(ui, curve.title).on_hover_text(curve.about);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if let Some(shown) = timeline.shown() {
-                ui.label(RichText::new(curve.words(timeline, shown)).small().color(theme.text));
+                let words = curve.value_at(timeline, shown).map_or_else(|| NO_NUMBER.to_owned(), |v| curve.words(v));
+                ui.label(RichText::new(words).small().color(theme.text));
             }
         });
     });
     let PlotResponse { response, transform, .. } = plot(ui, curve, timeline);
-    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, format!("Curve: {}", curve.about)));
+    let response = response.named(Role::Image, &format!("Curve: {}", curve.about));
     let Some(pointer) = response.hover_pos() else { return };
     let index = nearest(transform.value_from_position(pointer).x, records.len());
     ui.painter().with_clip_rect(response.rect).vline(
@@ -196,11 +191,9 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
         response.rect.y_range(),
         egui::Stroke::new(1.0, theme.weak_text.gamma_multiply(0.6)),
     );
-    if response.clicked() {
-        requests.push(Request::Do(Action::ShowStep(index)));
-    }
-    let words = curve.words(timeline, index);
-    let words = if words == NO_NUMBER { "this step has no such number".to_owned() } else { words };
+    response.asks(Action::ShowStep(index), requests);
+    let value = curve.value_at(timeline, index);
+    let words = value.map_or_else(|| "this step has no such number".to_owned(), |value| curve.words(value));
     response.on_hover_text_at_pointer(format!("Step {index}: {words}\n{}", curve.about));
 }
 
@@ -240,8 +233,8 @@ fn plot(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline) -> PlotResponse<(
 
 /// A plot that only shows: it can neither be dragged nor zoomed, and its ends are those of the run.
 fn base<'a>(theme: &Theme, curve: &Curve, points: &[[f64; 2]], count: usize) -> Plot<'a> {
-    let low = points.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
-    let high = points.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
+    let heights = || points.iter().map(|point| point[1]);
+    let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
     let (low, high) = match curve.scale {
         CurveScale::Count => (0.0, high.max(1.0)),
         CurveScale::Powers if low <= high => (low - 0.5, high + 0.5),

@@ -8,6 +8,7 @@ use eframe::egui;
 use egui::{Align, Layout, RichText};
 
 use crate::session::Stop;
+use crate::ui::controls::remark;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Request};
 use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
@@ -81,7 +82,7 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
                 }
                 stop_menu(ui, editor, room, requests);
                 if let Some(words) = rest_words(editor).filter(|_| room == Room::Ample) {
-                    ui.label(RichText::new(words).small().color(theme_of(ui).weak_text));
+                    remark(ui, words);
                 }
                 ui.add_space(6.0);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| chips(ui, editor, requests));

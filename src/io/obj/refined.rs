@@ -1,6 +1,6 @@
 //! An OBJ file's mesh with new vertices: everything else as it was.
 
-use super::obj::{ObjMesh, Statement};
+use super::{ObjMesh, Statement};
 use crate::mesh::{PolygonMesh, Refinement, VertexId};
 
 /// The mesh of a file with the new vertices of a refinement of it.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::obj::ObjMesh;
+use super::ObjMesh;
 
 /// The picture on most faces, as the materials of an OBJ file at `path` say. `None` where no material that is in use
 /// names a picture. The picture itself need not be there.

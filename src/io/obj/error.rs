@@ -1,4 +1,4 @@
-//! Everything that can keep a file from being read or written.
+//! Everything that can keep an OBJ file from being read.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -187,14 +187,4 @@ pub enum TextureError {
         /// The file's numbers of these faces, from 0.
         faces: Vec<u32>,
     },
-}
-
-/// Why a file was not written. Nothing of it is left behind.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot write the file: {source}: {}", path.display())]
-pub struct WriteError {
-    /// The file that was to be written.
-    pub path: PathBuf,
-    /// What the operating system says.
-    pub source: std::io::Error,
 }

@@ -2,7 +2,9 @@
 
 use std::io::{self, Write};
 
-use super::obj::ObjMesh;
+use glam::DVec2;
+
+use super::ObjMesh;
 use crate::solver::Embedding;
 
 /// Writes a mesh with one texture coordinate per vertex, or with none if `texture` is empty.

@@ -4,9 +4,10 @@ use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::obj::{ObjMesh, Statement};
-use super::output::TexturePicture;
-use super::{WriteError, write_atomically, write_obj};
+use glam::DVec2;
+
+use super::{ObjMesh, Statement, write_obj};
+use crate::io::{TexturePicture, WriteError, write_atomically};
 use crate::solver::Embedding;
 
 /// Name of the material.
@@ -15,31 +16,34 @@ const MATERIAL: &str = "picture";
 /// How the material libraries written here begin, by which they are known again.
 const HEAD: &str = "# Freebound: the picture of ";
 
-/// Writes a mesh with texture coordinates, v up, whose only material shows a picture.
-///
-/// Names in the files are relative and without blanks, which not all readers take. A picture that lies in the same
-/// folder already is named where it is; another one is copied byte for byte, and one that came from no file is written
-/// as a PNG. Files of others are never written over. The mesh comes last, so that what it names is there.
-///
-/// # Errors
-///
-/// The file that cannot be written or, of the picture, read.
-pub(super) fn write_obj_with_picture(
-    path: &Path,
-    (mesh, coordinates): (&ObjMesh, &Embedding),
-    picture: &TexturePicture,
-) -> Result<(), WriteError> {
-    let picture_name = put_picture(path, picture)?;
-    let library = library_beside(path);
-    let library_name = name_of(&library);
-    write_atomically(&library, |out| {
-        out.write_all(head_for(path).as_bytes())?;
-        writeln!(out, "newmtl {MATERIAL}")?;
-        writeln!(out, "Ka 0 0 0\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1")?;
-        writeln!(out, "map_Kd {picture_name}")
-    })?;
-    let textured = with_material(mesh, &library_name);
-    write_atomically(path, |out| write_obj(out, &textured, coordinates))
+impl TexturePicture<'_> {
+    /// Writes a mesh with texture coordinates, v up, whose only material shows this picture.
+    ///
+    /// Names in the files are relative and without blanks, which not all readers take. A picture that lies in the same
+    /// folder already is named where it is; another one is copied byte for byte, and one that came from no file is written
+    /// as a PNG. Files of others are never written over. The mesh comes last, so that what it names is there.
+    ///
+    /// # Errors
+    ///
+    /// The file that cannot be written or, of the picture, read.
+    pub(in crate::io) fn write_beside(
+        &self,
+        path: &Path,
+        mesh: &ObjMesh,
+        coordinates: &Embedding,
+    ) -> Result<(), WriteError> {
+        let picture_name = put_picture(path, self)?;
+        let library = library_beside(path);
+        let library_name = name_of(&library);
+        write_atomically(&library, |out| {
+            out.write_all(head_for(path).as_bytes())?;
+            writeln!(out, "newmtl {MATERIAL}")?;
+            writeln!(out, "Ka 0 0 0\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1")?;
+            writeln!(out, "map_Kd {picture_name}")
+        })?;
+        let textured = with_material(mesh, &library_name);
+        write_atomically(path, |out| write_obj(out, &textured, coordinates))
+    }
 }
 
 /// The mesh with this material on all faces, and with no other.

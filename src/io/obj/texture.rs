@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::error::TextureError;
-use super::obj::{NO_TEXTURE, ObjMesh, Texture};
+use super::{NO_TEXTURE, ObjMesh, Texture, TextureError};
 use crate::mesh::{TriMesh, VertexId};
 use crate::solver::Embedding;
 

@@ -1,15 +1,24 @@
 //! Project files: what a person has made of a mesh, as JSON that a person can read.
 //!
+//! | file     | what it holds                                    |
+//! |----------|--------------------------------------------------|
+//! | `mod`    | a project, read and written; paths in it         |
+//! | `error`  | why a file did not become a project              |
+//! | `fields` | the fields of the file: names, order, defaults   |
+//!
 //! A project names mesh and picture and holds everything else. Fields that this version does not know are ignored, so
 //! that a later version can add some; one that changes what fields mean takes the next [`PROJECT_VERSION`].
+
+mod error;
+mod fields;
 
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::json_fault::json_fault;
-use super::project_json::RawProject;
+pub use self::error::ProjectError;
+use self::fields::{ProjectFields, SourceFields};
 use super::{FileStamp, WriteError, write_durably};
 use crate::geom::VAxis;
 use crate::solver::{Pins, Settings};
@@ -42,7 +51,8 @@ pub struct ProjectFile {
 }
 
 /// Where a mesh or a picture is.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "SourceFields", into = "SourceFields")]
 pub enum ProjectSource {
     /// In a file.
     File {
@@ -92,61 +102,6 @@ pub enum PathStyle {
     Absolute,
 }
 
-/// Why a file did not become a project.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum ProjectError {
-    /// The file cannot be read.
-    #[error("cannot read the project: {source}: {}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What the operating system says.
-        source: io::Error,
-    },
-    /// The file is something else.
-    #[error("this is no Freebound project: {}", path.display())]
-    NotAProject {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The file has a later format.
-    #[error(
-        "a newer Freebound wrote this project: its format is {version}, this one reads up to {PROJECT_VERSION}: {}",
-        path.display()
-    )]
-    Newer {
-        /// The file.
-        path: PathBuf,
-        /// Its format.
-        version: u64,
-    },
-    /// A field that cannot be.
-    #[error("line {line}, {field}: {reason}: {}", path.display())]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// The line, counted from 1.
-        line: usize,
-        /// The field, such as `pins[3].hold`.
-        field: String,
-        /// What is wrong with it.
-        reason: String,
-    },
-}
-
-impl ProjectError {
-    /// What to do about it.
-    pub const fn remedy(&self) -> &'static str {
-        match self {
-            Self::File { .. } => "check the path and the permissions",
-            Self::NotAProject { .. } => "choose a file that Freebound has saved as a project",
-            Self::Newer { .. } => "open it with a newer version of Freebound",
-            Self::Malformed { .. } => "mend this line in a text editor",
-        }
-    }
-}
-
 /// All that is read of a file before its version is known.
 #[derive(Deserialize)]
 struct Head {
@@ -177,21 +132,16 @@ impl ProjectFile {
         let bytes = std::fs::read(path).map_err(|source| ProjectError::File { path: path.to_owned(), source })?;
         let not_a_project = || ProjectError::NotAProject { path: path.to_owned() };
         let text = std::str::from_utf8(&bytes).map_err(|_| not_a_project())?;
-        let malformed = |error: &serde_json::Error| {
-            let (line, field, reason) = json_fault(text, error);
-            ProjectError::Malformed { path: path.to_owned(), line, field, reason }
-        };
-        match serde_json::from_str(text) {
+        match parse(path, text) {
             Ok(Head { freebound_project: 0 }) => return Err(not_a_project()),
             Ok(Head { freebound_project: version }) if version > PROJECT_VERSION => {
                 return Err(ProjectError::Newer { path: path.to_owned(), version });
             }
             Ok(_) => {}
-            Err(error) if text.contains("\"freebound_project\"") => return Err(malformed(&error)),
+            Err(error) if text.contains("\"freebound_project\"") => return Err(error),
             Err(_) => return Err(not_a_project()),
         }
-        let raw: RawProject = serde_json::from_str(text).map_err(|error| malformed(&error))?;
-        let mut project = Self::from(raw);
+        let mut project = Self::from(parse::<ProjectFields>(path, text)?);
         let folder = whole_folder_of(path);
         for source in [Some(&mut project.mesh), project.picture.as_mut()].into_iter().flatten() {
             if let ProjectSource::File { path, .. } = source {
@@ -215,12 +165,27 @@ impl ProjectFile {
                 *path = named(path, &folder, style).map_err(failed)?;
             }
         }
-        let raw = RawProject::from(project);
+        let fields = ProjectFields::from(project);
         write_durably(path, |out| {
-            serde_json::to_writer_pretty(&mut *out, &raw)?;
+            serde_json::to_writer_pretty(&mut *out, &fields)?;
             writeln!(out)
         })
     }
+}
+
+/// Reads the text of a file; a fault is told with its line and its field.
+fn parse<'de, T: Deserialize<'de>>(path: &Path, text: &'de str) -> Result<T, ProjectError> {
+    let mut source = serde_json::Deserializer::from_str(text);
+    let malformed = |field: String, error: &serde_json::Error| {
+        let message = error.to_string();
+        let reason = message.rfind(" at line ").map_or(message.as_str(), |end| &message[..end]).to_owned();
+        let field = if field == "." { "the project".to_owned() } else { field };
+        ProjectError::Malformed { path: path.to_owned(), line: error.line(), field, reason }
+    };
+    let found = serde_path_to_error::deserialize(&mut source)
+        .map_err(|error| malformed(error.path().to_string(), error.inner()))?;
+    source.end().map_err(|error| malformed(".".to_owned(), &error))?;
+    Ok(found)
 }
 
 /// The folder that a file is in, from the root, links followed: so that `..` in it means what it says.

@@ -9,10 +9,9 @@ use std::io::{ErrorKind, Read};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::error::ReadError;
-use super::obj::ObjMesh;
-use super::obj_line::Words;
-use super::obj_parse::{Parser, format_of_word};
+use super::line::Words;
+use super::parse::{Parser, format_of_word};
+use super::{ObjMesh, ReadError};
 
 /// Bytes read at once.
 const CHUNK: usize = 256 << 10;

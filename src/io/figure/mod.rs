@@ -3,7 +3,6 @@
 //! Both come from one list of fills, strokes and words on a [`Page`], so that they show the same. Lengths on a page are
 //! points; x runs right, y down.
 
-mod base64;
 mod clip;
 mod font;
 mod ink;
@@ -22,7 +21,7 @@ use crate::geom::Picture;
 pub use font::has_glyph;
 pub use panel::{Outside, PlaneDrawing, Pockets, Window, zones_of};
 pub use photo::PhotoDrawing;
-pub use sheet::{Panel, Sheet};
+pub use sheet::{Drawing, Panel, Sheet};
 pub use space::SpaceDrawing;
 
 /// Colours of figures on white paper.

@@ -1,13 +1,43 @@
-//! What is kept of an OBJ file.
+//! OBJ files: what is kept of one, and the ways in and out.
+//!
+//! | file           | what it holds                                                           |
+//! |----------------|-------------------------------------------------------------------------|
+//! | `mod`          | what is kept of a file                                                  |
+//! | `read`         | reads a file in chunks, with progress                                   |
+//! | `parse`        | lines put together to a mesh                                            |
+//! | `line`         | words of a line: numbers and corners                                    |
+//! | `error`        | what can be wrong with a file, with line, fault and remedy              |
+//! | `texture`      | the mesh of the texture coordinates: the surface cut in the plane       |
+//! | `material`     | the picture that the materials name                                     |
+//! | `refined`      | a file's mesh with new vertices                                         |
+//! | `write`        | writes a file that reads back bit for bit                               |
+//! | `with_picture` | writes a file, its material and its picture side by side                |
 //!
 //! Vertex order, sharing, positions, polygons, texture coordinates and the statements among the faces are kept, so that
 //! the file can be written back. Normals, lines, points, vertex colours and comments are not.
+
+mod error;
+mod line;
+mod material;
+mod parse;
+mod read;
+mod refined;
+mod texture;
+mod with_picture;
+mod write;
 
 use std::borrow::Cow;
 
 use glam::DVec2;
 
 use crate::mesh::{PolygonMesh, TriMesh};
+
+pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
+pub use material::material_picture;
+pub use read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
+pub use refined::refined_obj;
+pub use texture::TextureMesh;
+pub use write::write_obj;
 
 /// Stands in [`Texture::corners`] where a corner has no texture coordinate.
 pub const NO_TEXTURE: u32 = u32::MAX;
@@ -22,7 +52,7 @@ pub struct ObjMesh {
     /// Names, groups, smoothing and materials, in file order.
     pub statements: Vec<Statement>,
     /// Runs of faces on consecutive lines: number of the first face and its line.
-    pub(super) line_runs: Vec<(u32, u64)>,
+    line_runs: Vec<(u32, u64)>,
 }
 
 /// Texture coordinates, and which of them each corner has.
@@ -82,7 +112,7 @@ impl ObjMesh {
 }
 
 /// The line of a face, from runs of faces on consecutive lines.
-pub(super) fn line_in_runs(runs: &[(u32, u64)], face: u32) -> Option<u64> {
+fn line_in_runs(runs: &[(u32, u64)], face: u32) -> Option<u64> {
     let after = runs.partition_point(|&(first, _)| first <= face);
     let &(first, line) = runs.get(after.checked_sub(1)?)?;
     Some(line + u64::from(face - first))

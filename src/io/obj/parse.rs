@@ -5,8 +5,8 @@
 use glam::{DVec2, DVec3};
 
 use super::error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError};
-use super::obj::{NO_TEXTURE, ObjMesh, Statement, Texture, line_in_runs};
-use super::obj_line::{Words, corner, numbers};
+use super::line::{Words, corner, numbers};
+use super::{NO_TEXTURE, ObjMesh, Statement, Texture, line_in_runs};
 use crate::mesh::VertexId;
 
 /// The mesh as far as it is read.
