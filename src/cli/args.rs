@@ -7,8 +7,9 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
+use crate::io::Target;
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Pin, Settings, Treatment};
+use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -60,7 +61,7 @@ pub struct FlattenArguments {
     pub family: Option<Family>,
     /// Pin a vertex, numbered from 0, at u,v: exactly, or pulled there by a weight. Repeatable.
     #[arg(long = "pin", value_name = "V:U,V[:WEIGHT]", value_parser = parse_pin, allow_hyphen_values = true)]
-    pub pins: Vec<(VertexId, Pin)>,
+    pub pins: Vec<(VertexId, Target)>,
     /// Pin vertices as a file says: lines `vertex u v [weight]`, vertices numbered from 0, comments behind a #.
     #[arg(long, value_name = "FILE")]
     pub constraints: Option<PathBuf>,
@@ -189,7 +190,7 @@ fn choice<C: Choice>() -> impl TypedValueParser<Value = C> {
     PossibleValuesParser::new(values).map(|name| C::named(&name).expect("only these names pass"))
 }
 
-fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
+fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
     let parsed = || {
         let (vertex, place) = text.split_once(':')?;
         let (place, weight) = place.split_once(':').map_or((place, None), |(place, weight)| (place, Some(weight)));
@@ -198,13 +199,13 @@ fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
             None => Hold::Hard,
             Some(weight) => Hold::Weighted(weight.trim().parse().ok()?),
         };
-        let target = DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?);
-        Some((VertexId::new(vertex.trim().parse().ok()?), Pin { target, hold }))
+        let uv = DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?);
+        Some((VertexId::new(vertex.trim().parse().ok()?), Target { uv, hold }))
     };
-    let (vertex, pin) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
-    match pin.hold.invalid_weight() {
+    let (vertex, target) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
+    match target.hold.invalid_weight() {
         Some(weight) => Err(format!("the weight {weight} of vertex {vertex} is not a positive number")),
-        None => Ok((vertex, pin)),
+        None => Ok((vertex, target)),
     }
 }
 
@@ -230,9 +231,9 @@ mod tests {
 
     #[test]
     fn a_pin_is_a_vertex_and_two_numbers_and_perhaps_a_weight() {
-        let target = DVec2::new(0.5, -2.0);
-        assert_eq!(parse_pin("7:0.5,-2").unwrap(), (VertexId::new(7), Pin::hard(target)));
-        assert_eq!(parse_pin("7:0.5,-2:3e2").unwrap(), (VertexId::new(7), Pin::weighted(target, 300.0)));
+        let uv = DVec2::new(0.5, -2.0);
+        assert_eq!(parse_pin("7:0.5,-2").unwrap(), (VertexId::new(7), Target::hard(uv)));
+        assert_eq!(parse_pin("7:0.5,-2:3e2").unwrap(), (VertexId::new(7), Target::weighted(uv, 300.0)));
         for wrong in
             ["", "7", "7:1", "7:1,x", "-1:0,0", "7:1,2,3", "7:1,2:", "7:1,2:x", "7:1,2:0", "7:1,2:-1", "7:1,2:inf"]
         {

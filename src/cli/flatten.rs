@@ -32,9 +32,9 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let start = Instant::now();
         progress.enter("reading");
         let model = Model::read_until(&arguments.mesh, &is_interrupted)?;
-        let pins = gather(arguments, disk_of(&model)?.vertex_count())?;
+        let targets = gather(arguments, disk_of(&model)?.vertex_count())?;
         let document = Document {
-            pins,
+            targets,
             settings: arguments.settings(),
             picture: picture.map(Arc::new),
             aspect: arguments.aspect,
@@ -121,12 +121,12 @@ impl HeadlessJob<'_> {
         let control = Control::new(interrupted(), &report_phase);
         let document = &self.document;
         let settings = document.run_settings();
-        let pins = document.plane_pins();
+        let pins = document.pins();
         if settings.method.uses_pins() {
             print_conflicts(&conflicts(mesh, &settings.held(&pins)));
         }
         let mut run = Ladder::new(settings, pins);
-        let placed = |step: Step| Outcome::new(mesh, settings, (document.frame(), document.pins.clone()), step);
+        let placed = |step: Step| Outcome::new(mesh, document.problem(), step);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;
         loop {

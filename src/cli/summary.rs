@@ -41,7 +41,7 @@ pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
     let mut words = finished.verdict().summary();
     let Solved { outcome, ending, .. } = solved;
     let step = &outcome.step;
-    if outcome.settings.method.takes_steps() {
+    if outcome.problem.settings.method.takes_steps() {
         let count = finished.report.steps.len();
         let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
         let why = match ending {

@@ -126,7 +126,7 @@ impl Output<'_> {
         before.beside(&self.proved(&layout).picture(&drawing))
     }
 
-    fn proved<'b>(&'b self, embedding: &'b [DVec2]) -> ProvedEmbedding<'b> {
+    fn proved<'b>(&'b self, embedding: &'b Embedding) -> ProvedEmbedding<'b> {
         ProvedEmbedding { mesh: self.mesh, embedding, verdict: self.verdict }
     }
 

@@ -57,7 +57,7 @@ pub(super) fn write_svg(out: &mut impl Write, shown: ProvedEmbedding<'_>, page: 
 /// Draws a step as [`write_svg`] does; one of the virtual boundary with the outline it was solved with (the hull, as a
 /// red line) and the pockets (green). `mesh` is the mesh as given; new vertices are the step's own.
 pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io::Result<()> {
-    let embedding = step.solution.embedding.as_slice();
+    let embedding = &step.solution.embedding;
     let outside = step.virtual_boundary.as_deref().map(|stages| {
         // The step's embedding may have been turned and scaled since it was solved; the outside goes with it.
         let fit = Similarity::between(&stages.solved[..embedding.len()], embedding);

@@ -96,11 +96,11 @@ pub fn fixed_pins(places: impl IntoIterator<Item = (VertexId, DVec2)>) -> Pins {
 pub struct TakenTargets(BTreeMap<[u64; 2], VertexId>);
 
 impl TakenTargets {
-    /// Takes the target of a pin, if it is exact. Returns the vertex that has it already, if there is one.
-    pub fn take(&mut self, vertex: VertexId, pin: &Pin) -> Option<VertexId> {
+    /// Takes a vertex's target, if it is held exactly. Returns the vertex that has it already, if there is one.
+    pub fn take(&mut self, vertex: VertexId, target: DVec2, hold: Hold) -> Option<VertexId> {
         // Adding zero makes one bit pattern of the two zeros.
-        let bits = (pin.target + 0.0).to_array().map(f64::to_bits);
-        pin.hold.is_exact().then(|| self.0.insert(bits, vertex)).flatten()
+        let bits = (target + 0.0).to_array().map(f64::to_bits);
+        hold.is_exact().then(|| self.0.insert(bits, vertex)).flatten()
     }
 }
 
@@ -121,7 +121,7 @@ pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
         if let Some(weight) = pin.hold.invalid_weight() {
             return Err(SolveError::WeightNotPositive { vertex, weight });
         }
-        if let Some(first) = taken.take(vertex, pin) {
+        if let Some(first) = taken.take(vertex, pin.target, pin.hold) {
             return Err(SolveError::CoincidentPins { first, second: vertex });
         }
     }

@@ -9,7 +9,8 @@ use freebound::mesh::VertexId;
 use glam::DVec3;
 use proptest::prelude::*;
 
-use crate::common::{Random, manifest};
+use crate::common::manifest;
+use crate::makers::Random;
 
 /// Reads text that is right.
 pub(crate) fn read(text: &str) -> ObjMesh {

@@ -9,7 +9,8 @@ use freebound::solver::Embedding;
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-use crate::common::{grid, manifest};
+use crate::common::manifest;
+use crate::makers::grid;
 
 fn written(mesh: &ObjMesh, texture: &Embedding) -> Vec<u8> {
     let mut bytes = Vec::new();

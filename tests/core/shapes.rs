@@ -6,7 +6,7 @@ use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::Embedding;
 use glam::DVec3;
 
-use crate::common::Random;
+use crate::makers::Random;
 
 /// A disk made of the faces of a closed surface but for some.
 fn disk(positions: &[DVec3], triangles: &[[u32; 3]]) -> DiskMesh {

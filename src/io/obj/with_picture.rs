@@ -4,8 +4,6 @@ use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use glam::DVec2;
-
 use super::{ObjMesh, Statement, write_obj};
 use crate::io::{TexturePicture, WriteError, write_atomically};
 use crate::solver::Embedding;

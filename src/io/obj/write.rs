@@ -2,8 +2,6 @@
 
 use std::io::{self, Write};
 
-use glam::DVec2;
-
 use super::ObjMesh;
 use crate::solver::Embedding;
 
