@@ -9,6 +9,7 @@ use std::path::Path;
 
 use freebound::examples::{Example, Landmark};
 use freebound::io::{ObjMesh, write_obj};
+use freebound::solver::Embedding;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 

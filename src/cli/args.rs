@@ -218,34 +218,3 @@ fn parse_aspect(text: &str) -> Result<f64, String> {
     };
     parsed().ok_or_else(|| "write WIDTH:HEIGHT, for example 16:9".to_owned())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_arguments_hold_together() {
-        use clap::CommandFactory as _;
-        Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn a_pin_is_a_vertex_and_two_numbers_and_perhaps_a_weight() {
-        let uv = DVec2::new(0.5, -2.0);
-        assert_eq!(parse_pin("7:0.5,-2").unwrap(), (VertexId::new(7), Target::hard(uv)));
-        assert_eq!(parse_pin("7:0.5,-2:3e2").unwrap(), (VertexId::new(7), Target::weighted(uv, 300.0)));
-        for wrong in
-            ["", "7", "7:1", "7:1,x", "-1:0,0", "7:1,2,3", "7:1,2:", "7:1,2:x", "7:1,2:0", "7:1,2:-1", "7:1,2:inf"]
-        {
-            assert!(parse_pin(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn an_aspect_is_a_width_and_a_height() {
-        assert_eq!(parse_aspect("3:2").unwrap().to_bits(), 1.5_f64.to_bits());
-        for wrong in ["", "3", "3:0", "0:3", "-3:2", "nan:1", "inf:1", "3x2", "1e300:1e-300"] {
-            assert!(parse_aspect(wrong).is_err(), "{wrong}");
-        }
-    }
-}

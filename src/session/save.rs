@@ -10,7 +10,7 @@ use super::{Model, Outcome, OutputFit, PictureFile, Placement};
 use crate::geom::VAxis;
 use crate::io::{
     MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, SvgPage, TexturePicture,
-    WeightedPinReport, WriteError, peak_memory_bytes, verdict_as_in_file,
+    WeightedPinReport, WriteError, verdict_as_in_file,
 };
 use crate::mesh::{DiskMesh, Refinement, VertexId};
 use crate::solver::{Embedding, Hold, Verdict, distortion, verdict};
@@ -74,8 +74,6 @@ impl<'a> Finished<'a> {
         let verify = outcome.step.verify_seconds + start.elapsed().as_secs_f64();
         let settings = &outcome.problem.settings;
         let report = Report {
-            freebound: env!("CARGO_PKG_VERSION"),
-            mesh: MeshReport::new(model.path_words(), given),
             method: Some(settings.method),
             family: settings.method.uses_family().then_some(settings.family),
             pins: Some(pins),
@@ -87,7 +85,7 @@ impl<'a> Finished<'a> {
             new_vertices: outcome.new_vertex_count(),
             split_edges: outcome.step.refinement.as_ref().map(|r| r.split_edges()).unwrap_or_default(),
             seconds: Seconds { read: read_seconds, solve, verify, write: 0.0, total: read_seconds + solve + verify },
-            peak_memory_bytes: peak_memory_bytes(),
+            ..Report::of_mesh(MeshReport::new(model.path_words(), given))
         };
         let refinement = outcome.step.refinement.as_deref();
         Self { model, mesh, refinement, coordinates, verdict, aspect, picture: None, svg_fit: fit, report }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails fails its test")]
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
+mod arguments;
 mod assets;
 mod bad_input;
 mod check_cli;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
 use freebound::geom::VAxis;
-use freebound::io::{PathStyle, ProjectFile, ProjectSource, ProjectView, Target};
+use freebound::io::{FileStamp, PathStyle, ProjectFile, ProjectSource, ProjectView, Target};
 use freebound::session::{Action, Session, Severity};
 use freebound::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 use glam::DVec2;
@@ -328,4 +328,15 @@ fn fields_that_nobody_knows_yet_are_ignored_and_few_are_needed() {
     let session = reopened(&project_in(&folder));
     assert!(session.messages().is_empty() && session.is_current());
     assert_eq!(session.document().settings, Settings::default());
+}
+
+#[test]
+fn the_stamp_of_abc_is_that_of_the_standard() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("abc");
+    fs::write(&path, "abc").unwrap();
+    let stamp = FileStamp::read(&path).unwrap();
+    // FIPS 180-4, the example of one block.
+    let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    assert_eq!((stamp.bytes, stamp.sha256.as_str()), (3, expected));
 }

@@ -87,7 +87,7 @@ fn h_shows_the_outside_that_keeps_the_boundary_simple() {
     window.key(Key::H);
     let caption = format!("{} triangles around the mesh", outside.triangles.len());
     assert!(window.shows(&caption), "{:?}", window.words());
-    let drawn = window.editor().drawn_plane().expect("solved").positions().to_vec();
+    let drawn = window.editor().plane.drawn().expect("solved").positions().to_vec();
     let embedding = window.embedding();
     assert_eq!(drawn[..embedding.len()], *embedding);
     assert_eq!(drawn[embedding.len()..], outside.frame);

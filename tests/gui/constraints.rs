@@ -37,8 +37,8 @@ fn corners(window: &mut Window) {
 
 fn in_embedding(window: &Window, at: Pos2) -> DVec2 {
     let relative = at - window.plane_view().min;
-    let camera = window.editor().plane_camera.expect("an embedding shows");
-    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane_pane_size)
+    let camera = window.editor().plane.camera().expect("an embedding shows");
+    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane.area().size())
 }
 
 /// A place of the plane's pane without a vertex near by.
@@ -243,7 +243,7 @@ fn arrows_nudge_selected_pins_and_only_them() {
     corners(&mut window);
     let before = pins(&window);
     window.editor_mut().selection.select([8, 40].map(VertexId::new));
-    let step = window.editor().plane_scene().expect("solved").arrays.bounds().extent() / 512.0;
+    let step = window.editor().plane.scene().expect("solved").arrays.bounds().extent() / 512.0;
     window.key(Key::ArrowRight);
     for (vertex, by) in [(8, step), (40, step), (0, 0.0)] {
         let moved = pins(&window)[&VertexId::new(vertex)].uv - before[&VertexId::new(vertex)].uv;

@@ -48,7 +48,7 @@ fn shortcuts_do_what_the_table_says() {
         window.editor_mut().session.handle(Action::ShowStep(1));
         window.settle();
         assert_eq!(steps(&window), (3, Some(1)));
-        let (pins, orbit) = (document(&window).targets.len(), window.editor().orbit);
+        let (pins, orbit) = (document(&window).targets.len(), window.editor().mesh.camera());
         assert_eq!(pins, 3);
         // Away from where framing leads, and Select in hand where that is asked for.
         let request = (binding.request)();
@@ -79,10 +79,10 @@ fn shortcuts_do_what_the_table_says() {
             Request::StepDefect(_) => editor.selection.defect().is_none(),
             Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
-            Request::Frame => editor.orbit != orbit,
+            Request::Frame => editor.mesh.camera() != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),
             Request::SetShading(shading) => editor.look.shading == shading,
-            Request::ToggleHull => editor.hull.shown,
+            Request::ToggleHull => editor.plane.hull_shown(),
             Request::ToggleWireframe => editor.look.wireframe,
             Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
             Request::Escape => editor.tools.tool() == Tool::Select,

@@ -50,8 +50,8 @@ pub(super) fn exports_window(context: &egui::Context, editor: &mut Editor, reque
 impl Editor {
     /// Asks for a picture of the window, to cut a pane out of.
     pub(in crate::ui) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
-        let rect = self.pane_rects[usize::from(pane == Pane::Plane)];
-        let Some(part) = rect else { return };
+        let area = if pane == Pane::Plane { self.plane.area() } else { self.mesh.area() };
+        let Some(part) = area.rect() else { return };
         let (sender, answer) = sync_channel(1);
         let wake = self.host.waker();
         self.host.context().request_screenshot(move |image| {

@@ -175,9 +175,9 @@ fn view_menu(menu: &mut Menu<'_>) {
     });
     menu.choice(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
     menu.choice(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
-    menu.choice(editor.hull.shown, "Hull and pockets", Request::ToggleHull);
+    menu.choice(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
     menu.choice(editor.look.magnifier, "Magnifier", Request::ToggleMagnifier);
-    menu.choice(editor.ease.wanted, "Glide from step to step", Request::ToggleEase);
+    menu.choice(editor.look.glides, "Glide from step to step", Request::ToggleEase);
     menu.choice(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
     menu.choice(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
     menu.separator();

@@ -160,7 +160,6 @@ mod tests {
     use crate::examples::Example;
     use crate::mesh::VertexId;
     use crate::session::RecentFiles;
-    use crate::ui::theme::LIGHT;
 
     /// Takes in what the background has done until a condition holds.
     fn wait(editor: &mut Editor, is_there: impl Fn(&Editor) -> bool) {

@@ -47,7 +47,7 @@ pub(in crate::ui) struct Magnifier {
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
     pub(in crate::ui) fn over(editor: &Editor, pane: Rect, scene: &PlaneScene) -> Option<Self> {
-        if !editor.look.magnifier || scene.is_stage() || editor.preview_plane().is_some() {
+        if !editor.look.magnifier || scene.is_stage() || editor.plane.shows_preview() {
             return None;
         }
         let verdict = &scene.outcome.step.verdict;
@@ -59,7 +59,7 @@ impl Magnifier {
         }
         let shown = neighbourhood(scene, defect)?;
         let camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
-        let around = editor.plane_camera?;
+        let around = editor.plane.camera()?;
         let extent = pane::size_of(pane);
         let corners = [shown.min, shown.max].map(|z| pane::on_screen(pane, around.pane_from_embedding(z, extent)));
         let looks_at = Rect::from_two_pos(corners[0], corners[1]);
@@ -136,7 +136,7 @@ impl Magnifier {
             paint: editor.look.paint().map(|paint| Arc::clone(&paint.faces)),
             fills: Vec::new(),
             lines: vec![mesh_pane::boundary_line(mesh, theme)],
-            ghost: editor.ghost.as_ref().map(|ghost| ghost.layer(theme)),
+            ghost: editor.plane.ghost_layer(theme),
             picture: None,
             outlined: editor.picture_box(),
             style: render::Style { shading: Shading::Plain, wire_in_points: 1.0, ..mesh_pane::style(editor) },

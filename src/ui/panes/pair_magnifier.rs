@@ -67,7 +67,7 @@ fn place_in(pane: Rect, looks_at: egui::Pos2) -> Option<Rect> {
 /// The inset over the mesh's pane.
 pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene) {
     let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.look.magnifier) else { return };
-    let (Some(around), Some(&position)) = (editor.orbit, scene.mesh().positions.get(vertex.index())) else {
+    let (Some(around), Some(&position)) = (editor.mesh.camera(), scene.mesh().positions.get(vertex.index())) else {
         return;
     };
     let Some(at) = around.pane_from_world(position, pane::size_of(rect)).map(|at| pane::on_screen(rect, at)) else {
@@ -96,7 +96,7 @@ pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &
 /// The inset over the embedding's pane.
 pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene)) {
     let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
-    let Some(around) = editor.plane_camera else { return };
+    let Some(around) = editor.plane.camera() else { return };
     let at = pane::on_screen(rect, around.pane_from_embedding(target, pane::size_of(rect)));
     let Some(inset) = place_in(rect, at) else { return };
     let half = DVec2::splat(PART / 2.0 * editor.with_picture(plane.arrays.bounds()).extent());

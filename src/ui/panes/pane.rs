@@ -27,6 +27,43 @@ pub(in crate::ui) fn size_of(rect: Rect) -> DVec2 {
     DVec2::new(rect.width().into(), rect.height().into())
 }
 
+/// Where a pane lies in the window.
+#[derive(Clone, Copy, Debug)]
+pub struct PaneArea {
+    /// None where the pane does not show.
+    rect: Option<Rect>,
+    size: DVec2,
+}
+
+impl Default for PaneArea {
+    fn default() -> Self {
+        Self { rect: None, size: DVec2::splat(400.0) }
+    }
+}
+
+impl PaneArea {
+    /// Where the pane lies, points; `None` where it does not show.
+    pub(in crate::ui) fn rect(&self) -> Option<Rect> {
+        self.rect
+    }
+
+    /// Its size when it showed last, points.
+    pub fn size(&self) -> DVec2 {
+        self.size
+    }
+
+    /// Takes in that the pane does not show, or not yet in this frame.
+    pub(in crate::ui) fn hide(&mut self) {
+        self.rect = None;
+    }
+
+    /// Takes in where the pane lies. Returns whether its size has changed.
+    pub(in crate::ui) fn set_rect(&mut self, rect: Rect) -> bool {
+        self.rect = Some(rect);
+        std::mem::replace(&mut self.size, size_of(rect)) != self.size
+    }
+}
+
 /// Title, shading and the button for full size.
 pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     let title = match pane {
@@ -59,7 +96,7 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
 
 fn hull_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
-    let switch = ui.selectable_label(editor.hull.shown, "Hull").on_hover_text(tip);
+    let switch = ui.selectable_label(editor.plane.hull_shown(), "Hull").on_hover_text(tip);
     switch.asks(Request::ToggleHull, requests);
 }
 

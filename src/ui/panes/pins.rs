@@ -67,7 +67,7 @@ impl Editor {
         let uses_pins = document.settings.method.uses_pins();
         // Marks show what the solver does: a treatment may weigh what was asked for exactly.
         let users = if uses_pins { document.settings.held(&document.pins()) } else { BTreeMap::new() };
-        let gauge = self.plane_scene.as_ref().filter(|scene| {
+        let gauge = self.plane.scene().filter(|scene| {
             scene.outcome.step.solution.gauge_completed
                 && scene.outcome.problem.settings.method.uses_pins()
                 && users.len() < 2
@@ -85,8 +85,8 @@ impl Editor {
 
     /// The exact pins that are not on their targets in the planar embedding on the screen, ascending.
     pub fn unmet_shown(&self) -> Vec<VertexId> {
-        let outcome = self.plane_scene.as_ref().map(|scene| &scene.outcome);
-        let planar = outcome.filter(|outcome| outcome.step.verdict.planar && self.preview_plane().is_none());
+        let outcome = self.plane.scene().map(|scene| &scene.outcome);
+        let planar = outcome.filter(|outcome| outcome.step.verdict.planar && !self.plane.shows_preview());
         planar.map(|outcome| outcome.step.unmet()).unwrap_or_default()
     }
 

@@ -12,17 +12,17 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
 use glam::DVec2;
 
-use crate::geom::{Orientation, convex_hull, orientation};
+use super::{PlaneView, Surroundings};
+
+use crate::geom::{Orientation, Similarity, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
 use crate::session::{Job, Outcome, Poll};
 use crate::solver::{Embedding, Outline, Outside, VirtualBoundary};
 use crate::ui::editor::scene::{Part, PlaneScene};
-use crate::ui::theme::{Theme, theme_of};
-use crate::ui::{Editor, Request};
+use crate::ui::theme::Theme;
 use crate::view::{EdgeList, FaceList, FacePaint, PlaneCamera};
 
 /// A stage of the virtual boundary.
@@ -65,13 +65,13 @@ impl Stage {
 }
 
 /// Hull and pockets as the window has them.
-#[derive(Default)]
-pub struct HullView {
+#[derive(Debug, Default)]
+pub(super) struct HullView {
     /// Whether they show.
-    pub shown: bool,
+    shown: bool,
     /// The stage that is chosen.
-    pub stage: Stage,
-    pub(in crate::ui) scene: Option<Arc<HullScene>>,
+    stage: Stage,
+    scene: Option<HullScene>,
     job: Option<Job<(), HullScene>>,
     /// The camera from before they showed, and the one that frames them.
     cameras: Option<[PlaneCamera; 2]>,
@@ -124,7 +124,7 @@ impl HullScene {
             scene.pocket_edges = Arc::new(EdgeList::new(sides_of(&stages.pockets)));
             scene.pockets = Arc::new(FaceList::new(stages.pockets.clone()));
         }
-        let moved = Similarity::between(disk, &stages.solved, &outcome.step.solution.embedding).moved(positions);
+        let moved = moved_along(positions, disk, [&stages.solved, &outcome.step.solution.embedding]);
         let flipped = flipped_faces(disk, positions);
         scene.plane = Some(Arc::new(result.of_part(Part::Stage, moved)));
         scene.paint = Some(Arc::new(FacePaint::plain(disk.face_count(), &flipped)));
@@ -174,8 +174,18 @@ impl HullScene {
         self.paint.as_ref().map_or(0, |paint| paint.flipped().len())
     }
 
+    /// The mesh at this stage, or with its outside; none where it is the result alone.
+    pub(super) fn plane(&self) -> Option<&Arc<PlaneScene>> {
+        self.plane.as_ref()
+    }
+
+    /// The faces' colours at a stage before the result, whose distortion says nothing there.
+    pub(in crate::ui) fn paint(&self) -> Option<&Arc<FacePaint>> {
+        self.paint.as_ref()
+    }
+
     /// The faces beside the mesh.
-    pub(super) fn fills(&self, theme: &Theme) -> Vec<FillLayer> {
+    pub(in crate::ui) fn fills(&self, theme: &Theme) -> Vec<FillLayer> {
         vec![FillLayer { faces: Arc::clone(&self.pockets), colour: theme.pocket_fill }]
     }
 
@@ -223,72 +233,66 @@ fn flipped_faces(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceId> {
     disk.faces().filter(is_flipped).collect()
 }
 
-/// z ↦ `to` + `turn` · (z − `from`), points as complex numbers.
-#[derive(Clone, Copy, Debug)]
-struct Similarity {
-    from: DVec2,
-    to: DVec2,
-    turn: DVec2,
-}
-
-impl Similarity {
-    /// The similarity that takes one embedding to another which differs by nothing else: found by the first boundary
-    /// vertex and the one farthest from it.
-    fn between(disk: &DiskMesh, before: &Embedding, after: &Embedding) -> Self {
-        let boundary = disk.boundary_loop();
-        let first = boundary[0].index();
-        let distance = |v: &VertexId| before[v.index()].distance(before[first]);
-        let far = boundary.iter().max_by(|a, b| distance(a).total_cmp(&distance(b))).map_or(first, |v| v.index());
-        let (is, wanted) = (before[far] - before[first], after[far] - after[first]);
-        let turn = DVec2::new(is.dot(wanted), is.perp_dot(wanted)) / is.length_squared();
-        if turn.is_finite() {
-            Self { from: before[first], to: after[first], turn }
-        } else {
-            Self { from: DVec2::ZERO, to: DVec2::ZERO, turn: DVec2::X }
-        }
-    }
-
-    fn moved(self, embedding: &Embedding) -> Embedding {
-        embedding.iter().map(|&z| self.to + self.turn.rotate(z - self.from)).collect()
+/// An embedding moved as the boundary is from one embedding to another that differs from it by a similarity; where there is
+/// none, it stays.
+fn moved_along(embedding: &Embedding, disk: &DiskMesh, [before, after]: [&Embedding; 2]) -> Embedding {
+    let pair = |v: &VertexId| [before[v], after[v]];
+    let pairs: Vec<[DVec2; 2]> = disk.boundary_loop().iter().map(pair).collect();
+    match Similarity::fitting(&pairs) {
+        Some(similarity) => embedding.iter().map(|&z| similarity.apply(z)).collect(),
+        None => embedding.clone(),
     }
 }
 
-impl Editor {
-    /// What the embedding's pane draws and picks in: the shown step's embedding, or a stage on the way to it.
-    pub fn drawn_plane(&self) -> Option<&Arc<PlaneScene>> {
-        self.hull_scene().and_then(|scene| scene.plane.as_ref()).or(self.result_plane())
+impl HullView {
+    /// Whether hull and pockets are wanted.
+    pub(super) fn is_shown(&self) -> bool {
+        self.shown
     }
 
-    /// The faces' colours at a stage that is not the result; there the distortion of the result says nothing.
-    pub(super) fn stage_paint(&self) -> Option<&Arc<FacePaint>> {
-        self.hull_scene().and_then(|scene| scene.paint.as_ref())
+    /// Whether a stage is being made.
+    pub(super) fn is_making_scene(&self) -> bool {
+        self.job.is_some()
+    }
+}
+
+impl PlaneView {
+    /// Whether hull and pockets are wanted.
+    pub fn hull_shown(&self) -> bool {
+        self.hull.shown
+    }
+
+    /// The stage of the virtual boundary that is chosen.
+    pub fn stage(&self) -> Stage {
+        self.hull.stage
+    }
+
+    pub(in crate::ui::editor) fn set_stage(&mut self, stage: Stage) {
+        self.hull.stage = stage;
     }
 
     /// Hull and pockets of the shown step, where they are wanted and made, and nothing follows a drag in its place.
-    pub fn hull_scene(&self) -> Option<&Arc<HullScene>> {
-        let revision = self.plane_scene.as_ref()?.outcome_revision;
-        let is_wanted = self.hull.shown && self.preview_plane().is_none();
+    pub fn hull_scene(&self) -> Option<&HullScene> {
+        let revision = self.scene.as_ref()?.outcome_revision;
+        let is_wanted = self.hull.shown && self.preview.is_none();
         self.hull.scene.as_ref().filter(|scene| is_wanted && scene.key.0 == revision)
     }
 
     /// Whether hull and pockets are drawn as they were asked for.
     pub fn hull_is_drawn(&self) -> bool {
         let shown = self.hull_scene().map(|scene| scene.key.1);
-        !self.hull.shown
-            || self.plane_scene.is_none()
-            || self.preview_plane().is_some()
-            || shown == Some(self.hull.stage)
+        !self.hull.shown || self.scene.is_none() || self.preview.is_some() || shown == Some(self.hull.stage)
     }
 
     /// Makes the chosen stage in the background where it is not there yet.
-    pub(in crate::ui) fn poll_hull_scene(&mut self) {
+    pub(super) fn poll_hull(&mut self, around: Surroundings) {
         if let Some(job) = &self.hull.job {
             match job.poll() {
                 Poll::Running => return,
                 Poll::Lost => self.hull.job = None,
                 Poll::Done(scene) => {
                     self.hull.job = None;
-                    self.hull.scene = Some(Arc::new(scene));
+                    self.hull.scene = Some(scene);
                     self.frame_hull();
                 }
             }
@@ -297,66 +301,35 @@ impl Editor {
             self.hull.scene = None;
             return;
         }
-        let Some(plane) = &self.plane_scene else { return };
+        let Some(plane) = &self.scene else { return };
         let key = (plane.outcome_revision, self.hull.stage);
-        let Some(disk) = plane.mesh.model.disk().filter(|_| self.hull.scene.as_ref().is_none_or(|s| s.key != key))
-        else {
-            return;
-        };
+        let is_made = self.hull.scene.as_ref().is_some_and(|scene| scene.key == key);
+        let Some(disk) = plane.mesh.model.disk().filter(|_| !is_made) else { return };
         let (disk, plane) = (Arc::clone(disk), Arc::clone(plane));
         let work = move |_: &_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1);
-        self.hull.job = Job::spawn("hull", self.host.waker(), work).ok();
-    }
-
-    /// Whether a stage is being made.
-    pub(in crate::ui) fn is_making_hull(&self) -> bool {
-        self.hull.job.is_some()
+        self.hull.job = Job::spawn("hull", around.host.waker(), work).ok();
     }
 
     /// Shows or hides hull and pockets. The camera comes back where nobody has moved it since.
-    pub(in crate::ui) fn toggle_hull(&mut self) {
+    pub(in crate::ui::editor) fn toggle_hull(&mut self) {
         self.hull.shown = !self.hull.shown;
         if let Some([before, framing]) = self.hull.cameras.take()
-            && self.plane_camera == Some(framing)
+            && self.camera == Some(framing)
         {
-            self.plane_camera = Some(before);
+            self.camera = Some(before);
         }
     }
 
     /// Shows all of the hull, once it is there for the first time.
     fn frame_hull(&mut self) {
-        let (Some(plane), Some(camera)) = (self.drawn_plane().cloned(), &mut self.plane_camera) else { return };
-        let (bounds, seen) = (plane.arrays.bounds(), camera.visible(self.plane_pane_size));
-        let is_seen = seen.min.cmple(bounds.min).all() && seen.max.cmpge(bounds.max).all();
-        if self.hull.cameras.is_none() && !is_seen && !plane.is_plain_result() {
-            let before = *camera;
-            camera.frame(bounds, self.plane_pane_size);
-            self.hull.cameras = Some([before, *camera]);
+        let (Some(plane), Some(before)) = (self.drawn(), self.camera) else { return };
+        let bounds = plane.arrays.bounds();
+        if self.hull.cameras.is_none() && !self.shows(before, bounds) && !plane.is_plain_result() {
+            let mut framing = before;
+            framing.frame(bounds, self.area.size());
+            (self.camera, self.hull.cameras) = (Some(framing), Some([before, framing]));
         }
     }
-}
-
-/// The stages to choose from, in the upper left corner of the pane, and what the chosen one shows.
-pub(super) fn stage_selector(ui: &mut egui::Ui, rect: egui::Rect, editor: &Editor, requests: &mut Vec<Request>) {
-    let Some(scene) = editor.hull_scene() else { return };
-    let theme = theme_of(ui);
-    let place = egui::Rect::from_min_max(rect.min + egui::vec2(8.0, 8.0), rect.max - egui::vec2(8.0, 8.0));
-    let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(place));
-    let frame = egui::Frame::new().fill(theme.panel.gamma_multiply(0.92)).corner_radius(4).inner_margin(6);
-    frame.show(&mut ui, |ui| {
-        ui.spacing_mut().item_spacing = egui::vec2(2.0, 4.0);
-        if scene.has_stages {
-            ui.horizontal_wrapped(|ui| {
-                for stage in Stage::ALL {
-                    let label = ui.selectable_label(editor.hull.stage == stage, stage.title());
-                    if label.on_hover_text(stage.about()).clicked() {
-                        requests.push(Request::SetStage(stage));
-                    }
-                }
-            });
-        }
-        ui.add(egui::Label::new(egui::RichText::new(&scene.caption).small().color(theme.weak_text)).wrap());
-    });
 }
 
 #[cfg(test)]
@@ -370,7 +343,7 @@ mod tests {
         let before: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
         let turn = DVec2::new(-0.3, 2.0);
         let after: Embedding = before.iter().map(|&z| turn.rotate(z) + DVec2::new(5.0, -1.0)).collect();
-        let moved = Similarity::between(&disk, &before, &after).moved(&before);
+        let moved = moved_along(&before, &disk, [&before, &after]);
         assert!(moved.iter().zip(&after).all(|(a, b)| a.distance(*b) < 1e-12));
     }
 
@@ -378,6 +351,6 @@ mod tests {
     fn an_embedding_at_one_point_stays_where_it_is() {
         let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
         let before = Embedding::from(vec![DVec2::ONE; disk.vertex_count()]);
-        assert_eq!(Similarity::between(&disk, &before, &before).moved(&before), before);
+        assert_eq!(moved_along(&before, &disk, [&before, &before]), before);
     }
 }
