@@ -26,7 +26,7 @@ fn two_steps() -> Window {
 }
 
 fn drawn(window: &Window) -> Embedding {
-    window.editor().plane.drawn().expect("solved").positions().to_vec()
+    window.editor().plane.drawn().expect("solved").positions().clone()
 }
 
 /// Steps until vertices are on their way, or for half a second.

@@ -18,7 +18,7 @@ fn bent() -> Window {
 }
 
 fn positions(window: &Window) -> Embedding {
-    window.editor().plane.drawn().expect("solved").positions().to_vec()
+    window.editor().plane.drawn().expect("solved").positions().clone()
 }
 
 #[test]
