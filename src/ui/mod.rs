@@ -24,8 +24,9 @@ mod window;
 
 pub use controls::sentence;
 pub use editor::{
-    Defect, Editor, Element, Host, HullScene, Layout, Look, MeshScene, MeshView, Nudge, Opened, Paint, PaintKey, Pane,
-    PlaneScene, PlaneView, Pointer, Purpose, Request, Selection, Shading, Stage, StepTarget, Tab, Tool, ToolState,
+    Defect, Editor, Element, Files, Host, HullScene, Layout, Look, MeshScene, MeshView, Nudge, Opened, Paint, PaintKey,
+    Pane, PlaneScene, PlaneView, Pointer, Purpose, Request, Selection, Shading, Stage, StepTarget, Tab, Tool,
+    ToolState,
 };
 pub use keys::{BINDINGS, Binding, keys_of};
 pub use panels::{Answer, Choice, Dialogs, Unsaved};

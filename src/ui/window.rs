@@ -131,7 +131,7 @@ fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
 fn carry_out_for_window(context: &egui::Context, editor: &mut Editor) {
     editor.host.put_on_theme();
     unsaved::title_of_window(editor);
-    if editor.quit {
+    if editor.host.is_quitting() {
         context.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 }

@@ -11,8 +11,8 @@ use freebound::session::{Action, Outcome, OutputFit, Problem, Session, Stop};
 use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
 use glam::DVec2;
 
-use crate::makers::grid;
-use crate::session::{session, settle, settled, write_obj};
+use crate::makers::{grid, write_obj};
+use crate::session::{session, settle, settled};
 
 fn id(number: u32) -> VertexId {
     VertexId::new(number)

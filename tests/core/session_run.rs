@@ -11,8 +11,8 @@ use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop
 use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
-use crate::makers::grid;
-use crate::session::{opened, session, settle, settled, write_obj};
+use crate::makers::{grid, write_obj};
+use crate::session::{opened, session, settle, settled};
 
 /// Neither proof nor standstill ends a run: it goes on to the limit of steps.
 const ON_AND_ON: StopConditions = StopConditions { planar: false, stalled: false, crossing: false, at_step: None };

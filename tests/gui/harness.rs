@@ -18,7 +18,7 @@ use freebound::ui::Editor;
 use glam::DVec2;
 use tempfile::TempDir;
 
-pub(crate) use crate::makers::{corpus, sheet};
+pub(crate) use crate::makers::{corpus, sheet, write_obj};
 
 /// What the background is given before a test fails; a test machine under load is slow.
 const PATIENCE: Duration = Duration::from_secs(90);
@@ -407,17 +407,4 @@ fn collect_words(shape: &egui::Shape, words: &mut Vec<String>) {
 #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
 fn on_screen(rect: Rect, point: DVec2) -> Pos2 {
     rect.min + Vec2::new(point.x as f32, point.y as f32)
-}
-
-/// Writes a mesh with all its digits.
-pub(crate) fn write_obj(path: &Path, mesh: &TriMesh) {
-    use std::fmt::Write as _;
-    let mut text = String::new();
-    for position in &mesh.positions {
-        writeln!(text, "v {} {} {}", position.x, position.y, position.z).expect("text grows");
-    }
-    for [a, b, c] in &mesh.triangles {
-        writeln!(text, "f {} {} {}", a.number() + 1, b.number() + 1, c.number() + 1).expect("text grows");
-    }
-    std::fs::write(path, text).expect("a folder for files");
 }

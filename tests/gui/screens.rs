@@ -256,3 +256,12 @@ fn moves_are_coloured_in_both_panes() {
         }
     }
 }
+
+#[test]
+fn the_graphics_card_draws_in_the_theme_s_colours() {
+    for (_, theme) in THEMES {
+        let bytes = |colour: egui::Color32| colour.to_array();
+        assert_eq!(theme.palette.background.0, bytes(theme.background));
+        assert_eq!(theme.palette.flipped.0, bytes(theme.flipped));
+    }
+}

@@ -372,5 +372,5 @@ fn the_bar_at_the_top_does_not_overlap_itself() {
 fn quit_closes_the_window() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     window.press(Modifiers::COMMAND, Key::Q);
-    assert!(window.editor().quit);
+    assert!(window.editor().host.is_quitting());
 }

@@ -5,22 +5,26 @@ use std::sync::Arc;
 use eframe::egui;
 use glam::DVec3;
 
-use super::host::Host;
 use super::scene::MeshScene;
-use crate::session::{Job, Poll, Session};
+use crate::session::{Background, Session, Wake};
 use crate::ui::panes::pane::{self, PaneArea};
 use crate::view::{OrbitCamera, Sphere, UpAxis};
 
 /// The mesh's pane as the window has it.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct MeshView {
     area: PaneArea,
     camera: Option<OrbitCamera>,
     scene: Option<Arc<MeshScene>>,
-    job: Option<Job<(), MeshScene>>,
+    /// The scene that is being made, by the mesh's revision.
+    job: Background<u64, MeshScene>,
 }
 
 impl MeshView {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self { area: PaneArea::default(), camera: None, scene: None, job: Background::new("mesh scene", wake) }
+    }
+
     /// Where the pane lies.
     pub fn area(&self) -> &PaneArea {
         &self.area
@@ -57,7 +61,7 @@ impl MeshView {
 
     /// Whether a scene is being made.
     pub(super) fn is_making_scene(&self) -> bool {
-        self.job.is_some()
+        self.job.is_busy()
     }
 
     /// Shows a ball in full size.
@@ -69,24 +73,20 @@ impl MeshView {
 
     /// Takes in a scene that was made, and has another one made where the session has another mesh. Returns whether
     /// there is a new scene.
-    pub(super) fn poll(&mut self, session: &Session, host: &Host) -> bool {
-        let mut is_new = false;
-        if let Some(job) = &self.job {
-            match job.poll() {
-                Poll::Running => return false,
-                Poll::Lost => self.job = None,
-                Poll::Done(scene) => {
-                    self.job = None;
-                    self.take(scene);
-                    is_new = true;
-                }
-            }
+    pub(super) fn poll(&mut self, session: &Session) -> bool {
+        let made = self.job.poll().and_then(|(_, scene)| scene.ok());
+        let is_new = made.is_some();
+        if let Some(scene) = made {
+            self.take(scene);
+        }
+        if self.job.is_busy() {
+            return is_new;
         }
         let revision = session.model_revision();
         let shown = self.scene.as_ref().map(|scene| scene.model_revision);
         if let Some(model) = session.model().filter(|_| shown != Some(revision)) {
             let model = Arc::clone(model);
-            self.job = Job::spawn("mesh scene", host.waker(), move |_: &_| MeshScene::new(model, revision)).ok();
+            self.job.start(revision, move |_| MeshScene::new(model, revision));
         }
         is_new
     }

@@ -13,6 +13,7 @@
 //! | `look.rs` | how faces show: shading, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
 //! | `opened.rs` | what the window keeps of the open document |
+//! | `files.rs` | dialogs, unsaved work, size in files |
 //! | `host.rs` | egui's context and the graphics card |
 //! | `steps.rs` | moves along the timeline |
 //! | `views.rs`, `framing.rs` | what the cameras look at |
@@ -21,6 +22,7 @@
 //! | `defect.rs` | one thing wrong with an embedding |
 
 mod defect;
+mod files;
 mod framing;
 mod host;
 mod layout;
@@ -40,6 +42,7 @@ mod tools;
 mod views;
 
 pub use defect::Defect;
+pub use files::Files;
 pub use host::Host;
 pub use layout::Layout;
 pub use look::Look;
@@ -57,10 +60,8 @@ use eframe::egui;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::session::{Busy, OutputFit, RecentFiles, Session};
-use crate::ui::panels::dialogs::Dialogs;
-use crate::ui::panels::exports::PaneShot;
-use crate::ui::{TimelineView, Unsaved};
+use crate::session::{Busy, RecentFiles, Session, Wake};
+use crate::ui::TimelineView;
 use plane::Surroundings;
 use views::picture_box;
 
@@ -89,17 +90,10 @@ pub struct Editor {
     pub opened: Opened,
     /// What shows the window.
     pub host: Host,
-    /// The question about unsaved work.
-    pub unsaved: Unsaved,
+    /// Files that are asked for, or about to be written.
+    pub files: Files,
     /// The timeline under the panes.
     pub timeline: TimelineView,
-    /// Size of coordinates in files.
-    pub fit: OutputFit,
-    /// File dialogs.
-    pub dialogs: Dialogs,
-    /// Whether the person asked to quit.
-    pub quit: bool,
-    pub(super) shot: Option<PaneShot>,
 }
 
 impl std::fmt::Debug for Editor {
@@ -112,10 +106,11 @@ impl Editor {
     /// An empty window. `context` is woken when the background has news.
     pub fn new(context: &egui::Context, recent: RecentFiles) -> Self {
         let waker = context.clone();
+        let wake: Wake = Arc::new(move || waker.request_repaint());
         Self {
-            session: Session::new(Arc::new(move || waker.request_repaint()), recent),
-            mesh: MeshView::default(),
-            plane: PlaneView::default(),
+            mesh: MeshView::new(&wake),
+            plane: PlaneView::new(&wake),
+            session: Session::new(wake, recent),
             selection: Selection::default(),
             pointer: Pointer::default(),
             tools: ToolState::default(),
@@ -123,12 +118,8 @@ impl Editor {
             layout: Layout::default(),
             opened: Opened::default(),
             host: Host::new(context),
-            unsaved: Unsaved::default(),
+            files: Files::default(),
             timeline: TimelineView::default(),
-            fit: OutputFit::default(),
-            dialogs: Dialogs::default(),
-            quit: false,
-            shot: None,
         }
     }
 
@@ -158,7 +149,7 @@ impl Editor {
         self.session.poll();
         self.go_on_after_saving();
         self.go_on_playing();
-        if self.mesh.poll(&self.session, &self.host) {
+        if self.mesh.poll(&self.session) {
             self.begin_with_mesh();
         }
         let (plane, around) = self.plane_in_surroundings();
@@ -173,14 +164,14 @@ impl Editor {
         }
         self.host.note_work(self.session.busy().is_some(), Instant::now());
         let scenes_pending = self.mesh.is_making_scene() || self.plane.is_making_scene();
-        if self.session.busy().is_some() || scenes_pending || self.dialogs.is_open() {
+        if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
             self.host.context().request_repaint_after(Duration::from_millis(100));
         }
         if self.session.has_unsaved_work() {
             // Copies for recovery are made while nobody moves the mouse as well.
             self.host.context().request_repaint_after(COPY_INTERVAL);
         }
-        if let Some(choice) = self.dialogs.poll() {
+        if let Some(choice) = self.files.dialogs.poll() {
             self.take_choice(choice);
         }
     }

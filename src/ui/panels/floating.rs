@@ -19,7 +19,7 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
         super::exports::exports_window(context, editor, requests);
     }
     super::unsaved::question(context, editor, requests);
-    if let Some(choice) = editor.dialogs.show(context) {
+    if let Some(choice) = editor.files.dialogs.show(context) {
         editor.take_choice(choice);
     }
 }

@@ -5,7 +5,7 @@ use egui::{RichText, Role};
 
 use crate::session::{Action, Busy, Surface};
 use crate::solver::{Phase, Step, Verdict};
-use crate::ui::controls::{Control, counted};
+use crate::ui::controls::{Control, Offer, counted};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Request, Tab};
@@ -32,7 +32,7 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(pill) = &pill
         && show_pill(ui, pill).clicked()
     {
-        let unmet = editor.unmet_shown();
+        let unmet = editor.session.outcome().map(|outcome| outcome.step.unmet()).unwrap_or_default();
         requests.push(match editor.has_defects() {
             true => Request::StepDefect(1),
             false if unmet.is_empty() => Request::ShowTab(Tab::Defects),
@@ -40,7 +40,7 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
         });
     }
     let Some(busy) = busy else { return };
-    ui.small_button("Stop").on_hover_text("Stop the work in the background").asks(Action::Cancel, requests);
+    Offer::new("Stop", "Stop the work in the background", Action::Cancel).show(ui, requests);
     if pill.is_none() {
         ui.label(RichText::new(busy_words(busy)).color(theme_of(ui).weak_text));
     }

@@ -32,12 +32,12 @@ pub(super) fn plane_marks(
     ui: &egui::Ui,
     clip: egui::Rect,
     editor: &Editor,
-    (mesh, plane): (&MeshScene, &PlaneScene),
+    plane: &PlaneScene,
     spot: &dyn Fn(DVec2) -> Pos2,
 ) {
     let (painter, theme) = (&ui.painter_at(clip), theme_of(ui));
     let at = |vertex: VertexId| plane.positions().get(vertex.index()).copied().unwrap_or(DVec2::NAN);
-    for pair in crossings(editor, mesh) {
+    for pair in crossings(editor, &plane.mesh) {
         let [first, second] = pair.map(|edge| edge.map(at));
         for edge in [first, second] {
             painter.line_segment(edge.map(spot), Stroke::new(3.0, theme.crossing));

@@ -11,7 +11,7 @@ use super::defect_marks;
 use super::mesh_pane;
 use super::pane;
 use crate::render::{self, PaneId, PlaneFrame, Shading};
-use crate::ui::editor::scene::{MeshScene, PlaneScene, vertices_of};
+use crate::ui::editor::scene::{PlaneScene, vertices_of};
 use crate::ui::theme::{Theme, theme_of};
 use crate::ui::{Defect, Editor, Element, Request, keys_of};
 use crate::view::{PlaneBox, PlaneCamera};
@@ -73,7 +73,7 @@ impl Magnifier {
         &self,
         ui: &mut egui::Ui,
         editor: &Editor,
-        (mesh, plane): (&MeshScene, &PlaneScene),
+        plane: &PlaneScene,
         requests: &mut Vec<Request>,
     ) {
         let theme = theme_of(ui);
@@ -89,15 +89,11 @@ impl Magnifier {
         }
         let picture = Rect::from_min_max(self.rect.min + Vec2::new(0.0, TITLE), self.rect.max);
         if editor.host.has_gpu() {
-            ui.painter().add(render::plane_pane(
-                PaneId("magnifier"),
-                picture,
-                self.frame(editor, (mesh, plane), theme),
-            ));
+            ui.painter().add(render::plane_pane(PaneId("magnifier"), picture, self.frame(editor, plane, theme)));
         }
         let size = pane::size_of(picture);
         let spot = |z: DVec2| pane::on_screen(picture, self.camera.pane_from_embedding(z, size));
-        defect_marks::plane_marks(ui, picture, editor, (mesh, plane), &spot);
+        defect_marks::plane_marks(ui, picture, editor, plane, &spot);
         painter.rect_stroke(self.rect, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
         self.click(ui, requests);
     }
@@ -129,13 +125,13 @@ impl Magnifier {
         painter.rect_stroke(frame.expand(1.0), 1.0, Stroke::new(1.25, theme.text), StrokeKind::Middle);
     }
 
-    fn frame(&self, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene), theme: &Theme) -> PlaneFrame {
+    fn frame(&self, editor: &Editor, plane: &PlaneScene, theme: &Theme) -> PlaneFrame {
         PlaneFrame {
-            mesh: Arc::clone(&mesh.arrays),
+            mesh: Arc::clone(&plane.mesh.arrays),
             plane: Some(Arc::clone(&plane.arrays)),
             paint: editor.look.paint().map(|paint| Arc::clone(&paint.faces)),
             fills: Vec::new(),
-            lines: vec![mesh_pane::boundary_line(mesh, theme)],
+            lines: vec![mesh_pane::boundary_line(&plane.mesh, theme)],
             ghost: editor.plane.ghost_layer(theme),
             picture: None,
             outlined: editor.picture_box(),

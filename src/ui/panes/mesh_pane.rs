@@ -223,7 +223,7 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
             }
             let is_strong = editor.selection.contains(pin.vertex);
             let emphasis = if is_strong { Emphasis::Strong } else { Emphasis::Plain };
-            pins::mark(&painter, at, theme, (pin.kind, emphasis));
+            pin.kind.mark(&painter, at, theme, emphasis);
         }
     }
     for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
@@ -236,7 +236,7 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
         match editor.tools.tool() {
             _ if editor.is_new_vertex(vertex) => {}
             Tool::Select => {}
-            Tool::Fix => pins::mark(&painter, at, theme, (PinKind::Gauge, Emphasis::Plain)),
+            Tool::Fix => PinKind::Gauge.mark(&painter, at, theme, Emphasis::Plain),
             Tool::Constrain => pins::ghost(&painter, at, theme),
         }
     }

@@ -90,11 +90,11 @@ pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &
     }
     let painter = ui.painter_at(inset);
     pane::halo(&painter, inset.center(), theme.selection, 7.0);
-    close(ui, inset, theme, (&format!("Magnifier: {vertex} on the mesh"), enlarges));
+    close(ui, inset, &format!("Magnifier: {vertex} on the mesh"), enlarges);
 }
 
 /// The inset over the embedding's pane.
-pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene)) {
+pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene) {
     let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
     let Some(around) = editor.plane.camera() else { return };
     let at = pane::on_screen(rect, around.pane_from_embedding(target, pane::size_of(rect)));
@@ -109,7 +109,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
     let theme = theme_of(ui);
     frame_of(ui, inset, theme);
     if editor.host.has_gpu() {
-        let mut frame = plane_pane::frame(editor, (mesh, plane), camera, theme);
+        let mut frame = plane_pane::frame(editor, plane, camera, theme);
         frame.ghost = None;
         ui.painter().add(render::plane_pane(PaneId("pair in plane"), inset, frame));
     }
@@ -118,7 +118,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
     for pin in editor.pins_shown() {
         let is_seen = inset.expand(12.0).contains(spot(pin.target));
         if is_seen {
-            pins::mark(&painter, spot(pin.target), theme, (pin.kind, Emphasis::Plain));
+            pin.kind.mark(&painter, spot(pin.target), theme, Emphasis::Plain);
         }
     }
     if editor.tools.pair().is_some() {
@@ -130,7 +130,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
         Some(vertex) => format!("Magnifier: the target of {vertex}"),
         None => "Magnifier: the target".to_owned(),
     };
-    close(ui, inset, theme, (&words, enlarges));
+    close(ui, inset, &words, enlarges);
 }
 
 fn frame_of(ui: &egui::Ui, inset: Rect, theme: &Theme) {
@@ -138,7 +138,8 @@ fn frame_of(ui: &egui::Ui, inset: Rect, theme: &Theme) {
 }
 
 /// Edge, name and how much larger: what both insets end with.
-fn close(ui: &egui::Ui, inset: Rect, theme: &Theme, (name, enlarges): (&str, f64)) {
+fn close(ui: &egui::Ui, inset: Rect, name: &str, enlarges: f64) {
+    let theme = theme_of(ui);
     let painter = ui.painter_at(inset.expand(1.0));
     painter.rect_stroke(inset, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
     let corner = inset.left_top() + Vec2::new(7.0, 5.0);

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, Vec2};
 use glam::DVec2;
 
 use crate::session::{Action, Message, Place, Severity};
-use crate::ui::controls::{Control, list, sentence, tip_with_keys};
+use crate::ui::controls::{Control, Offer, list, sentence, tip_with_keys};
 use crate::ui::editor::scene::Legend;
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::theme_of;
@@ -163,8 +163,7 @@ pub(in crate::ui) fn bar(ui: &mut egui::Ui, sign: Sign, add: impl FnOnce(&mut eg
 
 fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
     if !message.vertices.is_empty() {
-        let go = ui.small_button("Go to").on_hover_text("Show it in the mesh");
-        go.asks(Request::GoTo(message.vertices.clone()), requests);
+        Offer::new("Go to", "Show it in the mesh", Request::GoTo(message.vertices.clone())).show(ui, requests);
     }
     if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
         ui.ctx().copy_text(message.text.clone());

@@ -17,7 +17,7 @@ use super::pins;
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::{Place, Surface};
-use crate::ui::editor::scene::{MeshScene, PlaneScene};
+use crate::ui::editor::scene::PlaneScene;
 use crate::ui::theme::{Theme, theme_of};
 use crate::ui::{Editor, HullScene, Pane, Request, Stage};
 use crate::view::PlaneCamera;
@@ -37,7 +37,6 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     let (Some(plane), Some(mut camera)) = (editor.plane.drawn().map(Arc::clone), editor.plane.camera()) else {
         return pane::empty_state(ui, rect, &waiting_words(editor));
     };
-    let mesh = Arc::clone(&plane.mesh);
     navigate(ui, rect, &response, &mut camera);
     if editor.plane.camera() != Some(camera) {
         editor.plane.set_camera(camera);
@@ -47,21 +46,21 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     let is_covered = |at: Pos2| magnifier.as_ref().is_some_and(|magnifier| magnifier.rect.contains(at));
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at) && !is_covered(*at));
     if response.hovered() || response.contains_pointer() {
-        look_under(ui, editor, (rect, &plane, camera), pointer);
+        look_under(ui, editor, &plane, pointer);
     }
     if editor.host.has_gpu() {
-        let frame = frame(editor, (&mesh, &plane), camera, theme);
+        let frame = frame(editor, &plane, camera, theme);
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
     select(ui, &response, editor, &plane, requests);
-    marks(ui, rect, editor, (&mesh, &plane), camera);
+    marks(ui, rect, editor, &plane, camera);
     crate::ui::panels::equation_table::draw(ui, rect, editor, &plane, camera);
     if !plane.is_stage() {
         pin_drag::pins_ui(ui, rect, editor, camera, requests);
-        pair_magnifier::over_plane(ui, rect, editor, (&mesh, &plane));
+        pair_magnifier::over_plane(ui, rect, editor, &plane);
     }
     if let Some(magnifier) = magnifier {
-        magnifier.show(ui, editor, (&mesh, &plane), requests);
+        magnifier.show(ui, editor, &plane, requests);
     }
     stage_selector(ui, rect, editor, requests);
     if editor.layout.mesh_hidden()
@@ -75,12 +74,8 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
 }
 
 /// Takes in what is under the pointer: a pin by its mark, which lies over the vertices, else the nearest vertex.
-fn look_under(
-    ui: &egui::Ui,
-    editor: &mut Editor,
-    (rect, plane, camera): (Rect, &PlaneScene, PlaneCamera),
-    pointer: Option<Pos2>,
-) {
+fn look_under(ui: &egui::Ui, editor: &mut Editor, plane: &PlaneScene, pointer: Option<Pos2>) {
+    let (Some(rect), Some(camera)) = (editor.plane.area().rect(), editor.plane.camera()) else { return };
     let size = pane::size_of(rect);
     let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, rect, camera, at));
     let pointer = pointer.map(|at| pane::in_pane(rect, at));
@@ -141,13 +136,8 @@ fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &Plane
     }
 }
 
-pub(in crate::ui) fn frame(
-    editor: &Editor,
-    (mesh, plane): (&MeshScene, &PlaneScene),
-    camera: PlaneCamera,
-    theme: &Theme,
-) -> PlaneFrame {
-    let mut lines = vec![boundary_line(mesh, theme)];
+pub(in crate::ui) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
+    let mut lines = vec![boundary_line(&plane.mesh, theme)];
     let mut fills = Vec::new();
     if let Some(scene) = editor.plane.hull_scene() {
         fills = scene.fills(theme);
@@ -164,7 +154,7 @@ pub(in crate::ui) fn frame(
         .or(editor.plane.preview_paint())
         .or(editor.look.paint().map(|paint| &paint.faces));
     PlaneFrame {
-        mesh: Arc::clone(&mesh.arrays),
+        mesh: Arc::clone(&plane.mesh.arrays),
         plane: Some(Arc::clone(&plane.arrays)),
         paint: paint.map(Arc::clone),
         fills,
@@ -178,7 +168,7 @@ pub(in crate::ui) fn frame(
     }
 }
 
-fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene), camera: PlaneCamera) {
+fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene, camera: PlaneCamera) {
     let theme = theme_of(ui);
     let over = ui.painter_at(rect);
     let size = pane::size_of(rect);
@@ -189,9 +179,9 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene,
     // The verdict is on the result, not on a stage before it.
     if !plane.is_stage() {
         let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
-        super::defect_marks::plane_marks(ui, rect, editor, (mesh, plane), &spot);
+        super::defect_marks::plane_marks(ui, rect, editor, plane, &spot);
     }
-    for vertex in new_vertices(mesh) {
+    for vertex in new_vertices(&plane.mesh) {
         new_vertex_mark(&over, spot(vertex), theme);
     }
     if !plane.is_stage() {

@@ -14,12 +14,12 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{PlaneView, Surroundings};
+use super::PlaneView;
 
 use crate::geom::{Orientation, Similarity, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
-use crate::session::{Job, Outcome, Poll};
+use crate::session::{Background, Wake};
 use crate::solver::{Embedding, Outline, Outside, VirtualBoundary};
 use crate::ui::editor::scene::{Part, PlaneScene};
 use crate::ui::theme::Theme;
@@ -65,14 +65,15 @@ impl Stage {
 }
 
 /// Hull and pockets as the window has them.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct HullView {
     /// Whether they show.
     shown: bool,
     /// The stage that is chosen.
     stage: Stage,
     scene: Option<HullScene>,
-    job: Option<Job<(), HullScene>>,
+    /// The stage that is being made, with the outcome's revision.
+    job: Background<(u64, Stage), HullScene>,
     /// The camera from before they showed, and the one that frames them.
     cameras: Option<[PlaneCamera; 2]>,
 }
@@ -97,76 +98,69 @@ pub struct HullScene {
 
 impl HullScene {
     fn new(disk: &DiskMesh, result: &PlaneScene, stage: Stage) -> Self {
-        let (outcome, key) = (&result.outcome, (result.outcome_revision, stage));
-        if let Some(outside) = &outcome.step.outside {
-            return Self::of_outside(result, outside, key);
-        }
-        let Some(stages) = &outcome.step.virtual_boundary else { return Self::of_free_boundary(disk, outcome, key) };
-        let mut scene = Self {
-            key,
+        let step = &result.outcome.step;
+        let scene = match (&step.outside, &step.virtual_boundary) {
+            (Some(outside), _) => Self::of_outside(result, outside),
+            (None, Some(stages)) => Self::of_stage(disk, result, stage, stages),
+            (None, None) => Self::of_free_boundary(disk, &step.solution.embedding),
+        };
+        Self { key: (result.outcome_revision, stage), ..scene }
+    }
+
+    /// A hull without pockets, with the mesh as in the result.
+    fn of_hull(corners: &[VertexId], caption: String) -> Self {
+        Self {
+            key: (0, Stage::default()),
             plane: None,
             paint: None,
-            hull: Arc::new(EdgeList::closed_loop(&stages.hull)),
+            hull: Arc::new(EdgeList::closed_loop(corners)),
             pocket_edges: Arc::new(EdgeList::new(Vec::new())),
             pockets: Arc::new(FaceList::new(Vec::new())),
-            caption: caption(key.1, stages),
-            has_stages: true,
-        };
-        let positions = match key.1 {
+            caption,
+            has_stages: false,
+        }
+    }
+
+    fn with_pockets(self, triangles: &[[VertexId; 3]]) -> Self {
+        let pocket_edges = Arc::new(EdgeList::new(sides_of(triangles)));
+        Self { pocket_edges, pockets: Arc::new(FaceList::new(triangles.to_vec())), ..self }
+    }
+
+    fn of_stage(disk: &DiskMesh, result: &PlaneScene, stage: Stage, stages: &VirtualBoundary) -> Self {
+        let hull: &[VertexId] = if stage == Stage::Peeled { &[] } else { &stages.hull };
+        let scene = Self { has_stages: true, ..Self::of_hull(hull, caption(stage, stages)) };
+        let positions = match stage {
             Stage::Before | Stage::Pockets => &stages.before,
             Stage::Solved => &stages.solved,
-            Stage::Peeled => {
-                scene.hull = Arc::new(EdgeList::new(Vec::new()));
-                return scene;
-            }
+            Stage::Peeled => return scene,
         };
-        if key.1 != Stage::Before {
-            scene.pocket_edges = Arc::new(EdgeList::new(sides_of(&stages.pockets)));
-            scene.pockets = Arc::new(FaceList::new(stages.pockets.clone()));
-        }
-        let moved = moved_along(positions, disk, [&stages.solved, &outcome.step.solution.embedding]);
-        let flipped = flipped_faces(disk, positions);
-        scene.plane = Some(Arc::new(result.of_part(Part::Stage, moved)));
-        scene.paint = Some(Arc::new(FacePaint::plain(disk.face_count(), &flipped)));
-        scene
+        let moved = moved_along(positions, disk, [&stages.solved, &result.outcome.step.solution.embedding]);
+        let plane = Some(Arc::new(result.of_part(Part::Stage, moved)));
+        let paint = Some(Arc::new(FacePaint::plain(disk.face_count(), &flipped_faces(disk, positions))));
+        let scene = Self { plane, paint, ..scene };
+        if stage == Stage::Before { scene } else { scene.with_pockets(&stages.pockets) }
     }
 
     /// A step that was made with the outside triangulated up to a frame: the result within it.
-    fn of_outside(result: &PlaneScene, outside: &Outside, key: (u64, Stage)) -> Self {
+    fn of_outside(result: &PlaneScene, outside: &Outside) -> Self {
         let embedding = result.positions();
         let around: Vec<VertexId> =
             (0..outside.frame.len()).map(|k| VertexId::from_index(embedding.len() + k)).collect();
         let points = embedding.iter().chain(&outside.frame).copied().collect();
-        Self {
-            key,
-            plane: Some(Arc::new(result.of_part(Part::WithOutside, points))),
-            paint: None,
-            hull: Arc::new(EdgeList::closed_loop(&around)),
-            pocket_edges: Arc::new(EdgeList::new(sides_of(&outside.triangles))),
-            pockets: Arc::new(FaceList::new(outside.triangles.clone())),
-            caption: format!(
-                "{} triangles around the mesh, up to a frame: while none turns over, the boundary stays simple",
-                outside.triangles.len()
-            ),
-            has_stages: false,
-        }
+        let caption = format!(
+            "{} triangles around the mesh, up to a frame: while none turns over, the boundary stays simple",
+            outside.triangles.len()
+        );
+        let plane = Some(Arc::new(result.of_part(Part::WithOutside, points)));
+        Self { plane, ..Self::of_hull(&around, caption).with_pockets(&outside.triangles) }
     }
 
     /// A step that bent no boundary still has a hull.
-    fn of_free_boundary(disk: &DiskMesh, outcome: &Outcome, key: (u64, Stage)) -> Self {
+    fn of_free_boundary(disk: &DiskMesh, embedding: &Embedding) -> Self {
         let boundary = disk.boundary_loop();
-        let points: Vec<DVec2> = boundary.iter().map(|v| outcome.step.solution.embedding[v]).collect();
+        let points: Embedding = boundary.iter().map(|v| embedding[v]).collect();
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
-        Self {
-            key,
-            plane: None,
-            paint: None,
-            hull: Arc::new(EdgeList::closed_loop(&corners)),
-            pocket_edges: Arc::new(EdgeList::new(Vec::new())),
-            pockets: Arc::new(FaceList::new(Vec::new())),
-            caption: "This step has no virtual boundary; the line is the hull of the free one".to_owned(),
-            has_stages: false,
-        }
+        Self::of_hull(&corners, "This step has no virtual boundary; the line is the hull of the free one".to_owned())
     }
 
     /// Faces of the mesh that are turned over at a stage before the result.
@@ -245,6 +239,11 @@ fn moved_along(embedding: &Embedding, disk: &DiskMesh, [before, after]: [&Embedd
 }
 
 impl HullView {
+    pub(super) fn new(wake: &Wake) -> Self {
+        let (stage, job) = (Stage::default(), Background::new("hull", wake));
+        Self { shown: false, stage, scene: None, job, cameras: None }
+    }
+
     /// Whether hull and pockets are wanted.
     pub(super) fn is_shown(&self) -> bool {
         self.shown
@@ -252,7 +251,7 @@ impl HullView {
 
     /// Whether a stage is being made.
     pub(super) fn is_making_scene(&self) -> bool {
-        self.job.is_some()
+        self.job.is_busy()
     }
 }
 
@@ -285,17 +284,13 @@ impl PlaneView {
     }
 
     /// Makes the chosen stage in the background where it is not there yet.
-    pub(super) fn poll_hull(&mut self, around: Surroundings) {
-        if let Some(job) = &self.hull.job {
-            match job.poll() {
-                Poll::Running => return,
-                Poll::Lost => self.hull.job = None,
-                Poll::Done(scene) => {
-                    self.hull.job = None;
-                    self.hull.scene = Some(scene);
-                    self.frame_hull();
-                }
-            }
+    pub(super) fn poll_hull(&mut self) {
+        if let Some((_, Ok(scene))) = self.hull.job.poll() {
+            self.hull.scene = Some(scene);
+            self.frame_hull();
+        }
+        if self.hull.job.is_busy() {
+            return;
         }
         if !self.hull.shown {
             self.hull.scene = None;
@@ -306,8 +301,7 @@ impl PlaneView {
         let is_made = self.hull.scene.as_ref().is_some_and(|scene| scene.key == key);
         let Some(disk) = plane.mesh.model.disk().filter(|_| !is_made) else { return };
         let (disk, plane) = (Arc::clone(disk), Arc::clone(plane));
-        let work = move |_: &_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1);
-        self.hull.job = Job::spawn("hull", around.host.waker(), work).ok();
+        self.hull.job.start(key, move |_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1));
     }
 
     /// Shows or hides hull and pockets. The camera comes back where nobody has moved it since.

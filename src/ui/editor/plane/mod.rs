@@ -24,7 +24,7 @@ use super::host::Host;
 use super::picture_box;
 use super::project_view::plane_of;
 use super::scene::{MeshScene, PlaneScene};
-use crate::session::{Job, Poll, Session};
+use crate::session::{Background, Session, Wake};
 use crate::solver::Verdict;
 use crate::ui::panes::pane::{self, PaneArea};
 use crate::view::{PlaneBox, PlaneCamera};
@@ -34,7 +34,7 @@ use hull::HullView;
 use preview::PreviewScene;
 
 /// The embedding's pane as the window has it.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct PlaneView {
     area: PaneArea,
     camera: Option<PlaneCamera>,
@@ -43,7 +43,8 @@ pub struct PlaneView {
     /// The camera that the document was saved with, until there is an embedding to look at.
     saved: Option<Vec<f64>>,
     scene: Option<Arc<PlaneScene>>,
-    job: Option<Job<(), PlaneScene>>,
+    /// The scene that is being made, by the step's revision.
+    job: Background<u64, PlaneScene>,
     ease: Ease,
     preview: Option<PreviewScene>,
     hull: HullView,
@@ -73,6 +74,21 @@ impl Surroundings<'_> {
 }
 
 impl PlaneView {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self {
+            area: PaneArea::default(),
+            camera: None,
+            framed: None,
+            saved: None,
+            scene: None,
+            job: Background::new("plane scene", wake),
+            ease: Ease::default(),
+            preview: None,
+            hull: HullView::new(wake),
+            ghost: None,
+        }
+    }
+
     /// Where the pane lies.
     pub fn area(&self) -> &PaneArea {
         &self.area
@@ -163,13 +179,14 @@ impl PlaneView {
 impl PlaneView {
     /// Forgets the embedding of a mesh that is gone.
     pub(super) fn forget(&mut self) {
-        (self.camera, self.scene, self.job, self.preview) = (None, None, None, None);
+        (self.camera, self.scene, self.preview) = (None, None, None);
+        self.job.cancel();
         self.ease.stop();
     }
 
     /// Whether a scene is being made.
     pub(super) fn is_making_scene(&self) -> bool {
-        self.job.is_some() || self.hull.is_making_scene()
+        self.job.is_busy() || self.hull.is_making_scene()
     }
 
     /// Takes in what was made in the background, and has made what is missing. Returns a new scene. Call once per frame.
@@ -177,40 +194,33 @@ impl PlaneView {
         let new = self.poll_scene(around);
         self.refresh_preview(around);
         self.go_on_easing(around);
-        self.poll_hull(around);
+        self.poll_hull();
         self.refresh_ghost(around.session);
         new
     }
 
     fn poll_scene(&mut self, around: Surroundings) -> Option<Arc<PlaneScene>> {
-        let mut new = None;
-        if let Some(job) = &self.job {
-            match job.poll() {
-                Poll::Running => return None,
-                Poll::Lost => self.job = None,
-                Poll::Done(scene) => {
-                    self.job = None;
-                    let scene = Arc::new(scene);
-                    if self.camera.is_none() {
-                        self.look_at_first(&scene, around);
-                    }
-                    self.take(Arc::clone(&scene), around);
-                    new = Some(scene);
-                }
+        let new = self.job.poll().and_then(|(_, scene)| scene.ok()).map(Arc::new);
+        if let Some(scene) = &new {
+            if self.camera.is_none() {
+                self.look_at_first(scene, around);
             }
+            self.take(Arc::clone(scene), around);
         }
-        let Surroundings { session, host, mesh, .. } = around;
+        if self.job.is_busy() {
+            return new;
+        }
+        let Surroundings { session, mesh, .. } = around;
         let revision = session.outcome_revision();
         let is_shown = self.scene.as_ref().is_some_and(|scene| scene.outcome_revision == revision);
         let given = mesh.filter(|mesh| mesh.model_revision == session.model_revision() && !is_shown);
         if let Some((given, outcome)) = given.zip(session.outcome()) {
             let (given, outcome) = (Arc::clone(given), Arc::clone(outcome));
             let before = self.scene.as_ref().map(|scene| Arc::clone(&scene.mesh));
-            let work = move |_: &_| {
+            self.job.start(revision, move |_| {
                 let mesh = MeshScene::of_step(&given, before, &outcome.step);
                 PlaneScene::new(mesh, outcome, revision)
-            };
-            self.job = Job::spawn("plane scene", host.waker(), work).ok();
+            });
         }
         new
     }
