@@ -158,7 +158,7 @@ impl HullScene {
     /// A step that bent no boundary still has a hull.
     fn of_free_boundary(disk: &DiskMesh, embedding: &Embedding) -> Self {
         let boundary = disk.boundary_loop();
-        let points: Embedding = boundary.iter().map(|v| embedding[v]).collect();
+        let points = embedding.boundary(disk);
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
         Self::of_hull(&corners, "This step has no virtual boundary; the line is the hull of the free one".to_owned())
     }
