@@ -129,7 +129,7 @@ impl HeadlessJob<'_> {
         loop {
             let step = match (run.step(mesh, control), last) {
                 (Ok(step), _) => step,
-                // A rung that gives nothing leaves the steps before it, which are written.
+                // Where a rung fails, the steps before it are written.
                 (Err(error), Some(last)) if error != SolveError::Cancelled => {
                     return Ok(Solved { outcome: placed(last), records, ending: Err(error) });
                 }
@@ -153,7 +153,7 @@ impl HeadlessJob<'_> {
 pub(super) struct Solved {
     pub(super) outcome: Outcome,
     records: Vec<StepReport>,
-    /// Why it ended; the error of the rung that gave nothing, where it could not go on.
+    /// Why it ended; the error, where a rung failed.
     pub(super) ending: Result<Ending, SolveError>,
 }
 

@@ -97,7 +97,7 @@ pub struct Output<'a> {
     pub coordinates: &'a Embedding,
     /// The verdict on these coordinates.
     pub verdict: &'a Verdict,
-    /// What the run has to say.
+    /// Report of the run.
     pub report: &'a Report,
     /// The picture on the mesh, where there is one.
     pub picture: Option<TexturePicture<'a>>,

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use glam::DVec2;
 
 use super::ProvedEmbedding;
+use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, EdgeId, VertexId};
 use crate::solver::{Embedding, Step, VirtualBoundary, to_true_area};
 
@@ -60,8 +61,10 @@ pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step)
     let embedding = &step.solution.embedding;
     let outside = step.virtual_boundary.as_deref().map(|stages| {
         // The step's embedding may have been turned and scaled since it was solved; the outside goes with it.
-        let fit = Similarity::between(&stages.solved[..embedding.len()], embedding);
-        Outside { embedding: stages.solved.iter().map(|&z| fit.apply(z)).collect(), stages }
+        let pairs: Vec<[DVec2; 2]> = stages.solved.iter().zip(embedding).map(|(&from, &to)| [from, to]).collect();
+        let fit = Similarity::fitting(&pairs);
+        let moved = |&z: &DVec2| fit.map_or(z, |fit| fit.apply(z));
+        Outside { embedding: stages.solved.iter().map(moved).collect(), stages }
     });
     let frame = Frame::around(embedding.iter().chain(outside.iter().flat_map(|outside| &outside.embedding)));
     let shown = ProvedEmbedding { mesh: step.mesh(mesh), embedding, verdict: &step.verdict };
@@ -184,31 +187,6 @@ impl<'a> Drawing<'a> {
             write!(out, "{}{:.decimals$} {:.decimals$}", if i == 0 { 'M' } else { 'L' }, point.x, point.y)?;
         }
         Ok(())
-    }
-}
-
-/// The map z ↦ factor·z + shift of complex numbers.
-struct Similarity {
-    factor: DVec2,
-    shift: DVec2,
-}
-
-impl Similarity {
-    /// The one that takes points nearest to others, in the sense of least squares.
-    fn between(from: &[DVec2], to: &[DVec2]) -> Self {
-        let mean = |points: &[DVec2]| points.iter().sum::<DVec2>() / points.len().max(1) as f64;
-        let (a, b) = (mean(from), mean(to));
-        let (mut factor, mut length) = (DVec2::ZERO, 0.0);
-        for (f, t) in from.iter().zip(to).map(|(f, t)| (*f - a, *t - b)) {
-            factor += DVec2::new(f.dot(t), f.perp_dot(t));
-            length += f.length_squared();
-        }
-        let factor = if length > 0.0 { factor / length } else { DVec2::X };
-        Self { factor, shift: b - factor.rotate(a) }
-    }
-
-    fn apply(&self, z: DVec2) -> DVec2 {
-        self.factor.rotate(z) + self.shift
     }
 }
 

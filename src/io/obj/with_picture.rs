@@ -57,7 +57,7 @@ fn with_material(mesh: &ObjMesh, library: &str) -> ObjMesh {
     ObjMesh { statements, ..mesh.clone() }
 }
 
-/// The material library of an OBJ file: beside it, of its name, unless somebody else's has that.
+/// Path of the material library of an OBJ file: beside it, of the same name, or another where that file is not ours.
 fn library_beside(path: &Path) -> PathBuf {
     let stem = stem_of(path);
     let head = head_for(path);
@@ -69,7 +69,7 @@ fn head_for(path: &Path) -> String {
     format!("{HEAD}{}\n", name_of(path))
 }
 
-/// Sees to it that a picture lies beside a mesh, and returns its name there.
+/// Puts a picture beside a mesh where it is not there yet, and returns its name.
 fn put_picture(mesh: &Path, picture: &TexturePicture) -> Result<String, WriteError> {
     let stem = stem_of(mesh);
     let Some(source) = picture.path else {
@@ -107,7 +107,7 @@ fn place_for(mesh: &Path, names: &[String], is_ours: impl Fn(&Path) -> bool) -> 
         .expect("a folder has fewer files than there are numbers")
 }
 
-/// Whether nothing can be seen there. Where that is because nobody may look, writing says so.
+/// Whether no file is seen there. Where permission to look is missing, writing fails and says so.
 fn is_free(place: &Path) -> bool {
     fs::symlink_metadata(place).is_err()
 }

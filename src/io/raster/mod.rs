@@ -3,6 +3,12 @@
 //! Light and shade are fixed: a key light from the upper left of the camera, a weaker one from the right, and a sky.
 //! Triangles are drawn in horizontal bands, one per task, each band in file order: the picture does not depend on the
 //! number of threads. Several samples per pixel are averaged.
+//!
+//! | file    | what it holds                                                          |
+//! |---------|------------------------------------------------------------------------|
+//! | `mod`   | view, canvas and paint; pictures of meshes and of embeddings           |
+//! | `scene` | triangles in samples, drawn band by band into a z-buffer               |
+//! | `brush` | paint, light and edges of a face                                       |
 
 mod brush;
 mod scene;
@@ -58,7 +64,7 @@ impl View {
         Self { eye: DVec3::new(angle.sin(), 0.0, angle.cos()), up: DVec3::Y }
     }
 
-    /// Right, up and towards the eye, orthonormal whatever was given.
+    /// Right, up and towards the eye, orthonormal for any input.
     pub(super) fn axes(&self) -> [DVec3; 3] {
         let towards = self.eye.try_normalize().unwrap_or(DVec3::Z);
         let right = self.up.cross(towards).try_normalize().unwrap_or_else(|| towards.any_orthonormal_vector());
@@ -160,8 +166,8 @@ fn seen_from(positions: &[DVec3], view: &View) -> Vec<DVec3> {
     positions.par_iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect()
 }
 
-/// A picture of an embedding: thin edges, the boundary as a darker line. Which faces are flipped is for the verdict to
-/// say, and for the caller to paint.
+/// A picture of an embedding: thin edges, the boundary as a darker line. The caller paints the faces that its verdict
+/// calls flipped.
 pub fn plane_picture(embedding: &Embedding, triangles: &[[VertexId; 3]], canvas: &Canvas, paint: Paint) -> Picture {
     let seen: Vec<DVec3> = embedding.iter().map(|p| p.extend(0.0)).collect();
     let table = EdgeTable::new(embedding.len(), triangles);
