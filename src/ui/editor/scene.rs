@@ -6,7 +6,6 @@ use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, Vert
 use crate::session::{Model, Outcome};
 use crate::solver::{Embedding, FaceDistortion, Step};
 use crate::ui::Shading;
-use crate::ui::panes::compare::{face_moves, places_in};
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
 
 /// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
@@ -232,7 +231,7 @@ impl Paint {
             (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
             (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),
             (Shading::Move, Some(base)) => {
-                let before = places_in(&base.step, &outcome.step);
+                let before = embedding_on(&base.step, &outcome.step);
                 by_values(Scale::Move, &face_moves(mesh, &before, &outcome.step.solution.embedding))
             }
         }
@@ -247,6 +246,28 @@ fn histogram(values: &[f64], range: Range) -> Vec<u32> {
         bars[bar.min(BARS - 1)] += 1;
     }
     bars
+}
+
+/// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
+fn embedding_on(base: &Step, step: &Step) -> Vec<DVec2> {
+    let embedding = &base.solution.embedding;
+    let Some(refinement) = &step.refinement else { return embedding.clone() };
+    if base.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
+        return embedding.clone();
+    }
+    let mut moved = embedding[..refinement.old_vertex_count()].to_vec();
+    for new in refinement.new_vertices() {
+        let [a, b] = new.edge.map(|v| embedding[v.index()]);
+        moved.push(a.lerp(b, new.at));
+    }
+    moved
+}
+
+/// How far each face has moved between two embeddings: the mean of its corners.
+fn face_moves(mesh: &TriMesh, before: &[DVec2], after: &[DVec2]) -> Vec<f64> {
+    let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
+    let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
+    mesh.triangles.iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
 }
 
 /// A part of the mesh that a defect or a person names.
