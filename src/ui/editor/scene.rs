@@ -249,7 +249,7 @@ fn histogram(values: &[f64], range: Range) -> Vec<u32> {
 }
 
 /// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
-fn embedding_on(base: &Step, step: &Step) -> Vec<DVec2> {
+fn embedding_on(base: &Step, step: &Step) -> Embedding {
     let embedding = &base.solution.embedding;
     let Some(refinement) = &step.refinement else { return embedding.clone() };
     if base.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
@@ -264,7 +264,7 @@ fn embedding_on(base: &Step, step: &Step) -> Vec<DVec2> {
 }
 
 /// How far each face has moved between two embeddings: the mean of its corners.
-fn face_moves(mesh: &TriMesh, before: &[DVec2], after: &[DVec2]) -> Vec<f64> {
+fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64> {
     let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
     let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
     mesh.triangles.iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
