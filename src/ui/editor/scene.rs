@@ -260,7 +260,7 @@ fn embedding_on(base: &Step, step: &Step) -> Embedding {
         let [a, b] = new.edge.map(|v| embedding[v.index()]);
         moved.push(a.lerp(b, new.at));
     }
-    moved
+    moved.into()
 }
 
 /// How far each face has moved between two embeddings: the mean of its corners.
