@@ -34,7 +34,7 @@ fn equation_of(
     let disk = step.mesh(editor.session.model()?.disk()?);
     let timeline = editor.session.timeline();
     let before = step.index.checked_sub(1).and_then(|index| timeline.outcome(index));
-    let before = before.map(|before| before.step.solution.embedding.as_slice());
+    let before = before.map(|before| &before.step.solution.embedding);
     (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, (step, before), vertex))
 }
 

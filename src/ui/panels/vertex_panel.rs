@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use eframe::egui;
-use glam::DVec2;
 
 use super::equation_table;
 use super::status::short;
 use crate::mesh::{DiskMesh, NewVertex, VertexId};
 use crate::session::Action;
+use crate::solver::Embedding;
 use crate::ui::controls::{Control, number, pairs};
 use crate::ui::{Editor, Request};
 
@@ -33,7 +33,7 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(new) = scene.new_vertex(vertex) {
         ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }
-    let embedding = editor.session.outcome().map(|outcome| outcome.step.solution.embedding.as_slice());
+    let embedding = editor.session.outcome().map(|outcome| &outcome.step.solution.embedding);
     pairs(ui, "vertex", [16.0, 4.0], |ui| {
         for (axis, value) in ["x", "y", "z"].iter().zip(position.to_array()) {
             number(ui, axis, short(value));
@@ -83,8 +83,8 @@ fn angle_sum_on_mesh(disk: &DiskMesh, vertex: VertexId) -> f64 {
     corners(disk, vertex).map(|[a, b]| at(a).angle_between(at(b))).sum()
 }
 
-fn angle_sum_in_plane(disk: &DiskMesh, embedding: &[DVec2], vertex: VertexId) -> f64 {
-    let at = |v: VertexId| embedding[v.index()] - embedding[vertex.index()];
+fn angle_sum_in_plane(disk: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> f64 {
+    let at = |v: VertexId| embedding[v] - embedding[vertex];
     corners(disk, vertex).map(|[a, b]| at(a).angle_to(at(b)).abs()).sum()
 }
 
