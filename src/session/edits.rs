@@ -11,7 +11,7 @@ use super::{Command, Document, PictureFile, Place, Session};
 use crate::geom::{PictureFrame, Similarity};
 use crate::io::{Constraints, Target, Targets};
 use crate::mesh::VertexId;
-use crate::solver::{Control, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, flatten};
+use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, flatten};
 
 /// The mesh flattened without pins, in the middle of the picture.
 pub(super) struct Flat {
@@ -19,7 +19,7 @@ pub(super) struct Flat {
     frame: PictureFrame,
     /// Whether the mesh's faces were turned around.
     faces_turned: bool,
-    embedding: Result<Vec<DVec2>, SolveError>,
+    embedding: Result<Embedding, SolveError>,
 }
 
 /// Edits.
@@ -68,7 +68,7 @@ impl Session {
     pub(super) fn fix(&mut self, vertices: &[VertexId]) {
         let Some(outcome) = self.outcome().cloned().filter(|_| self.takes_pins()) else { return };
         // What the screen shows is the preview, where there is one.
-        let preview = self.preview().map(|preview| (self.document.frame(), preview.embedding.as_slice()));
+        let preview = self.preview().map(|preview| (self.document.frame(), &*preview.embedding));
         let (frame, shown) = preview.unwrap_or((outcome.problem.frame, &outcome.step.solution.embedding));
         // New vertices belong to one embedding alone: they cannot be pinned.
         let count = self.mesh.vertex_count();
@@ -81,7 +81,9 @@ impl Session {
 
     /// Pins a vertex, or places its pin anew.
     pub(super) fn place(&mut self, vertex: VertexId, target: Target) {
-        let is_valid = vertex.index() < self.mesh.vertex_count() && target.uv.is_finite() && target.hold.is_valid();
+        let is_valid = vertex.index() < self.mesh.vertex_count()
+            && target.uv.is_finite()
+            && target.hold.invalid_weight().is_none();
         if is_valid && self.takes_pins() {
             self.edit(vec![Command::SetPin { vertex, target: Some(target) }]);
         }
@@ -132,7 +134,11 @@ impl Session {
 
     fn holds(&self, vertices: &[VertexId], hold: Hold) -> Vec<Command> {
         let command = |&vertex: &VertexId| {
-            let before = self.document.targets.get(&vertex).filter(|before| before.hold != hold && hold.is_valid())?;
+            let before = self
+                .document
+                .targets
+                .get(&vertex)
+                .filter(|before| before.hold != hold && hold.invalid_weight().is_none())?;
             Some(Command::SetPin { vertex, target: Some(Target { hold, ..*before }) })
         };
         vertices.iter().filter_map(command).collect()
@@ -191,7 +197,7 @@ impl Session {
             return self.messages.fail(Place::Embedding, text, Some("fit them again"));
         }
         let pairs: Vec<[DVec2; 2]> =
-            (self.document.pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex.index()]]).collect();
+            (self.document.pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex]]).collect();
         let fitted = Similarity::fitting(&pairs).map(|similarity| {
             let targets = pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target)));
             targets.collect::<Vec<_>>()

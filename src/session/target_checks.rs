@@ -14,7 +14,7 @@ use super::open_mesh::OpenMesh;
 use super::{Background, Document, Session, Wake};
 use crate::geom::Similarity;
 use crate::mesh::VertexId;
-use crate::solver::{Conflict, Control, Family, Method, Pins, Settings, SolveError, conflicts, flatten};
+use crate::solver::{Conflict, Control, Embedding, Family, Method, Pins, Settings, SolveError, conflicts, flatten};
 
 /// With fewer pins either fits.
 const LEAST_PINS: usize = 3;
@@ -29,8 +29,8 @@ pub(super) struct TargetChecks {
     looked_in: (u64, Pins),
     conflicts: Vec<Conflict>,
     /// The mesh flattened without pins, by its revision; none where it cannot be flattened.
-    flat: Option<(u64, Option<Vec<DVec2>>)>,
-    flattening: Background<u64, Result<Vec<DVec2>, SolveError>>,
+    flat: Option<(u64, Option<Embedding>)>,
+    flattening: Background<u64, Result<Embedding, SolveError>>,
 }
 
 impl TargetChecks {

@@ -120,7 +120,7 @@ fn preview_words(preview: Option<&Preview>) -> String {
 fn short_verdict(verdict: &Verdict) -> String {
     let counts = [
         (verdict.flipped_faces.len(), ["flipped"; 2]),
-        (verdict.boundary_crossings.len() + verdict.unlisted_crossings, ["crossing", "crossings"]),
+        (verdict.crossing_count(), ["crossing", "crossings"]),
         (verdict.overwound_vertices.len(), ["overwound"; 2]),
     ];
     let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, [one, many])| counted(*count, one, many));
