@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::ProvedEmbedding;
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, EdgeId, VertexId};
-use crate::solver::{Step, VirtualBoundary, to_true_area};
+use crate::solver::{Embedding, Step, VirtualBoundary, to_true_area};
 
 /// Longer side of a drawing without its margin, in units of its lines' widths.
 const SIZE: f64 = 1000.0;
@@ -44,7 +44,7 @@ impl SvgPage {
 /// magenta.
 pub(super) fn write_svg(out: &mut impl Write, shown: ProvedEmbedding<'_>, page: SvgPage) -> io::Result<()> {
     let scale = DVec2::new(page.aspect(), 1.0);
-    let mut embedding: Vec<DVec2> = shown.embedding.iter().map(|uv| uv * scale).collect();
+    let mut embedding: Embedding = shown.embedding.iter().map(|uv| uv * scale).collect();
     let frame = match page {
         SvgPage::Picture { aspect } => Frame::of_picture(aspect, &embedding),
         SvgPage::TrueArea { .. } => {
@@ -58,7 +58,7 @@ pub(super) fn write_svg(out: &mut impl Write, shown: ProvedEmbedding<'_>, page: 
 /// Draws a step as [`write_svg`] does; one of the virtual boundary with the outline it was solved with (the hull, as a
 /// red line) and the pockets (green). `mesh` is the mesh as given; new vertices are the step's own.
 pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io::Result<()> {
-    let embedding = step.solution.embedding.as_slice();
+    let embedding = &step.solution.embedding;
     let outside = step.virtual_boundary.as_deref().map(|stages| {
         // The step's embedding may have been turned and scaled since it was solved; the outside goes with it.
         let pairs: Vec<[DVec2; 2]> = stages.solved.iter().zip(embedding).map(|(&from, &to)| [from, to]).collect();
@@ -74,7 +74,7 @@ pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step)
 /// What lies outside the boundary in a step of the virtual boundary.
 struct Outside<'a> {
     /// Of all vertices, the virtual ones last.
-    embedding: Vec<DVec2>,
+    embedding: Embedding,
     stages: &'a VirtualBoundary,
 }
 
@@ -129,7 +129,7 @@ impl<'a> Drawing<'a> {
 
     fn write_pockets(&self, out: &mut impl Write) -> io::Result<()> {
         let Some(outside) = &self.outside else { return Ok(()) };
-        let at = |v: VertexId| self.frame.place(outside.embedding[v.index()]);
+        let at = |v: VertexId| self.frame.place(outside.embedding[v]);
         let pockets = outside.stages.pockets.iter().map(|pocket| pocket.map(at));
         let style = format!(r##"class="pockets" fill="#cfe8d2" stroke="#3fa34d" stroke-width="{}""##, self.width);
         self.write_closed(out, &style, pockets)
@@ -137,7 +137,7 @@ impl<'a> Drawing<'a> {
 
     fn write_hull(&self, out: &mut impl Write) -> io::Result<()> {
         let Some(outside) = &self.outside else { return Ok(()) };
-        let hull = outside.stages.hull.iter().map(|v| self.frame.place(outside.embedding[v.index()]));
+        let hull = outside.stages.hull.iter().map(|v| self.frame.place(outside.embedding[v]));
         let style = format!(r##"class="hull" stroke="#c93a3a" stroke-width="{}""##, 3.0 * self.width);
         self.write_closed(out, &style, [hull.collect::<Vec<_>>()])
     }

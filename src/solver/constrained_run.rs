@@ -8,8 +8,8 @@ use super::continuation::{Accepted, Continuation};
 use super::matchmaker::{Matched, matched, without_needless_vertices};
 use super::relaxing::Relaxing;
 use super::{
-    Conflict, Control, Ladder, Method, Outside, Pins, Progress, Settings, SolveError, Step, check_pins, conflicts,
-    verdict,
+    Conflict, Control, Embedding, Ladder, Method, Outside, Pins, Progress, Settings, SolveError, Step, check_pins,
+    conflicts, verdict,
 };
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
@@ -38,7 +38,7 @@ enum Stage {
     /// Rung 4 cannot arrive, and new vertices are not wanted.
     Stuck,
     /// Rung 5 is next, from a planar embedding.
-    Matchmaker(Vec<DVec2>),
+    Matchmaker(Embedding),
     /// The constraints are met with new vertices, some of which may be needless once the embedding has relaxed.
     Refined(Box<Matched>, usize),
     /// There is no further step.
@@ -49,7 +49,7 @@ enum Stage {
 #[derive(Debug)]
 pub(super) struct Reached {
     pub(super) rung: Method,
-    pub(super) embedding: Vec<DVec2>,
+    pub(super) embedding: Embedding,
     pub(super) progress: Option<Progress>,
     pub(super) outside: Option<Arc<Outside>>,
     pub(super) refinement: Option<Arc<Refinement>>,
@@ -117,7 +117,7 @@ impl ConstrainedRun {
             Ok(None) | Err(_) => {}
         }
         let is_crushed = continuation.go_back_to_sound();
-        let (embedding, progress) = (continuation.embedding().to_vec(), Some(continuation.progress(mesh)));
+        let (embedding, progress) = (continuation.embedding().clone(), Some(continuation.progress(mesh)));
         if self.settings.method == Method::Auto && self.settings.new_vertices {
             self.stage = Stage::Matchmaker(embedding);
             return self.step(mesh, control);
@@ -170,7 +170,7 @@ pub(super) fn check_distances(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveE
 }
 
 /// A planar embedding without the constraints, by the ladder.
-fn planar_start(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Vec<DVec2>, SolveError> {
+fn planar_start(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Embedding, SolveError> {
     let unconstrained = Settings { size: settings.size, ..Settings::default() };
     let mut planar: Option<Step> = None;
     let result = Ladder::new(unconstrained, Pins::new()).finish(mesh, control, |step| {
@@ -188,14 +188,14 @@ fn planar_start(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> R
 
 /// An embedding moved by the similarity that fits the pins best; by a shift alone where none does, or where rounding
 /// would fold it; not at all where even that would.
-fn fitted(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Vec<DVec2> {
-    let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v.index()], pin.target]).collect();
-    let is_planar = |embedding: &Vec<DVec2>| verdict(mesh, embedding).planar;
-    let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Vec<_>>();
+fn fitted(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Embedding {
+    let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v], pin.target]).collect();
+    let is_planar = |embedding: &Embedding| verdict(mesh, embedding).planar;
+    let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Embedding>();
     if let Some(embedding) = Similarity::fitting(&pairs).map(fit).filter(is_planar) {
         return embedding;
     }
     let shift = pairs.iter().map(|[is, wanted]| *wanted - *is).sum::<DVec2>() / pairs.len().max(1) as f64;
-    let shifted = embedding.iter().map(|&z| z + shift).collect();
+    let shifted = embedding.iter().map(|&z| z + shift).collect::<Embedding>();
     if is_planar(&shifted) { shifted } else { embedding }
 }

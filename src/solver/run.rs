@@ -30,8 +30,8 @@ use super::stall::Stall;
 use super::step::{Step, largest_move};
 use super::virtual_boundary_run::{Bent, VirtualBoundaryRun};
 use super::{
-    Control, Family, Method, Outside, Phase, PhaseSeconds, Pins, Prepared, Progress, Settings, Solution, SolveError,
-    fixed_pins, flatten, gauge_pins, verdict,
+    Control, Embedding, Family, Method, Outside, Phase, PhaseSeconds, Pins, Prepared, Progress, Settings, Solution,
+    SolveError, fixed_pins, flatten, gauge_pins, verdict,
 };
 use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, Refinement};
@@ -87,7 +87,7 @@ pub struct Ladder {
 /// What the next step goes on from.
 #[derive(Clone, Debug)]
 struct Latest {
-    embedding: Vec<DVec2>,
+    embedding: Embedding,
     /// The pins in force.
     pins: Pins,
     has_simple_boundary: bool,
@@ -375,7 +375,7 @@ impl Ladder {
     fn is_met(&self) -> bool {
         let Some(latest) = &self.latest else { return false };
         let exact = self.pins.iter().filter(|(_, pin)| self.settings.is_exact(pin.hold));
-        exact.into_iter().all(|(v, pin)| latest.embedding[v.index()] == pin.target)
+        exact.into_iter().all(|(v, pin)| latest.embedding[v] == pin.target)
     }
 
     /// One round of relaxing.
@@ -390,7 +390,7 @@ impl Ladder {
         if held.is_empty() {
             let before = embedding.clone();
             complete_gauge(mesh, &mut embedding, (&self.pins, self.settings.size));
-            let pairs: Vec<[DVec2; 2]> = before.into_iter().zip(&embedding).map(|(a, b)| [a, *b]).collect();
+            let pairs: Vec<[DVec2; 2]> = before.iter().zip(&embedding).map(|(a, b)| [*a, *b]).collect();
             if let Some(similarity) = Similarity::fitting(&pairs) {
                 let frame = outside.frame.iter().map(|&z| similarity.apply(z)).collect();
                 outside = Arc::new(Outside { frame, triangles: outside.triangles.clone() });
@@ -403,7 +403,7 @@ impl Ladder {
     }
 
     /// A solution that no linear system stands behind.
-    fn one_to_one(&self, embedding: Vec<DVec2>, pins: Pins, start: Instant) -> Solution {
+    fn one_to_one(&self, embedding: Embedding, pins: Pins, start: Instant) -> Solution {
         Solution {
             embedding,
             pins,
@@ -516,7 +516,7 @@ impl Ladder {
             complete_gauge(mesh, &mut solution.embedding, (&self.pins, self.settings.size));
             solution.gauge_completed = true;
             for (vertex, pin) in &mut solution.pins {
-                pin.target = solution.embedding[vertex.index()];
+                pin.target = solution.embedding[vertex];
             }
         }
         Ok(Raw::of(Method::Iterate, Family::MeanValue, solution))
@@ -525,7 +525,7 @@ impl Ladder {
     fn virtual_step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Raw, SolveError> {
         let run = self.virtual_boundary.get_or_insert_with(|| VirtualBoundaryRun::new(mesh, &self.settings));
         let simple = self.latest.as_ref().filter(|latest| latest.has_simple_boundary);
-        let bent = run.step(mesh, simple.map(|latest| latest.embedding.as_slice()), control);
+        let bent = run.step(mesh, simple.map(|latest| &latest.embedding), control);
         for note in run.take_notes() {
             self.say(note);
         }
@@ -537,6 +537,6 @@ impl Ladder {
 }
 
 /// The default gauge pins where they lie in an embedding.
-fn gauge_in(mesh: &DiskMesh, embedding: &[DVec2]) -> Pins {
-    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v.index()])))
+fn gauge_in(mesh: &DiskMesh, embedding: &Embedding) -> Pins {
+    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v])))
 }

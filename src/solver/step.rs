@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Family, Method, Outside, Prepared, Solution, Verdict, VirtualBoundary};
+use super::{Embedding, Family, Method, Outside, Prepared, Solution, Verdict, VirtualBoundary};
 use crate::mesh::{DiskMesh, Refinement, VertexId};
 
 /// Where a one-to-one embedding stands on its way: the numbers of continuation and relaxing.
@@ -63,14 +63,8 @@ impl Step {
     pub fn unmet(&self) -> Vec<VertexId> {
         let Solution { embedding, pins, .. } = &self.solution;
         let is_unmet =
-            |(vertex, pin): &(&VertexId, &super::Pin)| pin.hold.is_exact() && embedding[vertex.index()] != pin.target;
+            |(vertex, pin): &(&VertexId, &super::Pin)| pin.hold.is_exact() && embedding[*vertex] != pin.target;
         pins.iter().filter(is_unmet).map(|(&vertex, _)| vertex).collect()
-    }
-
-    /// Flipped faces, boundary crossings and overwound vertices together.
-    pub fn defect_count(&self) -> usize {
-        let Verdict { flipped_faces, boundary_crossings, unlisted_crossings, overwound_vertices, .. } = &self.verdict;
-        flipped_faces.len() + boundary_crossings.len() + unlisted_crossings + overwound_vertices.len()
     }
 
     /// Whether the boundary is simple and runs counter-clockwise.
@@ -95,7 +89,7 @@ pub fn largest_move(before: &[DVec2], after: &[DVec2]) -> f64 {
 }
 
 /// The diagonal of the box around an embedding.
-pub fn diameter(embedding: &[DVec2]) -> f64 {
+pub fn diameter(embedding: &Embedding) -> f64 {
     let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     low.distance(high)

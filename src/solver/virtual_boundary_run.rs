@@ -16,11 +16,11 @@ use std::time::Instant;
 use glam::DVec2;
 
 use super::equations::{barycentric, uniform};
-use super::plane_weights::{left_over_in_plane, mean_value_in_plane};
+use super::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use super::virtual_boundary::{Extended, Start, VirtualBoundary};
 use super::{
-    Control, Family, Growth, LinearSolve, Method, PhaseSeconds, Pins, Places, Prepared, Settings, Solution, SolveError,
-    Treatment, fixed_pins,
+    Control, Embedding, Family, Growth, LinearSolve, Method, PhaseSeconds, PinPositions, Pins, Prepared, Settings,
+    Solution, SolveError, Treatment, fixed_pins,
 };
 use crate::mesh::DiskMesh;
 
@@ -67,7 +67,7 @@ pub(super) struct VirtualBoundaryRun {
     boundary: usize,
     extended: Option<Extended>,
     /// The last result, with the outside.
-    solved: Vec<DVec2>,
+    solved: Embedding,
     /// How many weights have been tried on `extended`.
     tried: usize,
     /// Whether nothing is left to do.
@@ -92,7 +92,7 @@ impl VirtualBoundaryRun {
             pinned: 2,
             boundary,
             extended: None,
-            solved: Vec::new(),
+            solved: Embedding::default(),
             tried: 0,
             is_exhausted: false,
             notes: Vec::new(),
@@ -118,7 +118,7 @@ impl VirtualBoundaryRun {
     pub(super) fn step(
         &mut self,
         mesh: &DiskMesh,
-        simple: Option<&[DVec2]>,
+        simple: Option<&Embedding>,
         control: Control<'_>,
     ) -> Result<Bent, SolveError> {
         if self.extended.is_none() && self.tried == 0 {
@@ -164,7 +164,7 @@ impl VirtualBoundaryRun {
                 Err(error) => self.notes.push(format!("{pinned} boundary pins gave nothing: {error}")),
                 Ok(solution) => {
                     (self.pinned, self.extended, self.tried) = (pinned, None, 0);
-                    self.solved.clear();
+                    self.solved = Embedding::default();
                     return Ok(Bent { solution, pinned, family, stages: None });
                 }
             }
@@ -177,29 +177,29 @@ impl VirtualBoundaryRun {
 fn bend(
     mesh: &DiskMesh,
     extended: &Extended,
-    (weights, solved, pinned): (Weights, &[DVec2], usize),
+    (weights, solved, pinned): (Weights, &Embedding, usize),
     control: Control<'_>,
 ) -> Result<Bent, SolveError> {
     let start = Instant::now();
-    let from = if weights == Weights::Again && !solved.is_empty() { solved } else { &extended.positions };
+    let from = if weights == Weights::Again && !solved.is_empty() { solved } else { &extended.embedding };
     let has_pockets = !extended.pockets.is_empty();
-    let (equations, left) = match weights {
+    let (equations, residuals) = match weights {
         Weights::Surface if !has_pockets => (barycentric(mesh, 0.0)?, None),
         Weights::Uniform => (uniform(&extended.disk), None),
-        _ => (mean_value_in_plane(&extended.disk, from), Some(left_over_in_plane(&extended.disk, from))),
+        _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
     };
     let bounded_corners = equations.bounded_corners;
-    let start_at = Start { positions: from, left: left.as_deref() };
-    let (positions, residual, stats) = extended.solve(&equations, start_at, control)?;
-    let embedding = positions[..mesh.vertex_count()].to_vec();
+    let start_at = Start { embedding: from, residuals: residuals.as_deref() };
+    let (solved, residual, stats) = extended.solve(&equations, start_at, control)?;
+    let embedding = Embedding::of_mesh(mesh, &solved);
     let stages = VirtualBoundary {
         pinned,
         outline: extended.outline,
-        before: from.to_vec(),
-        weights_of_before: left.is_some(),
+        before: from.clone(),
+        weights_of_before: residuals.is_some(),
         hull: extended.disk.boundary_loop().to_vec(),
         pockets: extended.pockets.clone(),
-        solved: positions,
+        solved,
     };
     let seconds = PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
     let solution = Solution {
@@ -221,7 +221,7 @@ fn bend(
 
 /// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, at distances that follow the
 /// lengths between them.
-fn on_circle(mesh: &DiskMesh, count: usize) -> Places {
+fn on_circle(mesh: &DiskMesh, count: usize) -> PinPositions {
     let boundary = mesh.boundary_loop();
     let chosen: Vec<usize> = (0..count).map(|j| j * boundary.len() / count).collect();
     let edge = |place: usize| {
@@ -235,7 +235,7 @@ fn on_circle(mesh: &DiskMesh, count: usize) -> Places {
     let lengths: Vec<f64> = lengths.into_iter().map(|length| length.max(floor)).collect();
     let widened: f64 = lengths.iter().sum();
     let mut walked = 0.0;
-    let mut places = Places::new();
+    let mut places = PinPositions::new();
     for (place, length) in chosen.into_iter().zip(lengths) {
         places.insert(boundary[place], DVec2::from_angle(walked / widened * TAU) * (total / TAU));
         walked += length;

@@ -318,7 +318,7 @@ impl Walk {
         let is_on_its_way = outcome.step.rung.is_one_to_one() && outcome.is_planar_but_unmet();
         if outcome.problem.settings.method.uses_pins() && !is_on_its_way {
             for (vertex, pin) in &outcome.problem.targets {
-                assert_eq!(outcome.step.solution.embedding[vertex.index()], pin.uv);
+                assert_eq!(outcome.step.solution.embedding[vertex], pin.uv);
             }
         }
     }

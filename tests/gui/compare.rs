@@ -5,7 +5,7 @@ use egui::Key;
 use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Method, Settings};
+use freebound::solver::{Embedding, Method, Settings};
 use freebound::ui::{Shading, Stage};
 use glam::DVec2;
 
@@ -25,8 +25,8 @@ fn two_steps() -> Window {
     window
 }
 
-fn drawn(window: &Window) -> Vec<DVec2> {
-    window.editor().plane.drawn().expect("solved").positions().to_vec()
+fn drawn(window: &Window) -> Embedding {
+    window.editor().plane.drawn().expect("solved").positions().clone()
 }
 
 /// Steps until vertices are on their way, or for half a second.

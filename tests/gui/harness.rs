@@ -13,6 +13,7 @@ use freebound::app::{App, Start};
 use freebound::examples::Example;
 use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::{Action, Outcome};
+use freebound::solver::Embedding;
 use freebound::ui::Editor;
 use glam::DVec2;
 use tempfile::TempDir;
@@ -92,7 +93,7 @@ impl Window {
         Arc::clone(self.editor().session.outcome().expect("solved"))
     }
 
-    pub(crate) fn embedding(&self) -> Vec<DVec2> {
+    pub(crate) fn embedding(&self) -> Embedding {
         self.outcome().step.solution.embedding.clone()
     }
 

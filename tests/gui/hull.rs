@@ -3,6 +3,7 @@
 use eframe::egui;
 use egui::Key;
 use freebound::examples::Example;
+use freebound::solver::Embedding;
 use freebound::ui::Stage;
 use glam::DVec2;
 
@@ -16,8 +17,8 @@ fn bent() -> Window {
     window
 }
 
-fn positions(window: &Window) -> Vec<DVec2> {
-    window.editor().plane.drawn().expect("solved").positions().to_vec()
+fn positions(window: &Window) -> Embedding {
+    window.editor().plane.drawn().expect("solved").positions().clone()
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn the_frame_on_the_layout_lies_around_the_defect_and_not_under_the_inset() {
     let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
     let embedding = window.embedding();
     let place = |window: &Window| {
-        let places = corners.map(|v: VertexId| window.place_in_plane(embedding[v.index()]));
+        let places = corners.map(|v: VertexId| window.place_in_plane(embedding[v]));
         Rect::from_points(&places)
     };
     assert!(window.has_frame_around(place(&window)));

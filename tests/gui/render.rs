@@ -14,6 +14,7 @@ use freebound::render::{
     FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Shading, Style, install,
     mesh_pane, plane_pane,
 };
+use freebound::solver::Embedding;
 use freebound::view::{
     EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera,
     Sphere, Srgb, UpAxis,
@@ -106,7 +107,7 @@ pub(crate) fn mesh_frame() -> MeshFrame {
 /// The sheet's own x and y as its embedding, with vertex 2, its lower right corner, moved to `corner`.
 pub(crate) fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
     let (positions, triangles) = sheet();
-    let mut embedding: Vec<DVec2> = positions.iter().map(|p| p.truncate()).collect();
+    let mut embedding: Embedding = positions.iter().map(|p| p.truncate()).collect();
     embedding[2] = corner;
     let box_of_sheet = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
     PlaneFrame {

@@ -48,7 +48,7 @@ fn count_of(picture: &RgbaImage, part: Rect, colour: Color32) -> usize {
 fn box_of(window: &Window, face: FaceId) -> Rect {
     let embedding = window.embedding();
     let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
-    let places = corners.map(|corner| window.place_in_plane(embedding[corner.index()]));
+    let places = corners.map(|corner| window.place_in_plane(embedding[corner]));
     Rect::from_points(&places)
 }
 

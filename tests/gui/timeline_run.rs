@@ -66,7 +66,7 @@ fn an_embedding_that_leaves_the_pane_is_framed_anew_unless_a_detail_is_looked_at
     window.key(Key::Home);
     let is_in_sight = |window: &Window| {
         let view = window.plane_view();
-        window.embedding().into_iter().all(|point| view.contains(window.place_in_plane(point)))
+        window.embedding().iter().all(|point| view.contains(window.place_in_plane(*point)))
     };
     assert!(is_in_sight(&window));
     window.key(Key::ArrowRight);

@@ -297,7 +297,7 @@ fn both_panes_are_framed_when_a_mesh_opens() {
     };
     let vertices = (0..49).map(freebound::mesh::VertexId::new);
     inside(window.mesh_view(), vertices.map(|vertex| window.place_on_mesh(vertex)).collect());
-    inside(window.plane_view(), window.embedding().into_iter().map(|z| window.place_in_plane(z)).collect());
+    inside(window.plane_view(), window.embedding().iter().map(|z| window.place_in_plane(*z)).collect());
 }
 
 /// Sizes from the least to one of a large screen.

@@ -4,10 +4,9 @@ use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use glam::DVec2;
-
 use super::{ObjMesh, Statement, write_obj};
 use crate::io::{TexturePicture, WriteError, write_atomically};
+use crate::solver::Embedding;
 
 /// Name of the material.
 const MATERIAL: &str = "picture";
@@ -29,7 +28,7 @@ impl TexturePicture<'_> {
         &self,
         path: &Path,
         mesh: &ObjMesh,
-        coordinates: &[DVec2],
+        coordinates: &Embedding,
     ) -> Result<(), WriteError> {
         let picture_name = put_picture(path, self)?;
         let library = library_beside(path);

@@ -21,6 +21,7 @@ use rayon::prelude::*;
 use self::scene::{Scene, vertex_normals};
 use crate::geom::Picture;
 use crate::mesh::{EdgeTable, VertexId};
+use crate::solver::Embedding;
 
 /// A colour without opacity, sRGB.
 pub type Colour = [u8; 3];
@@ -119,14 +120,14 @@ pub enum Paint<'a> {
     /// A checker in coordinates given per vertex.
     Checker {
         /// One per vertex.
-        coordinates: &'a [DVec2],
+        coordinates: &'a Embedding,
         /// Width of a field.
         size: f64,
     },
     /// A picture at texture coordinates given per vertex, v up; beyond its edges the nearest colour.
     Picture {
         /// One per vertex.
-        coordinates: &'a [DVec2],
+        coordinates: &'a Embedding,
         /// What is at them.
         picture: &'a Picture,
     },
@@ -167,7 +168,7 @@ fn seen_from(positions: &[DVec3], view: &View) -> Vec<DVec3> {
 
 /// A picture of an embedding: thin edges, the boundary as a darker line. The caller paints the faces that its verdict
 /// calls flipped.
-pub fn plane_picture(embedding: &[DVec2], triangles: &[[VertexId; 3]], canvas: &Canvas, paint: Paint) -> Picture {
+pub fn plane_picture(embedding: &Embedding, triangles: &[[VertexId; 3]], canvas: &Canvas, paint: Paint) -> Picture {
     let seen: Vec<DVec3> = embedding.iter().map(|p| p.extend(0.0)).collect();
     let table = EdgeTable::new(embedding.len(), triangles);
     let outer = |sides: &[u32]| (sides.len() == 1).then(|| sides[0] as usize);

@@ -56,9 +56,10 @@ pub use scene::{Element, MeshScene, Paint, PaintKey, PlaneScene};
 pub use selection::{Pointer, Selection};
 pub use tools::ToolState;
 
-use eframe::egui;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+
+use eframe::egui;
 
 use crate::session::{Busy, RecentFiles, Session, Wake};
 use crate::ui::TimelineView;

@@ -19,10 +19,8 @@ impl Editor {
         let Some(scene) = self.mesh_scene() else { return };
         let selected: Vec<VertexId> = self.selection.vertices().iter().copied().collect();
         let whole = scene.sphere;
-        let ball = match selected.is_empty() {
-            true => whole,
-            false => grown(&positions_of(&scene.mesh().positions, &selected), whole),
-        };
+        let ball =
+            if selected.is_empty() { whole } else { grown(&positions_of(&scene.mesh().positions, &selected), whole) };
         self.mesh.frame(ball);
         let Some(plane) = self.plane.drawn().cloned() else { return };
         let bounds = self.with_picture(plane.arrays.bounds());

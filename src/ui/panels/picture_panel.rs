@@ -6,7 +6,6 @@ use egui::RichText;
 use crate::geom::VAxis;
 use crate::session::Action;
 use crate::ui::controls::{Control, Offer};
-use crate::ui::panes::constrain::axis_words;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Purpose, Request};
 
@@ -56,5 +55,13 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
         if slider.changed() {
             requests.push(Request::SetOpacity(percent / 100.0));
         }
+    }
+}
+
+/// Where v = 0 is, in words.
+const fn axis_words(v_axis: VAxis) -> &'static str {
+    match v_axis {
+        VAxis::Up => "v up",
+        VAxis::Down => "v down",
     }
 }

@@ -278,7 +278,9 @@ fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) 
                 .when(count > 0),
             Offer::new("Free all", "Free all pins; undo brings them back", Action::UnpinAll).when(count > 0),
         ];
-        offers.into_iter().for_each(|offer| offer.show(ui, requests));
+        for offer in offers {
+            offer.show(ui, requests);
+        }
     });
 }
 

@@ -23,7 +23,11 @@ pub(in crate::ui) fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, reques
 fn warning(ui: &mut egui::Ui, words: &str, offers: [Offer; 2], requests: &mut Vec<Request>) {
     bar(ui, Sign::Warning, |ui| {
         ui.add(egui::Label::new(words).wrap());
-        ui.horizontal_wrapped(|ui| offers.into_iter().for_each(|offer| offer.show(ui, requests)));
+        ui.horizontal_wrapped(|ui| {
+            for offer in offers {
+                offer.show(ui, requests);
+            }
+        });
     });
 }
 

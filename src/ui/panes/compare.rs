@@ -1,13 +1,8 @@
-//! Two steps compared: the outline of one over the other, and how far each face has moved between them.
-
-use std::sync::Arc;
+//! Words in the panes about two steps that are compared.
 
 use eframe::egui;
 use egui::{Rect, RichText, Stroke, Vec2};
-use glam::DVec2;
 
-use crate::mesh::{TriMesh, VertexId};
-use crate::solver::Step;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Shading};
 
@@ -19,28 +14,6 @@ impl Editor {
             (shading, _) => shading.title().to_owned(),
         }
     }
-}
-
-/// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
-pub(in crate::ui) fn places_in(base: &Step, step: &Step) -> Vec<DVec2> {
-    let embedding = &base.solution.embedding;
-    let Some(refinement) = &step.refinement else { return embedding.clone() };
-    if base.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
-        return embedding.clone();
-    }
-    let mut places = embedding[..refinement.old_vertex_count()].to_vec();
-    for new in refinement.new_vertices() {
-        let [a, b] = new.edge.map(|v| embedding[v.index()]);
-        places.push(a.lerp(b, new.at));
-    }
-    places
-}
-
-/// How far each face has moved between two embeddings: the mean of its corners.
-pub(in crate::ui) fn face_moves(mesh: &TriMesh, before: &[DVec2], after: &[DVec2]) -> Vec<f64> {
-    let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
-    let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
-    mesh.triangles.iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
 }
 
 /// Says in the pane's lower left corner which step the outline is of.

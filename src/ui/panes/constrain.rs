@@ -6,7 +6,6 @@ use egui::{Painter, Pos2, Stroke};
 use glam::DVec2;
 
 use super::pins;
-use crate::geom::VAxis;
 use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
@@ -214,14 +213,6 @@ pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
     let Some((from, to)) = ends.filter(|(from, to)| mesh.contains(*from) && plane.contains(*to)) else { return };
     let stroke = Stroke::new(1.0, theme.constraint.gamma_multiply(0.6));
     ui.painter().with_clip_rect(mesh.union(plane)).add(egui::Shape::dashed_line(&[from, to], stroke, 6.0, 4.0));
-}
-
-/// Where v = 0 is, in words.
-pub(in crate::ui) const fn axis_words(v_axis: VAxis) -> &'static str {
-    match v_axis {
-        VAxis::Up => "v up",
-        VAxis::Down => "v down",
-    }
 }
 
 #[cfg(test)]

@@ -7,9 +7,7 @@ use eframe::egui;
 use egui::{Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2, WidgetInfo};
 use glam::DVec2;
 
-use super::defect_marks;
-use super::mesh_pane;
-use super::pane;
+use super::{defect_marks, mesh_pane, pane};
 use crate::render::{self, PaneId, PlaneFrame, Shading};
 use crate::ui::editor::scene::{PlaneScene, vertices_of};
 use crate::ui::theme::{Theme, theme_of};

@@ -7,7 +7,7 @@
 //! | `plane_pane.rs` | the embedding |
 //! | `bars.rs` | questions over a pane: recovered work, inward faces, mirrored targets |
 //! | `boxes.rs` | selection with a box |
-//! | `compare.rs` | two steps compared: outline, movement of each face |
+//! | `compare.rs` | words about two steps that are compared |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
 //! | `defect_marks.rs` | marks of defects |
 //! | `magnifier.rs` | the inset that magnifies a defect |

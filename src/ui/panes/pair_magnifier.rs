@@ -4,10 +4,9 @@ use eframe::egui;
 use egui::{Align2, FontId, Rect, Role, Sense, Stroke, StrokeKind, Vec2, WidgetInfo};
 use glam::DVec2;
 
-use super::mesh_pane;
-use super::pane;
 use super::pins::{self, Emphasis};
 use super::plane_pane;
+use super::{mesh_pane, pane};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId};
 use crate::ui::Editor;

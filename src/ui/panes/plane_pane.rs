@@ -6,14 +6,10 @@ use eframe::egui;
 use egui::{Pos2, Rect, Response};
 use glam::DVec2;
 
-use super::compare;
-use super::constrain;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, clicked, cursor, new_vertex_mark, new_vertices, style};
-use super::pair_magnifier;
-use super::pane;
-use super::pin_drag;
-use super::pins;
+use super::{compare, constrain};
+use super::{pair_magnifier, pane, pin_drag, pins};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::{Place, Surface};
@@ -80,8 +76,8 @@ fn look_under(ui: &egui::Ui, editor: &mut Editor, plane: &PlaneScene, pointer: O
     let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, rect, camera, at));
     let pointer = pointer.map(|at| pane::in_pane(rect, at));
     let pick = pointer.and_then(|at| plane.picker.nearest_vertex(&camera, size, at));
-    let place = pointer.map(|at| camera.embedding_from_pane(at, size));
-    editor.pointer.over_plane(place, grip.or(pick.map(|pick| pick.vertex)));
+    let in_plane = pointer.map(|at| camera.embedding_from_pane(at, size));
+    editor.pointer.over_plane(in_plane, grip.or(pick.map(|pick| pick.vertex)));
     editor.aim(ui, Pane::Plane, grip);
 }
 

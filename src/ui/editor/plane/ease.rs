@@ -7,9 +7,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use glam::DVec2;
-
 use super::{PlaneView, Surroundings};
+use crate::solver::Embedding;
 use crate::ui::editor::scene::PlaneScene;
 use crate::view::PlaneCamera;
 
@@ -34,7 +33,7 @@ pub(super) struct Ease {
 /// A way under way.
 #[derive(Debug)]
 struct Way {
-    from: Vec<DVec2>,
+    from: Embedding,
     /// Seconds of the window's clock.
     began: f64,
     /// What is drawn in this frame.
@@ -76,7 +75,7 @@ impl PlaneView {
         let is_too_large = self.ease.too_large == Some(target.mesh.model_revision);
         let cameras = self.camera_along(&target, around);
         if around.glides && is_other_step && is_same_run && is_same_mesh && !is_too_large {
-            let from = before.positions().to_vec();
+            let from = before.positions().clone();
             self.ease.under_way = Some(Way { from, began: around.host.now(), drawn: target, cameras });
         } else if let Some([_, goal]) = cameras.filter(|_| is_other_step && from.problem.targets == to.problem.targets)
         {

@@ -20,7 +20,7 @@ use crate::geom::{Orientation, Similarity, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
 use crate::session::{Background, Wake};
-use crate::solver::{Outline, Outside, VirtualBoundary};
+use crate::solver::{Embedding, Outline, Outside, VirtualBoundary};
 use crate::ui::editor::scene::{Part, PlaneScene};
 use crate::ui::theme::Theme;
 use crate::view::{EdgeList, FaceList, FacePaint, PlaneCamera};
@@ -156,9 +156,9 @@ impl HullScene {
     }
 
     /// A step that bent no boundary still has a hull.
-    fn of_free_boundary(disk: &DiskMesh, embedding: &[DVec2]) -> Self {
+    fn of_free_boundary(disk: &DiskMesh, embedding: &Embedding) -> Self {
         let boundary = disk.boundary_loop();
-        let points: Vec<DVec2> = boundary.iter().map(|v| embedding[v.index()]).collect();
+        let points = embedding.boundary(disk);
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
         Self::of_hull(&corners, "This step has no virtual boundary; the line is the hull of the free one".to_owned())
     }
@@ -219,22 +219,22 @@ fn sides_of(faces: &[[VertexId; 3]]) -> Vec<[VertexId; 2]> {
     sides
 }
 
-fn flipped_faces(disk: &DiskMesh, positions: &[DVec2]) -> Vec<FaceId> {
+fn flipped_faces(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceId> {
     let is_flipped = |&face: &FaceId| {
-        let [a, b, c] = disk.face(face).map(|v| positions[v.index()]);
+        let [a, b, c] = embedding.corners(disk, face);
         orientation(a, b, c) != Some(Orientation::CounterClockwise)
     };
     disk.faces().filter(is_flipped).collect()
 }
 
-/// Points moved as the boundary is from one embedding to another that differs from it by a similarity; where there is
-/// none, they stay.
-fn moved_along(points: &[DVec2], disk: &DiskMesh, [before, after]: [&[DVec2]; 2]) -> Vec<DVec2> {
-    let pair = |v: &VertexId| [before[v.index()], after[v.index()]];
+/// An embedding moved as the boundary is from one embedding to another that differs from it by a similarity; where there is
+/// none, it stays.
+fn moved_along(embedding: &Embedding, disk: &DiskMesh, [before, after]: [&Embedding; 2]) -> Embedding {
+    let pair = |v: &VertexId| [before[v], after[v]];
     let pairs: Vec<[DVec2; 2]> = disk.boundary_loop().iter().map(pair).collect();
     match Similarity::fitting(&pairs) {
-        Some(similarity) => points.iter().map(|&z| similarity.apply(z)).collect(),
-        None => points.to_vec(),
+        Some(similarity) => embedding.iter().map(|&z| similarity.apply(z)).collect(),
+        None => embedding.clone(),
     }
 }
 
@@ -334,9 +334,9 @@ mod tests {
     #[test]
     fn a_similarity_is_found_again() {
         let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
-        let before: Vec<DVec2> = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+        let before: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
         let turn = DVec2::new(-0.3, 2.0);
-        let after: Vec<DVec2> = before.iter().map(|&z| turn.rotate(z) + DVec2::new(5.0, -1.0)).collect();
+        let after: Embedding = before.iter().map(|&z| turn.rotate(z) + DVec2::new(5.0, -1.0)).collect();
         let moved = moved_along(&before, &disk, [&before, &after]);
         assert!(moved.iter().zip(&after).all(|(a, b)| a.distance(*b) < 1e-12));
     }
@@ -344,7 +344,7 @@ mod tests {
     #[test]
     fn an_embedding_at_one_point_stays_where_it_is() {
         let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
-        let before = vec![DVec2::ONE; disk.vertex_count()];
+        let before = Embedding::from(vec![DVec2::ONE; disk.vertex_count()]);
         assert_eq!(moved_along(&before, &disk, [&before, &before]), before);
     }
 }

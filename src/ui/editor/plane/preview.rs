@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::{PlaneView, Surroundings};
-use crate::solver::Verdict;
+use crate::solver::{Embedding, Verdict};
 use crate::ui::editor::scene::PlaneScene;
 use crate::view::FacePaint;
 
@@ -58,9 +58,9 @@ impl PlaneView {
         let scene = match &before {
             Some(before) if before.key == key => Arc::clone(&before.scene),
             Some(before) if before.scene.outcome_revision == base.outcome_revision => {
-                Arc::new(before.scene.with_positions(mesh, preview.embedding.to_vec()))
+                Arc::new(before.scene.with_positions(mesh, Embedding::clone(&preview.embedding)))
             }
-            _ => Arc::new(base.with_positions(mesh, preview.embedding.to_vec())),
+            _ => Arc::new(base.with_positions(mesh, Embedding::clone(&preview.embedding))),
         };
         let same_faces = |before: &&PreviewScene| match (&before.verdict, &verdict) {
             (None, None) => true,
