@@ -9,6 +9,7 @@ use super::{Document, History, Job, Message, Place, Poll, Session, Severity, Sur
 use crate::examples::Example;
 use crate::io::ProjectSource;
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
+use crate::solver::Kept;
 
 /// What is on the table, apart from what is edited: what an edit is compared with.
 #[derive(Debug, Default)]
@@ -125,7 +126,7 @@ impl Session {
         self.ending = None;
         self.outcome_revision += 1;
         self.end_preview();
-        self.prepared = None;
+        self.kept = Kept::default();
         self.running = None;
         self.resting = None;
         self.solve_again = false;

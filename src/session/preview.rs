@@ -121,7 +121,7 @@ impl Session {
             return;
         }
         let Some(disk) = self.model.as_ref().and_then(|model| model.disk()).map(Arc::clone) else { return };
-        let (document, at_hand) = (self.document.clone(), self.prepared.clone());
+        let (document, at_hand) = (self.document.clone(), self.kept.prepared.clone());
         let (asked, vertices) = (document.clone(), dragged.clone());
         let work = move |context: &JobContext<()>| {
             let quiet = |_| {};
@@ -159,7 +159,7 @@ impl Session {
         if !are_alike(&follow.document, &self.document) {
             return;
         }
-        self.prepared = Some(Arc::clone(&follow.prepared));
+        self.kept.prepared = Some(Arc::clone(&follow.prepared));
         let dragged = follow.dragged.clone();
         let serves = follow.serves(&self.document, &dragged);
         self.follow = Some(follow);

@@ -149,7 +149,7 @@ impl Session {
             return;
         }
         let (settings, pins) = (self.document.run_settings(), self.document.plane_pins());
-        self.spawn(Ladder::new(settings, pins).with_prepared(self.prepared.clone()), goal);
+        self.spawn(Ladder::new(settings, pins).with_kept(&self.kept), goal);
     }
 
     /// Takes steps of a run in the background. A run that is under way is given up.
@@ -298,9 +298,12 @@ impl Session {
         if outcome.step.index == 0 {
             // What was written no longer shows what is on the screen.
             self.messages.retain(|message| message.severity != Severity::Note);
-            self.prepared.clone_from(&outcome.step.prepared);
+            self.kept.prepared.clone_from(&outcome.step.prepared);
             (self.preview, self.verdict_job) = (None, None);
             self.timeline = Timeline::default();
+        }
+        if let Some(start) = &outcome.step.planar_start {
+            self.kept.planar_start = Some(Arc::clone(start));
         }
         self.ending = ending;
         if self.timeline.push(outcome) {

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Distortion, GaugeSize, Pin, Pins, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
+    Candidate, Distortion, GaugeSize, Pin, Pins, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
     to_unit_square_by_power_of_two, verdict,
 };
 
@@ -73,7 +73,8 @@ impl Outcome {
     /// Bytes of memory that it takes. The factors of a linear solve are kept once, for the next solve, and a mesh with
     /// new vertices once for all steps on it: both are left out.
     pub fn bytes(&self) -> usize {
-        let Step { solution, verdict, virtual_boundary, outside, .. } = &self.step;
+        let Step { candidate, verdict, .. } = &self.step;
+        let Candidate { solution, virtual_boundary, outside, .. } = candidate;
         let pin_count = self.pins.len() + solution.pins.len();
         let stages = virtual_boundary.as_ref().map_or(0, |stages| {
             size_of_val(&*stages.before)

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::io::ProjectView;
 use crate::mesh::VertexId;
-use crate::solver::{Ending, Ladder, Phase, Prepared, Settings};
+use crate::solver::{Ending, Kept, Ladder, Phase, Settings};
 
 /// Asks the screen to look again; called from background threads.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
@@ -68,8 +68,8 @@ pub struct Session {
     pub(super) follow_job: Option<(Document, Vec<VertexId>, FollowJob)>,
     /// The verdict on a preview that is under way, by its revision.
     pub(super) verdict_job: Option<(u64, VerdictJob)>,
-    /// Kept from solves that succeeded, to be used again while a pin is dragged.
-    pub(super) prepared: Option<Arc<Prepared>>,
+    /// Kept from ladders on this mesh, for the next one and while a pin is dragged.
+    pub(super) kept: Kept,
     pub(super) loading: Option<LoadJob>,
     /// The file that is being loaded, to be remembered once it is open.
     pub(super) loading_path: Option<PathBuf>,
@@ -122,7 +122,7 @@ impl Session {
             follow: None,
             follow_job: None,
             verdict_job: None,
-            prepared: None,
+            kept: Kept::default(),
             loading: None,
             loading_path: None,
             running: None,

@@ -208,7 +208,7 @@ fn the_same_run_gives_the_same_bits() {
     let mesh = disk(Example::Cube);
     let settings = Settings::new(Method::Auto, Family::MeanValue);
     let bits = || -> Vec<Vec<DVec2>> {
-        steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.solution.embedding).collect()
+        steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.candidate.solution.embedding).collect()
     };
     assert_eq!(bits(), bits());
 }

@@ -197,8 +197,8 @@ fn an_outcome_with_new_vertices_is_measured_and_proved_on_its_own_mesh() {
     let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(&disk, Control::unattended()).expect("a square can be solved");
     let [a, b] = [0, 3].map(|v: usize| step.solution.embedding[v]);
-    step.solution.embedding.push(a.midpoint(b));
-    step.refinement = Some(refinement);
+    step.candidate.solution.embedding.push(a.midpoint(b));
+    step.candidate.refinement = Some(refinement);
     let outcome = Outcome::new(&disk, *run.settings(), (PictureFrame::default(), Pins::new()), step);
     assert_eq!((outcome.new_vertex_count(), outcome.distortion.faces.len()), (1, 4));
     for fit in [OutputFit::Unit, OutputFit::True] {

@@ -227,7 +227,7 @@ fn outcome_with(mesh: &DiskMesh, places: Vec<DVec2>) -> Outcome {
     let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
     step.verdict = verdict(mesh, &places);
-    step.solution.embedding = places;
+    step.candidate.solution.embedding = places;
     Outcome::new(mesh, *run.settings(), (PictureFrame::default(), Pins::new()), step)
 }
 

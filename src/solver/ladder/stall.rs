@@ -1,6 +1,6 @@
 //! When an iteration has come to a standstill.
 
-use super::step::{Step, diameter};
+use super::{Step, diameter};
 
 /// Steps without an improvement after which an iteration that hardly moves has stalled.
 const PATIENCE: usize = 5;
