@@ -142,9 +142,9 @@ fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> (End, u
     let started_again = steps.iter().any(|(step, is_linear)| *is_linear && (step.index > 0 || step.note.is_some()));
     let end = match steps.last() {
         Some((last, _)) if last.planar => match last.rung {
-            "natural" | "iterate" if started_again => End::StartedAgain,
-            "natural" => End::Natural,
-            "iterate" => End::Iterate,
+            Method::Natural | Method::Iterate if started_again => End::StartedAgain,
+            Method::Natural => End::Natural,
+            Method::Iterate => End::Iterate,
             _ if last.bent_vertices == 0 => End::FreeVirtualBoundary,
             _ => End::Convex,
         },

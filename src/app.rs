@@ -42,7 +42,7 @@ impl App {
         let mut editor = Editor::new(&context.egui_ctx, recent);
         if let Some(state) = &context.wgpu_render_state {
             render::install(state);
-            editor.has_gpu = true;
+            editor.host.use_gpu();
         }
         if start.dialogs_inside {
             editor.dialogs = Dialogs::inside_the_window();

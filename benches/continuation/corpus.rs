@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use freebound::io::{Constraints, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Pins, Settings, Step, distortion, verdict};
+use freebound::solver::{Choice as _, Pins, Settings, Step, distortion, verdict};
 use glam::DVec2;
 
 use crate::common::table::{Table, seconds};

@@ -6,7 +6,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Ladder, Pins, Settings, SolveError, Step};
+use freebound::solver::{Choice as _, Control, Ladder, Pins, Settings, SolveError, Step};
 
 /// The longest that a run may take.
 const LIMIT: Duration = Duration::from_mins(2);

@@ -3,7 +3,7 @@
 use std::fs;
 
 use freebound::io::peak_memory_bytes;
-use freebound::solver::Settings;
+use freebound::solver::{Choice as _, Settings};
 
 use crate::common::sheet::Random;
 use crate::common::table::{Table, megabytes, seconds, target};

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
 use freebound::examples::bumpy_cap_of;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Ladder, Pins, Settings, Step, hard_pins};
+use freebound::solver::{Choice as _, Control, Ladder, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::common::Times;

@@ -185,7 +185,7 @@ pub enum Fit {
 
 /// Takes one of a few choices by its name, and lists them with a line on each.
 fn choice<C: Choice>() -> impl TypedValueParser<Value = C> {
-    let values = C::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.about()));
+    let values = C::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.words().about));
     PossibleValuesParser::new(values).map(|name| C::named(&name).expect("only these names pass"))
 }
 

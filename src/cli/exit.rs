@@ -6,6 +6,21 @@ use crate::io::{ConstraintsError, PictureError, ReadError, TextureError, WriteEr
 use crate::mesh::Diagnosis;
 use crate::solver::SolveError;
 
+/// Our fault, or the system's.
+const INTERNAL: u8 = 1;
+
+/// Options that do not go together; clap's number too.
+const WRONG_USE: u8 = 2;
+
+/// A file that cannot be used.
+const UNUSABLE_INPUT: u8 = 3;
+
+/// [`Status::FallsShort`].
+const FALLS_SHORT: u8 = 4;
+
+/// Ended by Ctrl-C.
+pub(super) const INTERRUPTED: u8 = 130;
+
 /// A command that ran to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
@@ -54,19 +69,47 @@ impl Failure {
     /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 130 interrupted.
     pub fn code(&self) -> u8 {
         match self {
-            Self::Read(ReadError::Cancelled) | Self::Solve(SolveError::Cancelled) => 130,
-            Self::Read(_)
-            | Self::Constraints(_)
-            | Self::Picture(_)
-            | Self::Texture(_)
-            | Self::NotADisk { .. }
-            | Self::Solve(SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. }) => 3,
-            Self::Solve(
-                SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
-            )
-            | Self::Write(_) => 1,
-            Self::Solve(_) | Self::Usage(_) => 2,
+            Self::Read(error) => code_of_reading(error),
+            Self::Constraints(_) | Self::Picture(_) | Self::Texture(_) | Self::NotADisk { .. } => UNUSABLE_INPUT,
+            Self::Solve(error) => code_of_solving(error),
+            Self::Write(_) => INTERNAL,
+            Self::Usage(_) => WRONG_USE,
         }
+    }
+}
+
+/// Every error is named, so that a new one has to choose.
+const fn code_of_reading(error: &ReadError) -> u8 {
+    match error {
+        ReadError::File { .. }
+        | ReadError::Stream(_)
+        | ReadError::NotReadYet { .. }
+        | ReadError::NotText
+        | ReadError::LineTooLong { .. }
+        | ReadError::Parse { .. }
+        | ReadError::NoFaces { .. }
+        | ReadError::TooLarge => UNUSABLE_INPUT,
+        ReadError::Cancelled => INTERRUPTED,
+    }
+}
+
+/// As [`code_of_reading`].
+const fn code_of_solving(error: &SolveError) -> u8 {
+    match error {
+        SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. } => UNUSABLE_INPUT,
+        SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. } => INTERNAL,
+        SolveError::CoincidentPins { .. }
+        | SolveError::NoSuchVertex { .. }
+        | SolveError::TargetNotFinite { .. }
+        | SolveError::WeightNotPositive { .. }
+        | SolveError::FamilyNotApplicable { .. }
+        | SolveError::BoundaryTooShort { .. }
+        | SolveError::TooManyPins { .. }
+        | SolveError::Unmet
+        | SolveError::TooFine
+        | SolveError::NotPlanar
+        | SolveError::LadderExhausted => WRONG_USE,
+        SolveError::Cancelled => INTERRUPTED,
     }
 }
 
@@ -74,7 +117,7 @@ impl Failure {
 pub(super) fn conclude(outcome: Result<Status, Failure>) -> ExitCode {
     match outcome {
         Ok(Status::Fine) => ExitCode::SUCCESS,
-        Ok(Status::FallsShort) => ExitCode::from(4),
+        Ok(Status::FallsShort) => ExitCode::from(FALLS_SHORT),
         Err(failure) => {
             eprintln!("freebound: {failure}");
             ExitCode::from(failure.code())

@@ -12,7 +12,7 @@ use super::{Failure, Status};
 use crate::io::{OutputKind, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
 use crate::session::{Document, Finished, Model, Outcome, OutputFit, PictureFile, Surface};
-use crate::solver::{Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
+use crate::solver::{Choice as _, Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     if let Some((option, why)) = arguments.idle_option() {

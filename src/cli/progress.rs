@@ -6,6 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
+use super::exit::INTERRUPTED as INTERRUPTED_CODE;
+
 /// Work shorter than this goes by without a word.
 const QUIET: Duration = Duration::from_millis(500);
 
@@ -30,7 +32,7 @@ pub(super) fn is_interrupted() -> bool {
 pub(super) fn stop_on_interrupt() {
     let handler = || {
         if INTERRUPTED.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
+            std::process::exit(INTERRUPTED_CODE.into());
         }
     };
     if let Err(error) = ctrlc::set_handler(handler) {

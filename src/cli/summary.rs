@@ -4,7 +4,7 @@ use super::flatten::Solved;
 use crate::io::{PinsReport, Report};
 use crate::mesh::VertexId;
 use crate::session::{Finished, Placement};
-use crate::solver::{Conflict, Ending, Method, SolveError, Step};
+use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step};
 
 /// Most vertices or conflicts that are named; the others are only counted.
 const NAMED: usize = 10;
@@ -28,24 +28,12 @@ pub(super) fn print_conflicts(conflicts: &[Conflict]) {
     }
 }
 
-/// A rung in words.
-fn rung_words(rung: Method) -> &'static str {
-    match rung {
-        Method::Natural => "natural boundary",
-        Method::Iterate => "iteration",
-        Method::VirtualBoundary => "virtual boundary",
-        Method::Matchmaker => "new vertices",
-        Method::Relax => "relaxed",
-        other => other.name(),
-    }
-}
-
 /// What a step reached, for the line that follows the work.
 pub(super) fn step_words(step: &Step) -> String {
     let number = if step.rung == Method::Iterate { format!(" {}", step.index) } else { String::new() };
     let left = step.progress.map(|progress| progress.distance_left).filter(|&distance| distance > 0.0);
     let left = left.map(|distance| format!(", {distance:.2e} from the targets")).unwrap_or_default();
-    format!("{}{number}: {}{left}", rung_words(step.rung), step.verdict.summary())
+    format!("{}{number}: {}{left}", step.rung.as_rung(), step.verdict.summary())
 }
 
 /// The verdict, and after how many steps and on which rung a run of several came to it.
@@ -64,7 +52,7 @@ pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
             Err(error) => format!("; the next gave nothing: {error}"),
         };
         let steps = if count == 1 { "step" } else { "steps" };
-        let rung = rung_words(step.rung);
+        let rung = step.rung.as_rung();
         words = format!("{words} after {count} {steps} ({rung}{boundary}{why})");
     }
     if finished.report.placement == Some(Placement::Unmoved.name()) {
@@ -100,11 +88,11 @@ pub(super) fn print_summary(report: &Report, verdict: &str) {
         "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
         mesh.path, mesh.vertices, mesh.faces, mesh.boundary_vertices, mesh.dividing_edges, mesh.ears
     );
-    let family = report.family.as_deref().map(|family| format!(", {family} weights")).unwrap_or_default();
+    let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     // Where there is no linear system, there is no residual.
     let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());
     let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
-    println!("{}{family}: {verdict}{residual}", report.method.unwrap_or("check"));
+    println!("{}{family}: {verdict}{residual}", report.method.map_or("check", Method::name));
     if report.new_vertices > 0 {
         println!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len());
     }

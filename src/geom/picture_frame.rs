@@ -5,9 +5,11 @@
 //! down, as in image files; the plane's y always runs up, so that the picture stands upright in it.
 
 use glam::DVec2;
+use serde::{Deserialize, Serialize};
 
 /// Where v = 0 is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum VAxis {
     /// At the picture's lower edge, as OBJ files have it.
     #[default]

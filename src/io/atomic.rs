@@ -4,10 +4,18 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::error::WriteError;
-
 /// Bytes gathered before they are handed to the operating system.
 const BUFFER: usize = 256 << 10;
+
+/// Why a file was not written. Nothing of it is left behind.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write the file: {source}: {}", path.display())]
+pub struct WriteError {
+    /// The file that was to be written.
+    pub path: PathBuf,
+    /// What the operating system says.
+    pub source: io::Error,
+}
 
 /// Writes a file aside, in the same folder, and renames it when it is complete; on an error nothing is left behind and
 /// an older file of that name stays as it was.

@@ -1,40 +1,41 @@
 //! Files in and out.
+//!
+//! | file          | what it holds                                                              |
+//! |---------------|----------------------------------------------------------------------------|
+//! | `obj`         | meshes: OBJ files with their materials and texture coordinates             |
+//! | `constraints` | constraint files: a pinned vertex a line                                   |
+//! | `project`     | project files: what a person has made of a mesh (JSON)                     |
+//! | `picture`     | pictures in (PNG, JPEG)                                                    |
+//! | `output`      | a finished flattening written as a file of any kind                        |
+//! | `report`      | what a run has to say (JSON), and a step as a row of a table               |
+//! | `svg`         | an embedding or a step as a drawing                                        |
+//! | `steps`       | the steps of a run as a folder of drawings and a table                     |
+//! | `raster`      | pictures of meshes without a screen                                        |
+//! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
+//! | `atomic`      | files that are written whole or not at all                                 |
+//! | `stamp`       | what tells one state of a file from another                                |
 
 mod atomic;
 mod constraints;
-mod error;
 pub mod figure;
-mod json_fault;
-mod material;
 mod obj;
-mod obj_line;
-mod obj_material;
-mod obj_parse;
-mod obj_read;
-mod obj_refined;
-mod obj_texture;
-mod obj_write;
 mod output;
 mod picture;
 mod project;
-mod project_fields;
-mod project_json;
 pub mod raster;
 mod report;
 mod stamp;
 mod steps;
 mod svg;
 
-pub use atomic::{write_atomically, write_durably};
+pub use atomic::{WriteError, write_atomically, write_durably};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
-pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError, WriteError};
-pub use material::material_picture;
-pub use obj::{NO_TEXTURE, ObjMesh, Statement, Texture};
-pub use obj_read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
-pub use obj_refined::refined_obj;
-pub use obj_texture::TextureMesh;
-pub use obj_write::write_obj;
-pub use output::{Output, OutputKind, TexturePicture, layout_picture};
+pub use obj::{
+    MAX_PARSE_FAULTS, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, Statement, Texture,
+    TextureError, TextureMesh, material_picture, read_mesh, read_mesh_with, read_obj, read_obj_with, refined_obj,
+    write_obj,
+};
+pub use output::{Output, OutputKind, ProvedEmbedding, TexturePicture};
 pub use picture::{PictureError, read_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
@@ -44,4 +45,4 @@ pub use report::{
 };
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;
-pub use svg::{SvgPage, write_step_svg, write_svg};
+pub use svg::SvgPage;

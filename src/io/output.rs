@@ -5,7 +5,6 @@ use std::path::Path;
 
 use glam::{DVec2, DVec3};
 
-use super::obj_material::write_obj_with_picture;
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::Report;
 use super::svg::{SvgPage, write_svg};
@@ -54,13 +53,26 @@ impl OutputKind {
     }
 }
 
-/// A picture of an embedding, with the faces red that the verdict on it calls flipped.
-pub fn layout_picture(mesh: &DiskMesh, embedding: &[DVec2], verdict: &Verdict, canvas: &Canvas) -> Picture {
-    let mut paint: Vec<Colour> = vec![colours::CLAY; mesh.face_count()];
-    for face in &verdict.flipped_faces {
-        paint[face.index()] = colours::FLIPPED;
+/// An embedding of a mesh with the verdict on it.
+#[derive(Clone, Copy, Debug)]
+pub struct ProvedEmbedding<'a> {
+    /// The mesh.
+    pub mesh: &'a DiskMesh,
+    /// The embedding, or texture coordinates.
+    pub embedding: &'a [DVec2],
+    /// The verdict.
+    pub verdict: &'a Verdict,
+}
+
+impl ProvedEmbedding<'_> {
+    /// Its picture, with the faces red that the verdict calls flipped.
+    pub fn picture(&self, canvas: &Canvas) -> Picture {
+        let mut paint: Vec<Colour> = vec![colours::CLAY; self.mesh.face_count()];
+        for face in &self.verdict.flipped_faces {
+            paint[face.index()] = colours::FLIPPED;
+        }
+        plane_picture(self.embedding, &self.mesh.mesh().triangles, canvas, Paint::Faces(&paint))
     }
-    plane_picture(embedding, &mesh.mesh().triangles, canvas, Paint::Faces(&paint))
 }
 
 /// The picture that texture coordinates are for.
@@ -111,7 +123,11 @@ impl Output<'_> {
         let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
         let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, paint);
         let drawing = Canvas::drawing(PICTURE_SIZE, PICTURE_SIZE);
-        before.beside(&layout_picture(self.mesh, &layout, self.verdict, &drawing))
+        before.beside(&self.proved(&layout).picture(&drawing))
+    }
+
+    fn proved<'b>(&'b self, embedding: &'b [DVec2]) -> ProvedEmbedding<'b> {
+        ProvedEmbedding { mesh: self.mesh, embedding, verdict: self.verdict }
     }
 
     /// Writes one file: aside first, then renamed, so that it is never half-written. An OBJ file with a picture comes
@@ -124,7 +140,7 @@ impl Output<'_> {
         match kind {
             OutputKind::Obj => self.write_obj(path),
             OutputKind::Svg => {
-                write_atomically(path, |out| write_svg(out, self.mesh, (self.coordinates, self.verdict), self.svg_page))
+                write_atomically(path, |out| write_svg(out, self.proved(self.coordinates), self.svg_page))
             }
             OutputKind::Png => write_atomically(path, |out| self.picture().write_png(out).map_err(io::Error::other)),
             OutputKind::Json => write_atomically(path, |out| {
@@ -137,8 +153,8 @@ impl Output<'_> {
     fn write_obj(&self, path: &Path) -> Result<(), WriteError> {
         let refined = self.refinement.map(|refinement| refined_obj(self.source, refinement));
         let mesh = refined.as_ref().unwrap_or(self.source);
-        match &self.picture {
-            Some(picture) => write_obj_with_picture(path, (mesh, self.coordinates), picture),
+        match self.picture {
+            Some(picture) => picture.write_beside(path, mesh, self.coordinates),
             None => write_atomically(path, |out| write_obj(out, mesh, self.coordinates)),
         }
     }

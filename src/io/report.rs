@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
-use crate::solver::{DistortionSummary, Step, Verdict};
+use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
 
 /// Everything that a run has to say. Field names are part of the interface.
 #[derive(Debug, Serialize)]
@@ -12,12 +12,12 @@ pub struct Report {
     pub freebound: &'static str,
     /// The input.
     pub mesh: MeshReport,
-    /// Method by its name on the command line; absent where texture coordinates were only checked.
+    /// Method; absent where texture coordinates were only checked.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub method: Option<&'static str>,
-    /// Family by its name on the command line, where the method has a choice.
+    pub method: Option<Method>,
+    /// Family, where the method has a choice.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub family: Option<String>,
+    pub family: Option<Family>,
     /// Pinned vertices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pins: Option<PinsReport>,
@@ -81,7 +81,7 @@ impl MeshReport {
 #[derive(Debug, Serialize)]
 pub struct PinsReport {
     /// How the pinned vertices' equations are treated in the step that is written.
-    pub treatment: &'static str,
+    pub treatment: Treatment,
     /// Pins of the user's.
     pub count: usize,
     /// Largest distance of a pinned vertex from its target, in texture coordinates, as all errors here.
@@ -113,7 +113,7 @@ pub struct WeightedPinReport {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StepReport {
     /// The rung's method.
-    pub rung: &'static str,
+    pub rung: Method,
     /// Place in the run.
     pub index: usize,
     /// Flipped faces.
@@ -154,62 +154,34 @@ pub struct StepReport {
     pub note: Option<String>,
 }
 
-/// A number that a table's cell shows.
-fn cell(number: f64) -> String {
-    if number.is_finite() { format!("{number:?}") } else { String::new() }
-}
-
-/// Text that a table's cell shows: in quotes where it has to be.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+/// A number as a cell of a table; empty where there is none.
+fn cell(number: impl Into<Option<f64>>) -> String {
+    number.into().filter(|number| number.is_finite()).map(|number| format!("{number:?}")).unwrap_or_default()
 }
 
 impl StepReport {
-    /// Names of the fields, as heads of a table's columns.
-    pub const COLUMNS: [&str; 19] = [
-        "rung",
-        "index",
-        "flipped_faces",
-        "boundary_crossings",
-        "overwound_vertices",
-        "turning_number",
-        "max_move",
-        "residual",
-        "equation_residual",
-        "replaced_pivots",
-        "bounded_corners",
-        "bent_vertices",
-        "factor_bytes",
-        "seconds",
-        "planar",
-        "energy",
-        "least_determinant",
-        "distance_left",
-        "note",
-    ];
-
-    /// The fields as cells of a table, in the order of [`Self::COLUMNS`]; empty where there is nothing to say.
-    pub fn cells(&self) -> [String; 19] {
+    /// The fields as a row of a table, each with the head of its column; empty where there is nothing to say.
+    pub fn row(&self) -> [(&'static str, String); 19] {
         [
-            self.rung.to_owned(),
-            self.index.to_string(),
-            self.flipped_faces.to_string(),
-            self.boundary_crossings.to_string(),
-            self.overwound_vertices.to_string(),
-            self.turning_number.map(|turns| turns.to_string()).unwrap_or_default(),
-            self.max_move.map(cell).unwrap_or_default(),
-            self.residual.map(cell).unwrap_or_default(),
-            self.equation_residual.map(cell).unwrap_or_default(),
-            self.replaced_pivots.to_string(),
-            self.bounded_corners.to_string(),
-            self.bent_vertices.to_string(),
-            self.factor_bytes.to_string(),
-            cell(self.seconds),
-            self.planar.to_string(),
-            self.energy.map(cell).unwrap_or_default(),
-            self.least_determinant.map(cell).unwrap_or_default(),
-            self.distance_left.map(cell).unwrap_or_default(),
-            self.note.as_deref().map(quoted).unwrap_or_default(),
+            ("rung", self.rung.name().to_owned()),
+            ("index", self.index.to_string()),
+            ("flipped_faces", self.flipped_faces.to_string()),
+            ("boundary_crossings", self.boundary_crossings.to_string()),
+            ("overwound_vertices", self.overwound_vertices.to_string()),
+            ("turning_number", self.turning_number.map(|turns| turns.to_string()).unwrap_or_default()),
+            ("max_move", cell(self.max_move)),
+            ("residual", cell(self.residual)),
+            ("equation_residual", cell(self.equation_residual)),
+            ("replaced_pivots", self.replaced_pivots.to_string()),
+            ("bounded_corners", self.bounded_corners.to_string()),
+            ("bent_vertices", self.bent_vertices.to_string()),
+            ("factor_bytes", self.factor_bytes.to_string()),
+            ("seconds", cell(self.seconds)),
+            ("planar", self.planar.to_string()),
+            ("energy", cell(self.energy)),
+            ("least_determinant", cell(self.least_determinant)),
+            ("distance_left", cell(self.distance_left)),
+            ("note", self.note.clone().unwrap_or_default()),
         ]
     }
 
@@ -218,7 +190,7 @@ impl StepReport {
         let (solution, verdict) = (&step.solution, &step.verdict);
         let counts = solution.linear.unwrap_or_default();
         Self {
-            rung: step.rung.name(),
+            rung: step.rung,
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
             boundary_crossings: verdict.boundary_crossings.len() + verdict.unlisted_crossings,

@@ -1,8 +1,7 @@
 //! What tells one state of a file from another.
 
-use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, BufReader};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
@@ -26,22 +25,9 @@ impl FileStamp {
     ///
     /// Where it cannot be read.
     pub fn read(path: &Path) -> io::Result<Self> {
-        let mut file = File::open(path)?;
-        let (mut digest, mut bytes) = (Sha256::new(), 0);
-        let mut block = vec![0; BLOCK];
-        loop {
-            let count = file.read(&mut block)?;
-            if count == 0 {
-                break;
-            }
-            digest.update(&block[..count]);
-            bytes += count as u64;
-        }
-        let mut sha256 = String::new();
-        for byte in digest.finalize() {
-            write!(sha256, "{byte:02x}").expect("a string takes all that is written");
-        }
-        Ok(Self { bytes, sha256 })
+        let mut digest = Sha256::new();
+        let bytes = io::copy(&mut BufReader::with_capacity(BLOCK, File::open(path)?), &mut digest)?;
+        Ok(Self { bytes, sha256: format!("{:x}", digest.finalize()) })
     }
 }
 

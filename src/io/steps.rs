@@ -1,6 +1,5 @@
 //! The steps of a run as files: a drawing of each, and a table of their numbers.
 
-use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
@@ -11,7 +10,7 @@ use super::WriteError;
 use super::report::StepReport;
 use super::svg::write_step_svg;
 use crate::mesh::DiskMesh;
-use crate::solver::Step;
+use crate::solver::{Choice as _, Step};
 
 /// Name of the table.
 const TABLE: &str = "steps.csv";
@@ -22,7 +21,7 @@ pub struct StepsFolder {
     target: PathBuf,
     aside: TempDir,
     names: Vec<String>,
-    table: String,
+    table: csv::Writer<Vec<u8>>,
 }
 
 impl StepsFolder {
@@ -39,7 +38,7 @@ impl StepsFolder {
         let here = Path::new(".");
         let near = target.ancestors().find(|folder| folder.is_dir()).unwrap_or(here);
         let aside = tempfile::Builder::new().prefix(".freebound-").tempdir_in(near).map_err(named)?;
-        let table = format!("{}\n", StepReport::COLUMNS.join(","));
+        let table = csv::Writer::from_writer(Vec::new());
         Ok(Self { target: target.to_owned(), aside, names: Vec::new(), table })
     }
 
@@ -56,8 +55,12 @@ impl StepsFolder {
             out.flush()
         };
         write().map_err(|source| WriteError { path: self.target.join(&name), source })?;
+        let (heads, cells): (Vec<_>, Vec<_>) = StepReport::of(step).row().into_iter().unzip();
+        if self.names.is_empty() {
+            self.table.write_record(heads).expect("memory takes all");
+        }
+        self.table.write_record(cells).expect("memory takes all");
         self.names.push(name);
-        writeln!(self.table, "{}", StepReport::of(step).cells().join(",")).expect("memory takes all");
         Ok(())
     }
 
@@ -68,7 +71,8 @@ impl StepsFolder {
     /// Where a file cannot be removed or renamed.
     pub fn finish(self) -> Result<(), WriteError> {
         let put = || {
-            fs::write(self.aside.path().join(TABLE), &self.table)?;
+            let table = self.table.into_inner().map_err(csv::IntoInnerError::into_error)?;
+            fs::write(self.aside.path().join(TABLE), table)?;
             fs::create_dir_all(&self.target)?;
             for entry in fs::read_dir(&self.target)? {
                 let entry = entry?;

@@ -1,11 +1,12 @@
-//! The layout as a drawing: faces, edges, boundary, and what is wrong with it.
+//! An embedding as a drawing (SVG): faces, edges, boundary, and what is wrong with it.
 
 use std::io::{self, Write};
 
 use glam::DVec2;
 
-use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{Step, Verdict, VirtualBoundary, to_true_area};
+use super::ProvedEmbedding;
+use crate::mesh::{DiskMesh, EdgeId, VertexId};
+use crate::solver::{Step, VirtualBoundary, to_true_area};
 
 /// Longer side of a drawing without its margin, in units of its lines' widths.
 const SIZE: f64 = 1000.0;
@@ -16,15 +17,13 @@ const MARGIN: f64 = 20.0;
 /// What the page of a drawing is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SvgPage {
-    /// The layout with a margin around it, at whatever size.
-    Layout,
     /// The unit square of texture coordinates, where a picture of this aspect (width over height) lies; larger where the
-    /// layout leaves it.
+    /// embedding leaves it.
     Picture {
         /// Width of the picture over its height.
         aspect: f64,
     },
-    /// The layout as large as the surface: a unit of the drawing is a unit of the mesh.
+    /// The embedding as large as the surface: a unit of the drawing is a unit of the mesh.
     TrueArea {
         /// Width over height of the picture that the texture coordinates are for.
         aspect: f64,
@@ -35,172 +34,156 @@ impl SvgPage {
     /// Width over height of the picture that the texture coordinates are for; 1 where there is none.
     pub const fn aspect(self) -> f64 {
         match self {
-            Self::Layout => 1.0,
             Self::Picture { aspect } | Self::TrueArea { aspect } => aspect,
         }
     }
 }
 
-/// What lies outside the boundary in a step of the virtual boundary.
-struct Outside<'a> {
-    /// Places of all vertices, the virtual ones last.
-    positions: Vec<DVec2>,
-    stages: &'a VirtualBoundary,
-}
-
 /// Draws texture coordinates, v upwards. Flipped faces are red, crossing boundary edges orange, overwound vertices
 /// magenta.
-///
-/// # Errors
-///
-/// If `out` cannot be written.
-pub fn write_svg(
-    out: &mut impl Write,
-    mesh: &DiskMesh,
-    (coordinates, verdict): (&[DVec2], &Verdict),
-    page: SvgPage,
-) -> io::Result<()> {
-    let on_picture =
-        |aspect: f64| -> Vec<DVec2> { coordinates.iter().map(|uv| uv * DVec2::new(aspect, 1.0)).collect() };
-    match page {
-        SvgPage::Layout => write_layout(out, mesh, (coordinates, verdict), &Frame::around(coordinates.iter())),
-        SvgPage::Picture { aspect } => {
-            let places = on_picture(aspect);
-            write_layout(out, mesh, (&places, verdict), &Frame::of_picture(aspect, &places))
+pub(super) fn write_svg(out: &mut impl Write, shown: ProvedEmbedding<'_>, page: SvgPage) -> io::Result<()> {
+    let scale = DVec2::new(page.aspect(), 1.0);
+    let mut embedding: Vec<DVec2> = shown.embedding.iter().map(|uv| uv * scale).collect();
+    let frame = match page {
+        SvgPage::Picture { aspect } => Frame::of_picture(aspect, &embedding),
+        SvgPage::TrueArea { .. } => {
+            to_true_area(shown.mesh, &mut embedding);
+            Frame::at_scale(&embedding)
         }
-        SvgPage::TrueArea { aspect } => {
-            let mut places = on_picture(aspect);
-            to_true_area(mesh, &mut places);
-            write_layout(out, mesh, (&places, verdict), &Frame::at_scale(&places))
-        }
-    }
+    };
+    Drawing::new(ProvedEmbedding { embedding: &embedding, ..shown }, frame, None).write(out)
 }
 
 /// Draws a step as [`write_svg`] does; one of the virtual boundary with the outline it was solved with (the hull, as a
 /// red line) and the pockets (green). `mesh` is the mesh as given; new vertices are the step's own.
-///
-/// # Errors
-///
-/// If `out` cannot be written.
-pub fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io::Result<()> {
-    let (embedding, mesh) = (&step.solution.embedding, step.mesh(mesh));
+pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io::Result<()> {
+    let embedding = step.solution.embedding.as_slice();
     let outside = step.virtual_boundary.as_deref().map(|stages| {
         // The step's embedding may have been turned and scaled since it was solved; the outside goes with it.
         let fit = Similarity::between(&stages.solved[..embedding.len()], embedding);
-        let positions = stages.solved.iter().map(|&z| fit.apply(z)).collect();
-        Outside { positions, stages }
+        Outside { embedding: stages.solved.iter().map(|&z| fit.apply(z)).collect(), stages }
     });
-    let frame = Frame::around(embedding.iter().chain(outside.iter().flat_map(|outside| &outside.positions)));
-    write_drawing(out, mesh, (embedding, &step.verdict), (&frame, outside.as_ref()))
+    let frame = Frame::around(embedding.iter().chain(outside.iter().flat_map(|outside| &outside.embedding)));
+    let shown = ProvedEmbedding { mesh: step.mesh(mesh), embedding, verdict: &step.verdict };
+    Drawing::new(shown, frame, outside).write(out)
 }
 
-fn write_layout(out: &mut impl Write, mesh: &DiskMesh, layout: (&[DVec2], &Verdict), frame: &Frame) -> io::Result<()> {
-    write_drawing(out, mesh, layout, (frame, None))
+/// What lies outside the boundary in a step of the virtual boundary.
+struct Outside<'a> {
+    /// Of all vertices, the virtual ones last.
+    embedding: Vec<DVec2>,
+    stages: &'a VirtualBoundary,
 }
 
-fn write_drawing(
-    out: &mut impl Write,
-    mesh: &DiskMesh,
-    (embedding, verdict): (&[DVec2], &Verdict),
-    (frame, outside): (&Frame, Option<&Outside>),
-) -> io::Result<()> {
-    let DVec2 { x: width, y: height } = frame.page();
-    let size = if frame.is_to_scale { format!(r#"width="{width}" height="{height}" "#) } else { String::new() };
-    writeln!(
-        out,
-        r#"<svg xmlns="http://www.w3.org/2000/svg" {size}viewBox="0 0 {width} {height}" stroke-linejoin="round" fill="none">"#,
-    )?;
-    // Thin enough that the faces of a fine mesh still show between the lines.
-    let width = (0.2 * SIZE / (mesh.face_count() as f64).sqrt()).min(1.0);
-    let pen = Pen { frame, width: frame.length(width) };
-    if let Some(outside) = outside {
-        pen.write_pockets(out, outside)?;
-    }
-    let at = |v: VertexId| frame.place(embedding[v.index()]);
-    pen.write_faces(out, (mesh, verdict), &at)?;
-    if let Some(outside) = outside {
-        pen.write_hull(out, outside)?;
-    }
-    write!(out, r##"<path stroke="#e8700a" stroke-width="{}" d=""##, frame.length(3.0))?;
-    for edge in verdict.boundary_crossings.iter().flatten() {
-        pen.write_edge(out, mesh.ends(*edge).map(at))?;
-    }
-    writeln!(out, r#""/>"#)?;
-    for &vertex in &verdict.overwound_vertices {
-        let (DVec2 { x, y }, decimals) = (at(vertex), frame.decimals);
-        let [radius, width] = [5.0, 2.0].map(|length| frame.length(length));
-        writeln!(
-            out,
-            r##"<circle cx="{x:.decimals$}" cy="{y:.decimals$}" r="{radius}" stroke="#c026a8" stroke-width="{width}"/>"##
-        )?;
-    }
-    writeln!(out, "</svg>")
-}
-
-/// What lines are written with.
-struct Pen<'a> {
-    frame: &'a Frame,
-    /// Width of the thinnest.
+/// An embedding on its page.
+struct Drawing<'a> {
+    shown: ProvedEmbedding<'a>,
+    outside: Option<Outside<'a>>,
+    frame: Frame,
+    /// Width of the thinnest lines.
     width: f64,
 }
 
-impl Pen<'_> {
+impl<'a> Drawing<'a> {
+    fn new(shown: ProvedEmbedding<'a>, frame: Frame, outside: Option<Outside<'a>>) -> Self {
+        // Thin enough that the faces of a fine mesh still show between the lines.
+        let width = (0.2 * SIZE / (shown.mesh.face_count() as f64).sqrt()).min(1.0);
+        Self { shown, outside, width: frame.length(width), frame }
+    }
+
+    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let DVec2 { x: width, y: height } = self.frame.page();
+        let size =
+            if self.frame.is_to_scale { format!(r#"width="{width}" height="{height}" "#) } else { String::new() };
+        writeln!(
+            out,
+            r#"<svg xmlns="http://www.w3.org/2000/svg" {size}viewBox="0 0 {width} {height}" stroke-linejoin="round" fill="none">"#,
+        )?;
+        self.write_pockets(out)?;
+        self.write_faces(out)?;
+        self.write_hull(out)?;
+        self.write_defects(out)?;
+        writeln!(out, "</svg>")
+    }
+
+    /// Where a vertex lies in the drawing.
+    fn at(&self, vertex: VertexId) -> DVec2 {
+        self.frame.place(self.shown.embedding[vertex.index()])
+    }
+
     /// Faces, inner edges, flipped faces, boundary.
-    fn write_faces(
+    fn write_faces(&self, out: &mut impl Write) -> io::Result<()> {
+        let (mesh, width) = (self.shown.mesh, self.width);
+        let outline: Vec<DVec2> = mesh.boundary_loop().iter().map(|&v| self.at(v)).collect();
+        self.write_closed(out, r##"fill="#efece6""##, [&outline])?;
+        let edges = mesh.edges().filter(|&e| !mesh.is_boundary_edge(e));
+        self.write_edges(out, &format!(r##"stroke="#8a8680" stroke-width="{width}""##), edges)?;
+        let flipped = self.shown.verdict.flipped_faces.iter().map(|&face| mesh.face(face).map(|v| self.at(v)));
+        self.write_closed(out, &format!(r##"fill="#d92d3a" stroke="#d92d3a" stroke-width="{width}""##), flipped)?;
+        let style = format!(r##"class="boundary" stroke="#2c2b29" stroke-width="{}""##, 2.0 * width);
+        self.write_closed(out, &style, [&outline])
+    }
+
+    fn write_pockets(&self, out: &mut impl Write) -> io::Result<()> {
+        let Some(outside) = &self.outside else { return Ok(()) };
+        let at = |v: VertexId| self.frame.place(outside.embedding[v.index()]);
+        let pockets = outside.stages.pockets.iter().map(|pocket| pocket.map(at));
+        let style = format!(r##"class="pockets" fill="#cfe8d2" stroke="#3fa34d" stroke-width="{}""##, self.width);
+        self.write_closed(out, &style, pockets)
+    }
+
+    fn write_hull(&self, out: &mut impl Write) -> io::Result<()> {
+        let Some(outside) = &self.outside else { return Ok(()) };
+        let hull = outside.stages.hull.iter().map(|v| self.frame.place(outside.embedding[v.index()]));
+        let style = format!(r##"class="hull" stroke="#c93a3a" stroke-width="{}""##, 3.0 * self.width);
+        self.write_closed(out, &style, [hull.collect::<Vec<_>>()])
+    }
+
+    /// Crossings and overwound vertices.
+    fn write_defects(&self, out: &mut impl Write) -> io::Result<()> {
+        let ProvedEmbedding { verdict, .. } = self.shown;
+        let crossings = verdict.boundary_crossings.iter().flatten().copied();
+        let style = format!(r##"stroke="#e8700a" stroke-width="{}""##, self.frame.length(3.0));
+        self.write_edges(out, &style, crossings)?;
+        for &vertex in &verdict.overwound_vertices {
+            let (DVec2 { x, y }, decimals) = (self.at(vertex), self.frame.decimals);
+            let [radius, width] = [5.0, 2.0].map(|length| self.frame.length(length));
+            writeln!(
+                out,
+                r##"<circle cx="{x:.decimals$}" cy="{y:.decimals$}" r="{radius}" stroke="#c026a8" stroke-width="{width}"/>"##
+            )?;
+        }
+        Ok(())
+    }
+
+    fn write_edges(&self, out: &mut impl Write, style: &str, edges: impl Iterator<Item = EdgeId>) -> io::Result<()> {
+        write!(out, r#"<path {style} d=""#)?;
+        for edge in edges {
+            self.write_line(out, &self.shown.mesh.ends(edge).map(|v| self.at(v)))?;
+        }
+        writeln!(out, r#""/>"#)
+    }
+
+    fn write_closed<L: AsRef<[DVec2]>>(
         &self,
         out: &mut impl Write,
-        (mesh, verdict): (&DiskMesh, &Verdict),
-        at: &impl Fn(VertexId) -> DVec2,
+        style: &str,
+        lines: impl IntoIterator<Item = L>,
     ) -> io::Result<()> {
-        let width = self.width;
-        let outline: Vec<DVec2> = mesh.boundary_loop().iter().map(|&v| at(v)).collect();
-        write!(out, r##"<path fill="#efece6" d=""##)?;
-        self.write_closed(out, &outline)?;
-        writeln!(out, r#""/>"#)?;
-        write!(out, r##"<path stroke="#8a8680" stroke-width="{width}" d=""##)?;
-        for edge in mesh.edges().filter(|&e| !mesh.is_boundary_edge(e)) {
-            self.write_edge(out, mesh.ends(edge).map(at))?;
-        }
-        writeln!(out, r#""/>"#)?;
-        write!(out, r##"<path fill="#d92d3a" stroke="#d92d3a" stroke-width="{width}" d=""##)?;
-        for &face in &verdict.flipped_faces {
-            self.write_closed(out, &mesh.face(face).map(at))?;
-        }
-        writeln!(out, r#""/>"#)?;
-        write!(out, r##"<path class="boundary" stroke="#2c2b29" stroke-width="{}" d=""##, 2.0 * width)?;
-        self.write_closed(out, &outline)?;
-        writeln!(out, r#""/>"#)
-    }
-
-    fn write_pockets(&self, out: &mut impl Write, outside: &Outside) -> io::Result<()> {
-        let at = |v: VertexId| self.frame.place(outside.positions[v.index()]);
-        let width = self.width;
-        write!(out, r##"<path class="pockets" fill="#cfe8d2" stroke="#3fa34d" stroke-width="{width}" d=""##)?;
-        for pocket in &outside.stages.pockets {
-            self.write_closed(out, &pocket.map(at))?;
+        write!(out, r#"<path {style} d=""#)?;
+        for line in lines {
+            self.write_line(out, line.as_ref())?;
+            write!(out, "Z")?;
         }
         writeln!(out, r#""/>"#)
     }
 
-    fn write_hull(&self, out: &mut impl Write, outside: &Outside) -> io::Result<()> {
-        let at = |v: &VertexId| self.frame.place(outside.positions[v.index()]);
-        let outline: Vec<DVec2> = outside.stages.hull.iter().map(at).collect();
-        write!(out, r##"<path class="hull" stroke="#c93a3a" stroke-width="{}" d=""##, 3.0 * self.width)?;
-        self.write_closed(out, &outline)?;
-        writeln!(out, r#""/>"#)
-    }
-
-    fn write_edge(&self, out: &mut impl Write, [a, b]: [DVec2; 2]) -> io::Result<()> {
-        let decimals = self.frame.decimals;
-        write!(out, "M{:.decimals$} {:.decimals$}L{:.decimals$} {:.decimals$}", a.x, a.y, b.x, b.y)
-    }
-
-    fn write_closed(&self, out: &mut impl Write, points: &[DVec2]) -> io::Result<()> {
+    fn write_line(&self, out: &mut impl Write, points: &[DVec2]) -> io::Result<()> {
         let decimals = self.frame.decimals;
         for (i, point) in points.iter().enumerate() {
             write!(out, "{}{:.decimals$} {:.decimals$}", if i == 0 { 'M' } else { 'L' }, point.x, point.y)?;
         }
-        write!(out, "Z")
+        Ok(())
     }
 }
 

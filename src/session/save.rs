@@ -76,8 +76,8 @@ impl<'a> Finished<'a> {
         let report = Report {
             freebound: env!("CARGO_PKG_VERSION"),
             mesh: MeshReport::new(model.path_words(), given),
-            method: Some(settings.method.name()),
-            family: settings.method.uses_family().then(|| settings.family.to_string()),
+            method: Some(settings.method),
+            family: settings.method.uses_family().then_some(settings.family),
             pins: Some(pins),
             boundary: Some(if outcome.step.has_convex_boundary() { "convex" } else { "free" }),
             placement: Some(placement.name()),
@@ -162,7 +162,7 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
         *largest = Some(largest.unwrap_or(0.0).max(error));
     }
     PinsReport {
-        treatment: settings.treatment_on(outcome.step.rung, outcome.pins.len()).name(),
+        treatment: settings.treatment_on(outcome.step.rung, outcome.pins.len()),
         count: outcome.pins.len(),
         max_error: max_hard_error.unwrap_or(0.0).max(max_weighted_error.unwrap_or(0.0)),
         max_hard_error,

@@ -1,11 +1,6 @@
-//! What can be chosen: method, family of weights, shape of a convex boundary.
+//! The ways to an embedding: all that is said of them by name stands here.
 
-use std::fmt;
-use std::str::FromStr;
-
-use glam::DVec2;
-
-use super::{Hold, Pin, Pins};
+use super::{Choice, Words};
 
 /// A way to an embedding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,22 +29,6 @@ pub enum Method {
 }
 
 impl Method {
-    /// The name on the command line and in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Natural => "natural",
-            Self::Iterate => "iterate",
-            Self::VirtualBoundary => "virtual-boundary",
-            Self::Convex(_) => "convex",
-            Self::Lscm => "lscm",
-            Self::Levy => "levy",
-            Self::Continuation => "continuation",
-            Self::Matchmaker => "matchmaker",
-            Self::Relax => "relax",
-        }
-    }
-
     /// Whether the choice of family matters.
     pub const fn uses_family(self) -> bool {
         !matches!(self, Self::Lscm | Self::Levy | Self::Continuation | Self::Matchmaker | Self::Relax)
@@ -79,6 +58,106 @@ impl Method {
     pub const fn uses_pins(self) -> bool {
         !matches!(self, Self::Convex(_))
     }
+
+    /// What it is called as a rung: the way to a step.
+    pub fn as_rung(self) -> &'static str {
+        match self {
+            Self::Natural => "natural boundary",
+            Self::Iterate => "iteration",
+            other => other.as_short_rung(),
+        }
+    }
+
+    /// The same where there is little room.
+    pub fn as_short_rung(self) -> &'static str {
+        match self {
+            Self::Iterate => "mean value",
+            Self::VirtualBoundary => "virtual boundary",
+            Self::Matchmaker => "new vertices",
+            Self::Relax => "relaxed",
+            other => other.name(),
+        }
+    }
+}
+
+/// A convex boundary stands for all shapes, which are a choice of their own. Relaxing cannot be chosen: it is a rung only.
+impl Choice for Method {
+    const ALL: &'static [Self] = &[
+        Self::Auto,
+        Self::Natural,
+        Self::Iterate,
+        Self::VirtualBoundary,
+        Self::Convex(BoundaryShape::Circle),
+        Self::Lscm,
+        Self::Levy,
+        Self::Continuation,
+        Self::Matchmaker,
+    ];
+
+    fn words(self) -> Words {
+        match self {
+            Self::Auto => Words {
+                name: "auto",
+                title: "Auto (ladder)",
+                about: "one way after another, the least costly first, until the map is proved one-to-one and meets the constraints",
+                source: "paper §3.3, §4, §5, and beyond",
+            },
+            Self::Natural => Words {
+                name: "natural",
+                title: "Natural boundary",
+                about: "free boundary from two pins or yours, one linear solve",
+                source: "paper §3.3, eq. 2 and 3",
+            },
+            Self::Iterate => Words {
+                name: "iterate",
+                title: "Mean-value iteration",
+                about: "natural boundary, then solved again and again with mean-value weights of its own embedding",
+                source: "paper §4",
+            },
+            Self::VirtualBoundary => Words {
+                name: "virtual-boundary",
+                title: "Virtual boundary",
+                about: "natural boundary, then mesh and outside embedded together within a convex outline",
+                source: "paper §5",
+            },
+            Self::Convex(_) => Words {
+                name: "convex",
+                title: "Convex boundary",
+                about: "boundary on a circle or a square (--boundary), inside at barycentres",
+                source: "Tutte 1963, Floater 1997",
+            },
+            Self::Lscm => Words {
+                name: "lscm",
+                title: "Least-squares conformal",
+                about: "least-squares conformal map; equals natural with conformal weights",
+                source: "Lévy et al. 2002",
+            },
+            Self::Levy => Words {
+                name: "levy",
+                title: "Lévy, summed",
+                about: "Lévy's triangle equations summed around each vertex",
+                source: "paper §3.2",
+            },
+            Self::Continuation => Words {
+                name: "continuation",
+                title: "Continuation",
+                about: "from a planar map without constraints to their targets, one-to-one all the way",
+                source: "ours; energy of Garanzha et al. 2021",
+            },
+            Self::Matchmaker => Words {
+                name: "matchmaker",
+                title: "Matchmaker",
+                about: "paths between the constraints, with new vertices where they need room, made straight in the plane",
+                source: "Eckstein et al. 2001; Kraevoy et al. 2003",
+            },
+            Self::Relax => Words {
+                name: "relax",
+                title: "Relax",
+                about: "lower distortion of a planar map, one-to-one throughout",
+                source: "ours; energy of Garanzha et al. 2021",
+            },
+        }
+    }
 }
 
 /// The shape that [`Method::Convex`] lays the boundary on.
@@ -91,203 +170,13 @@ pub enum BoundaryShape {
     Square,
 }
 
-/// A family of weights (paper §3.1): how the offset d depends on the edge length r.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Family {
-    /// d = r: cotangents.
-    #[default]
-    Conformal,
-    /// d = 1: always positive.
-    MeanValue,
-    /// d = 1/r.
-    Wachspress,
-    /// d = rᵖ: from Wachspress (−1) over mean value (0) to conformal (1), and beyond.
-    Power(f64),
-    /// All weights equal (Tutte); convex boundary only.
-    Uniform,
-    /// Floater 1997; convex boundary only.
-    ShapePreserving,
-}
+impl Choice for BoundaryShape {
+    const ALL: &'static [Self] = &[Self::Circle, Self::Square];
 
-impl Family {
-    /// d = r.
-    pub const CONFORMAL_POWER: f64 = 1.0;
-    /// d = 1/r.
-    pub const WACHSPRESS_POWER: f64 = -1.0;
-
-    /// The power p of d = rᵖ; `None` for the families that are not three-point.
-    pub const fn power(self) -> Option<f64> {
+    fn words(self) -> Words {
         match self {
-            Self::Conformal => Some(Self::CONFORMAL_POWER),
-            Self::MeanValue => Some(0.0),
-            Self::Wachspress => Some(Self::WACHSPRESS_POWER),
-            Self::Power(p) => Some(p),
-            Self::Uniform | Self::ShapePreserving => None,
+            Self::Circle => Words { name: "circle", title: "Circle", about: "a circle", source: "" },
+            Self::Square => Words { name: "square", title: "Square", about: "a square", source: "" },
         }
-    }
-}
-
-impl fmt::Display for Family {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Conformal => f.write_str("conformal"),
-            Self::MeanValue => f.write_str("mean-value"),
-            Self::Wachspress => f.write_str("wachspress"),
-            Self::Power(p) => write!(f, "power:{p}"),
-            Self::Uniform => f.write_str("uniform"),
-            Self::ShapePreserving => f.write_str("shape-preserving"),
-        }
-    }
-}
-
-impl FromStr for Family {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        Ok(match text {
-            "conformal" => Self::Conformal,
-            "mean-value" => Self::MeanValue,
-            "wachspress" => Self::Wachspress,
-            "uniform" => Self::Uniform,
-            "shape-preserving" => Self::ShapePreserving,
-            _ => {
-                let power = text.strip_prefix("power:").and_then(|p| p.parse().ok());
-                let Some(power) = power.filter(|p: &f64| p.is_finite()) else {
-                    return Err(
-                        "choose conformal, mean-value, wachspress, uniform, shape-preserving or power:P".to_owned()
-                    );
-                };
-                Self::Power(power)
-            }
-        })
-    }
-}
-
-/// How the equations of pinned vertices are treated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Treatment {
-    /// They are dropped (paper §3.3).
-    Eliminate,
-    /// All equations are kept and met as well as can be, the pins exactly (paper §6).
-    LeastSquares,
-    /// All equations are kept, and pins are further equations: those without a weight of their own have
-    /// [`Pin::DEFAULT_WEIGHT`] (paper §6).
-    Weighted,
-}
-
-impl Treatment {
-    /// The name on the command line and in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Eliminate => "eliminate",
-            Self::LeastSquares => "least-squares",
-            Self::Weighted => "weighted",
-        }
-    }
-}
-
-/// How many boundary vertices the virtual boundary pins next where the boundary is not simple.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Growth {
-    /// Twice as many.
-    #[default]
-    Double,
-    /// One more, as the paper's §5 has it.
-    One,
-}
-
-/// How large an embedding is that fewer than two pins of the user's do not fix.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum GaugeSize {
-    /// As large as the surface.
-    #[default]
-    TrueArea,
-    /// As large as fits into a box, in its middle: the picture that it is made for.
-    Within {
-        /// The box's lower left corner.
-        low: DVec2,
-        /// Its upper right corner.
-        high: DVec2,
-    },
-}
-
-/// Everything about a solve but the mesh and the pins.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// The way to the embedding.
-    pub method: Method,
-    /// The weights, where the method has a choice.
-    pub family: Family,
-    /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_of`] says.
-    pub treatment: Option<Treatment>,
-    /// The most mean-value iterations after a linear solve; a ladder that starts again counts anew.
-    pub max_steps: usize,
-    /// How the virtual boundary goes on.
-    pub growth: Growth,
-    /// How large the embedding is where the user's pins do not say.
-    pub size: GaugeSize,
-    /// The most rounds of relaxing after a planar end; where nobody says, a few after rungs 4 and 5 and after the boundary
-    /// was bent, else none.
-    pub relax_rounds: Option<usize>,
-    /// Whether edges may be split where the constraints cannot be met otherwise.
-    pub new_vertices: bool,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            method: Method::default(),
-            family: Family::default(),
-            treatment: None,
-            max_steps: Self::MAX_STEPS,
-            growth: Growth::default(),
-            size: GaugeSize::default(),
-            relax_rounds: None,
-            new_vertices: true,
-        }
-    }
-}
-
-impl Settings {
-    /// The most mean-value iterations after a linear solve, where nobody says.
-    pub const MAX_STEPS: usize = 60;
-
-    /// A method and a family, everything else as it is by default.
-    pub fn new(method: Method, family: Family) -> Self {
-        Self { method, family, ..Self::default() }
-    }
-
-    /// How the linear solve treats the equations of so many pins of the user's. Two only fix the similarity and are
-    /// eliminated, so that conformal weights give the least-squares conformal map; more are constraints.
-    pub fn treatment_of(&self, pin_count: usize) -> Treatment {
-        let by_count = if pin_count > 2 { Treatment::LeastSquares } else { Treatment::Eliminate };
-        self.treatment.unwrap_or(by_count)
-    }
-
-    /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the
-    /// solver places is always eliminated; its own gauge pins are, unless another treatment was asked for.
-    pub fn treatment_on(&self, rung: Method, pin_count: usize) -> Treatment {
-        match rung {
-            // By hand after a convex boundary, all of which is pinned.
-            Method::Iterate if matches!(self.method, Method::Convex(_)) => Treatment::Eliminate,
-            Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
-            Method::VirtualBoundary | Method::Convex(_) => Treatment::Eliminate,
-            _ if pin_count < 2 => self.treatment.unwrap_or(Treatment::Eliminate),
-            _ => self.treatment_of(pin_count),
-        }
-    }
-
-    /// Whether this treatment meets the targets of such pins to the last bit.
-    pub fn is_exact(&self, hold: Hold) -> bool {
-        hold.is_exact() && self.treatment != Some(Treatment::Weighted)
-    }
-
-    /// The user's pins as this treatment holds them.
-    pub fn held(&self, pins: &Pins) -> Pins {
-        let is_weighed = |hold: Hold| hold.is_exact() && !self.is_exact(hold);
-        let weigh = |pin: &Pin| {
-            if is_weighed(pin.hold) { Pin::weighted(pin.target, Pin::DEFAULT_WEIGHT) } else { *pin }
-        };
-        pins.iter().map(|(&vertex, pin)| (vertex, weigh(pin))).collect()
     }
 }

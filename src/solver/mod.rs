@@ -1,6 +1,6 @@
 //! The paper: weights, systems, methods, verdict and distortion. Knows no screen and no file.
 
-mod catalogue;
+mod choice;
 mod conflicts;
 mod continuation;
 mod control;
@@ -8,6 +8,7 @@ mod convex;
 mod distortion;
 pub mod equations;
 mod error;
+mod family;
 mod foldover_energy;
 mod free_solve;
 mod iterate;
@@ -24,6 +25,7 @@ mod prepared;
 mod relaxing;
 mod rest;
 mod scale;
+mod settings;
 mod shape_preserving;
 mod solution;
 mod system;
@@ -32,19 +34,21 @@ mod vertex_equation;
 mod virtual_boundary;
 pub mod weights;
 
-pub use catalogue::{CatalogueEntry, Choice, FAMILIES, METHODS};
+pub use choice::{Choice, Words};
 pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use control::{Control, Phase};
 pub use convex::convex_boundary;
 pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
 pub use error::SolveError;
+pub use family::Family;
 pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, diameter, largest_move};
-pub use method::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
+pub use method::{BoundaryShape, Method};
 pub use outside::Outside;
 pub use pins::{Hold, Pin, Pins, Places, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, hard_pins};
 pub use prepared::{Prepared, flatten};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
+pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use system::FreeSystem;

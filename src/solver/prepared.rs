@@ -18,7 +18,10 @@ use super::pins::{Pins, Places, are_held_alike, check_pins, farthest_pair, fixed
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
-use super::{BoundaryShape, Control, Family, LinearSolve, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use super::{
+    BoundaryShape, Choice as _, Control, Family, LinearSolve, Method, Phase, PhaseSeconds, Settings, Solution,
+    SolveError,
+};
 use crate::linalg::{Analysis, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 

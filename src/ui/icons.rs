@@ -3,6 +3,8 @@
 use eframe::egui;
 use egui::{Color32, Pos2, Rect, Shape, Stroke};
 
+use super::theme::Theme;
+
 /// Points given on a grid of 24 × 24.
 fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {
     let scale = rect.width() / 24.0;
@@ -33,21 +35,37 @@ pub(super) fn pair(painter: &egui::Painter, rect: Rect, colour: Color32) {
     painter.circle_filled(ends[0], 2.8 * rect.width() / 24.0, colour);
 }
 
-/// What a sign says at a glance. Each has a form of its own, so that colour is never the only difference.
+/// What a sign says at a glance. Good, bad and doubtful differ in form too, so that colour is never the only difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sign {
     /// A check mark.
     Good,
     /// A cross.
     Bad,
-    /// A triangle with a stroke.
+    /// A triangle with a stroke: something is not up to date, or may not be meant.
     Warning,
+    /// The same in another colour: a planar embedding does not meet constraints.
+    Unmet,
     /// A ring of dots.
     Working,
 }
 
+impl Sign {
+    /// Its colour, and that of the words beside it.
+    pub(super) fn colour(self, theme: &Theme) -> Color32 {
+        match self {
+            Self::Good => theme.planar,
+            Self::Bad => theme.flipped,
+            Self::Warning => theme.stale,
+            Self::Unmet => theme.unmet,
+            Self::Working => theme.weak_text,
+        }
+    }
+}
+
 /// Draws a sign into a square.
-pub(super) fn sign(painter: &egui::Painter, rect: Rect, sign: Sign, colour: Color32) {
+pub(super) fn sign(painter: &egui::Painter, rect: Rect, sign: Sign, theme: &Theme) {
+    let colour = sign.colour(theme);
     let stroke = Stroke::new(1.8, colour);
     match sign {
         Sign::Good => {
@@ -57,7 +75,7 @@ pub(super) fn sign(painter: &egui::Painter, rect: Rect, sign: Sign, colour: Colo
             painter.add(Shape::line(on_grid(rect, &[(5.0, 5.0), (19.0, 19.0)]), stroke));
             painter.add(Shape::line(on_grid(rect, &[(19.0, 5.0), (5.0, 19.0)]), stroke));
         }
-        Sign::Warning => {
+        Sign::Warning | Sign::Unmet => {
             painter.add(Shape::closed_line(on_grid(rect, &[(12.0, 3.0), (22.0, 21.0), (2.0, 21.0)]), stroke));
             painter.add(Shape::line(on_grid(rect, &[(12.0, 9.0), (12.0, 15.0)]), stroke));
         }

@@ -3,8 +3,9 @@
 use eframe::egui;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::{Editor, Purpose, Request, Shading, StepTarget, Tool, nudge};
+use super::{Editor, Purpose, Request, Shading, StepTarget, Tool};
 use crate::session::Action;
+use crate::ui::editor::nudge;
 
 /// One shortcut.
 pub struct Binding {
@@ -45,19 +46,19 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::ArrowRight, "Next step", || Request::GoToStep(StepTarget::Next)),
     bind(NONE, Key::Home, "First step", || Request::GoToStep(StepTarget::First)),
     bind(NONE, Key::End, "Last step", || Request::GoToStep(StepTarget::Last)),
-    bind(NONE, Key::V, "Select vertices", || Request::SetTool(Tool::Select)),
-    bind(NONE, Key::P, "Fix: pin a vertex where it lies", || Request::SetTool(Tool::Fix)),
-    bind(NONE, Key::C, "Constrain: join a vertex with its place", || Request::SetTool(Tool::Constrain)),
+    bind(NONE, Key::V, Tool::Select.about(), || Request::SetTool(Tool::Select)),
+    bind(NONE, Key::P, Tool::Fix.about(), || Request::SetTool(Tool::Fix)),
+    bind(NONE, Key::C, Tool::Constrain.about(), || Request::SetTool(Tool::Constrain)),
     bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::Backspace, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::F, "Frame the selection, or all", || Request::Frame),
     bind(NONE, Key::G, "Go to a vertex, edge or face by number", || Request::AskGoTo),
     bind(NONE, Key::Num1, "Plain shading", || Request::SetShading(Shading::Plain)),
-    bind(NONE, Key::Num2, "Checker", || Request::SetShading(Shading::Checker)),
-    bind(NONE, Key::Num3, "Picture", || Request::SetShading(Shading::Picture)),
-    bind(NONE, Key::Num4, "Angle distortion", || Request::SetShading(Shading::Angle)),
-    bind(NONE, Key::Num5, "Area distortion", || Request::SetShading(Shading::Area)),
-    bind(NONE, Key::Num6, "Stretch", || Request::SetShading(Shading::Stretch)),
+    bind(NONE, Key::Num2, Shading::Checker.title(), || Request::SetShading(Shading::Checker)),
+    bind(NONE, Key::Num3, Shading::Picture.title(), || Request::SetShading(Shading::Picture)),
+    bind(NONE, Key::Num4, Shading::Angle.title(), || Request::SetShading(Shading::Angle)),
+    bind(NONE, Key::Num5, Shading::Area.title(), || Request::SetShading(Shading::Area)),
+    bind(NONE, Key::Num6, Shading::Stretch.title(), || Request::SetShading(Shading::Stretch)),
     bind(NONE, Key::Num7, "Move since the compared step, or the one before", || Request::SetShading(Shading::Move)),
     bind(NONE, Key::W, "Wireframe", || Request::ToggleWireframe),
     bind(NONE, Key::H, "Hull and pockets of the virtual boundary", || Request::ToggleHull),

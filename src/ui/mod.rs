@@ -1,74 +1,36 @@
 //! The window's panels and panes: they show the editor's state and collect requests.
+//!
+//! | file | what |
+//! |---|---|
+//! | `window.rs` | one frame: all panels and panes in their places |
+//! | `controls.rs` | what panels are put together from |
+//! | `editor/` | the editor's state and what a request does to it |
+//! | `panes/` | mesh and embedding |
+//! | `panels/` | menus, bars, panels, dialogs |
+//! | `timeline/` | the strip under the panes |
+//! | `keys.rs` | keys and what they ask for |
+//! | `icons.rs` | signs of tools and verdicts |
+//! | `theme.rs` | colours and sizes |
 
-mod bars;
-mod boxes;
-mod compare;
-mod constrain;
-mod defect;
-mod defect_marks;
-mod defects_panel;
-mod dialogs;
-mod ease;
+mod controls;
 mod editor;
-mod editor_requests;
-mod editor_scenes;
-mod editor_timeline;
-mod editor_views;
-mod equation_table;
-mod exports;
-mod floating;
-mod framing;
-mod hull;
 mod icons;
 mod keys;
-mod magnifier;
-mod menu;
-mod mesh_pane;
-mod method_panel;
-mod nudge;
-mod pair_magnifier;
-mod pane;
-mod picture;
-mod picture_panel;
-mod pin_drag;
-mod pins;
-mod pins_panel;
-mod plane_pane;
-mod preview;
-mod project_view;
-mod purpose;
-mod request;
-mod scene;
-mod side_panel;
-mod status;
+mod panels;
+mod panes;
 pub mod theme;
 mod timeline;
-mod timeline_buttons;
-mod timeline_chips;
-mod timeline_curves;
-mod tools;
-mod unsaved;
-mod verdict_pill;
-mod vertex_panel;
 mod window;
 
-pub use constrain::{Half, Intent};
-pub use defect::Defect;
-pub use dialogs::{Choice, Dialogs};
-pub use ease::Ease;
-pub use editor::Editor;
-pub use hull::{HullScene, HullView, Stage};
+pub use controls::sentence;
+pub use editor::{
+    Defect, Ease, Editor, Element, Host, Layout, Look, MeshScene, Nudge, Opened, Paint, PaintKey, Pane, PlaneScene,
+    Pointer, Purpose, Request, Selection, Shading, StepTarget, Tab, Tool, ToolState,
+};
 pub use keys::{BINDINGS, Binding, keys_of};
-pub use method_panel::sentence;
-pub use nudge::Nudge;
-pub use picture::PictureView;
-pub use pin_drag::PinDrag;
-pub use pins::{PinKind, PinShown};
-pub use purpose::Purpose;
-pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
-pub use scene::{Element, MeshScene, Paint, PaintKey, PlaneScene};
+pub use panels::{Answer, Choice, Dialogs, Unsaved};
+pub use panes::{Half, HullScene, HullView, Intent, PinDrag, PinKind, PinShown, Stage};
 pub use timeline::TimelineView;
-pub use unsaved::{Answer, Unsaved};
 pub use window::window_ui;
 
 /// Fields of the checker across the embedding.

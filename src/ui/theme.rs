@@ -62,90 +62,85 @@ pub struct Theme {
 }
 
 /// A colour of a scale.
-pub fn rgb([r, g, b]: [u8; 3]) -> Color32 {
-    Color32::from_rgb(r, g, b)
-}
-
-const fn hex(rgb: u32) -> Color32 {
-    let [_, r, g, b] = rgb.to_be_bytes();
+pub const fn rgb([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
 /// The light theme.
-pub const LIGHT: Theme = Theme {
-    flipped: hex(0x00D9_2D3A),
-    crossing: hex(0x00E8_700A),
-    overwound: hex(0x00C0_26A8),
-    pin: hex(0x002F_5BD8),
-    constraint: hex(0x0000_8FA3),
-    selection: hex(0x00E0_A100),
-    planar: hex(0x001F_8A4C),
-    unmet: hex(0x006B_4FBB),
-    stale: hex(0x00B8_7A00),
-    accent: hex(0x002F_5BD8),
-    background: hex(0x00F4_F4F2),
-    panel: hex(0x00FB_FBFA),
-    text: hex(0x0022_2426),
-    weak_text: hex(0x006A_6D70),
-    separator: hex(0x00DD_DDD9),
-    boundary: Srgb::from_hex(0x003A_3A38),
-    ghost: Srgb::from_hex(0x006F_8CE4),
-    hull: Srgb::from_hex(0x00C9_3A3A),
-    pocket: Srgb::from_hex(0x003F_A34D).with_alpha(170),
-    pocket_fill: Srgb::from_hex(0x003F_A34D).with_alpha(78),
-    palette: Palette {
-        background: Srgb::from_hex(0x00F4_F4F2),
-        grid: Srgb::from_hex(0x00D9_D9D5),
-        unit_square: Srgb::from_hex(0x008C_8C88),
-        clay: Srgb::from_hex(0x00D8_D4CC),
-        clay_back: Srgb::from_hex(0x00A9_A39A),
-        plane_face: Srgb::from_hex(0x00D8_D4CC),
-        overlap: Srgb::from_hex(0x004A_4640),
-        checker: [Srgb::from_hex(0x00F1_EEE8), Srgb::from_hex(0x008F_A3B8)],
-        wire: Srgb::from_hex(0x002A_2A2A).with_alpha(130),
-        flipped: Srgb::from_hex(0x00D9_2D3A),
-        selection: Srgb::from_hex(0x00E0_A100),
-        hover: Srgb::from_hex(0x00E0_A100),
-    },
-};
+pub const LIGHT: Theme = theme(Column(egui::Theme::Light));
 
 /// The dark theme.
-pub const DARK: Theme = Theme {
-    flipped: hex(0x00FF_5A64),
-    crossing: hex(0x00FF_9A3D),
-    overwound: hex(0x00F0_6BD8),
-    pin: hex(0x007B_9BFF),
-    constraint: hex(0x002B_D4E6),
-    selection: hex(0x00FF_D24A),
-    planar: hex(0x004A_CB80),
-    unmet: hex(0x00B3_9DFF),
-    stale: hex(0x00F0_B43C),
-    accent: hex(0x007B_9BFF),
-    background: hex(0x001E_1F22),
-    panel: hex(0x0026_272B),
-    text: hex(0x00E4_E4E2),
-    weak_text: hex(0x009B_9EA3),
-    separator: hex(0x0038_3A3F),
-    boundary: Srgb::from_hex(0x00EC_ECE8),
-    ghost: Srgb::from_hex(0x006F_8BEA),
-    hull: Srgb::from_hex(0x00FF_7070),
-    pocket: Srgb::from_hex(0x0058_C46B).with_alpha(110),
-    pocket_fill: Srgb::from_hex(0x0058_C46B).with_alpha(24),
-    palette: Palette {
-        background: Srgb::from_hex(0x001E_1F22),
-        grid: Srgb::from_hex(0x0034_363B),
-        unit_square: Srgb::from_hex(0x0074_777E),
-        clay: Srgb::from_hex(0x00B9_B4AA),
-        clay_back: Srgb::from_hex(0x006F_6A63),
-        plane_face: Srgb::from_hex(0x008B_877F),
-        overlap: Srgb::from_hex(0x0026_241F),
-        checker: [Srgb::from_hex(0x00D6_D1C7), Srgb::from_hex(0x0053_687F)],
-        wire: Srgb::from_hex(0x0010_1010).with_alpha(140),
-        flipped: Srgb::from_hex(0x00FF_5A64),
-        selection: Srgb::from_hex(0x00FF_D24A),
-        hover: Srgb::from_hex(0x00FF_D24A),
-    },
-};
+pub const DARK: Theme = theme(Column(egui::Theme::Dark));
+
+/// The column of the table of colours that a theme is made from.
+#[derive(Clone, Copy)]
+struct Column(egui::Theme);
+
+impl Column {
+    const fn of<T: Copy>(self, light: T, dark: T) -> T {
+        match self.0 {
+            egui::Theme::Light => light,
+            egui::Theme::Dark => dark,
+        }
+    }
+
+    /// A colour from `0xRRGGBB`.
+    const fn srgb(self, light: u32, dark: u32) -> Srgb {
+        Srgb::from_hex(self.of(light, dark))
+    }
+
+    const fn colour(self, light: u32, dark: u32) -> Color32 {
+        on_screen(self.srgb(light, dark))
+    }
+}
+
+/// A colour of the graphics card as the window's controls have it, opaque.
+pub(super) const fn on_screen(Srgb([r, g, b, _]): Srgb) -> Color32 {
+    rgb([r, g, b])
+}
+
+/// The table: all colours, light and dark.
+const fn theme(tone: Column) -> Theme {
+    let selection = tone.srgb(0x00E0_A100, 0x00FF_D24A);
+    let pocket = tone.srgb(0x003F_A34D, 0x0058_C46B);
+    let palette = Palette {
+        background: tone.srgb(0x00F4_F4F2, 0x001E_1F22),
+        grid: tone.srgb(0x00D9_D9D5, 0x0034_363B),
+        unit_square: tone.srgb(0x008C_8C88, 0x0074_777E),
+        clay: tone.srgb(0x00D8_D4CC, 0x00B9_B4AA),
+        clay_back: tone.srgb(0x00A9_A39A, 0x006F_6A63),
+        plane_face: tone.srgb(0x00D8_D4CC, 0x008B_877F),
+        overlap: tone.srgb(0x004A_4640, 0x0026_241F),
+        checker: [tone.srgb(0x00F1_EEE8, 0x00D6_D1C7), tone.srgb(0x008F_A3B8, 0x0053_687F)],
+        wire: tone.srgb(0x002A_2A2A, 0x0010_1010).with_alpha(tone.of(130, 140)),
+        flipped: tone.srgb(0x00D9_2D3A, 0x00FF_5A64),
+        selection,
+        hover: selection,
+    };
+    Theme {
+        flipped: on_screen(palette.flipped),
+        crossing: tone.colour(0x00E8_700A, 0x00FF_9A3D),
+        overwound: tone.colour(0x00C0_26A8, 0x00F0_6BD8),
+        pin: tone.colour(0x002F_5BD8, 0x007B_9BFF),
+        constraint: tone.colour(0x0000_8FA3, 0x002B_D4E6),
+        selection: on_screen(selection),
+        planar: tone.colour(0x001F_8A4C, 0x004A_CB80),
+        unmet: tone.colour(0x006B_4FBB, 0x00B3_9DFF),
+        stale: tone.colour(0x00B8_7A00, 0x00F0_B43C),
+        accent: tone.colour(0x002F_5BD8, 0x007B_9BFF),
+        background: on_screen(palette.background),
+        panel: tone.colour(0x00FB_FBFA, 0x0026_272B),
+        text: tone.colour(0x0022_2426, 0x00E4_E4E2),
+        weak_text: tone.colour(0x006A_6D70, 0x009B_9EA3),
+        separator: tone.colour(0x00DD_DDD9, 0x0038_3A3F),
+        boundary: tone.srgb(0x003A_3A38, 0x00EC_ECE8),
+        ghost: tone.srgb(0x006F_8CE4, 0x006F_8BEA),
+        hull: tone.srgb(0x00C9_3A3A, 0x00FF_7070),
+        pocket: pocket.with_alpha(tone.of(170, 110)),
+        pocket_fill: pocket.with_alpha(tone.of(78, 24)),
+        palette,
+    }
+}
 
 /// The theme that is on.
 pub fn theme_of(ui: &egui::Ui) -> &'static Theme {
@@ -184,15 +179,15 @@ fn visuals(theme: &Theme, base: Visuals) -> Visuals {
     visuals.selection.stroke = Stroke::new(1.0, theme.accent);
     visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, theme.separator);
     visuals.window_stroke = Stroke::new(1.0, theme.separator);
-    let radius = CornerRadius::same(4);
+    let widgets = &mut visuals.widgets;
     for widget in [
-        &mut visuals.widgets.noninteractive,
-        &mut visuals.widgets.inactive,
-        &mut visuals.widgets.hovered,
-        &mut visuals.widgets.active,
-        &mut visuals.widgets.open,
+        &mut widgets.noninteractive,
+        &mut widgets.inactive,
+        &mut widgets.hovered,
+        &mut widgets.active,
+        &mut widgets.open,
     ] {
-        widget.corner_radius = radius;
+        widget.corner_radius = CornerRadius::same(4);
     }
     visuals
 }

@@ -3,21 +3,23 @@
 use eframe::egui;
 use egui::{Frame, Margin, Panel, Rect, Sense, Vec2};
 
-use super::mesh_pane::mesh_pane_ui;
-use super::plane_pane::plane_pane_ui;
+use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
-use super::timeline::{CURVES_FROM, timeline_ui};
-use super::{Editor, Intent, Pane, Request, constrain, floating, keys, menu, side_panel, status, tools, unsaved};
+use super::{Editor, Intent, Pane, Request};
 use crate::session::Action;
+use crate::ui::panels::floating;
+use crate::ui::panels::menu;
+use crate::ui::panels::side_panel;
+use crate::ui::panels::status;
+use crate::ui::panels::tools;
+use crate::ui::panels::unsaved;
+use crate::ui::panes::constrain;
+use crate::ui::panes::mesh_pane::mesh_pane_ui;
+use crate::ui::panes::plane_pane::plane_pane_ui;
+use crate::ui::timeline::{CURVES_FROM, timeline_ui};
 
 /// Width of the bar between the panes that can be grabbed, points.
 const SPLITTER: f32 = 6.0;
-
-/// A window narrower than this shows no panels until they are asked for, points.
-const PANELS_FROM: f32 = 820.0;
-
-/// Least share of the width that a pane has.
-const LEAST_SHARE: f32 = 0.15;
 
 /// Shows everything and carries out what was asked for.
 pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
@@ -33,9 +35,9 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     let bar = Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 0));
     Panel::top("top").exact_size(TOP_HEIGHT).frame(bar).show(ui, |ui| menu::top_bar(ui, editor, &mut requests));
     Panel::bottom("bottom").exact_size(BOTTOM_HEIGHT).frame(bar).show(ui, |ui| status::status_bar(ui, editor));
-    editor.window_is_wide = ui.available_width() - TOOLS_WIDTH >= PANELS_FROM;
+    editor.layout.set_width(ui.available_width() - TOOLS_WIDTH);
     editor.timeline.window_is_high = ui.available_height() >= CURVES_FROM;
-    if editor.panels_shown() {
+    if editor.layout.panels_shown() {
         let frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(12, 8));
         Panel::right("panels")
             .default_size(PANEL_WIDTH)
@@ -55,14 +57,13 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         .resizable(false)
         .frame(tool_frame)
         .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
-    editor.pane_under_pointer = None;
-    editor.pointer_in_embedding = None;
-    editor.intent = Intent::Nothing;
+    editor.pointer.begin_frame();
+    editor.tools.set_intent(Intent::Nothing);
     editor.pane_rects = [None; 2];
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
-    if editor.pane_under_pointer.is_none() && editor.dragged_pin.is_none() {
+    if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Not before: the pane drawn first shows what the pointer found in the other.
-        editor.hovered = None;
+        editor.pointer.set_vertex(None);
     }
     constrain::line_across(ui, editor);
     floating::floating_windows(ui.ctx(), editor, &mut requests);
@@ -82,11 +83,11 @@ fn panes(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
             add(ui);
         });
     };
-    match editor.full {
+    match editor.layout.full() {
         Some(Pane::Mesh) => part(ui, all, &mut |ui| mesh_pane_ui(ui, editor, requests)),
         Some(Pane::Plane) => part(ui, all, &mut |ui| plane_pane_ui(ui, editor, requests)),
         None => {
-            let middle = all.left() + all.width() * editor.split;
+            let middle = all.left() + all.width() * editor.layout.split();
             let left = Rect::from_min_max(all.min, egui::pos2(middle - SPLITTER / 2.0, all.bottom()));
             let right = Rect::from_min_max(egui::pos2(middle + SPLITTER / 2.0, all.top()), all.max);
             part(ui, left, &mut |ui| mesh_pane_ui(ui, editor, requests));
@@ -101,11 +102,10 @@ fn splitter(ui: &egui::Ui, editor: &mut Editor, all: Rect, middle: f32) {
     let response = ui.interact(bar, ui.scope_id().with("splitter"), Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, "Width of the panes"));
     if response.dragged() {
-        let share = (middle + response.drag_delta().x - all.left()) / all.width().max(1.0);
-        editor.split = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+        editor.layout.set_split((middle + response.drag_delta().x - all.left()) / all.width().max(1.0));
     }
     if response.double_clicked() {
-        editor.split = 0.5;
+        editor.layout.set_split(0.5);
     }
     let active = response.hovered() || response.dragged();
     if active {
@@ -128,10 +128,8 @@ fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
 
 /// What only the window itself can do.
 fn carry_out_for_window(context: &egui::Context, editor: &mut Editor) {
-    if let Some(theme) = editor.theme_wanted.take() {
-        context.set_theme(theme);
-    }
-    unsaved::title_of_window(context, editor);
+    editor.host.put_on_theme();
+    unsaved::title_of_window(editor);
     if editor.quit {
         context.send_viewport_cmd(egui::ViewportCommand::Close);
     }

@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{
-    Control, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step, hard_pins, verdict,
+    Choice as _, Control, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step, hard_pins,
+    verdict,
 };
 use glam::DVec2;
 

@@ -1,7 +1,7 @@
 //! Pictures without a screen.
 
 use freebound::geom::Picture;
-use freebound::io::layout_picture;
+use freebound::io::ProvedEmbedding;
 use freebound::io::raster::{Canvas, Colour, Paint, Shading, View, colours, mesh_picture, plane_picture};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::verdict;
@@ -30,7 +30,8 @@ fn a_picture_is_as_red_as_the_verdict_says() {
     let mirrored = points.map(|p| DVec2::new(-p.x, p.y));
     let verdict = verdict(&mesh, &mirrored);
     assert!(verdict.planar && verdict.mirrored);
-    let picture = layout_picture(&mesh, &mirrored, &verdict, &Canvas::drawing(100, 100));
+    let proved = ProvedEmbedding { mesh: &mesh, embedding: &mirrored, verdict: &verdict };
+    let picture = proved.picture(&Canvas::drawing(100, 100));
     assert_eq!(share_of(&picture, colours::FLIPPED), 0.0);
     assert!(share_of(&picture, colours::CLAY) > 0.5);
 }
@@ -122,7 +123,9 @@ fn a_flipped_face_is_red_and_the_boundary_dark() {
     let fan = faces([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]);
     let canvas = Canvas::drawing(200, 200);
     let mesh = disk(&points, &fan);
-    let picture_of = |points: &[DVec2]| layout_picture(&mesh, points, &verdict(&mesh, points), &canvas);
+    let picture_of = |points: &[DVec2]| {
+        ProvedEmbedding { mesh: &mesh, embedding: points, verdict: &verdict(&mesh, points) }.picture(&canvas)
+    };
     let sound = picture_of(&points);
     assert!(share_of(&sound, colours::FLIPPED) == 0.0);
     // Beyond the lower side, the centre turns the triangle over that side around.

@@ -59,8 +59,8 @@ fn a_hard_set_of_constraints_ends_planar_by_itself() {
     assert!(is_solved(&session), "{:?}", session.messages());
     assert_eq!(session.stopped(), Some(Stop::Planar));
     let records = session.timeline().records();
-    assert!(records[0].rung == "natural" && !records[0].planar, "the linear solve shows first, and folds");
-    assert_eq!(records.last().expect("steps").rung, "relax");
+    assert!(records[0].rung == Method::Natural && !records[0].planar, "the linear solve shows first, and folds");
+    assert_eq!(records.last().expect("steps").rung, Method::Relax);
     let standings = session.timeline().standings();
     let waits = records.iter().zip(standings).any(|(record, standing)| record.planar && standing.unmet > 0);
     assert!(waits, "a planar step that does not meet the constraints is no end");
@@ -73,7 +73,12 @@ fn a_run_that_is_stopped_on_its_way_keeps_a_planar_step_and_can_go_on() {
     place(&mut session, &twist());
     // Whatever is computed meanwhile, no later than at the first planar step it is asked to rest.
     let begun = Instant::now();
-    while !session.timeline().records().last().is_some_and(|record| record.planar && record.rung == "continuation") {
+    while !session
+        .timeline()
+        .records()
+        .last()
+        .is_some_and(|record| record.planar && record.rung == Method::Continuation)
+    {
         assert!(begun.elapsed() < Duration::from_secs(90), "{session:?}");
         std::thread::sleep(Duration::from_micros(100));
         session.poll();
@@ -96,9 +101,10 @@ fn relaxing_lowers_the_energy_and_keeps_the_constraints() {
     assert!(is_solved(&session), "{:?}", session.messages());
     let timeline = session.timeline();
     let relaxed = &timeline.records()[before + 1..];
-    assert!(!relaxed.is_empty() && relaxed.iter().all(|record| record.rung == "relax" && record.planar));
+    assert!(!relaxed.is_empty() && relaxed.iter().all(|record| record.rung == Method::Relax && record.planar));
     // From the step that arrived on, rounds that follow by themselves included.
-    let arrived = timeline.records().iter().rposition(|record| record.rung == "continuation").expect("it arrived");
+    let arrived =
+        timeline.records().iter().rposition(|record| record.rung == Method::Continuation).expect("it arrived");
     let energies: Vec<f64> =
         timeline.standings()[arrived..].iter().map(|standing| standing.progress.expect("numbers").energy).collect();
     assert!(energies.is_sorted_by(|a, b| a >= b) && energies.last() < energies.first(), "{energies:?}");

@@ -292,7 +292,7 @@ fn faults_of_a_project_name_line_and_field() {
         (pin("\"u\": 1e999, \"v\": 0, \"hold\": \"hard\""), "line 3, pins[0].u: number out of range"),
         (
             format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"family\": \"nonsense\"\n}}"),
-            "line 4, family: \"nonsense\"",
+            "line 4, family: invalid value: string \"nonsense\", expected one of conformal, mean-value",
         ),
         ("{\n\"freebound_project\": 1,\n\"mesh\": {},\n\"pins\": []\n}".to_owned(), "line 3, mesh: name either"),
         ("{\n\"freebound_project\": 1\n}".to_owned(), "line 3, the project: missing field `mesh`"),

@@ -76,7 +76,7 @@ fn a_planar_step_with_constraints_not_met_says_so_and_marks_them() {
     assert!(window.has_ring_at(place), "{unmet:?}");
     let pill = format!("Verdict: {}", window.verdict());
     window.click(&pill);
-    assert!(window.editor().selection.iter().eq(&unmet), "a click shows them");
+    assert!(window.editor().selection.vertices().iter().eq(&unmet), "a click shows them");
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn a_constraint_that_needs_new_vertices_is_marked() {
     let mut window = window();
     window.choose("Method", "Natural boundary");
     place(&mut window, &TURNED);
-    window.editor_mut().tab = Tab::Pins;
+    window.editor_mut().layout.show_tab(Tab::Pins);
     window.settle();
     assert_eq!(window.words().iter().filter(|words| *words == "conflict").count(), 3);
     assert!(window.shows("1 conflict needs new vertices"));

@@ -53,14 +53,14 @@ fn a_vertex_and_then_its_place_make_a_constraint() {
     let target = in_embedding(&window, to);
     window.key(Key::C);
     window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
-    assert_eq!(window.editor().pair, Some(Half::Vertex(vertex)));
+    assert_eq!(window.editor().tools.pair(), Some(Half::Vertex(vertex)));
     assert!(pins(&window).is_empty(), "half a pair pins nothing");
     window.click_at(to, Modifiers::NONE);
-    assert_eq!(window.editor().pair, None);
+    assert_eq!(window.editor().tools.pair(), None);
     assert_eq!(pins(&window), [(vertex, Pin::hard(target))].into());
     assert!(window.has_button(&format!("Constraint {vertex}")));
-    assert_eq!(window.editor().selection, [vertex].into());
-    assert_eq!(window.editor().tool, Tool::Constrain, "the next pair can follow");
+    assert_eq!(*window.editor().selection.vertices(), [vertex].into());
+    assert_eq!(window.editor().tools.tool(), Tool::Constrain, "the next pair can follow");
     window.press(Modifiers::COMMAND, Key::Z);
     assert!(pins(&window).is_empty(), "one undo step");
 }
@@ -73,7 +73,7 @@ fn a_place_and_then_its_vertex_make_the_same_constraint() {
     let target = in_embedding(&window, to);
     window.key(Key::C);
     window.click_at(to, Modifiers::NONE);
-    assert_eq!(window.editor().pair, Some(Half::Target(target)));
+    assert_eq!(window.editor().tools.pair(), Some(Half::Target(target)));
     window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
     assert_eq!(pins(&window), [(vertex, Pin::hard(target))].into());
 }
@@ -83,7 +83,7 @@ fn a_vertex_can_be_taken_in_the_embedding() {
     let mut window = window();
     window.key(Key::C);
     window.click_at(window.place_in_plane(window.embedding()[40]), Modifiers::NONE);
-    assert_eq!(window.editor().pair, Some(Half::Vertex(VertexId::new(40))));
+    assert_eq!(window.editor().tools.pair(), Some(Half::Vertex(VertexId::new(40))));
     let to = free_place(&window);
     let target = in_embedding(&window, to);
     window.click_at(to, Modifiers::NONE);
@@ -104,7 +104,9 @@ fn what_a_click_would_do_is_said_before_it() {
     let to = free_place(&window);
     window.harness.hover_at(to);
     window.settle();
-    let Intent::Join(joined, target) = window.editor().intent else { panic!("{:?}", window.editor().intent) };
+    let Intent::Join(joined, target) = window.editor().tools.intent() else {
+        panic!("{:?}", window.editor().tools.intent())
+    };
     assert_eq!((joined, target), (vertex, in_embedding(&window, to)));
     assert!(window.shows(&format!("{vertex} goes to u ")), "{:?}", window.words());
     let from = window.place_in_plane(window.embedding()[vertex.index()]);
@@ -117,11 +119,11 @@ fn escape_gives_up_the_pair_and_then_the_tool() {
     let mut window = window();
     window.key(Key::C);
     window.click_at(window.place_on_mesh(window.vertex_in_the_middle()), Modifiers::NONE);
-    assert!(window.editor().pair.is_some());
+    assert!(window.editor().tools.pair().is_some());
     window.key(Key::Escape);
-    assert_eq!((window.editor().pair, window.editor().tool), (None, Tool::Constrain));
+    assert_eq!((window.editor().tools.pair(), window.editor().tools.tool()), (None, Tool::Constrain));
     window.key(Key::Escape);
-    assert_eq!(window.editor().tool, Tool::Select);
+    assert_eq!(window.editor().tools.tool(), Tool::Select);
     assert!(pins(&window).is_empty());
 }
 
@@ -132,8 +134,8 @@ fn a_click_on_a_constraint_selects_it() {
     window.key(Key::C);
     let before = pins(&window);
     window.click_at(window.place_in_plane(DVec2::new(0.5, 0.5)), Modifiers::NONE);
-    assert_eq!(window.editor().selection, [VertexId::new(40)].into());
-    assert_eq!((window.editor().pair, pins(&window)), (None, before));
+    assert_eq!(*window.editor().selection.vertices(), [VertexId::new(40)].into());
+    assert_eq!((window.editor().tools.pair(), pins(&window)), (None, before));
 }
 
 #[test]
@@ -143,7 +145,7 @@ fn a_place_can_lie_near_another_constraint() {
     window.key(Key::C);
     let to = window.place_in_plane(DVec2::new(0.5, 0.5)) + Vec2::new(6.0, 0.0);
     let target = in_embedding(&window, to);
-    window.editor_mut().pair = Some(Half::Vertex(VertexId::new(30)));
+    window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(30))));
     window.click_at(to, Modifiers::NONE);
     assert_eq!(pins(&window).get(&VertexId::new(30)), Some(&Pin::hard(target)));
 }
@@ -154,14 +156,14 @@ fn a_click_on_another_pin_s_mark_completes_the_pair_as_the_status_line_says() {
     corners(&mut window);
     window.key(Key::C);
     let target = DVec2::new(0.3, 0.7);
-    window.editor_mut().pair = Some(Half::Target(target));
+    window.editor_mut().tools.set_pair(Some(Half::Target(target)));
     let mark = window.place_in_plane(DVec2::new(0.5, 0.5));
     window.harness.hover_at(mark);
     window.settle();
     assert!(window.shows("v40 goes to u 0.3000 v 0.7000"), "{:?}", window.words());
     window.click_at(mark, Modifiers::NONE);
     assert_eq!(pins(&window)[&VertexId::new(40)], Pin::hard(target));
-    assert_eq!(window.editor().pair, None);
+    assert_eq!(window.editor().tools.pair(), None);
 }
 
 #[test]
@@ -171,16 +173,16 @@ fn a_click_on_a_mark_far_from_its_vertex_selects_as_the_status_line_says() {
     let target = DVec2::new(0.9, 0.1);
     place(&mut window, &[(30, Pin::weighted(target, 0.5))]);
     // An inset over a defect would take the place of what lies under it.
-    window.editor_mut().magnifier = false;
+    window.editor_mut().look.magnifier = false;
     window.key(Key::C);
     let mark = window.place_in_plane(target);
     window.harness.hover_at(mark);
     window.settle();
-    assert_eq!(window.editor().intent, Intent::Select(VertexId::new(30)));
+    assert_eq!(window.editor().tools.intent(), Intent::Select(VertexId::new(30)));
     assert!(window.shows("select the pin of v30"), "{:?}", window.words());
     window.click_at(mark, Modifiers::NONE);
-    assert_eq!(window.editor().selection, [VertexId::new(30)].into());
-    assert_eq!(window.editor().pair, None);
+    assert_eq!(*window.editor().selection.vertices(), [VertexId::new(30)].into());
+    assert_eq!(window.editor().tools.pair(), None);
 }
 
 #[test]
@@ -191,7 +193,7 @@ fn one_of_several_selected_pins_takes_the_others_along() {
     let at = |z: DVec2| z;
     window.click_at(window.place_in_plane(at(DVec2::new(0.5, 0.5))), Modifiers::NONE);
     window.click_at(window.place_in_plane(at(DVec2::ONE)), Modifiers::SHIFT);
-    assert_eq!(window.editor().selection, [40, 80].map(VertexId::new).into());
+    assert_eq!(*window.editor().selection.vertices(), [40, 80].map(VertexId::new).into());
     let from = window.place_in_plane(DVec2::new(0.5, 0.5));
     let to = from + Vec2::new(-20.0, 15.0);
     let by = in_embedding(&window, to) - in_embedding(&window, from);
@@ -211,7 +213,7 @@ fn a_box_selects_the_pins_in_it() {
     let at = |x, y| window.place_in_plane(DVec2::new(x, y));
     let (from, to) = (at(0.9, 1.1), at(1.1, -0.1));
     window.drag(from, to, Modifiers::COMMAND);
-    let selected = &window.editor().selection;
+    let selected = window.editor().selection.vertices();
     assert!(selected.contains(&VertexId::new(8)) && selected.contains(&VertexId::new(80)), "{selected:?}");
     assert!(!selected.contains(&VertexId::new(40)) && !selected.contains(&VertexId::new(0)));
 }
@@ -224,7 +226,7 @@ fn a_pin_dragged_out_of_the_pane_stays_in_the_hand() {
     let outside = Pos2::new(window.plane_view().left() - 120.0, from.y);
     window.begin_drag(from, outside, Modifiers::NONE);
     window.settle();
-    assert_eq!(window.editor().dragged_pin, Some(VertexId::new(40)));
+    assert_eq!(window.editor().tools.dragged(), Some(VertexId::new(40)));
     let back = from + Vec2::new(10.0, 0.0);
     window.harness.hover_at(back);
     window.step();
@@ -239,7 +241,7 @@ fn arrows_nudge_selected_pins_and_only_them() {
     let mut window = window();
     corners(&mut window);
     let before = pins(&window);
-    window.editor_mut().selection = [8, 40].map(VertexId::new).into();
+    window.editor_mut().selection.select([8, 40].map(VertexId::new));
     let step = window.editor().plane_scene().expect("solved").arrays.bounds().extent() / 512.0;
     window.key(Key::ArrowRight);
     for (vertex, by) in [(8, step), (40, step), (0, 0.0)] {
@@ -258,7 +260,7 @@ fn a_held_arrow_is_one_undo_step() {
     let mut window = window();
     corners(&mut window);
     let before = pins(&window);
-    window.editor_mut().selection = [VertexId::new(40)].into();
+    window.editor_mut().selection.select([VertexId::new(40)]);
     for repeat in [false, true, true] {
         window.harness.event(egui::Event::Key {
             key: Key::ArrowLeft,
@@ -269,10 +271,10 @@ fn a_held_arrow_is_one_undo_step() {
         });
         window.step();
     }
-    assert!(window.editor().nudging);
+    assert!(window.editor().tools.is_nudging());
     window.harness.key_up(Key::ArrowLeft);
     window.settle();
-    assert!(!window.editor().nudging);
+    assert!(!window.editor().tools.is_nudging());
     assert_ne!(pins(&window), before);
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(pins(&window), before);
@@ -283,7 +285,7 @@ fn arrows_step_through_the_timeline_where_no_pin_is_selected() {
     let mut window = window();
     corners(&mut window);
     let before = pins(&window);
-    window.editor_mut().selection = [VertexId::new(30)].into();
+    window.editor_mut().selection.select([VertexId::new(30)]);
     window.key(Key::ArrowRight);
     assert_eq!(pins(&window), before);
 }
@@ -292,7 +294,7 @@ fn arrows_step_through_the_timeline_where_no_pin_is_selected() {
 fn delete_frees_all_selected_constraints() {
     let mut window = window();
     corners(&mut window);
-    window.editor_mut().selection = [8, 40].map(VertexId::new).into();
+    window.editor_mut().selection.select([8, 40].map(VertexId::new));
     window.key(Key::Delete);
     assert_eq!(pins(&window).keys().map(|v| v.number()).collect::<Vec<_>>(), [0, 72, 80]);
 }
@@ -364,7 +366,7 @@ fn selected_pins_are_held_alike_by_one_click() {
     let mut window = window();
     corners(&mut window);
     window.click("Pins 5");
-    window.editor_mut().selection = [0, 8, 40].map(VertexId::new).into();
+    window.editor_mut().selection.select([0, 8, 40].map(VertexId::new));
     window.settle();
     assert!(window.shows("3 selected"));
     window.click("Weighted");
@@ -379,11 +381,11 @@ fn the_hold_chosen_last_is_that_of_the_next_constraint() {
     let mut window = window();
     corners(&mut window);
     window.click("Pins 5");
-    window.editor_mut().selection = [0, 8].map(VertexId::new).into();
+    window.editor_mut().selection.select([0, 8].map(VertexId::new));
     window.settle();
     window.click("Weighted");
     window.key(Key::C);
-    window.editor_mut().pair = Some(Half::Vertex(VertexId::new(30)));
+    window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(30))));
     window.click_at(free_place(&window), Modifiers::NONE);
     assert!(matches!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(_)));
 }
@@ -407,9 +409,9 @@ fn rows_are_selected_together_with_shift_and_ctrl() {
     let row = |window: &Window, name: &str| window.rect(Role::Button, name).center();
     window.click_at(row(&window, "v8"), Modifiers::NONE);
     window.click_at(row(&window, "v72"), Modifiers::SHIFT);
-    assert_eq!(window.editor().selection, [8, 40, 72].map(VertexId::new).into());
+    assert_eq!(*window.editor().selection.vertices(), [8, 40, 72].map(VertexId::new).into());
     window.click_at(row(&window, "v40"), Modifiers::COMMAND);
-    assert_eq!(window.editor().selection, [8, 72].map(VertexId::new).into());
+    assert_eq!(*window.editor().selection.vertices(), [8, 72].map(VertexId::new).into());
 }
 
 #[test]
@@ -430,7 +432,7 @@ fn the_selected_constraint_is_magnified_in_both_panes() {
     corners(&mut window);
     let named = |window: &Window, name: &str| window.harness.query_by_role_and_label(Role::Image, name).is_some();
     assert!(!named(&window, "Magnifier: v40 on the mesh"));
-    window.editor_mut().selection = [VertexId::new(40)].into();
+    window.editor_mut().selection.select([VertexId::new(40)]);
     window.settle();
     assert!(named(&window, "Magnifier: v40 on the mesh") && named(&window, "Magnifier: the target of v40"));
     window.menu(&["View", "Magnifier"]);

@@ -51,8 +51,8 @@ fn the_list_of_defects_jumps_to_a_face_in_both_panes() {
     let before = (window.editor().orbit, window.editor().plane_camera);
     window.click(&format!("flipped face {face}"));
     let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
-    assert_eq!(window.editor().selection, corners.into_iter().collect());
-    assert_eq!(window.editor().defect, Some(1));
+    assert_eq!(*window.editor().selection.vertices(), corners.into_iter().collect());
+    assert_eq!(window.editor().selection.defect(), Some(1));
     assert_ne!((window.editor().orbit, window.editor().plane_camera), before);
     let embedding = window.embedding();
     for corner in corners {
@@ -66,19 +66,19 @@ fn defects_are_stepped_through_by_key_button_and_verdict() {
     let mut window = folded();
     let count = window.editor().defect_count();
     window.key(Key::D);
-    assert_eq!(window.editor().defect, Some(0));
+    assert_eq!(window.editor().selection.defect(), Some(0));
     window.press(Modifiers::SHIFT, Key::D);
-    assert_eq!(window.editor().defect, Some(count - 1), "around the end");
+    assert_eq!(window.editor().selection.defect(), Some(count - 1), "around the end");
     window.key(Key::D);
     window.key(Key::D);
-    assert_eq!(window.editor().defect, Some(1 % count));
+    assert_eq!(window.editor().selection.defect(), Some(1 % count));
     let pill = format!("Verdict: {}", window.verdict());
     window.click(&pill);
-    assert_eq!(window.editor().defect, Some(2 % count));
+    assert_eq!(window.editor().selection.defect(), Some(2 % count));
     window.click(&format!("Defects {count}"));
     window.click("Next");
     window.click("Previous");
-    assert_eq!(window.editor().defect, Some(2 % count));
+    assert_eq!(window.editor().selection.defect(), Some(2 % count));
 }
 
 #[test]
@@ -111,10 +111,10 @@ fn the_crossings_of_the_cow_are_listed_and_shown() {
     for _ in 0..=flipped {
         window.key(Key::D);
     }
-    assert_eq!(window.editor().defects()[window.editor().defect.expect("one")], Defect::Crossing([a, b]));
+    assert_eq!(window.editor().defects()[window.editor().selection.defect().expect("one")], Defect::Crossing([a, b]));
     let disk = window.editor().session.model().and_then(|model| model.disk()).cloned().expect("a disk");
     let ends = [a, b].into_iter().flat_map(|edge| disk.ends(edge)).collect();
-    assert_eq!(window.editor().selection, ends);
+    assert_eq!(*window.editor().selection.vertices(), ends);
 }
 
 #[test]
@@ -125,17 +125,17 @@ fn go_to_finds_vertices_edges_and_faces_by_number() {
         window.key(Key::G);
         window.type_text(text);
         window.key(Key::Enter);
-        let mut selected: Vec<u32> = window.editor().selection.iter().map(|v| v.number()).collect();
+        let mut selected: Vec<u32> = window.editor().selection.vertices().iter().map(|v| v.number()).collect();
         let mut expected = expected;
         selected.sort_unstable();
         expected.sort_unstable();
         assert_eq!(selected, expected, "{text}");
-        assert!(window.editor().go_to.is_none(), "it closes");
+        assert!(window.editor().layout.go_to.is_none(), "it closes");
     }
     window.menu(&["View", "Go to…"]);
     window.type_text("e0");
     window.click("Go");
-    assert_eq!(window.editor().selection.len(), 2);
+    assert_eq!(window.editor().selection.vertices().len(), 2);
 }
 
 #[test]
@@ -147,8 +147,8 @@ fn go_to_says_so_where_there_is_no_such_element() {
     assert!(window.shows("This mesh has no such element"));
     assert!(!window.is_enabled("Go"));
     window.key(Key::Enter);
-    assert!(window.editor().selection.is_empty());
-    assert!(window.editor().go_to.is_some(), "it stays for a better number");
+    assert!(window.editor().selection.vertices().is_empty());
+    assert!(window.editor().layout.go_to.is_some(), "it stays for a better number");
     window.key(Key::Escape);
-    assert!(window.editor().go_to.is_none());
+    assert!(window.editor().layout.go_to.is_none());
 }

@@ -139,7 +139,7 @@ fn the_list_of_exports_has_the_same_entries_as_the_menu() {
     window.press(Modifiers::COMMAND, Key::E);
     assert!(window.has_button("Picture of the mesh's pane…") && window.has_button("Layout at true scale…"));
     window.click("Report…");
-    assert!(window.editor().dialogs.is_open() && !window.editor().exports_shown);
+    assert!(window.editor().dialogs.is_open() && !window.editor().layout.exports_shown);
     window.click("Export");
     assert!(window.path("sheet-report.json").exists());
 }
@@ -320,7 +320,7 @@ fn a_message_is_copied_gone_to_and_dismissed() {
         .any(|command| matches!(command, egui::OutputCommand::CopyText(text) if text.contains(&message.text)));
     assert!(copied, "{:?}", window.harness.output().platform_output.commands);
     window.click("Go to");
-    let selected: Vec<VertexId> = window.editor().selection.iter().copied().collect();
+    let selected: Vec<VertexId> = window.editor().selection.vertices().iter().copied().collect();
     let mut expected = message.vertices.clone();
     expected.sort_unstable();
     assert_eq!(selected, expected);
@@ -395,7 +395,7 @@ fn the_newer_of_two_meshes_opens() {
 fn the_window_answers_while_a_solve_runs() {
     let mut window = at_work();
     window.key_now(Key::W);
-    assert!(window.editor().wireframe && window.editor().session.busy().is_some(), "no waiting");
+    assert!(window.editor().look.wireframe && window.editor().session.busy().is_some(), "no waiting");
     let slowest = (0..10).map(|_| {
         let start = Instant::now();
         window.step();

@@ -25,8 +25,8 @@ fn window(vertex: VertexId) -> Window {
 }
 
 fn select(window: &mut Window, vertex: VertexId) {
-    window.editor_mut().tab = Tab::Vertex;
-    window.editor_mut().selection = [vertex].into();
+    window.editor_mut().layout.show_tab(Tab::Vertex);
+    window.editor_mut().selection.select([vertex]);
     window.settle();
 }
 
@@ -70,7 +70,7 @@ fn a_click_on_a_neighbour_goes_on_to_it() {
     let first = links(&window)[0].clone();
     window.harness.get_by_role_and_label(Role::Link, &first).click();
     window.settle();
-    let selected: Vec<String> = window.editor().selection.iter().map(ToString::to_string).collect();
+    let selected: Vec<String> = window.editor().selection.vertices().iter().map(ToString::to_string).collect();
     assert_eq!(selected, [first]);
 }
 

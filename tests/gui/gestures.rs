@@ -69,17 +69,17 @@ fn the_vertex_under_the_pointer_is_known_in_both_panes() {
     let vertex = window.vertex_in_the_middle();
     window.harness.hover_at(window.place_on_mesh(vertex));
     window.settle();
-    assert_eq!(window.editor().hovered, Some(vertex));
-    assert_eq!(window.editor().pane_under_pointer, Some(Pane::Mesh));
+    assert_eq!(window.editor().pointer.vertex(), Some(vertex));
+    assert_eq!(window.editor().pointer.pane(), Some(Pane::Mesh));
     assert!(window.shows(&vertex.to_string()), "the status bar names it");
     window.harness.hover_at(window.place_in_plane(window.embedding()[30]));
     window.settle();
-    assert_eq!(window.editor().hovered, Some(VertexId::new(30)));
-    assert_eq!(window.editor().pane_under_pointer, Some(Pane::Plane));
+    assert_eq!(window.editor().pointer.vertex(), Some(VertexId::new(30)));
+    assert_eq!(window.editor().pointer.pane(), Some(Pane::Plane));
     assert!(window.shows("v30") && window.shows("u "), "{:?}", window.words());
     window.harness.remove_cursor();
     window.step();
-    assert_eq!(window.editor().hovered, None);
+    assert_eq!(window.editor().pointer.vertex(), None);
 }
 
 #[test]
@@ -105,13 +105,13 @@ fn clicks_select_and_shift_adds() {
     let at = |window: &Window, i: usize| window.place_in_plane(window.embedding()[i]);
     window.click_at(at(&window, 30), Modifiers::NONE);
     window.click_at(at(&window, 40), Modifiers::SHIFT);
-    assert_eq!(window.editor().selection, [30, 40].map(VertexId::new).into());
+    assert_eq!(*window.editor().selection.vertices(), [30, 40].map(VertexId::new).into());
     window.click_at(at(&window, 50), Modifiers::NONE);
-    assert_eq!(window.editor().selection, [VertexId::new(50)].into());
+    assert_eq!(*window.editor().selection.vertices(), [VertexId::new(50)].into());
     assert!(document(&window).pins.is_empty(), "selecting pins nothing");
     let empty = window.plane_view().left_top() + Vec2::splat(5.0);
     window.click_at(empty, Modifiers::NONE);
-    assert!(window.editor().selection.is_empty(), "a click on nothing deselects");
+    assert!(window.editor().selection.vertices().is_empty(), "a click on nothing deselects");
 }
 
 #[test]
@@ -125,14 +125,14 @@ fn a_box_drawn_with_ctrl_selects_what_is_in_it() {
     window.drag(corner, view.max - Vec2::splat(2.0), Modifiers::COMMAND);
     let inside = |z: &DVec2| Rect::from_min_max(corner, view.max).contains(window.place_in_plane(*z));
     let expected: Vec<u32> = (0..).zip(&embedding).filter(|(_, z)| inside(z)).map(|(i, _)| i).collect();
-    let selected: Vec<u32> = window.editor().selection.iter().map(|v| v.number()).collect();
+    let selected: Vec<u32> = window.editor().selection.vertices().iter().map(|v| v.number()).collect();
     assert!(expected.contains(&30) && expected.len() < embedding.len());
     assert_eq!(selected, expected);
     assert_eq!(window.editor().orbit, orbit);
     let view = window.mesh_view();
     window.editor_mut().selection.clear();
     window.drag(view.min + Vec2::splat(2.0), view.max - Vec2::splat(2.0), Modifiers::COMMAND);
-    assert_eq!(window.editor().selection.len(), embedding.len(), "all of the mesh from the front");
+    assert_eq!(window.editor().selection.vertices().len(), embedding.len(), "all of the mesh from the front");
     assert_eq!(window.editor().orbit, orbit, "a box does not turn the mesh");
 }
 
@@ -168,13 +168,13 @@ fn the_embedding_follows_while_a_pin_is_dragged() {
     let to = from + Vec2::new(60.0, -35.0);
     window.begin_drag(from, to, Modifiers::NONE);
     window.settle();
-    assert_eq!(window.editor().dragged_pin, Some(VertexId::new(40)));
+    assert_eq!(window.editor().tools.dragged(), Some(VertexId::new(40)));
     let drawn = window.editor().drawn_plane().expect("solved").positions()[40];
     assert!(drawn.distance(in_embedding(&window, to)) < 1e-9, "{drawn}");
     assert!(window.verdict().starts_with("preview, not repaired"), "{}", window.verdict());
     assert!(window.shows("Move the pin"), "the status bar says so");
     window.end_drag(to);
-    assert_eq!(window.editor().dragged_pin, None);
+    assert_eq!(window.editor().tools.dragged(), None);
 }
 
 #[test]
@@ -243,7 +243,7 @@ fn a_click_on_a_pin_selects_it_and_moves_nothing() {
     pin(&mut window, &[0, 40, 80]);
     let before = document(&window);
     window.click_at(window.place_in_plane(window.embedding()[40]) + Vec2::new(4.0, 3.0), Modifiers::NONE);
-    assert_eq!(window.editor().selection, [VertexId::new(40)].into());
+    assert_eq!(*window.editor().selection.vertices(), [VertexId::new(40)].into());
     assert_eq!(document(&window), before);
 }
 
@@ -262,12 +262,12 @@ fn a_pin_grabbed_beside_its_middle_does_not_jump() {
 fn escape_ends_the_tool_and_then_the_selection() {
     let mut window = window();
     window.click("Fix: pin a vertex where it lies");
-    window.editor_mut().selection.insert(VertexId::new(3));
+    window.editor_mut().selection.add([VertexId::new(3)]);
     window.key(Key::Escape);
-    assert_eq!(window.editor().tool, Tool::Select);
-    assert_eq!(window.editor().selection.len(), 1);
+    assert_eq!(window.editor().tools.tool(), Tool::Select);
+    assert_eq!(window.editor().selection.vertices().len(), 1);
     window.key(Key::Escape);
-    assert!(window.editor().selection.is_empty());
+    assert!(window.editor().selection.vertices().is_empty());
 }
 
 #[test]
@@ -282,7 +282,7 @@ fn a_drag_on_the_mesh_orbits_and_with_shift_pans() {
     let panned = window.editor().orbit.expect("a mesh shows");
     assert_ne!(panned, orbited);
     window.key(Key::F);
-    assert!(document(&window).pins.is_empty() && window.editor().selection.is_empty());
+    assert!(document(&window).pins.is_empty() && window.editor().selection.vertices().is_empty());
 }
 
 #[test]

@@ -93,7 +93,7 @@ fn a_vertex_is_picked_where_the_stage_shows_it() {
     let boundary = window.editor().session.model().expect("open").disk().expect("a disk").boundary_loop()[7];
     let at = window.place_in_plane(positions(&window)[boundary.index()]);
     window.click_at(at, egui::Modifiers::NONE);
-    assert_eq!(window.editor().selection, [boundary].into());
+    assert_eq!(*window.editor().selection.vertices(), [boundary].into());
 }
 
 #[test]

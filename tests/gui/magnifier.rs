@@ -64,7 +64,7 @@ fn a_click_goes_to_its_defect() {
     let name = inset(&window).expect("it shows");
     let before = window.editor().plane_camera;
     window.click(&name);
-    assert_eq!(window.editor().defect, Some(0));
+    assert_eq!(window.editor().selection.defect(), Some(0));
     assert_ne!(window.editor().plane_camera, before);
 }
 
@@ -118,14 +118,14 @@ fn the_pointer_over_it_picks_nothing_behind_it() {
     let by = inset_rect(&window).center() - at(&window);
     window.harness.hover_at(at(&window));
     window.harness.run_steps(2);
-    assert_eq!(window.editor().hovered, Some(corner), "as long as nothing lies over it");
+    assert_eq!(window.editor().pointer.vertex(), Some(corner), "as long as nothing lies over it");
     let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
     camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
     window.settle();
     assert!(inset_rect(&window).contains(at(&window)));
     window.harness.hover_at(at(&window));
     window.harness.run_steps(2);
-    assert_eq!(window.editor().hovered, None);
+    assert_eq!(window.editor().pointer.vertex(), None);
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn a_crossing_of_the_cow_is_shown_with_its_ring() {
     let flipped = window.outcome().step.verdict.flipped_faces.len();
     let crossing = window.editor().defects()[flipped];
     assert!(matches!(crossing, Defect::Crossing(_)));
-    window.editor_mut().defect = Some(flipped);
+    window.editor_mut().selection.set_defect(Some(flipped));
     window.editor_mut().session.handle(Action::EndGesture);
     window.settle();
     assert!(inset(&window).expect("it shows").contains(&crossing.words()));

@@ -205,7 +205,7 @@ fn delete_frees_the_selected_pins() {
         let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
         pin(&mut window, &[0, 24, 48]);
         window.click("v24");
-        assert!(window.editor().selection.contains(&VertexId::new(24)));
+        assert!(window.editor().selection.contains(VertexId::new(24)));
         window.key(key);
         assert_eq!(window.editor().session.document().pins.len(), 2, "{key:?}");
     }
@@ -233,7 +233,7 @@ fn the_vertex_tab_tells_of_the_selected_vertex_and_fixes_it() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.click("Vertex");
     assert!(window.shows("Select a vertex"));
-    window.editor_mut().selection.insert(VertexId::new(24));
+    window.editor_mut().selection.add([VertexId::new(24)]);
     window.settle();
     assert!(window.shows("v24") && window.shows("inside"));
     window.click("Fix");
@@ -247,7 +247,7 @@ fn tabs_are_opened_and_panels_hidden() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     for tab in [Tab::Pins, Tab::Defects, Tab::Vertex, Tab::Method] {
         window.click_last(tab.title());
-        assert_eq!(window.editor().tab, tab);
+        assert_eq!(window.editor().layout.tab(), tab);
     }
     window.menu(&["View", "Panels"]);
     assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Method").is_none());

@@ -56,14 +56,14 @@ fn a_picture_is_opened_through_the_dialog_and_put_on_the_mesh() {
     window.click("quarters.png");
     window.click("Open");
     assert!(window.editor().has_picture());
-    assert_eq!(window.editor().shading, Shading::Picture);
+    assert_eq!(window.editor().look.shading, Shading::Picture);
     window.click("Pins");
     assert!(window.shows("quarters.png, 40 × 20"));
     window.click("Remove");
     assert!(!window.editor().has_picture());
-    assert_eq!(window.editor().shading, Shading::Checker);
+    assert_eq!(window.editor().look.shading, Shading::Checker);
     window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!(window.editor().shading, Shading::Picture, "undo brings it back");
+    assert_eq!(window.editor().look.shading, Shading::Picture, "undo brings it back");
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn a_nudge_is_one_pixel_of_the_picture_upwards_on_the_screen() {
         let pin = Pin::hard(target);
         window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(24), pin });
         window.settle();
-        window.editor_mut().selection = [VertexId::new(24)].into();
+        window.editor_mut().selection.select([VertexId::new(24)]);
         window.key(Key::ArrowUp);
         window.key(Key::ArrowRight);
         let moved = pins(&window)[&VertexId::new(24)].target - target;
@@ -163,10 +163,10 @@ fn a_place_snaps_to_pixels_that_are_large_on_the_screen() {
     window.key(Key::C);
     let near_middle =
         |window: &Window| window.place_in_plane(DVec2::new(20.5 / 20.0, 10.5 / 20.0)) + Vec2::new(2.0, -1.0);
-    window.editor_mut().pair = Some(Half::Vertex(VertexId::new(24)));
+    window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(24))));
     window.click_at(near_middle(&window), Modifiers::NONE);
     assert_eq!(pins(&window)[&VertexId::new(24)].target, DVec2::new(20.5, 10.5) / DVec2::new(40.0, 20.0));
-    window.editor_mut().pair = Some(Half::Vertex(VertexId::new(10)));
+    window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(10))));
     window.click_at(near_middle(&window) + Vec2::new(0.0, 1.0), Modifiers::ALT);
     let free = pins(&window)[&VertexId::new(10)].target;
     assert!(free.distance(DVec2::new(20.5, 10.5) / DVec2::new(40.0, 20.0)) > 1e-4, "Alt leaves it where it is: {free}");
@@ -179,10 +179,10 @@ fn over_a_picture_a_click_means_a_place_and_with_shift_the_vertex() {
     window.key(Key::C);
     let at = window.place_in_plane(window.embedding()[24]);
     window.click_at(at, Modifiers::NONE);
-    assert!(matches!(window.editor().pair, Some(Half::Target(_))), "{:?}", window.editor().pair);
+    assert!(matches!(window.editor().tools.pair(), Some(Half::Target(_))), "{:?}", window.editor().tools.pair());
     window.key(Key::Escape);
     window.click_at(at, Modifiers::SHIFT);
-    assert_eq!(window.editor().pair, Some(Half::Vertex(VertexId::new(24))));
+    assert_eq!(window.editor().tools.pair(), Some(Half::Vertex(VertexId::new(24))));
 }
 
 /// The colours that the window shows in the middles of the picture's quarters, on a flat mesh that covers it.
@@ -213,7 +213,7 @@ fn the_picture_stands_upright_behind_the_embedding_and_on_it_whichever_way_v_run
     let file = window();
     let mut window = Window::drawn(egui::Theme::Light, &file.path("sheet.obj"));
     open_picture(&mut window);
-    window.editor_mut().picture.opacity = 1.0;
+    window.editor_mut().look.opacity = 1.0;
     for (v_axis, top) in [(VAxis::Up, 1.0), (VAxis::Down, 0.0)] {
         window.editor_mut().session.handle(Action::SetVAxis(v_axis));
         window.settle();
@@ -225,9 +225,9 @@ fn the_picture_stands_upright_behind_the_embedding_and_on_it_whichever_way_v_run
         }
         window.settle();
         window.key(Key::F);
-        window.editor_mut().picture.opacity = 0.0;
+        window.editor_mut().look.opacity = 0.0;
         assert_upright(quarters_shown(&mut window), "through the mesh in the plane");
-        window.editor_mut().picture.opacity = 1.0;
+        window.editor_mut().look.opacity = 1.0;
         // The sheet looks at the camera with its x to the right and its y up.
         let at = |window: &Window, vertex: u32| window.place_on_mesh(VertexId::new(vertex));
         let middle = at(&window, 24);

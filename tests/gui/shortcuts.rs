@@ -38,8 +38,8 @@ fn shortcuts_do_what_the_table_says() {
         window.settle();
         window.editor_mut().session.handle(Action::Undo);
         window.settle();
-        window.editor_mut().selection.insert(VertexId::new(40));
-        window.editor_mut().tool = Tool::Fix;
+        window.editor_mut().selection.add([VertexId::new(40)]);
+        window.editor_mut().tools.take_up(Tool::Fix);
         window.settle();
         for action in [Action::Step, Action::Step] {
             window.editor_mut().session.handle(action);
@@ -54,10 +54,10 @@ fn shortcuts_do_what_the_table_says() {
         let request = (binding.request)();
         if matches!(request, Request::GoToStep(_)) {
             // With a pin selected the arrows are the pin's.
-            window.editor_mut().selection = [VertexId::new(41)].into();
+            window.editor_mut().selection.select([VertexId::new(41)]);
         }
         if request == Request::SetTool(Tool::Fix) {
-            window.editor_mut().tool = Tool::Select;
+            window.editor_mut().tools.take_up(Tool::Select);
         }
         window.press(binding.shortcut.modifiers, binding.shortcut.logical_key);
         let editor = window.editor();
@@ -72,21 +72,21 @@ fn shortcuts_do_what_the_table_says() {
             Request::GoToStep(StepTarget::Next | StepTarget::Last) => steps(&window) == (3, Some(2)),
             // Never saved before: it asks where.
             Request::Ask(_) | Request::SaveProject => editor.dialogs.is_open(),
-            Request::ToggleExports => editor.exports_shown,
+            Request::ToggleExports => editor.layout.exports_shown,
             // There is work that is not saved.
             Request::Quit => editor.unsaved.is_asked(),
             // Nothing is wrong here to go to.
-            Request::StepDefect(_) => editor.defect.is_none(),
-            Request::SetTool(tool) => editor.tool == tool,
+            Request::StepDefect(_) => editor.selection.defect().is_none(),
+            Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::UnpinSelected => document(&window).pins.len() == pins - 1,
             Request::Frame => editor.orbit != orbit,
-            Request::AskGoTo => editor.go_to.is_some(),
-            Request::SetShading(shading) => editor.shading == shading,
+            Request::AskGoTo => editor.layout.go_to.is_some(),
+            Request::SetShading(shading) => editor.look.shading == shading,
             Request::ToggleHull => editor.hull.shown,
-            Request::ToggleWireframe => editor.wireframe,
-            Request::TogglePane => editor.full == Some(Pane::Plane),
-            Request::Escape => editor.tool == Tool::Select,
-            Request::ToggleKeys => editor.keys_shown,
+            Request::ToggleWireframe => editor.look.wireframe,
+            Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
+            Request::Escape => editor.tools.tool() == Tool::Select,
+            Request::ToggleKeys => editor.layout.keys_shown,
             other => panic!("{other:?} has a key that no test knows"),
         };
         assert!(done, "{}: {:?}", binding.about, binding.shortcut);
@@ -100,9 +100,9 @@ fn tab_shows_the_pane_under_the_pointer_in_full_size_and_back() {
         window.harness.hover_at(view.center());
         window.settle();
         window.key(Key::Tab);
-        assert_eq!(window.editor().full, Some(pane));
+        assert_eq!(window.editor().layout.full(), Some(pane));
         window.key(Key::Tab);
-        assert_eq!(window.editor().full, None);
+        assert_eq!(window.editor().layout.full(), None);
     }
 }
 
@@ -114,7 +114,7 @@ fn tab_leaves_the_keyboard_with_the_window() {
     }
     assert_eq!(window.harness.ctx.memory(egui::Memory::focused), None, "no control takes the keyboard");
     window.key(Key::W);
-    assert!(window.editor().wireframe, "shortcuts still reach the window");
+    assert!(window.editor().look.wireframe, "shortcuts still reach the window");
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn typing_into_a_field_triggers_no_shortcut() {
     let mut window = window();
     pin(&mut window, &[0, 40, 80]);
     let before = document(&window);
-    window.editor_mut().selection.insert(VertexId::new(40));
+    window.editor_mut().selection.add([VertexId::new(40)]);
     window.key(Key::G);
     window.type_text("vpdfw126");
     window.key(Key::Backspace);
@@ -130,8 +130,11 @@ fn typing_into_a_field_triggers_no_shortcut() {
     window.press(Modifiers::COMMAND, Key::Z);
     let editor = window.editor();
     assert_eq!(document(&window), before);
-    assert_eq!((editor.tool, editor.shading, editor.wireframe), (Tool::Select, Shading::Checker, false));
-    assert!(editor.go_to.is_some() && !editor.keys_shown && editor.defect.is_none());
+    assert_eq!(
+        (editor.tools.tool(), editor.look.shading, editor.look.wireframe),
+        (Tool::Select, Shading::Checker, false)
+    );
+    assert!(editor.layout.go_to.is_some() && !editor.layout.keys_shown && editor.selection.defect().is_none());
 }
 
 #[test]
@@ -141,8 +144,8 @@ fn escape_closes_what_has_the_keyboard() {
     window.key(Key::G);
     window.type_text("12");
     window.key(Key::Escape);
-    assert!(window.editor().go_to.is_none());
-    assert_eq!(window.editor().tool, Tool::Fix, "and nothing else");
+    assert!(window.editor().layout.go_to.is_none());
+    assert_eq!(window.editor().tools.tool(), Tool::Fix, "and nothing else");
 }
 
 #[test]
@@ -167,23 +170,23 @@ fn a_slide_of_weights_by_keys_and_a_drag_are_two_undo_steps() {
 #[test]
 fn escape_closes_an_open_menu_and_nothing_else() {
     let mut window = window();
-    window.editor_mut().selection.insert(VertexId::new(3));
+    window.editor_mut().selection.add([VertexId::new(3)]);
     window.key(Key::P);
     window.click("File");
     assert!(window.has_button("Open…"));
     window.key(Key::Escape);
     assert!(!window.has_button("Open…"));
-    assert_eq!((window.editor().tool, window.editor().selection.len()), (Tool::Fix, 1));
+    assert_eq!((window.editor().tools.tool(), window.editor().selection.vertices().len()), (Tool::Fix, 1));
     window.open_list("Weights");
     window.key(Key::Escape);
     assert!(!window.has_button("Power"));
-    assert_eq!((window.editor().tool, window.editor().selection.len()), (Tool::Fix, 1));
+    assert_eq!((window.editor().tools.tool(), window.editor().selection.vertices().len()), (Tool::Fix, 1));
 }
 
 #[test]
 fn shift_and_tab_walk_through_the_controls() {
     let mut window = window();
     window.press(Modifiers::SHIFT, Key::Tab);
-    assert_eq!(window.editor().full, None);
+    assert_eq!(window.editor().layout.full(), None);
     assert!(window.harness.ctx.memory(egui::Memory::focused).is_some());
 }

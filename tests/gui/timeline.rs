@@ -204,7 +204,7 @@ fn typing_into_a_field_takes_no_step() {
     }
     window.press(Modifiers::SHIFT, Key::Space);
     assert_eq!((step_count(&window), shown(&window)), (4, 3));
-    assert!(window.editor().go_to.is_some());
+    assert!(window.editor().layout.go_to.is_some());
 }
 
 #[test]

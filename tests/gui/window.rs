@@ -55,7 +55,7 @@ const STATES: [State; 30] = [
     ("the Defects tab", |window| window.click("Defects")),
     ("the Vertex tab", |window| {
         window.click("Vertex");
-        window.editor_mut().selection.insert(freebound::mesh::VertexId::new(3));
+        window.editor_mut().selection.add([freebound::mesh::VertexId::new(3)]);
         window.settle();
     }),
     ("a list of methods", |window| window.open_list("Method")),
@@ -103,7 +103,7 @@ fn constraints(window: &mut Window) {
         let vertex = freebound::mesh::VertexId::new(vertex);
         window.editor_mut().session.handle(freebound::session::Action::Place { vertex, pin });
     }
-    window.editor_mut().selection = [0, 4, 20, 24].map(freebound::mesh::VertexId::new).into();
+    window.editor_mut().selection.select([0, 4, 20, 24].map(freebound::mesh::VertexId::new));
     window.settle();
 }
 
@@ -225,18 +225,18 @@ fn each_shading_of_the_view_menu_is_put_on() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     for shading in Shading::ALL {
         window.menu(&["View", "Shading", shading.title()]);
-        assert_eq!(window.editor().shading, shading);
-        let legend = window.editor().paint().expect("painted").legend.is_some();
+        assert_eq!(window.editor().look.shading, shading);
+        let legend = window.editor().look.paint().expect("painted").legend.is_some();
         // Nothing has moved at the first step.
         let is_bare = matches!(shading, Shading::Plain | Shading::Checker | Shading::Picture | Shading::Move);
         assert_eq!(legend, !is_bare, "{shading:?}");
     }
     window.choose("Shading of both panes", "Stretch");
-    assert_eq!(window.editor().shading, Shading::Stretch);
+    assert_eq!(window.editor().look.shading, Shading::Stretch);
     window.click("Wire");
-    assert!(window.editor().wireframe);
+    assert!(window.editor().look.wireframe);
     window.menu(&["View", "Wireframe"]);
-    assert!(!window.editor().wireframe);
+    assert!(!window.editor().look.wireframe);
 }
 
 #[test]
@@ -260,7 +260,7 @@ fn the_list_of_keys_has_them_all() {
         }
     }
     window.key(Key::Escape);
-    assert!(!window.editor().keys_shown);
+    assert!(!window.editor().layout.keys_shown);
 }
 
 #[test]

@@ -2,6 +2,15 @@
 //!
 //! Each is written as a drawing and as a picture with all its panels; their numbers stand in one table, on standard
 //! output and in `figures.csv`. The same bytes come out every time.
+//!
+//! | file       | what it holds                                                              |
+//! |------------|----------------------------------------------------------------------------|
+//! | `mod`      | a figure and its rows of the table; all figures computed and written       |
+//! | `flat`     | figure 1: a flat mesh under a convex boundary                              |
+//! | `free`     | figures 3 and 4: the cube, and its free-boundary embeddings                |
+//! | `repaired` | figures 5 and 6: the iteration and the virtual boundary                    |
+//! | `textured` | figures 8 and 9: the face and its portrait                                 |
+//! | `pairs`    | the pinned pairs of vertices                                               |
 
 mod flat;
 mod free;
@@ -14,23 +23,22 @@ use std::io::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use super::flatten::go_on;
 use super::progress::{Progress, interrupted};
 use super::{Failure, Status};
 use crate::examples::Example;
-use crate::io::figure::Sheet;
+use crate::io::figure::{Drawing, Panel, Sheet};
 use crate::io::{WriteError, write_atomically};
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, SolveError, Step};
+use crate::solver::{Control, SolveError, Step, Verdict};
 
 /// Pixels per point of the pictures.
 const PIXELS: f64 = 2.0;
 
 /// Name of the table.
 const TABLE: &str = "figures.csv";
-
-/// Heads of the table's columns.
-const COLUMNS: [&str; 7] = ["figure", "panel", "shows", "flips", "crossings", "turning_number", "steps"];
 
 /// A figure, laid out and measured.
 struct Figure {
@@ -39,51 +47,65 @@ struct Figure {
     rows: Vec<Row>,
 }
 
-/// A line of the table.
+impl Figure {
+    /// A figure without panels, so many of which will stand in a row.
+    fn new(number: u32, columns: usize, caption: impl Into<String>) -> Self {
+        Self { number, sheet: Sheet { columns, panels: Vec::new(), caption: caption.into() }, rows: Vec::new() }
+    }
+
+    /// Adds a panel with the next letter, and its row of the table, which says the same.
+    fn panel(&mut self, words: &str, drawing: Drawing) -> &mut Row {
+        let letter = ('a'..='z').nth(self.rows.len()).expect("a figure has few panels");
+        self.sheet.panels.push(Panel { words: format!("({letter}) {words}"), drawing });
+        let shows = words.replace(',', ";");
+        self.rows.push(Row { figure: self.number, panel: letter, shows, ..Row::default() });
+        self.rows.last_mut().expect("one was added")
+    }
+}
+
+/// A row of the table. What is measured of an embedding is there where the panel shows one.
+#[derive(Default, Serialize)]
 struct Row {
+    figure: u32,
     panel: char,
     shows: String,
-    /// What was measured, where the panel shows an embedding.
-    numbers: Option<Numbers>,
-}
-
-/// What is measured of an embedding.
-#[derive(Clone, Copy)]
-struct Numbers {
-    flips: usize,
-    crossings: usize,
+    flips: Option<usize>,
+    crossings: Option<usize>,
     turning_number: Option<i64>,
     /// Linear solves that led to it.
-    steps: usize,
-}
-
-impl Numbers {
-    fn of(step: &Step) -> Self {
-        let verdict = &step.verdict;
-        Self {
-            flips: verdict.flipped_faces.len(),
-            crossings: verdict.boundary_crossings.len() + verdict.unlisted_crossings,
-            turning_number: verdict.turning_number,
-            steps: step.index + 1,
-        }
-    }
+    steps: Option<usize>,
 }
 
 impl Row {
-    fn cells(&self, figure: u32) -> [String; 7] {
-        let number = |value: fn(&Numbers) -> Option<i64>| {
-            self.numbers.as_ref().and_then(value).map(|n| n.to_string()).unwrap_or_default()
-        };
-        [
-            figure.to_string(),
-            self.panel.to_string(),
-            self.shows.clone(),
-            number(|n| i64::try_from(n.flips).ok()),
-            number(|n| i64::try_from(n.crossings).ok()),
-            number(|n| n.turning_number),
-            number(|n| i64::try_from(n.steps).ok()),
-        ]
+    /// Says it in other words than the panel.
+    fn showing(&mut self, words: &str) -> &mut Self {
+        words.clone_into(&mut self.shows);
+        self
     }
+
+    fn measure(&mut self, step: &Step) {
+        self.measure_verdict(&step.verdict, step.index + 1);
+    }
+
+    fn measure_verdict(&mut self, verdict: &Verdict, steps: usize) {
+        self.flips = Some(verdict.flipped_faces.len());
+        self.crossings = Some(verdict.boundary_crossings.len() + verdict.unlisted_crossings);
+        self.turning_number = verdict.turning_number;
+        self.steps = Some(steps);
+    }
+}
+
+/// How many faces are flipped, in words.
+fn flips_in_words(step: &Step) -> String {
+    match step.verdict.flipped_faces.len() {
+        0 => "no flipped face".to_owned(),
+        1 => "1 flipped face".to_owned(),
+        count => format!("{count} flipped faces"),
+    }
+}
+
+fn iterations_in_words(count: usize) -> String {
+    if count == 1 { "1 iteration".to_owned() } else { format!("{count} iterations") }
 }
 
 /// Computes the figures and writes them into a folder.
@@ -91,20 +113,20 @@ pub(super) fn run(folder: &Path) -> Result<Status, Failure> {
     let progress = Progress::default();
     progress.follow(|| {
         let figures = compute(&progress)?;
-        let table = table_of(&figures);
+        let table = table_of(&figures).expect("memory takes all");
         let mut files = Vec::new();
         for figure in &figures {
             progress.enter("drawing");
             go_on()?;
             files.extend(drawn(figure)?);
         }
-        files.push((TABLE.to_owned(), csv_of(&table).into_bytes()));
+        files.push((TABLE.to_owned(), table.clone()));
         fs::create_dir_all(folder).map_err(|source| WriteError { path: folder.to_owned(), source })?;
         for (name, bytes) in &files {
             go_on()?;
             write_atomically(&folder.join(name), |out| out.write_all(bytes))?;
         }
-        print_table(&table);
+        print_table(&table).expect("the table was just written");
         println!("wrote {} files into {}", files.len(), folder.display());
         Ok(Status::Fine)
     })
@@ -144,24 +166,27 @@ fn drawn(figure: &Figure) -> Result<[(String, Vec<u8>); 2], WriteError> {
     Ok([(svg, drawing), (png, picture)])
 }
 
-fn table_of(figures: &[Figure]) -> Vec<[String; 7]> {
-    let rows = figures.iter().flat_map(|figure| figure.rows.iter().map(|row| row.cells(figure.number)));
-    std::iter::once(COLUMNS.map(str::to_owned)).chain(rows).collect()
-}
-
-fn csv_of(table: &[[String; 7]]) -> String {
-    table.iter().map(|row| row.join(",") + "\n").collect()
+/// The table of all figures (CSV).
+fn table_of(figures: &[Figure]) -> csv::Result<Vec<u8>> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    for row in figures.iter().flat_map(|figure| &figure.rows) {
+        table.serialize(row)?;
+    }
+    Ok(table.into_inner().map_err(csv::IntoInnerError::into_error)?)
 }
 
 /// Prints the table in columns.
-fn print_table(table: &[[String; 7]]) {
-    let width = |column: usize| table.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..COLUMNS.len()).map(width).collect();
-    for row in table {
-        let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| {
+fn print_table(table: &[u8]) -> csv::Result<()> {
+    let records = csv::ReaderBuilder::new().has_headers(false).from_reader(table).into_records();
+    let records = records.collect::<csv::Result<Vec<_>>>()?;
+    let width = |column: usize| records.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    for row in &records {
+        let cells = row.iter().enumerate().map(|(column, cell)| {
+            let width = width(column);
             // Words on the left, numbers on the right.
             if column < 3 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
         });
         println!("{}", cells.collect::<Vec<_>>().join("  ").trim_end());
     }
+    Ok(())
 }

@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::free::flips_in_words;
-use super::{Figure, Numbers, Row};
+use super::{Figure, flips_in_words, iterations_in_words};
 use crate::examples::{Example, Landmark};
 use crate::geom::Picture;
-use crate::io::figure::{Panel, PhotoDrawing, PlaneDrawing, Sheet, Window, zones_of};
+use crate::io::figure::{Drawing, PhotoDrawing, PlaneDrawing};
 use crate::io::raster::{Canvas, Paint, View, mesh_picture, mesh_places};
 use crate::mesh::DiskMesh;
 use crate::solver::{Control, Ladder, Method, Pin, Pins, Settings, SolveError, Step};
@@ -64,80 +63,38 @@ impl Subject {
         self.seen(Paint::Picture { coordinates: &step.solution.embedding, picture: &self.portrait })
     }
 
-    /// An embedding with the flipped faces magnified.
-    fn layout(&self, step: &Step) -> PlaneDrawing {
-        let places = &step.solution.embedding;
-        let zones = zones_of(&self.mesh, places, &step.verdict.flipped_faces);
-        PlaneDrawing {
-            flipped: step.verdict.flipped_faces.clone(),
-            pins: step.solution.pins.keys().copied().collect(),
-            insets: zones.iter().take(1).map(|zone| Window::on_faces(&self.mesh, places, zone)).collect(),
-            ..PlaneDrawing::new(&self.mesh, places.clone())
-        }
+    /// An embedding with flipped faces magnified.
+    fn layout(&self, step: &Step) -> Drawing {
+        Drawing::Plane(PlaneDrawing::of_step(&self.mesh, step).with_insets(1))
     }
+}
+
+/// A picture with numbered marks.
+fn photo(picture: Picture, marks: Vec<DVec2>) -> Drawing {
+    Drawing::Photo(PhotoDrawing { picture, marks })
 }
 
 /// The correspondences, and the texture on the mesh where they are met exactly.
 pub(super) fn figure_8(face: &Subject, control: Control<'_>) -> Result<Figure, SolveError> {
-    let [first, last] = face.solved(face.hard_pins(), control)?;
-    let mesh = face.mesh.mesh();
-    let places = mesh_places(&mesh.positions, &View::FRONT, &Canvas::clay(PIXELS, PIXELS));
-    let on_mesh = face.landmarks.iter().map(|landmark| places[landmark.vertex.index()]).collect();
-    let on_picture: Vec<DVec2> = face.landmarks.iter().map(|landmark| landmark.target.into()).collect();
-    let photo = |picture: Picture, marks: Vec<DVec2>| PhotoDrawing { picture, marks };
-    let iterations = iterations_in_words(last.index - first.index);
-    let words = [
-        format!("(a) the mesh with {} constraints", face.landmarks.len()),
-        "(b) the picture with their targets".to_owned(),
-        format!("(c) the picture on the mesh after {iterations}"),
-    ];
-    let rows = [None, None, Some(Numbers::of(&last))];
-    let rows = ('a'..).zip(&words).zip(rows).map(|((panel, words), numbers)| Row {
-        panel,
-        shows: words[4..].to_owned(),
-        numbers,
-    });
-    let rows = rows.collect();
-    let [first_words, second_words, third_words] = words.map(|words| vec![words]);
-    let panels = vec![
-        Panel::photo(first_words, photo(face.seen(Paint::Clay), on_mesh)),
-        Panel::photo(second_words, photo(face.portrait.clone(), on_picture)),
-        Panel::photo(third_words, photo(face.textured(&last), Vec::new())),
-    ];
     let caption = "Figure 8. Texture mapping with constraints: (a) landmarks of the mesh and (b) their places in the \
                    picture, of the same number; (c) the mesh with the picture. Each landmark lies on its place exactly, and \
-                   no face is flipped."
-        .to_owned();
-    Ok(Figure { number: 8, sheet: Sheet { columns: 3, panels, caption }, rows })
-}
-
-fn iterations_in_words(count: usize) -> String {
-    if count == 1 { "1 iteration".to_owned() } else { format!("{count} iterations") }
+                   no face is flipped.";
+    let mut figure = Figure::new(8, 3, caption);
+    let [first, last] = face.solved(face.hard_pins(), control)?;
+    let mesh = face.mesh.mesh();
+    let points = mesh_places(&mesh.positions, &View::FRONT, &Canvas::clay(PIXELS, PIXELS));
+    let on_mesh = face.landmarks.iter().map(|landmark| points[landmark.vertex.index()]).collect();
+    let on_picture = face.landmarks.iter().map(|landmark| landmark.target.into()).collect();
+    figure
+        .panel(&format!("the mesh with {} constraints", face.landmarks.len()), photo(face.seen(Paint::Clay), on_mesh));
+    figure.panel("the picture with their targets", photo(face.portrait.clone(), on_picture));
+    let words = format!("the picture on the mesh after {}", iterations_in_words(last.index - first.index));
+    figure.panel(&words, photo(face.textured(&last), Vec::new())).measure(&last);
+    Ok(figure)
 }
 
 /// Weighted constraints, before and after the iteration.
 pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, SolveError> {
-    let (mut panels, mut rows) = (Vec::new(), Vec::new());
-    let mut letters = 'a'..='z';
-    let mut take = |words: &str, step: &Step| {
-        let panel = letters.next().expect("a figure has few panels");
-        rows.push(Row { panel, shows: words.to_owned(), numbers: Some(Numbers::of(step)) });
-        vec![format!("({panel}) {words}")]
-    };
-    for (name, weight) in WEIGHTS {
-        let [first, last] = face.solved(face.weighted_pins(weight), control)?;
-        let miss = face
-            .landmarks
-            .iter()
-            .map(|landmark| last.solution.embedding[landmark.vertex.index()].distance(landmark.target.into()));
-        let miss = miss.fold(0.0, f64::max);
-        let words = take(&format!("{name} weights: {}", flips_in_words(&first)), &first);
-        panels.push(Panel::plane(words, face.layout(&first)));
-        let words = take(&format!("after {}: {}", iterations_in_words(last.index), flips_in_words(&last)), &last);
-        panels.push(Panel::plane(words, face.layout(&last)));
-        let words = take(&format!("the picture on the mesh; the farthest off by {miss:.1e}"), &last);
-        panels.push(Panel::photo(words, PhotoDrawing { picture: face.textured(&last), marks: Vec::new() }));
-    }
     let caption = format!(
         "Figure 9. Constraints by weights: large ones, {}, above, and medium ones, {}, below. The first solve (left) \
          flips faces, red; the iteration (middle) repairs them; the picture on the mesh (right). \
@@ -145,5 +102,17 @@ pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, S
          picture's width.",
         WEIGHTS[0].1, WEIGHTS[1].1
     );
-    Ok(Figure { number: 9, sheet: Sheet { columns: 3, panels, caption }, rows })
+    let mut figure = Figure::new(9, 3, caption);
+    for (name, weight) in WEIGHTS {
+        let [first, last] = face.solved(face.weighted_pins(weight), control)?;
+        let words = format!("{name} weights: {}", flips_in_words(&first));
+        figure.panel(&words, face.layout(&first)).measure(&first);
+        let words = format!("after {}: {}", iterations_in_words(last.index), flips_in_words(&last));
+        figure.panel(&words, face.layout(&last)).measure(&last);
+        let off = |mark: &Landmark| last.solution.embedding[mark.vertex.index()].distance(mark.target.into());
+        let miss = face.landmarks.iter().map(off).fold(0.0, f64::max);
+        let words = format!("the picture on the mesh; the farthest off by {miss:.1e}");
+        figure.panel(&words, photo(face.textured(&last), Vec::new())).measure(&last);
+    }
+    Ok(figure)
 }

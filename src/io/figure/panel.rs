@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Area, Ink, Page, colours};
+use super::{Anchor, Area, Ink, Page, colours};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::solver::Step;
 
 /// Half the side of a pin's square, points.
 const PIN: f64 = 3.2;
@@ -52,23 +53,23 @@ impl Window {
     }
 
     /// The square around some faces of an embedding.
-    pub fn on_faces(mesh: &DiskMesh, places: &[DVec2], faces: &[FaceId]) -> Self {
-        Self::around(faces.iter().flat_map(|&face| mesh.face(face)).map(|v| places[v.index()]), WINDOW_MARGIN)
+    pub fn on_faces(mesh: &DiskMesh, embedding: &[DVec2], faces: &[FaceId]) -> Self {
+        Self::around(faces.iter().flat_map(|&face| mesh.face(face)).map(|v| embedding[v.index()]), WINDOW_MARGIN)
     }
 
     /// The square around some triangles of an embedding, moved to where a panel of the whole shows it.
-    pub fn on_triangles(places: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
-        let whole = Self::around(places.iter().copied(), MARGIN);
-        let window = Self::around(triangles.iter().flatten().map(|v| places[v.index()]), TRIANGLES_MARGIN);
+    pub fn on_triangles(embedding: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
+        let whole = Self::around(embedding.iter().copied(), MARGIN);
+        let window = Self::around(triangles.iter().flatten().map(|v| embedding[v.index()]), TRIANGLES_MARGIN);
         let room = DVec2::splat((whole.half - window.half).max(0.0));
         Self { centre: window.centre.clamp(whole.centre - room, whole.centre + room), ..window }
     }
 }
 
 /// Groups faces that lie near each other in an embedding, the largest group first.
-pub fn zones_of(mesh: &DiskMesh, places: &[DVec2], faces: &[FaceId]) -> Vec<Vec<FaceId>> {
-    let reach = ZONE * 2.0 * Window::around(places.iter().copied(), 0.0).half;
-    let centre = |face: FaceId| mesh.face(face).iter().map(|v| places[v.index()]).sum::<DVec2>() / 3.0;
+pub fn zones_of(mesh: &DiskMesh, embedding: &[DVec2], faces: &[FaceId]) -> Vec<Vec<FaceId>> {
+    let reach = ZONE * 2.0 * Window::around(embedding.iter().copied(), 0.0).half;
+    let centre = |face: FaceId| mesh.face(face).iter().map(|v| embedding[v.index()]).sum::<DVec2>() / 3.0;
     let mut zones: Vec<Vec<FaceId>> = Vec::new();
     for &face in faces {
         let is_near = |zone: &Vec<FaceId>| zone.iter().any(|&other| centre(face).distance(centre(other)) < reach);
@@ -108,8 +109,8 @@ pub struct Outside {
 pub struct PlaneDrawing {
     /// The mesh.
     pub mesh: Arc<DiskMesh>,
-    /// Where its vertices lie, and virtual vertices after them.
-    pub places: Vec<DVec2>,
+    /// Of its vertices, and virtual vertices after them.
+    pub embedding: Vec<DVec2>,
     /// Faces drawn red.
     pub flipped: Vec<FaceId>,
     /// Faces tinted: those that were flipped before.
@@ -128,10 +129,10 @@ pub struct PlaneDrawing {
 
 impl PlaneDrawing {
     /// An embedding without anything special.
-    pub fn new(mesh: &Arc<DiskMesh>, places: Vec<DVec2>) -> Self {
+    pub fn new(mesh: &Arc<DiskMesh>, embedding: Vec<DVec2>) -> Self {
         Self {
             mesh: Arc::clone(mesh),
-            places,
+            embedding,
             flipped: Vec::new(),
             mended: Vec::new(),
             outside: None,
@@ -142,9 +143,27 @@ impl PlaneDrawing {
         }
     }
 
+    /// A step with its flipped faces and pins.
+    pub fn of_step(mesh: &Arc<DiskMesh>, step: &Step) -> Self {
+        Self {
+            flipped: step.verdict.flipped_faces.clone(),
+            pins: step.solution.pins.keys().copied().collect(),
+            ..Self::new(mesh, step.solution.embedding.clone())
+        }
+    }
+
+    /// The same with insets that magnify flipped faces, at most so many.
+    #[must_use]
+    pub fn with_insets(self, most: usize) -> Self {
+        let zones = zones_of(&self.mesh, &self.embedding, &self.flipped);
+        let window = |zone: &Vec<FaceId>| Window::on_faces(&self.mesh, &self.embedding, zone);
+        let insets = zones.iter().take(most).map(window).collect();
+        Self { insets, ..self }
+    }
+
     /// Draws into an area.
     pub(super) fn draw(&self, page: &mut Page, area: Area) {
-        let shown = self.window.unwrap_or_else(|| Window::around(self.places.iter().copied(), MARGIN));
+        let shown = self.window.unwrap_or_else(|| Window::around(self.embedding.iter().copied(), MARGIN));
         self.draw_window(page, area, shown);
         if self.window.is_some() {
             page.outlines(vec![area.corners().to_vec()], Ink::stroke(colours::INK, 0.8), None);
@@ -164,12 +183,8 @@ impl PlaneDrawing {
         for (number, window) in (1..).zip(&self.insets) {
             let frame = frame_of(window);
             page.outlines(vec![frame.corners().to_vec()], frame_ink, None);
-            page.words(
-                DVec2::new(frame.high.x + 2.5, frame.low.y + 7.0),
-                super::Anchor::Start,
-                9.0,
-                &format!("{number}"),
-            );
+            let at = DVec2::new(frame.high.x + 2.5, frame.low.y + 7.0);
+            page.words(at, Anchor::Start, 9.0, &format!("{number}"));
         }
     }
 
@@ -180,13 +195,13 @@ impl PlaneDrawing {
         let label = Area::new(area.low, DVec2::new(12.0, 13.0));
         page.outlines(vec![label.corners().to_vec()], Ink::both(colours::PAPER, colours::FRAME, 0.9), None);
         let at = DVec2::new(label.centre().x, label.high.y - 3.0);
-        page.words(at, super::Anchor::Middle, 9.0, &format!("{}", number + 1));
+        page.words(at, Anchor::Middle, 9.0, &format!("{}", number + 1));
     }
 
     fn draw_window(&self, page: &mut Page, area: Area, shown: Window) {
         let place = placing(area, shown);
-        let at = |v: VertexId| place(self.places[v.index()]);
-        let whole = Window::around(self.places.iter().copied(), MARGIN);
+        let at = |v: VertexId| place(self.embedding[v.index()]);
+        let whole = Window::around(self.embedding.iter().copied(), MARGIN);
         let width = if shown.half < 0.5 * whole.half { MAGNIFIED * EDGE } else { EDGE };
         let clip = Some(area);
         let corners = |faces: &[FaceId]| -> Vec<Vec<DVec2>> {

@@ -25,7 +25,7 @@ const LINE: f64 = 17.0;
 
 /// What a panel shows.
 #[derive(Clone, Debug)]
-enum Drawing {
+pub enum Drawing {
     /// An embedding.
     Plane(PlaneDrawing),
     /// A mesh in space.
@@ -37,32 +37,39 @@ enum Drawing {
 /// One drawing of a figure with its words.
 #[derive(Clone, Debug)]
 pub struct Panel {
-    /// Lines below it; the first begins with its letter.
-    pub words: Vec<String>,
-    drawing: Drawing,
+    /// The line below it, which begins with its letter.
+    pub words: String,
+    /// What it shows.
+    pub drawing: Drawing,
 }
 
 impl Panel {
-    /// A panel that shows an embedding.
-    pub fn plane(words: Vec<String>, drawing: PlaneDrawing) -> Self {
-        Self { words, drawing: Drawing::Plane(drawing) }
-    }
-
-    /// A panel that shows a mesh in space.
-    pub fn space(words: Vec<String>, drawing: SpaceDrawing) -> Self {
-        Self { words, drawing: Drawing::Space(drawing) }
-    }
-
-    /// A panel that shows a picture.
-    pub fn photo(words: Vec<String>, drawing: PhotoDrawing) -> Self {
-        Self { words, drawing: Drawing::Photo(drawing) }
-    }
-
     fn inset_count(&self) -> usize {
         match &self.drawing {
             Drawing::Plane(plane) => plane.insets.len(),
             Drawing::Space(_) | Drawing::Photo(_) => 0,
         }
+    }
+
+    fn draw(&self, page: &mut Page, cell: Area, inset: f64) {
+        // Without insets of its own the drawing stands in the middle of its cell.
+        let count = self.inset_count();
+        let shift = if count > 0 { 0.0 } else { (cell.size().x - PANEL) / 2.0 };
+        let area = Area::new(cell.low + DVec2::new(shift, 0.0), DVec2::splat(PANEL));
+        match &self.drawing {
+            Drawing::Space(drawing) => drawing.draw(page, area),
+            Drawing::Photo(drawing) => drawing.draw(page, area),
+            Drawing::Plane(drawing) => {
+                drawing.draw(page, area);
+                for number in 0..count {
+                    let down = number as f64 * (inset + INSET_GAP);
+                    let corner = DVec2::new(area.high.x + INSET_GAP, area.low.y + down);
+                    drawing.draw_inset(page, Area::new(corner, DVec2::splat(inset)), number);
+                }
+            }
+        }
+        let at = DVec2::new(cell.centre().x, cell.low.y + PANEL + 8.0 + LINE * 0.7);
+        page.words(at, Anchor::Middle, WORDS, &self.words);
     }
 }
 
@@ -83,8 +90,7 @@ impl Sheet {
         let inset_count = self.panels.iter().map(Panel::inset_count).max().unwrap_or(0);
         let inset = (PANEL - INSET_GAP) / 2.0;
         let insets_width = if inset_count > 0 { INSET_GAP + inset } else { 0.0 };
-        let line_count = self.panels.iter().map(|panel| panel.words.len()).max().unwrap_or(0);
-        let cell = DVec2::new(PANEL + insets_width, PANEL + 8.0 + LINE * line_count as f64);
+        let cell = DVec2::new(PANEL + insets_width, PANEL + 8.0 + LINE);
         let rows = self.panels.len().div_ceil(self.columns.max(1));
         let columns = self.columns.min(self.panels.len()) as f64;
         let width = 2.0 * MARGIN + columns * cell.x + (columns - 1.0) * GAP;
@@ -100,31 +106,6 @@ impl Sheet {
             page.words(DVec2::new(MARGIN, below + LINE * (k as f64 + 0.7)), Anchor::Start, WORDS, line);
         }
         page
-    }
-}
-
-impl Panel {
-    fn draw(&self, page: &mut Page, cell: Area, inset: f64) {
-        // Without insets of its own the drawing stands in the middle of its cell.
-        let count = self.inset_count();
-        let shift = if count > 0 { 0.0 } else { (cell.size().x - PANEL) / 2.0 };
-        let area = Area::new(cell.low + DVec2::new(shift, 0.0), DVec2::splat(PANEL));
-        match &self.drawing {
-            Drawing::Space(drawing) => drawing.draw(page, area),
-            Drawing::Photo(drawing) => drawing.draw(page, area),
-            Drawing::Plane(drawing) => {
-                drawing.draw(page, area);
-                for number in 0..count {
-                    let down = number as f64 * (inset + INSET_GAP);
-                    let corner = DVec2::new(area.high.x + INSET_GAP, area.low.y + down);
-                    drawing.draw_inset(page, Area::new(corner, DVec2::splat(inset)), number);
-                }
-            }
-        }
-        for (k, line) in self.words.iter().enumerate() {
-            let at = DVec2::new(cell.centre().x, cell.low.y + PANEL + 8.0 + LINE * (k as f64 + 0.7));
-            page.words(at, Anchor::Middle, WORDS, line);
-        }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use glam::DVec2;
 
-use super::base64::base64;
 use super::{Anchor, Area, Item, Page, Path, Words, colours};
 use crate::geom::Picture;
 use crate::io::raster::Colour;
@@ -59,7 +59,7 @@ fn write_picture(out: &mut impl Write, area: &Area, picture: &Picture) -> io::Re
     picture.write_png(&mut png).map_err(io::Error::other)?;
     let (DVec2 { x, y }, size) = (area.low, area.size());
     write!(out, r#"<image x="{x:.2}" y="{y:.2}" width="{:.2}" height="{:.2}" "#, size.x, size.y)?;
-    writeln!(out, r#"href="data:image/png;base64,{}"/>"#, base64(&png))
+    writeln!(out, r#"href="data:image/png;base64,{}"/>"#, BASE64_STANDARD.encode(&png))
 }
 
 fn write_words(out: &mut impl Write, words: &Words) -> io::Result<()> {

@@ -1,0 +1,190 @@
+//! Everything that can keep an OBJ file from being read.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// How many parse faults of a file are kept; the others are only counted.
+pub const MAX_PARSE_FAULTS: usize = 20;
+
+/// Why a file did not become a mesh.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file cannot be opened, or reading it broke off.
+    #[error("cannot read the file: {source}: {}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+    /// A stream without a name broke off.
+    #[error("cannot read: {0}")]
+    Stream(#[from] std::io::Error),
+    /// The file has a format that is known but not read.
+    #[error("format not read yet: {format}")]
+    NotReadYet {
+        /// The format's name.
+        format: &'static str,
+    },
+    /// The file holds a zero byte, which no text does.
+    #[error("this is no text, so no OBJ file")]
+    NotText,
+    /// One line is longer than any reader should hold.
+    #[error("line {line}: longer than {} MiB", limit >> 20)]
+    LineTooLong {
+        /// Where it begins, counted from 1.
+        line: u64,
+        /// The limit, bytes.
+        limit: usize,
+    },
+    /// Lines that cannot be understood.
+    #[error("{}", listed(faults, *total))]
+    Parse {
+        /// The first of them, at most [`MAX_PARSE_FAULTS`], by line.
+        faults: Vec<ParseFault>,
+        /// How many there are in all.
+        total: usize,
+    },
+    /// The file has no face.
+    #[error("the file has no faces{}", if *vertices == 0 { String::new() } else { format!(", only {vertices} vertices") })]
+    NoFaces {
+        /// How many vertices it has.
+        vertices: usize,
+    },
+    /// More elements than 32-bit indices can name.
+    #[error("the mesh is too large: more than 2^32 corners")]
+    TooLarge,
+    /// The caller asked to stop.
+    #[error("reading was cancelled")]
+    Cancelled,
+}
+
+impl ReadError {
+    /// A fixed lower-case name, for reports and tests. Parse faults have their own.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::File { .. } | Self::Stream(_) => "unreadable",
+            Self::NotReadYet { .. } => "format-not-read-yet",
+            Self::NotText => "not-text",
+            Self::LineTooLong { .. } => "line-too-long",
+            Self::Parse { .. } => "parse",
+            Self::NoFaces { .. } => "no-faces",
+            Self::TooLarge => "too-large",
+            Self::Cancelled => "cancelled",
+        }
+    }
+
+    /// What to do about it.
+    pub const fn remedy(&self) -> &'static str {
+        match self {
+            Self::File { .. } | Self::Stream(_) => "check the path and the permissions",
+            Self::NotReadYet { .. } => "convert the file to OBJ",
+            Self::NotText | Self::LineTooLong { .. } => "choose an OBJ file",
+            Self::Parse { .. } => "mend these lines, or export the file again",
+            Self::NoFaces { .. } => "export the surface with its faces",
+            Self::TooLarge => "simplify the mesh",
+            Self::Cancelled => "open the file again",
+        }
+    }
+}
+
+fn listed(faults: &[ParseFault], total: usize) -> String {
+    let mut lines: Vec<String> = faults.iter().map(ParseFault::to_string).collect();
+    if total > faults.len() {
+        lines.push(format!("and {} more faults like these", total - faults.len()));
+    }
+    lines.join("\n")
+}
+
+/// A line that cannot be understood.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ParseFault {
+    /// Line in the file, counted from 1, as editors do.
+    pub line: u64,
+    /// What is wrong with it.
+    pub kind: ParseFaultKind,
+}
+
+/// What is wrong with a line. Indices are quoted as the file writes them, counted from 1 or backwards from −1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ParseFaultKind {
+    /// Something that ought to be a number is none.
+    BadNumber {
+        /// The word.
+        text: String,
+    },
+    /// A vertex or texture coordinate with too few numbers.
+    TooFewNumbers {
+        /// How many there are.
+        found: usize,
+        /// How many it needs.
+        needed: usize,
+    },
+    /// A corner that is not of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+    BadCorner {
+        /// The word.
+        text: String,
+    },
+    /// An index of 0, or one that names an element which the file does not have.
+    IndexOutOfRange {
+        /// `"vertex"` or `"texture coordinate"`.
+        element: &'static str,
+        /// The index as written.
+        index: i64,
+        /// How many such elements there are.
+        count: usize,
+    },
+    /// A face with fewer than three corners.
+    TooFewCorners {
+        /// How many there are.
+        found: usize,
+    },
+}
+
+impl ParseFaultKind {
+    /// A fixed lower-case name, for reports and tests.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::BadNumber { .. } => "bad-number",
+            Self::TooFewNumbers { .. } => "too-few-numbers",
+            Self::BadCorner { .. } => "bad-corner",
+            Self::IndexOutOfRange { .. } => "index-out-of-range",
+            Self::TooFewCorners { .. } => "too-few-corners",
+        }
+    }
+}
+
+impl fmt::Display for ParseFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: ", self.line)?;
+        match &self.kind {
+            ParseFaultKind::BadNumber { text } => write!(f, "\"{text}\" is not a number"),
+            ParseFaultKind::TooFewNumbers { found, needed } => write!(f, "{found} numbers where {needed} are needed"),
+            ParseFaultKind::BadCorner { text } => write!(f, "\"{text}\" is not a corner of a face"),
+            ParseFaultKind::IndexOutOfRange { index: 0, .. } => write!(f, "index 0: OBJ files count from 1"),
+            ParseFaultKind::IndexOutOfRange { element, index, count } => {
+                write!(f, "{element} {index} is out of range: there are {count}")
+            }
+            ParseFaultKind::TooFewCorners { found } => {
+                write!(f, "a face with {found} {}, three are needed", if *found == 1 { "corner" } else { "corners" })
+            }
+        }
+    }
+}
+
+/// Why texture coordinates do not make a mesh.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TextureError {
+    /// The file has no texture coordinates on its faces.
+    #[error("the file has no texture coordinates")]
+    None,
+    /// Some faces have corners without texture coordinates.
+    #[error("{} faces have corners without texture coordinates, the first is face {}", faces.len(), faces[0])]
+    Missing {
+        /// The file's numbers of these faces, from 0.
+        faces: Vec<u32>,
+    },
+}

@@ -1,0 +1,131 @@
+//! OBJ files: what is kept of one, and the ways in and out.
+//!
+//! | file           | what it holds                                                           |
+//! |----------------|-------------------------------------------------------------------------|
+//! | `mod`          | what is kept of a file                                                  |
+//! | `read`         | reads a file in chunks, with progress                                   |
+//! | `parse`        | lines put together to a mesh                                            |
+//! | `line`         | words of a line: numbers and corners                                    |
+//! | `error`        | what can be wrong with a file, with line, fault and remedy              |
+//! | `texture`      | the mesh of the texture coordinates: the surface cut in the plane       |
+//! | `material`     | the picture that the materials name                                     |
+//! | `refined`      | a file's mesh with new vertices                                         |
+//! | `write`        | writes a file that reads back bit for bit                               |
+//! | `with_picture` | writes a file, its material and its picture side by side                |
+//!
+//! Vertex order, sharing, positions, polygons, texture coordinates and the statements among the faces are kept, so that
+//! the file can be written back. Normals, lines, points, vertex colours and comments are not.
+
+mod error;
+mod line;
+mod material;
+mod parse;
+mod read;
+mod refined;
+mod texture;
+mod with_picture;
+mod write;
+
+use std::borrow::Cow;
+
+use glam::DVec2;
+
+use crate::mesh::{PolygonMesh, TriMesh};
+
+pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
+pub use material::material_picture;
+pub use read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
+pub use refined::refined_obj;
+pub use texture::TextureMesh;
+pub use write::write_obj;
+
+/// Stands in [`Texture::corners`] where a corner has no texture coordinate.
+pub const NO_TEXTURE: u32 = u32::MAX;
+
+/// A mesh with whatever else an OBJ file says about it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObjMesh {
+    /// Positions and faces.
+    pub polygons: PolygonMesh,
+    /// Texture coordinates, where at least one corner has one.
+    pub texture: Option<Texture>,
+    /// Names, groups, smoothing and materials, in file order.
+    pub statements: Vec<Statement>,
+    /// Runs of faces on consecutive lines: number of the first face and its line.
+    line_runs: Vec<(u32, u64)>,
+}
+
+/// Texture coordinates, and which of them each corner has.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Texture {
+    /// As the file lists them.
+    pub coordinates: Vec<DVec2>,
+    /// One index into `coordinates` for each corner of `polygons.corners`, or [`NO_TEXTURE`].
+    pub corners: Vec<u32>,
+}
+
+/// An `o`, `g`, `s`, `usemtl` or `mtllib` line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Statement {
+    /// It stands before this face.
+    pub before_face: u32,
+    /// The line without blanks around it; any encoding.
+    pub text: Vec<u8>,
+}
+
+impl Statement {
+    /// The first word.
+    pub fn keyword(&self) -> &[u8] {
+        self.split().0
+    }
+
+    /// What follows the first word, as far as it is UTF-8.
+    pub fn argument(&self) -> Cow<'_, str> {
+        String::from_utf8_lossy(self.split().1.trim_ascii())
+    }
+
+    fn split(&self) -> (&[u8], &[u8]) {
+        self.text.split_at(self.text.iter().position(u8::is_ascii_whitespace).unwrap_or(self.text.len()))
+    }
+}
+
+impl ObjMesh {
+    /// The line of the file that a face stands on, counted from 1; `None` where the mesh came from no file.
+    pub fn line_of_face(&self, face: u32) -> Option<u64> {
+        line_in_runs(&self.line_runs, face)
+    }
+
+    /// The same mesh with every polygon run around the other way, from the same first corner.
+    #[must_use = "the mesh itself stays as it is"]
+    pub fn turned(&self) -> Self {
+        let mut turned = self.clone();
+        for face in 0..self.polygons.face_count() {
+            let mut range = self.polygons.corner_range(face);
+            range.start += 1;
+            turned.polygons.corners[range.clone()].reverse();
+            if let Some(texture) = &mut turned.texture {
+                texture.corners[range].reverse();
+            }
+        }
+        turned
+    }
+}
+
+/// The line of a face, from runs of faces on consecutive lines.
+fn line_in_runs(runs: &[(u32, u64)], face: u32) -> Option<u64> {
+    let after = runs.partition_point(|&(first, _)| first <= face);
+    let &(first, line) = runs.get(after.checked_sub(1)?)?;
+    Some(line + u64::from(face - first))
+}
+
+impl From<PolygonMesh> for ObjMesh {
+    fn from(polygons: PolygonMesh) -> Self {
+        Self { polygons, ..Self::default() }
+    }
+}
+
+impl From<&TriMesh> for ObjMesh {
+    fn from(mesh: &TriMesh) -> Self {
+        PolygonMesh::from(mesh).into()
+    }
+}

@@ -1,0 +1,261 @@
+//! Takes OBJ lines one by one and puts a mesh together.
+//!
+//! Every fault is noted and the reading goes on, so that all of them are known at the end.
+
+use glam::{DVec2, DVec3};
+
+use super::error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError};
+use super::line::{Words, corner, numbers};
+use super::{NO_TEXTURE, ObjMesh, Statement, Texture, line_in_runs};
+use crate::mesh::VertexId;
+
+/// The mesh as far as it is read.
+#[derive(Debug, Default)]
+pub(super) struct Parser {
+    mesh: ObjMesh,
+    coordinates: Vec<DVec2>,
+    /// Empty until a corner has a texture coordinate.
+    texture_corners: Vec<u32>,
+    face_count: u32,
+    /// Complete lines before the present one.
+    line: u64,
+    /// Whether a line with words was seen.
+    begun: bool,
+    faults: Vec<ParseFault>,
+    fault_count: usize,
+    /// A line put together from continued ones.
+    joined: Vec<u8>,
+}
+
+impl Parser {
+    /// Complete lines so far.
+    pub(super) fn lines_taken(&self) -> u64 {
+        self.line
+    }
+
+    /// Takes all complete lines and returns where the incomplete rest begins.
+    pub(super) fn take_lines(&mut self, text: &[u8]) -> Result<usize, ReadError> {
+        let mut start = 0;
+        loop {
+            let mut end = start;
+            let mut line_count = 0;
+            loop {
+                let Some(length) = text[end..].iter().position(|&byte| byte == b'\n') else {
+                    return Ok(start);
+                };
+                line_count += 1;
+                end += length + 1;
+                if !goes_on(&text[start..end - 1]) {
+                    break;
+                }
+            }
+            let line = &text[start..end - 1];
+            if line_count == 1 {
+                self.take_line(line)?;
+            } else {
+                let mut joined = std::mem::take(&mut self.joined);
+                join_lines(line, &mut joined);
+                self.take_line(&joined)?;
+                self.joined = joined;
+            }
+            self.line += line_count;
+            start = end;
+        }
+    }
+
+    /// Takes one line, put together from continued ones if it was.
+    fn take_line(&mut self, line: &[u8]) -> Result<(), ReadError> {
+        let line = if self.line == 0 { line.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(line) } else { line };
+        let mut words = Words::new(line);
+        let Some(keyword) = words.next() else { return Ok(()) };
+        if !std::mem::replace(&mut self.begun, true)
+            && let Some(format) = format_of_word(keyword)
+        {
+            return Err(ReadError::NotReadYet { format });
+        }
+        match keyword {
+            b"v" => match numbers::<3>(&mut words) {
+                Ok(position) => self.mesh.polygons.positions.push(DVec3::from(position)),
+                Err(kind) => {
+                    self.fault(kind);
+                    // Keeps the numbers of the vertices behind it.
+                    self.mesh.polygons.positions.push(DVec3::NAN);
+                }
+            },
+            b"vt" => {
+                let coordinate = self.texture_coordinate(words);
+                self.coordinates.push(coordinate);
+            }
+            b"f" => self.take_face(words)?,
+            b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" => {
+                let text = line.trim_ascii().to_vec();
+                self.mesh.statements.push(Statement { before_face: self.face_count, text });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A second number that is missing is 0, as the format says.
+    fn texture_coordinate(&mut self, mut words: Words<'_>) -> DVec2 {
+        let parsed = match words.clone().count() {
+            1 => numbers::<1>(&mut words).map(|[u]| DVec2::new(u, 0.0)),
+            _ => numbers::<2>(&mut words).map(DVec2::from),
+        };
+        parsed.unwrap_or_else(|kind| {
+            self.fault(kind);
+            DVec2::NAN
+        })
+    }
+
+    fn take_face(&mut self, words: Words<'_>) -> Result<(), ReadError> {
+        let begin = self.mesh.polygons.corners.len();
+        if let Err(kind) = self.take_corners(words) {
+            self.mesh.polygons.corners.truncate(begin);
+            self.texture_corners.truncate(begin);
+            self.fault(kind);
+            return Ok(());
+        }
+        let polygons = &mut self.mesh.polygons;
+        let end = polygons.corners.len();
+        if end >= u32::MAX as usize || polygons.positions.len() >= u32::MAX as usize {
+            return Err(ReadError::TooLarge);
+        }
+        let place = |corner: usize| u32::try_from(corner).expect("checked above");
+        if polygons.starts.is_none() && end - begin != 3 {
+            polygons.starts = Some((0..=self.face_count).map(|face| 3 * face).collect());
+        }
+        if let Some(starts) = &mut polygons.starts {
+            starts.push(place(end));
+        }
+        let line = self.line + 1;
+        if line_in_runs(&self.mesh.line_runs, self.face_count) != Some(line) {
+            self.mesh.line_runs.push((self.face_count, line));
+        }
+        self.face_count += 1;
+        Ok(())
+    }
+
+    fn take_corners(&mut self, words: Words<'_>) -> Result<(), ParseFaultKind> {
+        let mut found = 0;
+        let vertex_count = self.mesh.polygons.positions.len();
+        for word in words {
+            let (vertex, texture) = corner(word)?;
+            let vertex = resolve("vertex", vertex, vertex_count)?;
+            if let Some(texture) = texture {
+                let texture = resolve("texture coordinate", texture, self.coordinates.len())?;
+                self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
+                self.texture_corners.push(texture);
+            }
+            self.mesh.polygons.corners.push(VertexId::new(vertex));
+            found += 1;
+        }
+        if found < 3 { Err(ParseFaultKind::TooFewCorners { found }) } else { Ok(()) }
+    }
+
+    fn fault(&mut self, kind: ParseFaultKind) {
+        self.fault_at(self.line + 1, kind);
+    }
+
+    fn fault_at(&mut self, line: u64, kind: ParseFaultKind) {
+        self.fault_count += 1;
+        if self.faults.len() < MAX_PARSE_FAULTS {
+            self.faults.push(ParseFault { line, kind });
+        }
+    }
+
+    /// Takes the rest behind the last complete line, and checks what can be checked only now.
+    pub(super) fn finish(mut self, rest: &[u8]) -> Result<ObjMesh, ReadError> {
+        let mut line = Vec::new();
+        join_lines(rest, &mut line);
+        self.take_line(&line)?;
+        if !self.texture_corners.is_empty() {
+            self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
+        }
+        self.check_ranges();
+        if self.fault_count > 0 {
+            self.faults.sort_by_key(|fault| fault.line);
+            self.faults.truncate(MAX_PARSE_FAULTS);
+            return Err(ReadError::Parse { faults: self.faults, total: self.fault_count });
+        }
+        if self.face_count == 0 {
+            return Err(ReadError::NoFaces { vertices: self.mesh.polygons.positions.len() });
+        }
+        if !self.texture_corners.is_empty() {
+            self.mesh.texture = Some(Texture { coordinates: self.coordinates, corners: self.texture_corners });
+        }
+        Ok(self.mesh)
+    }
+
+    /// Looks for corners that name elements which never came.
+    fn check_ranges(&mut self) {
+        let vertex_count = self.mesh.polygons.positions.len();
+        let coordinate_count = self.coordinates.len();
+        let corners = &self.mesh.polygons.corners;
+        let vertex_misses = corners.iter().any(|v| v.index() >= vertex_count);
+        let texture_misses = self.texture_corners.iter().any(|&t| t != NO_TEXTURE && t as usize >= coordinate_count);
+        if !vertex_misses && !texture_misses {
+            return;
+        }
+        // Faults of single lines may have filled the list; those found here can stand on earlier lines.
+        let mut earlier = std::mem::take(&mut self.faults);
+        for face in 0..self.face_count {
+            let line = line_in_runs(&self.mesh.line_runs, face).expect("every face has a line");
+            for place in self.mesh.polygons.corner_range(face as usize) {
+                let vertex = self.mesh.polygons.corners[place].number();
+                if vertex as usize >= vertex_count {
+                    self.fault_at(line, out_of_range("vertex", vertex, vertex_count));
+                }
+                let texture = self.texture_corners.get(place).copied().unwrap_or(NO_TEXTURE);
+                if texture != NO_TEXTURE && texture as usize >= coordinate_count {
+                    self.fault_at(line, out_of_range("texture coordinate", texture, coordinate_count));
+                }
+            }
+        }
+        self.faults.append(&mut earlier);
+    }
+}
+
+fn out_of_range(element: &'static str, resolved: u32, count: usize) -> ParseFaultKind {
+    ParseFaultKind::IndexOutOfRange { element, index: i64::from(resolved) + 1, count }
+}
+
+/// From an index as written to one from 0. Positive ones are checked when the file is read.
+fn resolve(element: &'static str, index: i64, count: usize) -> Result<u32, ParseFaultKind> {
+    let from_zero = match index {
+        1.. => Some(index - 1),
+        0 => None,
+        _ => i64::try_from(count).ok().map(|count| count + index),
+    };
+    // The highest number is kept free to say "none".
+    from_zero
+        .and_then(|value| u32::try_from(value).ok())
+        .filter(|&value| value != NO_TEXTURE)
+        .ok_or(ParseFaultKind::IndexOutOfRange { element, index, count })
+}
+
+/// Whether a line goes on in the next: it ends with a `\` and is no comment, where a path may end so.
+fn goes_on(line: &[u8]) -> bool {
+    let line = line.strip_suffix(b"\r").unwrap_or(line);
+    line.ends_with(b"\\") && !line.trim_ascii_start().starts_with(b"#")
+}
+
+/// Puts a blank in place of each `\` and the line end behind it.
+fn join_lines(lines: &[u8], joined: &mut Vec<u8>) {
+    joined.clear();
+    for line in lines.split(|&byte| byte == b'\n') {
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        joined.extend_from_slice(line.strip_suffix(b"\\").unwrap_or(line));
+        joined.push(b' ');
+    }
+}
+
+/// What the first word of a file says about its format.
+pub(super) fn format_of_word(word: &[u8]) -> Option<&'static str> {
+    Some(match word {
+        b"OFF" | b"COFF" | b"NOFF" | b"CNOFF" | b"STOFF" | b"4OFF" | b"nOFF" => "OFF",
+        b"ply" => "PLY",
+        b"solid" => "STL",
+        _ => return None,
+    })
+}

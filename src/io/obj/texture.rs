@@ -1,0 +1,86 @@
+//! The mesh of a file's texture coordinates: the surface as it is cut in the plane.
+
+use glam::DVec2;
+
+use super::{NO_TEXTURE, ObjMesh, Texture, TextureError};
+use crate::mesh::{TriMesh, VertexId};
+
+/// A mesh over texture vertices, with the embedding that the file gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureMesh {
+    /// The triangles over texture vertices, at their positions in space.
+    pub mesh: TriMesh,
+    /// The texture coordinates, one per texture vertex.
+    pub embedding: Vec<DVec2>,
+    /// The file's vertex of each texture vertex.
+    pub vertex_of: Vec<VertexId>,
+}
+
+impl ObjMesh {
+    /// Makes one vertex of all corners that share a vertex and a texture coordinate.
+    ///
+    /// Coordinates are the same where their bits are, except that −0 equals 0. So charts are cut along seams, and copies
+    /// of one coordinate are joined. Texture vertices are ordered by the file's vertices, those of one vertex by first
+    /// use: without seams their numbers are those of the file.
+    ///
+    /// # Errors
+    ///
+    /// [`TextureError`] where there are no texture coordinates, or not at all corners.
+    ///
+    /// # Panics
+    ///
+    /// If an index of the mesh is out of range, which the reader never lets through.
+    pub fn texture_mesh(&self) -> Result<TextureMesh, TextureError> {
+        let texture = self.texture.as_ref().ok_or(TextureError::None)?;
+        self.check_complete(texture)?;
+        let corners = &self.polygons.corners;
+        let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
+        let bits = |place: u32| (coordinate(place) + DVec2::ZERO).to_array().map(f64::to_bits);
+        let mut texture_vertex = vec![0_u32; corners.len()];
+        let mut found = TextureMesh { mesh: TriMesh::default(), embedding: Vec::new(), vertex_of: Vec::new() };
+        let mut first_places: Vec<u32> = Vec::new();
+        for places in &mut places_by_vertex(corners, self.polygons.positions.len()) {
+            // Equal coordinates side by side, then the groups by their first corner.
+            places.sort_unstable_by_key(|&place| (bits(place), place));
+            first_places.clear();
+            first_places.extend(places.chunk_by(|&a, &b| bits(a) == bits(b)).map(|group| group[0]));
+            first_places.sort_unstable();
+            for group in places.chunk_by(|&a, &b| bits(a) == bits(b)) {
+                let rank = first_places.binary_search(&group[0]).expect("every group has a first place");
+                for &place in group {
+                    texture_vertex[place as usize] = VertexId::from_index(found.vertex_of.len() + rank).number();
+                }
+            }
+            for &place in &first_places {
+                let vertex = corners[place as usize];
+                found.vertex_of.push(vertex);
+                found.embedding.push(coordinate(place));
+                found.mesh.positions.push(self.polygons.positions[vertex.index()]);
+            }
+        }
+        let (triangles, polygon_of) = self.polygons.triangle_places();
+        found.mesh.triangles =
+            triangles.iter().map(|places| places.map(|place| VertexId::new(texture_vertex[place as usize]))).collect();
+        found.mesh.polygon_of = polygon_of;
+        Ok(found)
+    }
+
+    fn check_complete(&self, texture: &Texture) -> Result<(), TextureError> {
+        let lacks = |&face: &u32| {
+            let places = self.polygons.corner_range(face as usize);
+            texture.corners[places].contains(&NO_TEXTURE)
+        };
+        let face_count = u32::try_from(self.polygons.face_count()).expect("faces fit");
+        let faces: Vec<u32> = (0..face_count).filter(lacks).collect();
+        if faces.is_empty() { Ok(()) } else { Err(TextureError::Missing { faces }) }
+    }
+}
+
+/// Places of the corners of each vertex, ascending; vertices without corners have none.
+fn places_by_vertex(corners: &[VertexId], vertex_count: usize) -> Vec<Vec<u32>> {
+    let mut places = vec![Vec::new(); vertex_count];
+    for (place, vertex) in (0_u32..).zip(corners) {
+        places[vertex.index()].push(place);
+    }
+    places
+}

@@ -1,0 +1,242 @@
+//! The fields of a project file: names, order and defaults.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use glam::DVec2;
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
+use crate::geom::VAxis;
+use crate::io::FileStamp;
+use crate::mesh::VertexId;
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
+
+/// The fields of a project file, in their order.
+#[derive(Serialize, Deserialize)]
+pub(super) struct ProjectFields {
+    freebound_project: u64,
+    mesh: ProjectSource,
+    #[serde(default)]
+    faces_turned: bool,
+    #[serde(default)]
+    picture: Option<ProjectSource>,
+    #[serde(default)]
+    v_axis: VAxis,
+    #[serde(default)]
+    method: Method,
+    #[serde(default)]
+    boundary: BoundaryShape,
+    #[serde(default)]
+    family: Family,
+    #[serde(default)]
+    treatment: Option<Treatment>,
+    #[serde(default)]
+    growth: Growth,
+    #[serde(default = "default_max_steps")]
+    max_steps: usize,
+    #[serde(default)]
+    relax_rounds: Option<usize>,
+    #[serde(default = "default_new_vertices")]
+    new_vertices: bool,
+    #[serde(default, with = "pin_list")]
+    pins: Pins,
+    #[serde(default)]
+    view: ProjectView,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    recovery: Option<RecoveryNote>,
+}
+
+fn default_max_steps() -> usize {
+    Settings::default().max_steps
+}
+
+fn default_new_vertices() -> bool {
+    Settings::default().new_vertices
+}
+
+/// A mesh or a picture: of an example or of a file, perhaps with its stamp.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(super) struct SourceFields {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    example: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<PathBuf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bytes: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sha256: Option<String>,
+}
+
+impl TryFrom<SourceFields> for ProjectSource {
+    type Error = &'static str;
+
+    fn try_from(fields: SourceFields) -> Result<Self, Self::Error> {
+        let stamp = fields.bytes.zip(fields.sha256).map(|(bytes, sha256)| FileStamp { bytes, sha256 });
+        match (fields.example, fields.file) {
+            (Some(name), None) => Ok(Self::Example(name)),
+            (None, Some(path)) => Ok(Self::File { path, stamp }),
+            _ => Err("name either a \"file\" or an \"example\""),
+        }
+    }
+}
+
+impl From<ProjectSource> for SourceFields {
+    fn from(source: ProjectSource) -> Self {
+        match source {
+            ProjectSource::Example(name) => Self { example: Some(name), ..Self::default() },
+            ProjectSource::File { path, stamp } => {
+                let (bytes, sha256) = stamp.map(|stamp| (stamp.bytes, stamp.sha256)).unzip();
+                Self { file: Some(path), bytes, sha256, ..Self::default() }
+            }
+        }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum HoldName {
+    Fixed,
+    Hard,
+    Weighted,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PinFields {
+    vertex: u32,
+    u: f64,
+    v: f64,
+    hold: HoldName,
+    #[serde(default, deserialize_with = "weight", skip_serializing_if = "Option::is_none")]
+    weight: Option<f64>,
+}
+
+impl PinFields {
+    fn of(vertex: VertexId, pin: &Pin) -> Self {
+        let (hold, weight) = match pin.hold {
+            Hold::Fixed => (HoldName::Fixed, None),
+            Hold::Hard => (HoldName::Hard, None),
+            Hold::Weighted(weight) => (HoldName::Weighted, Some(weight)),
+        };
+        Self { vertex: vertex.number(), u: pin.target.x, v: pin.target.y, hold, weight }
+    }
+
+    fn pin(&self) -> Pin {
+        let hold = match self.hold {
+            HoldName::Fixed => Hold::Fixed,
+            HoldName::Hard => Hold::Hard,
+            HoldName::Weighted => Hold::Weighted(self.weight.unwrap_or(Pin::DEFAULT_WEIGHT)),
+        };
+        Pin { target: DVec2::new(self.u, self.v), hold }
+    }
+}
+
+/// Pins as a list.
+mod pin_list {
+    use super::{Deserialize, Deserializer, Error, PinFields, Pins, Serializer, VertexId};
+
+    pub(super) fn serialize<S: Serializer>(pins: &Pins, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(pins.iter().map(|(&vertex, pin)| PinFields::of(vertex, pin)))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pins, D::Error> {
+        let mut pins = Pins::new();
+        for fields in Vec::<PinFields>::deserialize(deserializer)? {
+            let vertex = VertexId::new(fields.vertex);
+            if pins.insert(vertex, fields.pin()).is_some() {
+                return Err(D::Error::custom(format!("vertex {vertex} is pinned twice")));
+            }
+        }
+        Ok(pins)
+    }
+}
+
+/// Reads a weight. It is checked while it is read, so that a fault is told with the line of its field.
+fn weight<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    deserializer.deserialize_any(WeightVisitor)
+}
+
+struct WeightVisitor;
+
+impl Visitor<'_> for WeightVisitor {
+    type Value = Option<f64>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a weight")
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<Option<f64>, E> {
+        Ok(None)
+    }
+
+    fn visit_f64<E: Error>(self, weight: f64) -> Result<Option<f64>, E> {
+        let is_weight = Hold::Weighted(weight).is_valid();
+        if is_weight { Ok(Some(weight)) } else { Err(E::custom(format!("the weight {weight} is not positive"))) }
+    }
+
+    fn visit_u64<E: Error>(self, weight: u64) -> Result<Option<f64>, E> {
+        self.visit_f64(weight as f64)
+    }
+
+    fn visit_i64<E: Error>(self, weight: i64) -> Result<Option<f64>, E> {
+        self.visit_f64(weight as f64)
+    }
+}
+
+impl From<ProjectFields> for ProjectFile {
+    fn from(fields: ProjectFields) -> Self {
+        let settings = Settings {
+            method: match fields.method {
+                Method::Convex(_) => Method::Convex(fields.boundary),
+                other => other,
+            },
+            family: fields.family,
+            treatment: fields.treatment,
+            max_steps: fields.max_steps,
+            growth: fields.growth,
+            size: GaugeSize::default(),
+            relax_rounds: fields.relax_rounds,
+            new_vertices: fields.new_vertices,
+        };
+        Self {
+            mesh: fields.mesh,
+            faces_turned: fields.faces_turned,
+            picture: fields.picture,
+            v_axis: fields.v_axis,
+            settings,
+            pins: fields.pins,
+            view: fields.view,
+            recovery: fields.recovery,
+        }
+    }
+}
+
+impl From<ProjectFile> for ProjectFields {
+    fn from(project: ProjectFile) -> Self {
+        let settings = project.settings;
+        let boundary = match settings.method {
+            Method::Convex(shape) => shape,
+            _ => BoundaryShape::default(),
+        };
+        Self {
+            freebound_project: PROJECT_VERSION,
+            mesh: project.mesh,
+            faces_turned: project.faces_turned,
+            picture: project.picture,
+            v_axis: project.v_axis,
+            method: settings.method,
+            boundary,
+            family: settings.family,
+            treatment: settings.treatment,
+            growth: settings.growth,
+            max_steps: settings.max_steps,
+            relax_rounds: settings.relax_rounds,
+            new_vertices: settings.new_vertices,
+            pins: project.pins,
+            view: project.view,
+            recovery: project.recovery,
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! Project files: what a person has made of a mesh, as JSON that a person can read.
+//!
+//! | file     | what it holds                                    |
+//! |----------|--------------------------------------------------|
+//! | `mod`    | a project, read and written; paths in it         |
+//! | `error`  | why a file did not become a project              |
+//! | `fields` | the fields of the file: names, order, defaults   |
+//!
+//! A project names mesh and picture and holds everything else. Fields that this version does not know are ignored, so
+//! that a later version can add some; one that changes what fields mean takes the next [`PROJECT_VERSION`].
+
+mod error;
+mod fields;
+
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+pub use self::error::ProjectError;
+use self::fields::{ProjectFields, SourceFields};
+use super::{FileStamp, WriteError, write_durably};
+use crate::geom::VAxis;
+use crate::solver::{Pins, Settings};
+
+/// The version of the format that this program writes, and the newest that it reads.
+pub const PROJECT_VERSION: u64 = 1;
+
+/// Extension of a project file's name.
+pub const PROJECT_EXTENSION: &str = "freebound";
+
+/// A project as a file holds it. Paths are whole; the file has them relative to itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProjectFile {
+    /// The mesh.
+    pub mesh: ProjectSource,
+    /// Whether the mesh's faces are turned around.
+    pub faces_turned: bool,
+    /// The picture.
+    pub picture: Option<ProjectSource>,
+    /// Where v = 0 is on the picture.
+    pub v_axis: VAxis,
+    /// Method and weights. Their size follows from the picture, so that it is not in the file.
+    pub settings: Settings,
+    /// The pins, in texture coordinates.
+    pub pins: Pins,
+    /// How the person looked at it.
+    pub view: ProjectView,
+    /// What only a copy for recovery has.
+    pub recovery: Option<RecoveryNote>,
+}
+
+/// Where a mesh or a picture is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "SourceFields", into = "SourceFields")]
+pub enum ProjectSource {
+    /// In a file.
+    File {
+        /// Its path.
+        path: PathBuf,
+        /// The state that it had, where that is known.
+        stamp: Option<FileStamp>,
+    },
+    /// In the program: the name of an example.
+    Example(String),
+}
+
+/// How a person looked at a project. Only the screen knows what the words and numbers mean; each may be missing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ProjectView {
+    /// Name of the shading of the mesh.
+    pub mesh_shading: Option<String>,
+    /// Name of the shading of the embedding.
+    pub plane_shading: Option<String>,
+    /// The camera before the mesh.
+    pub mesh_camera: Option<Vec<f64>>,
+    /// The camera over the plane.
+    pub plane_camera: Option<Vec<f64>>,
+    /// Numbers of the selected vertices.
+    pub selection: Vec<u32>,
+    /// Name of the tool.
+    pub tool: Option<String>,
+}
+
+/// What a copy for recovery says about the work that it is a copy of.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RecoveryNote {
+    /// What the work was called.
+    pub name: String,
+    /// The project that it was last saved to.
+    pub project: Option<PathBuf>,
+}
+
+/// How a project names files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathStyle {
+    /// From the project's folder, so that a folder can be moved as a whole.
+    Relative,
+    /// From the root, for a project that lies anywhere.
+    Absolute,
+}
+
+/// All that is read of a file before its version is known.
+#[derive(Deserialize)]
+struct Head {
+    freebound_project: u64,
+}
+
+impl ProjectFile {
+    /// A project of a mesh, with nothing made of it yet.
+    pub fn of_mesh(mesh: ProjectSource) -> Self {
+        Self {
+            mesh,
+            faces_turned: false,
+            picture: None,
+            v_axis: VAxis::Up,
+            settings: Settings::default(),
+            pins: Pins::new(),
+            view: ProjectView::default(),
+            recovery: None,
+        }
+    }
+
+    /// Reads a project file.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, that is none, or that has a fault; nothing of it is guessed.
+    pub fn read(path: &Path) -> Result<Self, ProjectError> {
+        let bytes = std::fs::read(path).map_err(|source| ProjectError::File { path: path.to_owned(), source })?;
+        let not_a_project = || ProjectError::NotAProject { path: path.to_owned() };
+        let text = std::str::from_utf8(&bytes).map_err(|_| not_a_project())?;
+        match parse(path, text) {
+            Ok(Head { freebound_project: 0 }) => return Err(not_a_project()),
+            Ok(Head { freebound_project: version }) if version > PROJECT_VERSION => {
+                return Err(ProjectError::Newer { path: path.to_owned(), version });
+            }
+            Ok(_) => {}
+            Err(error) if text.contains("\"freebound_project\"") => return Err(error),
+            Err(_) => return Err(not_a_project()),
+        }
+        let mut project = Self::from(parse::<ProjectFields>(path, text)?);
+        let folder = whole_folder_of(path);
+        for source in [Some(&mut project.mesh), project.picture.as_mut()].into_iter().flatten() {
+            if let ProjectSource::File { path, .. } = source {
+                *path = folder.join(&*path);
+            }
+        }
+        Ok(project)
+    }
+
+    /// Writes the project whole or not at all; what is written survives a loss of power.
+    ///
+    /// # Errors
+    ///
+    /// [`WriteError`] names the path and says what went wrong.
+    pub fn write(&self, path: &Path, style: PathStyle) -> Result<(), WriteError> {
+        let failed = |source| WriteError { path: path.to_owned(), source };
+        let mut project = self.clone();
+        let folder = whole_folder_of(path);
+        for source in [Some(&mut project.mesh), project.picture.as_mut()].into_iter().flatten() {
+            if let ProjectSource::File { path, .. } = source {
+                *path = named(path, &folder, style).map_err(failed)?;
+            }
+        }
+        let fields = ProjectFields::from(project);
+        write_durably(path, |out| {
+            serde_json::to_writer_pretty(&mut *out, &fields)?;
+            writeln!(out)
+        })
+    }
+}
+
+/// Reads the text of a file; a fault is told with its line and its field.
+fn parse<'de, T: Deserialize<'de>>(path: &Path, text: &'de str) -> Result<T, ProjectError> {
+    let mut source = serde_json::Deserializer::from_str(text);
+    let malformed = |field: String, error: &serde_json::Error| {
+        let message = error.to_string();
+        let reason = message.rfind(" at line ").map_or(message.as_str(), |end| &message[..end]).to_owned();
+        let field = if field == "." { "the project".to_owned() } else { field };
+        ProjectError::Malformed { path: path.to_owned(), line: error.line(), field, reason }
+    };
+    let found = serde_path_to_error::deserialize(&mut source)
+        .map_err(|error| malformed(error.path().to_string(), error.inner()))?;
+    source.end().map_err(|error| malformed(".".to_owned(), &error))?;
+    Ok(found)
+}
+
+/// The folder that a file is in, from the root, links followed: so that `..` in it means what it says.
+fn whole_folder_of(path: &Path) -> PathBuf {
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let folder = whole.parent().unwrap_or(&whole);
+    std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())
+}
+
+/// A file's name in a project that is in `folder`. Folders are divided by slashes on every system.
+fn named(path: &Path, folder: &Path, style: PathStyle) -> io::Result<PathBuf> {
+    let own = path.file_name().ok_or_else(|| io::Error::other(format!("{} names no file", path.display())))?;
+    let whole = whole_folder_of(path).join(own);
+    let found = match style {
+        PathStyle::Absolute => whole,
+        PathStyle::Relative => relative(&whole, folder).unwrap_or(whole),
+    };
+    let text = found.to_str().ok_or_else(|| {
+        let text = format!("the name {} is not Unicode, which a project cannot hold", found.display());
+        io::Error::new(io::ErrorKind::InvalidData, text)
+    })?;
+    Ok(if cfg!(windows) { text.replace('\\', "/").into() } else { found })
+}
+
+/// The way from a folder to a file; `None` where they have no folder in common.
+fn relative(path: &Path, folder: &Path) -> Option<PathBuf> {
+    let shared = path.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().count() - shared;
+    let down = path.components().skip(shared);
+    (shared > 0).then(|| std::iter::repeat_n(Path::new("..").components(), up).flatten().chain(down).collect())
+}

@@ -1,0 +1,117 @@
+//! Families of weights (paper §3.1).
+
+use std::borrow::Cow;
+use std::fmt;
+use std::str::FromStr;
+
+use super::{Choice, Words};
+
+/// A family of weights: how the offset d depends on the edge length r.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Family {
+    /// d = r: cotangents.
+    #[default]
+    Conformal,
+    /// d = 1: always positive.
+    MeanValue,
+    /// d = 1/r.
+    Wachspress,
+    /// d = rᵖ: from Wachspress (−1) over mean value (0) to conformal (1), and beyond.
+    Power(f64),
+    /// All weights equal (Tutte); convex boundary only.
+    Uniform,
+    /// Floater 1997; convex boundary only.
+    ShapePreserving,
+}
+
+impl Family {
+    /// d = r.
+    pub const CONFORMAL_POWER: f64 = 1.0;
+    /// d = 1/r.
+    pub const WACHSPRESS_POWER: f64 = -1.0;
+
+    /// The power p of d = rᵖ; `None` for the families that are not three-point.
+    pub const fn power(self) -> Option<f64> {
+        match self {
+            Self::Conformal => Some(Self::CONFORMAL_POWER),
+            Self::MeanValue => Some(0.0),
+            Self::Wachspress => Some(Self::WACHSPRESS_POWER),
+            Self::Power(p) => Some(p),
+            Self::Uniform | Self::ShapePreserving => None,
+        }
+    }
+}
+
+/// How a power is written, in front of its number.
+const POWER: &str = "power:";
+
+impl Choice for Family {
+    const ALL: &'static [Self] =
+        &[Self::Conformal, Self::MeanValue, Self::Wachspress, Self::Power(0.5), Self::Uniform, Self::ShapePreserving];
+
+    fn words(self) -> Words {
+        match self {
+            Self::Conformal => Words {
+                name: "conformal",
+                title: "Conformal",
+                about: "d = r: cotangents, keeps angles",
+                source: "paper §3.1; Pinkall and Polthier 1993",
+            },
+            Self::MeanValue => Words {
+                name: "mean-value",
+                title: "Mean value",
+                about: "d = 1: always positive",
+                source: "paper §3.1; Floater 2003",
+            },
+            Self::Wachspress => Words {
+                name: "wachspress",
+                title: "Wachspress",
+                about: "d = 1/r",
+                source: "paper §3.1; Wachspress 1975",
+            },
+            Self::Power(_) => Words {
+                name: "power:P",
+                title: "Power",
+                about: "d = r^P: Wachspress at −1, mean value at 0, conformal at 1",
+                source: "paper §3.1; Floater, Hormann and Kós 2006",
+            },
+            Self::Uniform => Words {
+                name: "uniform",
+                title: "Uniform",
+                about: "all weights equal; convex boundary only",
+                source: "Tutte 1963",
+            },
+            Self::ShapePreserving => Words {
+                name: "shape-preserving",
+                title: "Shape-preserving",
+                about: "averaged barycentric coordinates; convex boundary only",
+                source: "Floater 1997",
+            },
+        }
+    }
+
+    fn written(self) -> Cow<'static, str> {
+        if let Self::Power(p) = self { format!("{POWER}{p}").into() } else { self.name().into() }
+    }
+
+    fn named(text: &str) -> Option<Self> {
+        let Some(power) = text.strip_prefix(POWER) else {
+            return Self::ALL.iter().copied().find(|family| family.name() == text);
+        };
+        power.parse().ok().filter(|p: &f64| p.is_finite()).map(Self::Power)
+    }
+}
+
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.written())
+    }
+}
+
+impl FromStr for Family {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::named(text).ok_or_else(|| format!("choose one of {}", Self::names()))
+    }
+}

@@ -1,0 +1,171 @@
+//! Everything about a solve but the mesh and the pins.
+
+use glam::DVec2;
+
+use super::{Choice, Family, Hold, Method, Pin, Pins, Words};
+
+/// How the equations of pinned vertices are treated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Treatment {
+    /// They are dropped (paper §3.3).
+    Eliminate,
+    /// All equations are kept and met as well as can be, the pins exactly (paper §6).
+    LeastSquares,
+    /// All equations are kept, and pins are further equations: those without a weight of their own have
+    /// [`Pin::DEFAULT_WEIGHT`] (paper §6).
+    Weighted,
+}
+
+impl Choice for Treatment {
+    const ALL: &'static [Self] = &[Self::Eliminate, Self::LeastSquares, Self::Weighted];
+
+    fn words(self) -> Words {
+        match self {
+            Self::Eliminate => Words {
+                name: "eliminate",
+                title: "Eliminate",
+                about: "the equations of pinned vertices are dropped",
+                source: "paper §3.3",
+            },
+            Self::LeastSquares => Words {
+                name: "least-squares",
+                title: "Least squares",
+                about: "all equations are kept and met as well as can be, the pins exactly",
+                source: "paper §6",
+            },
+            Self::Weighted => Words {
+                name: "weighted",
+                title: "Weighted",
+                about: "all equations are kept, and all pins pull by their weights",
+                source: "paper §6",
+            },
+        }
+    }
+}
+
+/// How many boundary vertices the virtual boundary pins next where the boundary is not simple.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Growth {
+    /// Twice as many.
+    #[default]
+    Double,
+    /// One more, as the paper's §5 has it.
+    One,
+}
+
+impl Choice for Growth {
+    const ALL: &'static [Self] = &[Self::Double, Self::One];
+
+    fn words(self) -> Words {
+        match self {
+            Self::Double => Words {
+                name: "double",
+                title: "Twice as many",
+                about: "quick: as many again are bent each time",
+                source: "",
+            },
+            Self::One => Words {
+                name: "one",
+                title: "One more",
+                about: "as the paper's §5 has it: the least that is enough, found slowly",
+                source: "",
+            },
+        }
+    }
+}
+
+/// How large an embedding is that fewer than two pins of the user's do not fix.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum GaugeSize {
+    /// As large as the surface.
+    #[default]
+    TrueArea,
+    /// As large as fits into a box, in its middle: the picture that it is made for.
+    Within {
+        /// The box's lower left corner.
+        low: DVec2,
+        /// Its upper right corner.
+        high: DVec2,
+    },
+}
+
+/// Everything about a solve but the mesh and the pins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The way to the embedding.
+    pub method: Method,
+    /// The weights, where the method has a choice.
+    pub family: Family,
+    /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_of`] says.
+    pub treatment: Option<Treatment>,
+    /// The most mean-value iterations after a linear solve; a ladder that starts again counts anew.
+    pub max_steps: usize,
+    /// How the virtual boundary goes on.
+    pub growth: Growth,
+    /// How large the embedding is where the user's pins do not say.
+    pub size: GaugeSize,
+    /// The most rounds of relaxing after a planar end; where nobody says, a few after rungs 4 and 5 and after the boundary
+    /// was bent, else none.
+    pub relax_rounds: Option<usize>,
+    /// Whether edges may be split where the constraints cannot be met otherwise.
+    pub new_vertices: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            family: Family::default(),
+            treatment: None,
+            max_steps: Self::MAX_STEPS,
+            growth: Growth::default(),
+            size: GaugeSize::default(),
+            relax_rounds: None,
+            new_vertices: true,
+        }
+    }
+}
+
+impl Settings {
+    /// The most mean-value iterations after a linear solve, where nobody says.
+    pub const MAX_STEPS: usize = 60;
+
+    /// A method and a family, everything else as it is by default.
+    pub fn new(method: Method, family: Family) -> Self {
+        Self { method, family, ..Self::default() }
+    }
+
+    /// How the linear solve treats the equations of so many pins of the user's. Two only fix the similarity and are
+    /// eliminated, so that conformal weights give the least-squares conformal map; more are constraints.
+    pub fn treatment_of(&self, pin_count: usize) -> Treatment {
+        let by_count = if pin_count > 2 { Treatment::LeastSquares } else { Treatment::Eliminate };
+        self.treatment.unwrap_or(by_count)
+    }
+
+    /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the
+    /// solver places is always eliminated; its own gauge pins are, unless another treatment was asked for.
+    pub fn treatment_on(&self, rung: Method, pin_count: usize) -> Treatment {
+        match rung {
+            // By hand after a convex boundary, all of which is pinned.
+            Method::Iterate if matches!(self.method, Method::Convex(_)) => Treatment::Eliminate,
+            Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
+            Method::VirtualBoundary | Method::Convex(_) => Treatment::Eliminate,
+            _ if pin_count < 2 => self.treatment.unwrap_or(Treatment::Eliminate),
+            _ => self.treatment_of(pin_count),
+        }
+    }
+
+    /// Whether this treatment meets the targets of such pins to the last bit.
+    pub fn is_exact(&self, hold: Hold) -> bool {
+        hold.is_exact() && self.treatment != Some(Treatment::Weighted)
+    }
+
+    /// The user's pins as this treatment holds them.
+    pub fn held(&self, pins: &Pins) -> Pins {
+        let is_weighed = |hold: Hold| hold.is_exact() && !self.is_exact(hold);
+        let weigh = |pin: &Pin| {
+            if is_weighed(pin.hold) { Pin::weighted(pin.target, Pin::DEFAULT_WEIGHT) } else { *pin }
+        };
+        pins.iter().map(|(&vertex, pin)| (vertex, weigh(pin))).collect()
+    }
+}

@@ -1,0 +1,82 @@
+//! What panels are put together from: controls that ask for something, lists to choose from, and rows of numbers.
+
+use eframe::egui;
+use egui::{ComboBox, Grid, Response, RichText, Role, Ui, WidgetInfo};
+
+use super::theme::theme_of;
+use super::{Request, keys_of};
+
+/// What a panel does with a control once it is there.
+pub(in crate::ui) trait Control {
+    /// Gives it a name for those who do not see it.
+    fn named(self, role: Role, name: &str) -> Self;
+
+    /// Asks for something where it was clicked. Returns whether it was.
+    fn asks(&self, request: impl Into<Request>, requests: &mut Vec<Request>) -> bool;
+
+    /// Whether a gesture with it ends in this frame: a drag, or typing.
+    fn has_ended(&self) -> bool;
+}
+
+impl Control for Response {
+    fn named(self, role: Role, name: &str) -> Self {
+        let enabled = self.enabled();
+        self.widget_info(|| WidgetInfo::labeled(role, enabled, name));
+        self
+    }
+
+    fn asks(&self, request: impl Into<Request>, requests: &mut Vec<Request>) -> bool {
+        if self.clicked() {
+            requests.push(request.into());
+        }
+        self.clicked()
+    }
+
+    fn has_ended(&self) -> bool {
+        self.drag_stopped() || self.lost_focus()
+    }
+}
+
+/// A tip, and behind it the keys that ask for the same.
+pub(in crate::ui) fn tip_with_keys(ui: &Ui, tip: &str, request: &Request) -> String {
+    match keys_of(ui.ctx(), request) {
+        keys if keys.is_empty() => tip.to_owned(),
+        keys => format!("{tip} ({keys})"),
+    }
+}
+
+/// A list to choose from: its name, its width in points, what is chosen, and the entries where it is open.
+pub(in crate::ui) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entries: impl FnOnce(&mut Ui)) -> Response {
+    let list = ComboBox::from_id_salt(name).selected_text(shown).width(width);
+    list.show_ui(ui, entries).response.named(Role::ComboBox, name)
+}
+
+/// A remark in small, weak letters.
+pub(in crate::ui) fn remark(ui: &mut Ui, words: impl Into<String>) -> Response {
+    let weak = theme_of(ui).weak_text;
+    ui.label(RichText::new(words).small().color(weak))
+}
+
+/// Two columns: names and what belongs to them.
+pub(in crate::ui) fn pairs(ui: &mut Ui, name: &str, spacing: [f32; 2], rows: impl FnOnce(&mut Ui)) {
+    Grid::new(name).num_columns(2).spacing(spacing).show(ui, rows);
+}
+
+/// A name and its number.
+pub(in crate::ui) fn number(ui: &mut Ui, name: &str, value: impl Into<String>) -> Response {
+    let label = ui.label(name);
+    ui.monospace(value.into());
+    ui.end_row();
+    label
+}
+
+/// A count and its noun.
+pub(in crate::ui) fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
+/// The words with a capital at the beginning.
+pub fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

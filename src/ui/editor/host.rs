@@ -1,0 +1,82 @@
+//! What the window is shown by: egui's context and a graphics card, with what they are to be told.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+
+/// Work shorter than this shows no progress: it would only flicker.
+const PATIENCE: Duration = Duration::from_millis(250);
+
+/// What shows the window.
+#[derive(Debug)]
+pub struct Host {
+    context: egui::Context,
+    has_gpu: bool,
+    /// The theme that was asked for in this frame.
+    theme_wanted: Option<egui::ThemePreference>,
+    /// The title that was sent last.
+    title: String,
+    /// Since when there is work in the background.
+    busy_since: Option<Instant>,
+}
+
+impl Host {
+    pub(super) fn new(context: &egui::Context) -> Self {
+        Self { context: context.clone(), has_gpu: false, theme_wanted: None, title: String::new(), busy_since: None }
+    }
+
+    /// The window's context.
+    pub(in crate::ui) fn context(&self) -> &egui::Context {
+        &self.context
+    }
+
+    /// Seconds of the window's clock.
+    pub(in crate::ui) fn now(&self) -> f64 {
+        self.context.input(|input| input.time)
+    }
+
+    /// What background work calls when it has news.
+    pub(in crate::ui) fn waker(&self) -> impl Fn() + Send + Sync + 'static {
+        let context = self.context.clone();
+        move || context.request_repaint()
+    }
+
+    /// Whether there is a graphics card to draw with.
+    pub(in crate::ui) fn has_gpu(&self) -> bool {
+        self.has_gpu
+    }
+
+    /// Takes in that there is a graphics card to draw with.
+    pub fn use_gpu(&mut self) {
+        self.has_gpu = true;
+    }
+
+    pub(super) fn want_theme(&mut self, theme: egui::ThemePreference) {
+        self.theme_wanted = Some(theme);
+    }
+
+    /// Puts on the theme that was asked for.
+    pub(in crate::ui) fn put_on_theme(&mut self) {
+        if let Some(theme) = self.theme_wanted.take() {
+            self.context.set_theme(theme);
+        }
+    }
+
+    /// Gives the window its title.
+    pub(in crate::ui) fn set_title(&mut self, title: String) {
+        if self.title != title {
+            self.context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
+    /// Takes in whether there is work in the background. Call once per frame.
+    pub(in crate::ui) fn note_work(&mut self, is_busy: bool, now: Instant) {
+        self.busy_since = if is_busy { self.busy_since.or(Some(now)) } else { None };
+    }
+
+    /// Whether the work has taken long enough to be worth a word.
+    pub(super) fn is_busy_for_long(&self) -> bool {
+        self.busy_since.is_some_and(|since| since.elapsed() >= PATIENCE)
+    }
+}

@@ -1,0 +1,101 @@
+//! What of the window is open: tab and panels, the panes' widths, floating windows.
+
+use super::{Pane, Tab};
+
+/// A window narrower than this shows no panels until they are asked for, points.
+const PANELS_FROM: f32 = 820.0;
+
+/// Least share of the width that a pane has.
+const LEAST_SHARE: f32 = 0.15;
+
+/// What of the window is open.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    tab: Tab,
+    /// Whether the panels at the right show, where a person said so.
+    panels_wanted: Option<bool>,
+    is_wide: bool,
+    full: Option<Pane>,
+    split: f32,
+    /// Whether the list of keys shows.
+    pub keys_shown: bool,
+    /// Whether the list of exports shows.
+    pub exports_shown: bool,
+    /// What is typed into "go to", where it shows.
+    pub go_to: Option<String>,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self {
+            tab: Tab::default(),
+            panels_wanted: None,
+            is_wide: true,
+            full: None,
+            split: 0.5,
+            keys_shown: false,
+            exports_shown: false,
+            go_to: None,
+        }
+    }
+}
+
+impl Layout {
+    /// The open tab.
+    pub fn tab(&self) -> Tab {
+        self.tab
+    }
+
+    /// Opens a tab, and the panels with it.
+    pub fn show_tab(&mut self, tab: Tab) {
+        (self.tab, self.panels_wanted) = (tab, Some(true));
+    }
+
+    /// Whether the panels at the right show. Where nobody said, a narrow window does without.
+    pub fn panels_shown(&self) -> bool {
+        self.panels_wanted.unwrap_or(self.is_wide)
+    }
+
+    /// Whether a tab shows.
+    pub(in crate::ui) fn shows(&self, tab: Tab) -> bool {
+        self.tab == tab && self.panels_shown()
+    }
+
+    pub(super) fn toggle_panels(&mut self) {
+        self.panels_wanted = Some(!self.panels_shown());
+    }
+
+    /// Takes the width that panels and panes have together, points.
+    pub(in crate::ui) fn set_width(&mut self, width: f32) {
+        self.is_wide = width >= PANELS_FROM;
+    }
+
+    /// The pane in full size, if one is.
+    pub fn full(&self) -> Option<Pane> {
+        self.full
+    }
+
+    /// Shows one pane in full size, or both again.
+    pub(super) fn toggle_full(&mut self, pane: Pane) {
+        self.full = if self.full.is_some() { None } else { Some(pane) };
+    }
+
+    /// Whether the mesh's pane does not show.
+    pub fn mesh_hidden(&self) -> bool {
+        self.full == Some(Pane::Plane)
+    }
+
+    /// Share of the width that the mesh's pane has.
+    pub(in crate::ui) fn split(&self) -> f32 {
+        self.split
+    }
+
+    pub(in crate::ui) fn set_split(&mut self, share: f32) {
+        self.split = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+    }
+
+    /// Closes one of the floating windows. Returns whether one was open.
+    pub(super) fn close_window(&mut self) -> bool {
+        std::mem::take(&mut self.exports_shown) || std::mem::take(&mut self.keys_shown) || self.go_to.take().is_some()
+    }
+}

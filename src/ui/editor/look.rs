@@ -1,0 +1,115 @@
+//! How faces show in both panes: shading, wireframe, the picture, colours by numbers.
+
+use std::sync::Arc;
+
+use super::Shading;
+use super::scene::{MeshScene, Paint, PaintKey, PlaneScene};
+use crate::geom;
+use crate::render::{PictureLayer, Sampling};
+use crate::session::{Document, Outcome};
+use crate::view::{self, PlaneBox};
+
+/// How strongly the picture shows behind the embedding at the start.
+const OPACITY: f32 = 0.55;
+
+/// How faces show.
+#[derive(Debug)]
+pub struct Look {
+    /// How faces are coloured.
+    pub shading: Shading,
+    /// Whether the wireframe shows.
+    pub wireframe: bool,
+    /// Whether insets magnify a defect and a pair.
+    pub magnifier: bool,
+    /// How strongly the picture shows behind the embedding, 0 to 1.
+    pub opacity: f32,
+    /// How the picture's pixels show.
+    pub sampling: Sampling,
+    /// The document's picture, and the same as the graphics card takes it.
+    picture: Option<(Arc<geom::Picture>, Arc<view::Picture>)>,
+    paint: Option<Paint>,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            shading: Shading::default(),
+            wireframe: false,
+            magnifier: true,
+            opacity: OPACITY,
+            sampling: Sampling::Smooth,
+            picture: None,
+            paint: None,
+        }
+    }
+}
+
+impl Look {
+    /// The faces' colours.
+    pub fn paint(&self) -> Option<&Paint> {
+        self.paint.as_ref()
+    }
+
+    /// Whether pixels show as squares.
+    pub(in crate::ui) fn is_sharp(&self) -> bool {
+        self.sampling == Sampling::Sharp
+    }
+
+    pub(super) fn toggle_sharp(&mut self) {
+        self.sampling = if self.is_sharp() { Sampling::Smooth } else { Sampling::Sharp };
+    }
+
+    /// The picture as panes draw it, in its box in the plane.
+    pub(super) fn picture_layer(&self, bounds: PlaneBox) -> Option<PictureLayer> {
+        let (_, picture) = self.picture.as_ref()?;
+        Some(PictureLayer { picture: Arc::clone(picture), bounds, opacity: self.opacity, sampling: self.sampling })
+    }
+
+    /// Takes in another picture of the document's. A picture that comes in is put on the mesh. Call once per frame.
+    pub(super) fn refresh_picture(&mut self, document: &Document) {
+        let wanted = document.picture.as_ref().map(|file| &file.pixels);
+        let shown = self.picture.as_ref().map(|(pixels, _)| pixels);
+        match (wanted, shown) {
+            (None, None) => {}
+            (Some(wanted), Some(shown)) if Arc::ptr_eq(wanted, shown) => {}
+            (None, Some(_)) => {
+                self.picture = None;
+                if self.shading == Shading::Picture {
+                    self.shading = Shading::Checker;
+                }
+            }
+            (Some(wanted), _) => {
+                let pixels = Arc::clone(wanted);
+                let picture = view::Picture::new([pixels.width, pixels.height], pixels.pixels.clone());
+                self.picture = picture.map(|picture| (pixels, Arc::new(picture)));
+                if matches!(self.shading, Shading::Plain | Shading::Checker) {
+                    self.shading = Shading::Picture;
+                }
+            }
+        }
+    }
+
+    /// Colours the faces anew where mesh, embedding or shading have changed; moves are measured from `base`. Call once
+    /// per frame.
+    pub(super) fn refresh_paint(&mut self, given: &MeshScene, plane: Option<&PlaneScene>, base: Option<&Outcome>) {
+        let base = base.filter(|_| self.shading == Shading::Move);
+        let key = PaintKey {
+            model: given.model_revision,
+            outcome: plane.map_or(0, |scene| scene.outcome_revision),
+            shading: self.shading,
+            moved_from: base.map(|base| base.step.index),
+        };
+        if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
+            let (mesh, outcome) = match plane {
+                Some(plane) => (plane.mesh.mesh(), Some(plane.outcome.as_ref())),
+                None => (given.mesh(), None),
+            };
+            self.paint = Some(Paint::new(key, mesh, outcome, base));
+        }
+    }
+
+    /// Forgets the colours of a mesh that is gone.
+    pub(super) fn forget_paint(&mut self) {
+        self.paint = None;
+    }
+}

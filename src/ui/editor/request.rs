@@ -1,0 +1,230 @@
+//! What a person can ask of the window. Panels collect requests; the editor carries them out after the frame.
+
+use crate::mesh::VertexId;
+use crate::session::{Action, OutputFit};
+use crate::solver::Hold;
+use crate::ui::{Answer, Nudge, Purpose, Stage};
+use eframe::egui;
+
+/// What the left mouse button does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Selects vertices.
+    #[default]
+    Select,
+    /// Pins vertices where they lie.
+    Fix,
+    /// Joins vertices with their places on the picture.
+    Constrain,
+}
+
+impl Tool {
+    /// All tools, from top to bottom.
+    pub const ALL: [Self; 3] = [Self::Select, Self::Fix, Self::Constrain];
+
+    /// What it does.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Select => "Select vertices",
+            Self::Fix => "Fix: pin a vertex where it lies",
+            Self::Constrain => "Constrain: join a vertex with its place",
+        }
+    }
+}
+
+/// How faces are coloured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// Clay.
+    Plain,
+    /// A checker over the plane, carried to the mesh.
+    #[default]
+    Checker,
+    /// The picture, carried to the mesh; the checker where there is none.
+    Picture,
+    /// Angle distortion.
+    Angle,
+    /// Area distortion.
+    Area,
+    /// Stretch.
+    Stretch,
+    /// Distance moved since another step.
+    Move,
+}
+
+impl Shading {
+    /// All shadings, in the order of menus.
+    pub const ALL: [Self; 7] =
+        [Self::Plain, Self::Checker, Self::Picture, Self::Angle, Self::Area, Self::Stretch, Self::Move];
+
+    /// Its name in menus.
+    pub const fn title(self) -> &'static str {
+        self.words()[0]
+    }
+
+    /// What it shows.
+    pub const fn about(self) -> &'static str {
+        self.words()[1]
+    }
+
+    const fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Plain => ["Plain", "no colours but those of defects"],
+            Self::Checker => {
+                ["Checker", "squares of the plane, carried to the mesh: they show angles and sizes at a glance"]
+            }
+            Self::Picture => ["Picture", "the picture, carried to the mesh; a checker where there is none"],
+            Self::Angle => ["Angle distortion", "ratio of the singular values σ₁/σ₂ per face: 1 keeps angles"],
+            Self::Area => [
+                "Area distortion",
+                "area in the plane over area on the mesh per face, at equal total areas: 1 keeps areas",
+            ],
+            Self::Stretch => ["Stretch", "root mean square stretch from the plane to the mesh per face (L²)"],
+            Self::Move => ["Move", "how far faces have moved since the compared step, or else since the one before"],
+        }
+    }
+}
+
+/// One of the two panes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pane {
+    /// The mesh in space.
+    Mesh,
+    /// Its embedding.
+    Plane,
+}
+
+/// A panel at the right.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tab {
+    /// Method and weights.
+    #[default]
+    Method,
+    /// The pins.
+    Pins,
+    /// What is wrong with the embedding.
+    Defects,
+    /// The selected vertex.
+    Vertex,
+}
+
+impl Tab {
+    /// All tabs, from left to right.
+    pub const ALL: [Self; 4] = [Self::Method, Self::Pins, Self::Defects, Self::Vertex];
+
+    /// Its name.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Method => "Method",
+            Self::Pins => "Pins",
+            Self::Defects => "Defects",
+            Self::Vertex => "Vertex",
+        }
+    }
+}
+
+/// A step among those that there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StepTarget {
+    /// The first.
+    First,
+    /// The one before that on the screen.
+    Previous,
+    /// The one after that on the screen.
+    Next,
+    /// The newest.
+    Last,
+}
+
+/// Something a person asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// An edit of the document, or work on it.
+    Do(Action),
+    /// Lets the run go on, or pauses it.
+    RunOrPause,
+    /// Shows another step.
+    GoToStep(StepTarget),
+    /// Plays the steps as an animation, or stops it.
+    TogglePlay,
+    /// Shows or hides the curves under the panes.
+    ToggleCurves,
+    /// Takes up a tool.
+    SetTool(Tool),
+    /// Colours faces.
+    SetShading(Shading),
+    /// Shows or hides the wireframe.
+    ToggleWireframe,
+    /// Shows or hides the inset that magnifies a defect.
+    ToggleMagnifier,
+    /// Lets vertices glide from step to step, or not.
+    ToggleEase,
+    /// Shows or hides hull and pockets of the virtual boundary.
+    ToggleHull,
+    /// Chooses the stage of the virtual boundary that shows.
+    SetStage(Stage),
+    /// Opens a tab.
+    ShowTab(Tab),
+    /// Shows or hides the panels.
+    TogglePanels,
+    /// Frames the selection, or all where nothing is selected.
+    Frame,
+    /// Shows vertices in both panes and selects them.
+    GoTo(Vec<VertexId>),
+    /// Shows a defect in both panes, by its place in the list.
+    GoToDefect(usize),
+    /// Goes to another defect: 1 the next, −1 the one before.
+    StepDefect(isize),
+    /// Selects exactly these vertices.
+    Select(Vec<VertexId>),
+    /// Adds vertices to the selection.
+    AddToSelection(Vec<VertexId>),
+    /// Selects a vertex beside the others, or no more.
+    ToggleSelected(VertexId),
+    /// Frees the selected pins.
+    UnpinSelected,
+    /// Moves the selected pins by pixels of the picture.
+    Nudge(Nudge),
+    /// The keys that nudge are let go.
+    EndNudge,
+    /// Holds the selected pins in another way, and pins that are placed from now on.
+    SetHold(Hold),
+    /// Chooses how strongly the picture shows behind the embedding, 0 to 1.
+    SetOpacity(f32),
+    /// Shows pixels of the picture as squares, or fading into each other.
+    ToggleSharp,
+    /// Gives up the gesture, then the tool, then the selection.
+    Escape,
+    /// Shows one pane in full size, or both again.
+    ToggleFull(Pane),
+    /// Shows the pane without the pointer in full size, or both again.
+    TogglePane,
+    /// Asks for a file.
+    Ask(Purpose),
+    /// Saves the project where it was saved before, or asks where.
+    SaveProject,
+    /// Shows or hides what can be exported.
+    ToggleExports,
+    /// Answers the question about unsaved work.
+    Answer(Answer),
+    /// Leaves faces that point inward as they are.
+    LeaveFaces,
+    /// Leaves targets that look mirrored as they are.
+    LeaveTargets,
+    /// Asks for an element to go to.
+    AskGoTo,
+    /// Shows or hides the list of keys.
+    ToggleKeys,
+    /// Follows the system's theme, or a fixed one.
+    SetTheme(egui::ThemePreference),
+    /// Chooses the size of coordinates in files.
+    SetFit(OutputFit),
+    /// Ends the program.
+    Quit,
+}
+
+impl From<Action> for Request {
+    fn from(action: Action) -> Self {
+        Self::Do(action)
+    }
+}

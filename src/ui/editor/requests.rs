@@ -1,0 +1,155 @@
+//! The editor carries out what was asked for.
+
+use std::path::{Path, PathBuf};
+
+use crate::io::OutputKind;
+use crate::mesh::VertexId;
+use crate::session::{Action, OutputFit, SaveRequest};
+use crate::solver::Hold;
+use crate::ui::panels::dialogs::Choice;
+use crate::ui::panels::unsaved::Wish;
+use crate::ui::{Editor, Pane, Purpose, Request, Tool};
+
+impl Editor {
+    /// Carries out a request.
+    pub fn handle(&mut self, request: Request) {
+        match request {
+            Request::Do(action) => self.act(action),
+            Request::RunOrPause => self.run_or_pause(),
+            Request::GoToStep(target) => self.go_to_step(target),
+            Request::TogglePlay => self.toggle_play(),
+            Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
+            Request::SetTool(tool) => self.tools.take_up(tool),
+            Request::SetShading(shading) => self.look.shading = shading,
+            Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
+            Request::ToggleEase => self.ease.wanted = !self.ease.wanted,
+            Request::ToggleMagnifier => self.look.magnifier = !self.look.magnifier,
+            Request::ToggleHull => self.toggle_hull(),
+            Request::SetStage(stage) => self.hull.stage = stage,
+            Request::ShowTab(tab) => self.layout.show_tab(tab),
+            Request::TogglePanels => self.layout.toggle_panels(),
+            Request::Frame => self.frame(),
+            Request::GoTo(vertices) => self.go_to_vertices(vertices),
+            Request::GoToDefect(place) => self.go_to_defect(place),
+            Request::StepDefect(by) => self.step_defect(by),
+            Request::Select(vertices) => self.selection.select(vertices),
+            Request::AddToSelection(vertices) => self.selection.add(vertices),
+            Request::ToggleSelected(vertex) => self.selection.toggle(vertex),
+            Request::Nudge(nudge) => self.nudge(nudge),
+            Request::EndNudge => self.end_nudge(),
+            Request::SetHold(hold) => self.set_hold(hold),
+            Request::SetOpacity(opacity) => self.look.opacity = opacity.clamp(0.0, 1.0),
+            Request::ToggleSharp => self.look.toggle_sharp(),
+            Request::UnpinSelected => self.act(Action::Unpin(self.selection.vertices().iter().copied().collect())),
+            Request::Escape => self.escape(),
+            Request::ToggleFull(pane) => self.layout.toggle_full(pane),
+            Request::TogglePane => {
+                let pane = self.pointer.pane().unwrap_or(Pane::Plane);
+                self.handle(Request::ToggleFull(pane));
+            }
+            Request::Ask(purpose) => self.ask(purpose),
+            Request::SaveProject => self.save_project(),
+            Request::ToggleExports => self.layout.exports_shown = !self.layout.exports_shown,
+            Request::Answer(answer) => self.answer(answer),
+            Request::LeaveFaces => self.opened.leave_faces(&self.session),
+            Request::LeaveTargets => self.opened.leave_targets(&self.session),
+            Request::AskGoTo => self.layout.go_to = Some(String::new()),
+            Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
+            Request::SetTheme(theme) => self.host.want_theme(theme),
+            Request::SetFit(fit) => self.fit = fit,
+            Request::Quit => self.wish(Wish::Quit),
+        }
+    }
+
+    /// Asks for a file.
+    pub(in crate::ui) fn ask(&mut self, purpose: Purpose) {
+        self.layout.exports_shown = false;
+        let suggestion = match purpose {
+            Purpose::SaveProject => {
+                self.session.project_path().cloned().unwrap_or_else(|| self.suggested_name(purpose))
+            }
+            _ => self.suggested_name(purpose),
+        };
+        self.dialogs.ask(self.host.context(), purpose, suggestion);
+    }
+
+    /// Opens, saves or exports as a dialog was answered.
+    pub fn take_choice(&mut self, choice: Choice) {
+        let Choice { purpose, path } = choice;
+        if !purpose.takes(&path) {
+            return self.act(Action::RefuseName(path));
+        }
+        match purpose {
+            Purpose::Open => self.act(Action::Open(path)),
+            Purpose::OpenPicture => self.act(Action::OpenPicture(path)),
+            Purpose::ImportConstraints => self.act(Action::ImportConstraints(path)),
+            Purpose::ExportConstraints => self.act(Action::ExportConstraints(path)),
+            Purpose::SaveProject => {
+                self.keep_view();
+                self.act(Action::SaveProject(path));
+            }
+            Purpose::PanePicture(pane) => self.shoot_pane(pane, path),
+            Purpose::Save => self.save(path, OutputKind::Obj, self.fit),
+            Purpose::Drawing(fit) => self.save(path, OutputKind::Svg, fit),
+            Purpose::Overview => self.save(path, OutputKind::Png, self.fit),
+            Purpose::Report => self.save(path, OutputKind::Json, self.fit),
+        }
+    }
+
+    fn save(&mut self, path: PathBuf, kind: OutputKind, fit: OutputFit) {
+        self.act(Action::Save(SaveRequest { path, kind, fit }));
+    }
+
+    /// What a file that was dropped on the window asks for, by its name.
+    pub(in crate::ui) fn dropped(path: PathBuf) -> Request {
+        let is_for = |purpose: Purpose| purpose.form().files.fits(&path);
+        Request::Do(if is_for(Purpose::OpenPicture) {
+            Action::OpenPicture(path)
+        } else if is_for(Purpose::ImportConstraints) {
+            Action::ImportConstraints(path)
+        } else {
+            Action::Open(path)
+        })
+    }
+
+    fn set_hold(&mut self, hold: Hold) {
+        if hold != Hold::Fixed {
+            self.tools.set_hold(hold);
+        }
+        let vertices: Vec<VertexId> = self.pins_selected().collect();
+        self.act(Action::SetHold { vertices, hold });
+    }
+
+    fn act(&mut self, action: Action) {
+        if matches!(action, Action::Step | Action::Run | Action::Relax | Action::ShowStep(_)) {
+            self.timeline.playing_since = None;
+        }
+        if matches!(action, Action::Open(_) | Action::OpenExample(_) | Action::Recover(_)) {
+            return self.wish(Wish::Do(action));
+        }
+        self.session.handle(action);
+    }
+
+    /// A name for a file made from the mesh on the screen.
+    fn suggested_name(&self, purpose: Purpose) -> PathBuf {
+        let ending = purpose.form().ending;
+        let Some(model) = self.session.model() else { return PathBuf::from(format!("layout{ending}")) };
+        let stem = Path::new(&model.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let folder = model.path.as_ref().and_then(|path| path.parent()).map(PathBuf::from).unwrap_or_default();
+        folder.join(format!("{stem}{ending}"))
+    }
+
+    fn escape(&mut self) {
+        if self.close_question() || self.dialogs.close() || self.layout.close_window() {
+        } else if self.tools.end_drag() {
+            self.act(Action::GiveUpGesture);
+        } else if self.pointer.end_box() {
+        } else if self.tools.pair().is_some() {
+            self.tools.set_pair(None);
+        } else if self.tools.tool() != Tool::Select {
+            self.tools.take_up(Tool::Select);
+        } else {
+            self.selection.clear();
+        }
+    }
+}

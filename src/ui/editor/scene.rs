@@ -1,0 +1,294 @@
+//! What both panes draw and pick in: made off the UI thread, once per mesh and once per embedding.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
+use crate::session::{Model, Outcome};
+use crate::solver::{FaceDistortion, Step};
+use crate::ui::Shading;
+use crate::ui::panes::compare::{face_moves, places_in};
+use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
+
+/// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
+#[derive(Debug)]
+pub struct MeshScene {
+    /// What was opened.
+    pub model: Arc<Model>,
+    /// Which mesh that was.
+    pub model_revision: u64,
+    /// The mesh with new vertices that it is of; none where it is of the mesh as given.
+    pub refinement: Option<Arc<Refinement>>,
+    /// Draw arrays.
+    pub arrays: Arc<MeshArrays>,
+    /// The boundary, where it is a disk.
+    pub boundary: Arc<EdgeList>,
+    /// Picks vertices and points of the surface.
+    pub picker: SurfacePicker,
+    /// A ball around it.
+    pub sphere: Sphere,
+}
+
+impl MeshScene {
+    /// Makes the scene of a mesh as given.
+    pub fn new(model: Arc<Model>, model_revision: u64) -> Self {
+        Self::of(model, model_revision, None)
+    }
+
+    /// The scene of the mesh that a step's embedding is of: that of the mesh as given, that of the step shown before,
+    /// or one of its own.
+    pub(in crate::ui) fn of_step(given: &Arc<Self>, before: Option<Arc<Self>>, step: &Step) -> Arc<Self> {
+        let Some(refinement) = &step.refinement else { return Arc::clone(given) };
+        let has_it = |scene: &Arc<Self>| scene.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement));
+        before.filter(has_it).unwrap_or_else(|| {
+            Arc::new(Self::of(Arc::clone(&given.model), given.model_revision, Some(Arc::clone(refinement))))
+        })
+    }
+
+    fn of(model: Arc<Model>, model_revision: u64, refinement: Option<Arc<Refinement>>) -> Self {
+        let disk = refinement.as_ref().map(|refinement| refinement.disk()).or(model.disk().map(AsRef::as_ref));
+        let boundary = disk.map_or_else(|| EdgeList::new(Vec::new()), |d| EdgeList::closed_loop(d.boundary_loop()));
+        let TriMesh { positions, triangles, .. } = disk.map_or(model.mesh(), |disk| disk.mesh());
+        Self {
+            model_revision,
+            arrays: Arc::new(MeshArrays::new(positions, triangles)),
+            boundary: Arc::new(boundary),
+            picker: SurfacePicker::new(positions, triangles),
+            sphere: Sphere::around(positions),
+            refinement,
+            model,
+        }
+    }
+
+    /// Its triangles.
+    pub fn mesh(&self) -> &TriMesh {
+        self.refinement.as_ref().map_or(self.model.mesh(), |refinement| refinement.disk().mesh())
+    }
+
+    /// The same as a disk, where it is one.
+    pub fn disk(&self) -> Option<&DiskMesh> {
+        let given = self.model.disk().map(AsRef::as_ref);
+        self.refinement.as_ref().map(|refinement| refinement.disk()).or(given)
+    }
+
+    /// What there is to say about a vertex that the mesh as given does not have.
+    pub fn new_vertex(&self, vertex: VertexId) -> Option<&NewVertex> {
+        let refinement = self.refinement.as_ref()?;
+        refinement.new_vertices().get(vertex.index().checked_sub(refinement.old_vertex_count())?)
+    }
+}
+
+/// An embedding, ready to be drawn and picked in.
+#[derive(Debug)]
+pub struct PlaneScene {
+    /// The mesh that it is an embedding of.
+    pub mesh: Arc<MeshScene>,
+    /// The solve that it was made from.
+    pub outcome: Arc<Outcome>,
+    /// Which solve that was.
+    pub outcome_revision: u64,
+    /// Draw arrays.
+    pub arrays: Arc<PlaneArrays>,
+    /// Picks vertices.
+    pub picker: Arc<PlanePicker>,
+    /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
+    positions: Option<Vec<DVec2>>,
+    part: Part,
+}
+
+/// What of the way to an outcome a scene shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::ui) enum Part {
+    /// The outcome itself.
+    Result,
+    /// The outcome with what lies around it.
+    WithOutside,
+    /// A stage before it.
+    Stage,
+}
+
+impl PlaneScene {
+    /// Makes the scene of an embedding of `mesh`.
+    pub fn new(mesh: Arc<MeshScene>, outcome: Arc<Outcome>, outcome_revision: u64) -> Self {
+        let embedding = &outcome.step.solution.embedding;
+        Self {
+            outcome_revision,
+            arrays: Arc::new(PlaneArrays::new(embedding, &mesh.mesh().triangles)),
+            picker: Arc::new(PlanePicker::new(embedding)),
+            positions: None,
+            part: Part::Result,
+            outcome,
+            mesh,
+        }
+    }
+
+    /// The same mesh with other points than the outcome's embedding: at a stage on the way to it, or with its outside.
+    /// Points beyond the mesh's are drawn with, and not picked.
+    pub(in crate::ui) fn of_part(&self, part: Part, positions: Vec<DVec2>) -> Self {
+        let mesh = self.mesh.mesh();
+        Self {
+            mesh: Arc::clone(&self.mesh),
+            outcome: Arc::clone(&self.outcome),
+            outcome_revision: self.outcome_revision,
+            arrays: Arc::new(PlaneArrays::new(&positions, &mesh.triangles)),
+            picker: Arc::new(PlanePicker::new(&positions[..mesh.vertex_count()])),
+            positions: Some(positions),
+            part,
+        }
+    }
+
+    /// The vertices of `mesh`, this one's or the one as given, on their way to where they will lie. Picks them where they
+    /// are in this scene.
+    pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Vec<DVec2>) -> Self {
+        let picker = if Arc::ptr_eq(mesh, &self.mesh) {
+            Arc::clone(&self.picker)
+        } else {
+            Arc::new(PlanePicker::new(&self.positions()[..mesh.mesh().vertex_count()]))
+        };
+        Self {
+            mesh: Arc::clone(mesh),
+            outcome: Arc::clone(&self.outcome),
+            outcome_revision: self.outcome_revision,
+            arrays: Arc::new(PlaneArrays::in_frame(&positions, &mesh.mesh().triangles, self.arrays.frame())),
+            picker,
+            positions: Some(positions),
+            part: Part::Result,
+        }
+    }
+
+    /// Where vertices lie.
+    pub fn positions(&self) -> &[DVec2] {
+        self.positions.as_deref().unwrap_or(&self.outcome.step.solution.embedding)
+    }
+
+    /// Whether this is a stage on the way to the result.
+    pub fn is_stage(&self) -> bool {
+        self.part == Part::Stage
+    }
+
+    /// Whether this is the result alone, without stages and outside.
+    pub(in crate::ui) fn is_plain_result(&self) -> bool {
+        self.part == Part::Result
+    }
+}
+
+/// Faces coloured by a shading, with what a legend needs.
+#[derive(Clone, Debug)]
+pub struct Paint {
+    /// What it was made for.
+    pub key: PaintKey,
+    /// Colours and flags per face.
+    pub faces: Arc<FacePaint>,
+    /// The scale of a shading by numbers.
+    pub legend: Option<Legend>,
+}
+
+/// What a paint is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PaintKey {
+    /// The mesh, by its revision.
+    pub model: u64,
+    /// The outcome, by its revision.
+    pub outcome: u64,
+    /// The shading.
+    pub shading: Shading,
+    /// The step that moves are measured from, where they are asked for.
+    pub moved_from: Option<usize>,
+}
+
+/// A scale with its range and how many faces lie where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Legend {
+    /// The scale.
+    pub scale: Scale,
+    /// Its range.
+    pub range: Range,
+    /// Faces in each of equal parts of the range; those beyond count at the ends.
+    pub histogram: Vec<u32>,
+}
+
+/// Bars of a histogram.
+const BARS: usize = 40;
+
+impl Paint {
+    /// Colours the faces of an embedding; moves are measured from `base`.
+    pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
+        let Some(outcome) = outcome else {
+            return Self { key, faces: Arc::new(FacePaint::plain(mesh.face_count(), &[])), legend: None };
+        };
+        let flipped = &outcome.step.verdict.flipped_faces;
+        let by_values = |scale: Scale, values: &[f64]| {
+            let range = scale.robust_range(values);
+            let faces = Arc::new(FacePaint::by_value(values, scale, range, flipped));
+            Self { key, faces, legend: Some(Legend { scale, range, histogram: histogram(values, range) }) }
+        };
+        let by = |scale: Scale, of: fn(&FaceDistortion) -> f64| {
+            by_values(scale, &outcome.distortion.faces.iter().map(of).collect::<Vec<f64>>())
+        };
+        match (key.shading, base) {
+            (Shading::Plain | Shading::Checker | Shading::Picture, _) | (Shading::Move, None) => {
+                Self { key, faces: Arc::new(FacePaint::plain(mesh.face_count(), flipped)), legend: None }
+            }
+            (Shading::Angle, _) => by(Scale::Angle, |face| face.angle),
+            (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
+            (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),
+            (Shading::Move, Some(base)) => {
+                let before = places_in(&base.step, &outcome.step);
+                by_values(Scale::Move, &face_moves(mesh, &before, &outcome.step.solution.embedding))
+            }
+        }
+    }
+}
+
+fn histogram(values: &[f64], range: Range) -> Vec<u32> {
+    let mut bars = vec![0; BARS];
+    for share in values.iter().map(|&v| range.share(v)).filter(|share| share.is_finite()) {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share lies in 0 to 1")]
+        let bar = (share * BARS as f64) as usize;
+        bars[bar.min(BARS - 1)] += 1;
+    }
+    bars
+}
+
+/// A part of the mesh that a defect or a person names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Element {
+    /// A vertex.
+    Vertex(VertexId),
+    /// An edge.
+    Edge(EdgeId),
+    /// A face.
+    Face(FaceId),
+}
+
+impl Element {
+    /// Understands what a person types: `12` or `v12` a vertex, `e3` an edge, `f7` a face.
+    pub fn parse(text: &str) -> Option<Self> {
+        let text = text.trim().to_ascii_lowercase();
+        let (kind, number) = match text.chars().next()? {
+            letter @ ('v' | 'e' | 'f') => (letter, &text[1..]),
+            _ => ('v', text.as_str()),
+        };
+        let number: u32 = number.trim().parse().ok()?;
+        Some(match kind {
+            'e' => Self::Edge(EdgeId::new(number)),
+            'f' => Self::Face(FaceId::new(number)),
+            _ => Self::Vertex(VertexId::new(number)),
+        })
+    }
+}
+
+/// The vertices of an element; none where the mesh does not have it.
+pub(in crate::ui) fn vertices_of(scene: &MeshScene, element: Element) -> Vec<VertexId> {
+    let mesh = scene.mesh();
+    match element {
+        Element::Vertex(vertex) if vertex.index() < mesh.vertex_count() => vec![vertex],
+        Element::Vertex(_) => Vec::new(),
+        Element::Face(face) => mesh.triangles.get(face.index()).map(|t| t.to_vec()).unwrap_or_default(),
+        Element::Edge(edge) => match scene.disk() {
+            Some(disk) if edge.index() < disk.edge_count() => disk.ends(edge).to_vec(),
+            _ => Vec::new(),
+        },
+    }
+}

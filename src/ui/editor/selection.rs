@@ -1,0 +1,128 @@
+//! What is selected, and what is under the pointer.
+
+use std::collections::BTreeSet;
+
+use eframe::egui;
+use glam::DVec2;
+
+use super::Pane;
+use crate::mesh::VertexId;
+
+/// What is selected.
+#[derive(Clone, Debug, Default)]
+pub struct Selection {
+    vertices: BTreeSet<VertexId>,
+    defect: Option<usize>,
+}
+
+impl Selection {
+    /// The selected vertices.
+    pub fn vertices(&self) -> &BTreeSet<VertexId> {
+        &self.vertices
+    }
+
+    /// Whether a vertex is selected.
+    pub fn contains(&self, vertex: VertexId) -> bool {
+        self.vertices.contains(&vertex)
+    }
+
+    /// Selects exactly these vertices.
+    pub fn select(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
+        self.vertices = vertices.into_iter().collect();
+    }
+
+    /// Selects vertices beside the others.
+    pub fn add(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
+        self.vertices.extend(vertices);
+    }
+
+    /// Selects a vertex beside the others, or no more.
+    pub(super) fn toggle(&mut self, vertex: VertexId) {
+        if !self.vertices.remove(&vertex) {
+            self.vertices.insert(vertex);
+        }
+    }
+
+    /// Selects nothing.
+    pub fn clear(&mut self) {
+        self.vertices.clear();
+    }
+
+    /// Keeps the vertices of a mesh with so many.
+    pub(super) fn keep_below(&mut self, vertex_count: usize) {
+        self.vertices.retain(|vertex| vertex.index() < vertex_count);
+    }
+
+    /// The defect shown last, by its place in the list.
+    pub fn defect(&self) -> Option<usize> {
+        self.defect
+    }
+
+    /// Takes the defect that is shown.
+    pub fn set_defect(&mut self, place: Option<usize>) {
+        self.defect = place;
+    }
+}
+
+/// What is under the pointer, and the box that it draws.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Pointer {
+    pane: Option<Pane>,
+    vertex: Option<VertexId>,
+    in_embedding: Option<DVec2>,
+    /// The box being drawn with Ctrl, from its first corner, in window points.
+    box_from: Option<(Pane, egui::Pos2)>,
+}
+
+impl Pointer {
+    /// The pane under the pointer.
+    pub fn pane(&self) -> Option<Pane> {
+        self.pane
+    }
+
+    /// The vertex under the pointer, in whichever pane.
+    pub fn vertex(&self) -> Option<VertexId> {
+        self.vertex
+    }
+
+    /// The pointer in the plane of the embedding.
+    pub(in crate::ui) fn in_embedding(&self) -> Option<DVec2> {
+        self.in_embedding
+    }
+
+    /// Takes in that a frame begins. The vertex stays until both panes were shown: the one drawn first shows what the
+    /// pointer found in the other.
+    pub(in crate::ui) fn begin_frame(&mut self) {
+        (self.pane, self.in_embedding) = (None, None);
+    }
+
+    /// Takes in the vertex under the pointer.
+    pub(in crate::ui) fn set_vertex(&mut self, vertex: Option<VertexId>) {
+        self.vertex = vertex;
+    }
+
+    /// Takes in what is under the pointer in the mesh's pane.
+    pub(in crate::ui) fn over_mesh(&mut self, vertex: Option<VertexId>) {
+        (self.pane, self.vertex) = (Some(Pane::Mesh), vertex);
+    }
+
+    /// Takes in where the pointer is in the plane, and what is under it.
+    pub(in crate::ui) fn over_plane(&mut self, place: Option<DVec2>, vertex: Option<VertexId>) {
+        (self.pane, self.in_embedding, self.vertex) = (Some(Pane::Plane), place, vertex);
+    }
+
+    /// The first corner of the box that is drawn in a pane.
+    pub(in crate::ui) fn box_in(&self, pane: Pane) -> Option<egui::Pos2> {
+        self.box_from.filter(|(of, _)| *of == pane).map(|(_, from)| from)
+    }
+
+    /// Begins a box.
+    pub(in crate::ui) fn begin_box(&mut self, pane: Pane, from: Option<egui::Pos2>) {
+        self.box_from = from.map(|from| (pane, from));
+    }
+
+    /// Ends the box. Returns whether there was one.
+    pub(in crate::ui) fn end_box(&mut self) -> bool {
+        self.box_from.take().is_some()
+    }
+}

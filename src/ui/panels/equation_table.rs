@@ -1,0 +1,198 @@
+//! The equation of the selected vertex in the step on the screen: a table in the panel, a drawing in the embedding's
+//! pane. The drawing is the paper's picture of eq. (3): a vertex lies at the barycentre of its neighbours, plus an offset
+//! that points outwards on the boundary.
+
+use eframe::egui;
+use egui::{Pos2, Rect, RichText, Stroke, Vec2};
+use glam::DVec2;
+
+use super::status::short;
+use crate::mesh::VertexId;
+use crate::session::Outcome;
+use crate::solver::{NoEquation, VertexEquation, WeightSource, equation_of_step};
+use crate::ui::controls::{Control, number, pairs, remark};
+use crate::ui::editor::scene::PlaneScene;
+use crate::ui::panes::pane;
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Request, Tab};
+use crate::view::PlaneCamera;
+
+/// An equation counts as met below this residual: a solve leaves some rounding.
+const MET: f64 = 1e-7;
+/// Width of the spoke to a neighbour with all of the weight, points.
+const SPOKE: f32 = 5.0;
+/// Length of an arrow's head, points.
+const HEAD: f32 = 7.0;
+
+/// The equation of a vertex, put together for the outcome on the screen.
+fn equation_of(
+    editor: &Editor,
+    outcome: &Outcome,
+    vertex: VertexId,
+) -> Option<Result<(VertexEquation, WeightSource), NoEquation>> {
+    let step = &outcome.step;
+    let disk = step.mesh(editor.session.model()?.disk()?);
+    let timeline = editor.session.timeline();
+    let before = step.index.checked_sub(1).and_then(|index| timeline.outcome(index));
+    let before = before.map(|before| before.step.solution.embedding.as_slice());
+    (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, (step, before), vertex))
+}
+
+/// Shows the equation in the panel.
+pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut Vec<Request>) {
+    let Some(outcome) = editor.session.outcome() else { return };
+    let Some(found) = equation_of(editor, outcome, vertex) else { return };
+    ui.add_space(8.0);
+    ui.strong("Equation");
+    let (equation, source) = match found {
+        Ok(found) => found,
+        Err(reason) => {
+            ui.label(RichText::new(reason.words()).color(theme_of(ui).weak_text));
+            return;
+        }
+    };
+    remark(ui, source_words(source, &equation));
+    table(ui, editor, &equation, requests);
+    ui.add_space(4.0);
+    numbers(ui, &equation);
+    let is_pinned = outcome.step.solution.pins.contains_key(&vertex);
+    let words = match (equation.residual < MET, is_pinned) {
+        (true, _) => return,
+        (false, true) => "The vertex is pinned, and so need not meet it.",
+        (false, false) if source == WeightSource::Extended => {
+            "Not met: where the first solve fails, others with other weights follow."
+        }
+        (false, false) => {
+            "Not met exactly: the step meets all equations together as well as it can, or held more vertices."
+        }
+    };
+    remark(ui, words);
+}
+
+fn source_words(source: WeightSource, equation: &VertexEquation) -> &'static str {
+    match (source, equation.offset_vector.is_some()) {
+        (WeightSource::Surface, false) => "Weights of the surface; eq. 2: at its neighbours' barycentre.",
+        (WeightSource::Surface, true) => "Weights of the surface; eq. 3: at its neighbours' barycentre plus an offset.",
+        (WeightSource::StepBefore, false) => "Mean-value weights of the step before (§4); eq. 2: at the barycentre.",
+        (WeightSource::StepBefore, true) => {
+            "Mean-value weights of the step before (§4); eq. 3: at the barycentre plus an offset."
+        }
+        (WeightSource::Extended, _) => "Mean-value weights of the mesh with its outside (§5), before the solve.",
+    }
+}
+
+/// Neighbour, k, d and share; a click on a neighbour goes on to it.
+fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests: &mut Vec<Request>) {
+    let count = editor.mesh_scene().map_or(0, |scene| scene.mesh().vertex_count());
+    let theme = theme_of(ui);
+    egui::Grid::new("equation").num_columns(4).spacing([10.0, 2.0]).striped(true).show(ui, |ui| {
+        let heads = [
+            ("Neighbour", "Counter-clockwise; a click selects it"),
+            ("k", "Weight, not normalised (the paper's λ); unit: length to the power p − 1"),
+            ("d", "Offset along the edge: its length to the power p, 1 for mean-value weights"),
+            ("Share", "The weight over the sum of all: w"),
+        ];
+        for (words, tip) in heads {
+            // Numbers are aligned at the right, and so are the words over them.
+            let words = if words == "Neighbour" { words.to_owned() } else { format!("{words:>8}") };
+            ui.label(RichText::new(words).monospace().color(theme.weak_text)).on_hover_text(tip);
+        }
+        ui.end_row();
+        for term in &equation.terms {
+            if term.neighbour.index() < count {
+                let link = ui.link(term.neighbour.to_string()).on_hover_text("Select this neighbour");
+                link.asks(Request::Select(vec![term.neighbour]), requests);
+            } else {
+                ui.label("virtual").on_hover_text("A vertex of the frame around the mesh");
+            }
+            for value in [term.weight, term.offset, term.share] {
+                let colour = if value < 0.0 { theme.flipped } else { theme.text };
+                ui.label(RichText::new(format!("{:>8}", compact(value))).monospace().color(colour));
+            }
+            ui.end_row();
+        }
+    });
+}
+
+fn numbers(ui: &mut egui::Ui, equation: &VertexEquation) {
+    pairs(ui, "equation in sum", [16.0, 4.0], |ui| {
+        let mut row = |name: &str, value: String, tip: &str| {
+            number(ui, name, value).on_hover_text(tip);
+        };
+        row("Sum of k", compact(equation.weight_sum), "What the offset is divided by");
+        let of_terms = "What the equation leaves in this step, relative to the sizes of its terms";
+        row("Residual", format!("{:.1e}", equation.residual), of_terms);
+        row("Barycentre", pair(equation.barycentre), "Of the neighbours, with their shares: u, v");
+        if let Some(offset) = equation.offset_vector {
+            row("Offset", pair(offset), "From the barycentre to where eq. 3 wants the vertex: u, v");
+            row("Its length", short(offset.length()), "In units of the plane");
+        }
+    });
+}
+
+fn pair(point: DVec2) -> String {
+    format!("{}, {}", short(point.x), short(point.y))
+}
+
+/// A number in at most eight characters.
+fn compact(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e4).contains(&size) {
+        format!("{value:.1e}")
+    } else if size >= 100.0 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.3}")
+    }
+}
+
+/// Draws the equation of the first selected vertex while its panel is open: spokes as wide as their shares, negative ones
+/// red, the barycentre as a cross, the offset as an arrow.
+pub(in crate::ui) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene, camera: PlaneCamera) {
+    if !(editor.layout.shows(Tab::Vertex)) || plane.is_stage() {
+        return;
+    }
+    let Some(&vertex) = editor.selection.vertices().first() else { return };
+    let Some(Ok((equation, source))) = equation_of(editor, &plane.outcome, vertex) else { return };
+    if source == WeightSource::Extended {
+        // Its barycentre belongs to the stage that was solved.
+        return;
+    }
+    let (theme, painter, size) = (theme_of(ui), ui.painter_at(rect), pane::size_of(rect));
+    let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
+    let at = |v: VertexId| plane.positions().get(v.index()).map(|&z| spot(z));
+    let Some(centre) = at(vertex) else { return };
+    for term in &equation.terms {
+        #[expect(clippy::cast_possible_truncation, reason = "a width in points")]
+        let share = term.share as f32;
+        let colour = if share < 0.0 { theme.flipped } else { theme.selection };
+        if let Some(end) = at(term.neighbour) {
+            painter.line_segment([centre, end], Stroke::new((SPOKE * share.abs()).clamp(0.75, SPOKE), colour));
+        }
+    }
+    let barycentre = spot(equation.barycentre);
+    for arm in [Vec2::new(4.0, 4.0), Vec2::new(4.0, -4.0)] {
+        painter.line_segment([barycentre - arm, barycentre + arm], Stroke::new(3.5, theme.background));
+        painter.line_segment([barycentre - arm, barycentre + arm], Stroke::new(1.75, theme.text));
+    }
+    if let Some(offset) = equation.offset_vector {
+        arrow(&painter, [barycentre, spot(equation.barycentre + offset)], theme.text, theme.background);
+    }
+}
+
+/// An arrow that reads on any ground.
+fn arrow(painter: &egui::Painter, [from, to]: [Pos2; 2], ink: egui::Color32, ground: egui::Color32) {
+    let along = to - from;
+    let length = along.length();
+    if length <= 1.0 || !length.is_finite() {
+        return;
+    }
+    let head = along.normalized() * HEAD.min(length);
+    let base = to - head;
+    let side = head.rot90() * 0.55;
+    painter.line_segment([from, base], Stroke::new(4.5, ground));
+    let tip = vec![to, base + side, base - side];
+    painter.add(egui::Shape::convex_polygon(tip.clone(), ink, Stroke::new(2.0, ground)));
+    painter.line_segment([from, base], Stroke::new(2.25, ink));
+    painter.add(egui::Shape::convex_polygon(tip, ink, Stroke::NONE));
+}

@@ -1,0 +1,102 @@
+//! What can be exported, to choose from; and pictures of the panes, cut out of the window as it shows.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, sync_channel};
+
+use eframe::egui;
+use egui::{Align2, Rect};
+
+use crate::geom::Picture;
+use crate::session::OutputFit;
+use crate::ui::controls::Control;
+use crate::ui::{Editor, Pane, Purpose, Request};
+
+/// Everything that can be exported: what it is, and what it is good for.
+pub(super) const EXPORTS: [(Purpose, &str, &str); 7] = [
+    (Purpose::Save, "Mesh with texture coordinates…", "OBJ, with its material and the picture where there is one"),
+    (Purpose::Drawing(OutputFit::Unit), "Layout in the unit square…", "SVG, as texture coordinates lie"),
+    (Purpose::Drawing(OutputFit::True), "Layout at true scale…", "SVG in the mesh's own units, to cut out"),
+    (Purpose::PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as the pane shows"),
+    (Purpose::PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as the pane shows"),
+    (Purpose::Overview, "Mesh and layout side by side…", "PNG, drawn anew"),
+    (Purpose::Report, "Report…", "JSON: method, steps, verdict, distortion"),
+];
+
+/// A picture of the window that was asked for.
+#[derive(Debug)]
+pub(in crate::ui) struct PaneShot {
+    path: PathBuf,
+    /// The part to cut out, points.
+    part: Rect,
+    answer: Receiver<Arc<egui::ColorImage>>,
+}
+
+/// Shows what can be exported.
+pub(super) fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let solved = editor.session.outcome().is_some();
+    let window = egui::Window::new("Export").open(&mut editor.layout.exports_shown).collapsible(false).resizable(false);
+    window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
+        for (purpose, words, about) in EXPORTS {
+            let button = ui.add_enabled(solved, egui::Button::new(words).min_size(egui::vec2(250.0, 24.0)));
+            button.on_hover_text(about).asks(Request::Ask(purpose), requests);
+        }
+        if !solved {
+            ui.weak("There is nothing to export yet: open a mesh.");
+        }
+    });
+}
+
+impl Editor {
+    /// Asks for a picture of the window, to cut a pane out of.
+    pub(in crate::ui) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
+        let rect = self.pane_rects[usize::from(pane == Pane::Plane)];
+        let Some(part) = rect else { return };
+        let (sender, answer) = sync_channel(1);
+        let wake = self.host.waker();
+        self.host.context().request_screenshot(move |image| {
+            sender.send(image).ok();
+            wake();
+        });
+        self.shot = Some(PaneShot { path, part, answer });
+    }
+
+    /// Takes in the picture of the window, and has the pane's part of it written. Call once per frame.
+    pub(in crate::ui) fn poll_shot(&mut self) {
+        let Some(shot) = &self.shot else { return };
+        let Ok(image) = shot.answer.try_recv() else { return };
+        let scale = self.host.context().pixels_per_point();
+        let part = cut(&image, shot.part * scale);
+        if let Some(shot) = self.shot.take() {
+            self.session.save_picture(shot.path, part);
+        }
+    }
+}
+
+/// A part of a picture of the window, in pixels.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pixels of a window, clamped to it")]
+fn cut(image: &egui::ColorImage, part: Rect) -> Picture {
+    let [width, height] = image.size;
+    let within = |value: f32, limit: usize| (value.round().max(0.0) as usize).min(limit);
+    let (left, right) = (within(part.left(), width), within(part.right(), width));
+    let (top, bottom) = (within(part.top(), height), within(part.bottom(), height));
+    let row = |y: usize| &image.pixels[y * width + left..y * width + right.max(left)];
+    let pixels = (top..bottom).flat_map(row).flat_map(egui::Color32::to_srgba_unmultiplied).collect();
+    let count = |from: usize, to: usize| u32::try_from(to.saturating_sub(from)).unwrap_or(0);
+    Picture { width: count(left, right), height: count(top, bottom), pixels }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pane_is_cut_out_of_the_window() {
+        let colour = |i: usize| egui::Color32::from_gray(u8::try_from(i).unwrap());
+        let image = egui::ColorImage::new([4, 3], (0..12).map(colour).collect());
+        let part = cut(&image, Rect::from_min_max(egui::pos2(1.0, 1.0), egui::pos2(3.0, 9.0)));
+        assert_eq!((part.width, part.height), (2, 2));
+        let greys: Vec<u8> = part.pixels.chunks_exact(4).map(|pixel| pixel[0]).collect();
+        assert_eq!(greys, [5, 6, 9, 10]);
+    }
+}

@@ -1,0 +1,241 @@
+//! The bar at the top: menus, what is open, and the verdict.
+
+use eframe::egui;
+use egui::{Button, RichText, Role, ThemePreference};
+
+use super::exports::EXPORTS;
+use super::verdict_pill::verdict_pill;
+use crate::examples::Example;
+use crate::session::{Action, OutputFit};
+use crate::ui::controls::Control;
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of};
+
+/// Shows the bar.
+pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let bar = ui.max_rect();
+    ui.horizontal_centered(|ui| {
+        let menus = egui::MenuBar::new().ui(ui, |ui| {
+            let mut menu = Menu { ui, editor, requests };
+            menu.part("File", file_menu);
+            menu.part("Edit", edit_menu);
+            menu.part("View", view_menu);
+            menu.part("Solve", solve_menu);
+            menu.part("Help", |menu| menu.item(true, "All keys", Request::ToggleKeys)).rect.right()
+        });
+        let right = ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let panels = ui.selectable_label(editor.layout.panels_shown(), "Panels");
+            panels.on_hover_text("Show or hide the panels at the right").asks(Request::TogglePanels, requests);
+            verdict_pill(ui, editor, requests);
+            ui.min_rect().left()
+        });
+        title_between(ui, bar, menus.inner..=right.inner, &title(editor));
+    });
+}
+
+/// What is open, in the middle of the bar as far as menus and verdict leave room.
+fn title_between(ui: &egui::Ui, bar: egui::Rect, room: std::ops::RangeInclusive<f32>, words: &str) {
+    let text = egui::WidgetText::from(RichText::new(words).color(theme_of(ui).weak_text));
+    let width = room.end() - room.start() - 24.0;
+    if width < 40.0 {
+        return;
+    }
+    let galley = text.into_galley(ui, Some(egui::TextWrapMode::Truncate), width, egui::TextStyle::Body);
+    let half = galley.size() / 2.0;
+    let leftmost = room.start() + 12.0 + half.x;
+    let middle = bar.center().x.clamp(leftmost, (room.end() - 12.0 - half.x).max(leftmost));
+    let place = egui::Rect::from_center_size(egui::pos2(middle, bar.center().y), galley.size());
+    let response = ui.interact(place, ui.scope_id().with("title"), egui::Sense::hover());
+    response.named(Role::Label, words);
+    ui.painter().galley(egui::pos2(middle - half.x, bar.center().y - half.y), galley, theme_of(ui).weak_text);
+}
+
+/// A menu, or the bar of menus, as it is put together.
+struct Menu<'a> {
+    ui: &'a mut egui::Ui,
+    editor: &'a Editor,
+    requests: &'a mut Vec<Request>,
+}
+
+impl Menu<'_> {
+    /// A menu in this one.
+    fn part(&mut self, words: &str, add: impl FnOnce(&mut Menu<'_>)) -> egui::Response {
+        let (editor, requests) = (self.editor, &mut *self.requests);
+        self.ui.menu_button(words, |ui| add(&mut Menu { ui, editor, requests })).response
+    }
+
+    /// An entry with its shortcut.
+    fn item(&mut self, enabled: bool, words: &str, request: impl Into<Request>) {
+        self.entry(enabled, Button::new(words), request);
+    }
+
+    /// An entry that is on or off.
+    fn choice(&mut self, on: bool, words: &str, request: Request) {
+        self.entry(true, Button::selectable(on, words), request);
+    }
+
+    fn entry(&mut self, enabled: bool, button: Button<'_>, request: impl Into<Request>) {
+        let request = request.into();
+        let button = button.shortcut_text(keys_of(self.ui.ctx(), &request));
+        if self.ui.add_enabled(enabled, button).asks(request, self.requests) {
+            self.ui.close();
+        }
+    }
+
+    /// An entry without a shortcut that says more in a tip.
+    fn explained(&mut self, enabled: bool, [words, tip]: [&str; 2], request: impl Into<Request>) {
+        let button = self.ui.add_enabled(enabled, Button::new(words)).on_hover_text(tip);
+        if button.asks(request, self.requests) {
+            self.ui.close();
+        }
+    }
+
+    fn separator(&mut self) {
+        self.ui.separator();
+    }
+}
+
+fn file_menu(menu: &mut Menu<'_>) {
+    let editor = menu.editor;
+    menu.item(true, "Open…", Request::Ask(Purpose::Open));
+    menu.part("Recent", |menu| {
+        let paths = editor.session.recent().paths();
+        for path in paths {
+            menu.item(true, &path.display().to_string(), Action::Open(path.clone()));
+        }
+        if paths.is_empty() {
+            menu.ui.weak("No files yet");
+        } else {
+            menu.separator();
+            menu.item(true, "Forget these", Action::ClearRecent);
+        }
+    });
+    menu.part("Examples", |menu| {
+        for example in Example::ALL {
+            menu.explained(true, [example.title(), example.about()], Action::OpenExample(example));
+        }
+    });
+    menu.separator();
+    let has_model = editor.session.model().is_some();
+    menu.item(has_model, "Save project", Request::SaveProject);
+    menu.item(has_model, "Save project as…", Request::Ask(Purpose::SaveProject));
+    menu.separator();
+    // Picture and constraints come from files and go to files.
+    let has_disk = editor.has_disk();
+    menu.item(has_disk, "Open picture…", Request::Ask(Purpose::OpenPicture));
+    menu.item(editor.has_picture(), "Remove picture", Action::RemovePicture);
+    menu.item(has_disk, "Import constraints…", Request::Ask(Purpose::ImportConstraints));
+    let has_pins = !editor.session.document().pins.is_empty();
+    menu.item(has_pins, "Export constraints…", Request::Ask(Purpose::ExportConstraints));
+    menu.separator();
+    menu.part("Export", |menu| {
+        for (purpose, words, about) in EXPORTS {
+            menu.explained(editor.session.outcome().is_some(), [words, about], Request::Ask(purpose));
+        }
+    });
+    menu.part("Size in files", |menu| {
+        let (unit, true_size) = (OutputFit::Unit, OutputFit::True);
+        menu.choice(editor.fit == unit, "Fit into the unit square", Request::SetFit(unit));
+        menu.choice(editor.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
+        menu.separator();
+        menu.ui.weak("With pins, coordinates stay as they are.");
+    });
+    menu.separator();
+    menu.item(true, "Quit", Request::Quit);
+}
+
+fn edit_menu(menu: &mut Menu<'_>) {
+    let (editor, session) = (menu.editor, &menu.editor.session);
+    menu.item(session.history().can_undo(), "Undo", Action::Undo);
+    menu.item(session.history().can_redo(), "Redo", Action::Redo);
+    menu.separator();
+    for (tool, words) in
+        [(Tool::Select, "Select vertices"), (Tool::Fix, "Fix vertices"), (Tool::Constrain, "Constrain vertices")]
+    {
+        menu.choice(editor.tools.tool() == tool, words, Request::SetTool(tool));
+    }
+    menu.separator();
+    let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
+    menu.item(fixable, "Fix the selection", Action::Fix(editor.selection.vertices().iter().copied().collect()));
+    menu.item(editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected);
+    let pin_count = session.document().pins.len();
+    menu.item(pin_count > 0, "Free all pins", Action::UnpinAll);
+    menu.separator();
+    menu.item(pin_count > 0, "Mirror the targets", Action::MirrorTargets);
+    menu.item(pin_count > 1, "Fit the targets to the mesh", Action::FitTargets);
+    menu.item(session.model().is_some(), "Turn the faces around", Action::TurnFaces);
+}
+
+fn view_menu(menu: &mut Menu<'_>) {
+    let editor = menu.editor;
+    menu.part("Shading", |menu| {
+        for shading in Shading::ALL {
+            menu.choice(editor.look.shading == shading, shading.title(), Request::SetShading(shading));
+        }
+    });
+    menu.choice(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
+    menu.choice(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
+    menu.choice(editor.hull.shown, "Hull and pockets", Request::ToggleHull);
+    menu.choice(editor.look.magnifier, "Magnifier", Request::ToggleMagnifier);
+    menu.choice(editor.ease.wanted, "Glide from step to step", Request::ToggleEase);
+    menu.choice(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
+    menu.choice(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
+    menu.separator();
+    menu.item(true, "Frame the selection, or all", Request::Frame);
+    menu.item(true, "Go to…", Request::AskGoTo);
+    menu.item(editor.has_defects(), "Next defect", Request::StepDefect(1));
+    menu.item(editor.has_defects(), "Previous defect", Request::StepDefect(-1));
+    menu.separator();
+    menu.part("Theme", |menu| {
+        let now = menu.ui.ctx().options(|options| options.theme_preference);
+        for (theme, words) in [
+            (ThemePreference::System, "As the system"),
+            (ThemePreference::Light, "Light"),
+            (ThemePreference::Dark, "Dark"),
+        ] {
+            menu.choice(now == theme, words, Request::SetTheme(theme));
+        }
+    });
+}
+
+fn solve_menu(menu: &mut Menu<'_>) {
+    let (editor, session) = (menu.editor, &menu.editor.session);
+    menu.item(editor.has_disk(), "Take one step", Action::Step);
+    let (run, can_run) = if session.is_running() { ("Pause the run", true) } else { ("Run on", session.can_run()) };
+    menu.item(can_run, run, Request::RunOrPause);
+    menu.item(session.can_relax(), "Relax", Action::Relax);
+    menu.separator();
+    let [has_previous, has_next] = editor.steps_around();
+    menu.item(has_previous, "First step", Request::GoToStep(StepTarget::First));
+    menu.item(has_previous, "Previous step", Request::GoToStep(StepTarget::Previous));
+    menu.item(has_next, "Next step", Request::GoToStep(StepTarget::Next));
+    menu.item(has_next, "Last step", Request::GoToStep(StepTarget::Last));
+    let play = if editor.timeline.playing_since.is_some() { "Stop the play" } else { "Play all steps" };
+    menu.item(has_previous || has_next, play, Request::TogglePlay);
+    menu.separator();
+    menu.item(editor.has_disk(), "Solve again", Action::Solve);
+    menu.item(session.busy().is_some(), "Cancel", Action::Cancel);
+    menu.separator();
+    menu.item(true, "Method and weights", Request::ShowTab(Tab::Method));
+}
+
+/// What is open: name, vertices, faces.
+fn title(editor: &Editor) -> String {
+    let Some(model) = editor.session.model() else { return "Freebound".to_owned() };
+    let mesh = model.mesh();
+    let mark = if editor.session.has_unsaved_work() { "• " } else { "" };
+    format!("{mark}{} · {} v · {} f", editor.document_name(), grouped(mesh.vertex_count()), grouped(mesh.face_count()))
+}
+
+/// A count with its thousands set apart by spaces.
+pub(super) fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let mut words = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            words.push(' ');
+        }
+        words.push(digit);
+    }
+    words
+}

@@ -1,0 +1,312 @@
+//! Method and weights, and the numbers of the last solve.
+
+use eframe::egui;
+use egui::{Role, WidgetInfo};
+
+use crate::session::{Action, Outcome};
+use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
+use crate::ui::controls::{Control, list, pairs, remark, sentence, tip_with_keys};
+use crate::ui::timeline::chips::residual_words;
+use crate::ui::{Editor, Request};
+
+/// The slider's ends: beyond them weights grow wild.
+const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
+
+/// Shows the panel.
+pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let settings = editor.session.document().settings;
+    let mut edit = Edit { settings, slides: false, ends: false };
+    let chosen = &mut edit.settings;
+    pairs(ui, "method", [12.0, 8.0], |ui| {
+        ui.label("Method");
+        method_list(ui, chosen);
+        ui.end_row();
+        if let Method::Convex(shape) = &mut chosen.method {
+            ui.label("Boundary");
+            ui.horizontal(|ui| {
+                for &choice in BoundaryShape::ALL {
+                    ui.selectable_value(shape, choice, choice.words().title);
+                }
+            });
+            ui.end_row();
+        }
+        if chosen.method.uses_family() {
+            ui.label("Weights");
+            family_list(ui, chosen);
+            ui.end_row();
+        }
+    });
+    if settings.method.uses_family()
+        && let Some(power) = settings.family.power()
+    {
+        power_slider(ui, power, &mut edit);
+    }
+    let chosen = &mut edit.settings;
+    if chosen.method.uses_pins() {
+        ui.add_space(2.0);
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 12.0;
+            ui.label("Pinned");
+            treatment_list(ui, &mut chosen.treatment);
+        });
+    }
+    new_vertices_box(ui, chosen);
+    ui.add_space(6.0);
+    let words = settings.method.words();
+    remark(ui, format!("{}. {}.", sentence(words.about), words.source));
+    more(ui, &mut edit);
+    edit.ask_for(settings, requests);
+    ui.add_space(8.0);
+    solve_and_cancel(ui, editor, requests);
+    if let Some(outcome) = editor.session.outcome() {
+        ui.add_space(8.0);
+        distortion(ui, outcome);
+        ui.add_space(4.0);
+        numbers(ui, outcome);
+    }
+}
+
+/// What a frame changes of the settings.
+struct Edit {
+    settings: Settings,
+    /// Whether it is part of a gesture.
+    slides: bool,
+    /// Whether a gesture ends.
+    ends: bool,
+}
+
+impl Edit {
+    fn ask_for(self, before: Settings, requests: &mut Vec<Request>) {
+        if self.settings != before {
+            let action = if self.slides { Action::SlideSettings } else { Action::SetSettings };
+            requests.push(action(self.settings).into());
+        }
+        if self.ends {
+            requests.push(Action::EndGesture.into());
+        }
+    }
+}
+
+fn solve_and_cancel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let disk = editor.has_disk();
+    let busy = editor.session.busy().is_some();
+    ui.horizontal(|ui| {
+        let solve = ui.add_enabled(disk && !busy, egui::Button::new("Solve"));
+        let tip = "Solve again (Ctrl+Enter). A change of method, weights or pins solves by itself.";
+        solve.on_hover_text(tip).asks(Action::Solve, requests);
+        let relax = Action::Relax.into();
+        let tip = "Lower the distortion of a planar embedding: one-to-one throughout, constraints exact";
+        let tip = tip_with_keys(ui, tip, &relax);
+        let button = ui.add_enabled(editor.session.can_relax(), egui::Button::new("Relax"));
+        button.on_hover_text(&tip).on_disabled_hover_text(tip).asks(relax, requests);
+        if busy && editor.busy_for_long().is_some() {
+            ui.button("Cancel").asks(Action::Cancel, requests);
+        }
+    });
+}
+
+fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
+    list(ui, "Method", 150.0, settings.method.words().title, |ui| {
+        for &method in Method::ALL {
+            let is_chosen = settings.method.name() == method.name();
+            let label = ui.selectable_label(is_chosen, method.words().title).on_hover_text(method.words().tip());
+            if label.clicked() && !is_chosen {
+                settings.method = method;
+                // Uniform and shape-preserving weights need a convex boundary.
+                if settings.family.power().is_none() && !matches!(method, Method::Convex(_)) {
+                    settings.family = Family::default();
+                }
+            }
+        }
+    });
+}
+
+fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
+    let is_convex = matches!(settings.method, Method::Convex(_));
+    list(ui, "Weights", 150.0, settings.family.words().title, |ui| {
+        for &family in Family::ALL.iter().filter(|family| is_convex || family.power().is_some()) {
+            let is_chosen = settings.family.name() == family.name();
+            let label = ui.selectable_label(is_chosen, family.words().title).on_hover_text(family.words().tip());
+            if label.clicked() && !is_chosen {
+                settings.family = match family {
+                    // A power begins as the family before it.
+                    Family::Power(usual) => Family::Power(settings.family.power().unwrap_or(usual)),
+                    named => named,
+                };
+            }
+        }
+    });
+}
+
+fn treatment_list(ui: &mut egui::Ui, chosen: &mut Option<Treatment>) {
+    let automatic = "Automatic";
+    let shown = chosen.map_or(automatic, |treatment| treatment.words().title);
+    let list = list(ui, "Equations of pinned vertices", 150.0, shown, |ui| {
+        let tip = "Two pins only fix size and place: eliminated. More are constraints: least squares";
+        ui.selectable_value(chosen, None, automatic).on_hover_text(tip);
+        for &treatment in Treatment::ALL {
+            let label = ui.selectable_value(chosen, Some(treatment), treatment.words().title);
+            label.on_hover_text(sentence(&treatment.words().tip()));
+        }
+    });
+    list.on_hover_text("What becomes of the equations of pinned vertices");
+}
+
+fn growth_list(ui: &mut egui::Ui, chosen: &mut Growth) {
+    let list = list(ui, "How the virtual boundary goes on", 130.0, chosen.words().title, |ui| {
+        for &growth in Growth::ALL {
+            let label = ui.selectable_value(chosen, growth, growth.words().title);
+            label.on_hover_text(sentence(&growth.words().tip()));
+        }
+    });
+    let tip = "Where the boundary crosses itself, vertices of it are bent to a convex polygon: how many the next time";
+    list.on_hover_text(tip);
+}
+
+/// Whether edges may be split, where the method can.
+fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
+    if settings.method == Method::Auto {
+        let tip = "Where the constraints cannot be met otherwise, split edges: the surface stays the same. Off: the best \
+                   planar embedding, and which constraints it does not meet";
+        ui.checkbox(&mut settings.new_vertices, "Allow new vertices").on_hover_text(tip);
+    }
+}
+
+/// What few people need: how long the iteration may go on, and how the virtual boundary does.
+fn more(ui: &mut egui::Ui, edit: &mut Edit) {
+    let method = edit.settings.method;
+    if !method.iterates() && !method.bends_boundary() {
+        return;
+    }
+    ui.add_space(4.0);
+    egui::CollapsingHeader::new("More").default_open(false).show(ui, |ui| {
+        pairs(ui, "more", [12.0, 8.0], |ui| {
+            if method.iterates() {
+                ui.label("Step limit");
+                step_limit(ui, edit);
+                ui.end_row();
+            }
+            if method.bends_boundary() {
+                ui.label("Bent vertices");
+                growth_list(ui, &mut edit.settings.growth);
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn step_limit(ui: &mut egui::Ui, edit: &mut Edit) {
+    let field = ui.add(egui::DragValue::new(&mut edit.settings.max_steps).range(1..=10_000).suffix(" steps"));
+    let field = field.named(Role::SpinButton, "Step limit");
+    edit.slides |= field.changed();
+    edit.ends |= field.has_ended();
+    field.on_hover_text("The most mean-value iterations of a run. Drag, or click to type.");
+}
+
+/// From Wachspress over mean value to conformal.
+fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
+    let mut wanted = power;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().slider_width = (ui.available_width() - 62.0).max(60.0);
+        let slider = egui::Slider::new(&mut wanted, POWERS).clamping(egui::SliderClamping::Never).fixed_decimals(2);
+        let response = ui.add(slider).on_hover_text(
+            "Power p of the offset d = r^p: −1 Wachspress, 0 mean value, 1 conformal. Type any number; double-click resets.",
+        );
+        response.widget_info(|| WidgetInfo::slider(true, wanted, "Power of the weights"));
+        if response.double_clicked() {
+            wanted = Family::CONFORMAL_POWER;
+        }
+        if response.changed() || response.double_clicked() {
+            edit.settings.family = named_family(wanted);
+            edit.slides = true;
+        }
+        // Neither a key nor a double click is the beginning of a drag: nothing else ends its gesture.
+        let is_whole = response.changed() && !response.dragged() && !ui.ctx().text_edit_focused();
+        edit.ends |= is_whole || response.double_clicked() || response.has_ended();
+    });
+    ui.horizontal(|ui| {
+        for (words, power) in [("Wachspress", -1.0), ("Mean value", 0.0), ("Conformal", 1.0)] {
+            if ui.small_button(words).clicked() {
+                edit.settings.family = named_family(power);
+            }
+        }
+    });
+}
+
+/// The family of a power, by its own name where it has one. Powers are rounded to what the slider shows.
+fn named_family(power: f64) -> Family {
+    let power = (power * 100.0).round() / 100.0;
+    if power == Family::CONFORMAL_POWER {
+        Family::Conformal
+    } else if power == Family::WACHSPRESS_POWER {
+        Family::Wachspress
+    } else if power == 0.0 {
+        Family::MeanValue
+    } else {
+        Family::Power(power)
+    }
+}
+
+fn distortion(ui: &mut egui::Ui, outcome: &Outcome) {
+    let summary = &outcome.distortion.summary;
+    ui.strong("Distortion");
+    egui::Grid::new("distortion").num_columns(4).spacing([14.0, 4.0]).show(ui, |ui| {
+        for words in ["", "mean", "p99", "max"] {
+            ui.weak(words);
+        }
+        ui.end_row();
+        for (name, spread) in [("Angle", summary.angle), ("Area", summary.area)] {
+            ui.label(name);
+            for value in [spread.mean, spread.p99, spread.max] {
+                ui.monospace(figure(value));
+            }
+            ui.end_row();
+        }
+        ui.label("Stretch");
+        ui.monospace(figure(summary.stretch_l2)).on_hover_text("L² stretch (Sander et al. 2001)");
+        ui.label("");
+        ui.monospace(figure(summary.stretch_linf)).on_hover_text("L∞ stretch");
+        ui.end_row();
+    });
+}
+
+fn figure(value: f64) -> String {
+    if !value.is_finite() {
+        "∞".to_owned()
+    } else if value < 1e4 {
+        format!("{value:.3}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
+    let solution = &outcome.step.solution;
+    let linear = solution.linear.unwrap_or_default();
+    let residual = solution.linear.map(|linear| linear.residual);
+    let equation_residual = solution.linear.map(|linear| linear.equation_residual);
+    let seconds = &solution.seconds;
+    let milliseconds = |seconds: f64| format!("{:.1} ms", 1000.0 * seconds);
+    let of_all = "|A z| of all equations, pinned vertices included, relative to their terms";
+    let rows = [
+        ("Residual", "|Ax − b| / |b| of the linear solve", residual_words(residual)),
+        ("Equation residual", of_all, residual_words(equation_residual)),
+        ("Assembly", "milliseconds", milliseconds(seconds.assemble)),
+        ("Ordering", "milliseconds", milliseconds(seconds.analyze)),
+        ("Factoring", "milliseconds", milliseconds(seconds.factor)),
+        ("Substitution", "milliseconds", milliseconds(seconds.solve)),
+        ("Proof", "milliseconds", milliseconds(outcome.step.verify_seconds)),
+        ("Factors", "memory of the factors", format!("{:.1} MB", linear.factor_bytes as f64 / 1e6)),
+        ("Pivots replaced", "pivots too small to divide by", linear.replaced_pivots.to_string()),
+        ("Corners bounded", "degenerate corners with a bounded weight", linear.bounded_corners.to_string()),
+    ];
+    egui::CollapsingHeader::new("Numbers of the solve").default_open(false).show(ui, |ui| {
+        pairs(ui, "numbers", [16.0, 4.0], |ui| {
+            for (name, tip, value) in rows {
+                ui.label(name).on_hover_text(tip);
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.monospace(value));
+                ui.end_row();
+            }
+        });
+    });
+}

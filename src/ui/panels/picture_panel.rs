@@ -1,0 +1,60 @@
+//! The picture's part of the pins panel: which it is, where v = 0 is on it, and how it shows.
+
+use eframe::egui;
+use egui::RichText;
+
+use crate::geom::VAxis;
+use crate::session::Action;
+use crate::ui::controls::Control;
+use crate::ui::panes::constrain::axis_words;
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Purpose, Request};
+
+/// Shows it.
+pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let document = editor.session.document();
+    ui.horizontal(|ui| {
+        ui.strong("Picture");
+        match &document.picture {
+            Some(picture) => {
+                let words = format!("{}, {} × {}", picture.name, picture.pixels.width, picture.pixels.height);
+                ui.add(egui::Label::new(RichText::new(words).color(theme_of(ui).weak_text)).truncate());
+            }
+            None => {
+                ui.weak("none");
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let has_disk = editor.has_disk();
+        let open = ui.add_enabled(has_disk, egui::Button::new("Open picture…").small());
+        open.on_hover_text("A PNG or JPEG file to map on the mesh").asks(Request::Ask(Purpose::OpenPicture), requests);
+        let remove = ui.add_enabled(document.picture.is_some(), egui::Button::new("Remove").small());
+        remove.on_hover_text("Go without a picture").asks(Action::RemovePicture, requests);
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for (v_axis, tip) in [
+            (VAxis::Up, "v = 0 at the lower edge, as in OBJ files"),
+            (VAxis::Down, "v = 0 at the upper edge, as in pictures"),
+        ] {
+            let on = document.v_axis == v_axis;
+            if ui.selectable_label(on, axis_words(v_axis)).on_hover_text(tip).clicked() && !on {
+                requests.push(Action::SetVAxis(v_axis).into());
+            }
+        }
+        let sharp =
+            ui.selectable_label(editor.look.is_sharp(), "Sharp").on_hover_text("Pixels are squares of one colour");
+        sharp.asks(Request::ToggleSharp, requests);
+    });
+    if document.picture.is_some() {
+        let mut percent = editor.look.opacity * 100.0;
+        let slider = egui::Slider::new(&mut percent, 0.0..=100.0).suffix(" %").fixed_decimals(0);
+        let label = ui.weak("Opacity behind the embedding");
+        let slider = ui.add(slider).labelled_by(label.id);
+        if slider.changed() {
+            requests.push(Request::SetOpacity(percent / 100.0));
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! The pins as a table: select, move by typing, choose how each is held, free. Below it what concerns all of them.
+
+use eframe::egui;
+use egui::{DragValue, RichText, Role, Sense, Vec2};
+
+use super::picture_panel;
+use crate::mesh::VertexId;
+use crate::session::Action;
+use crate::solver::{Hold, Pin};
+use crate::ui::controls::{Control, counted, remark};
+use crate::ui::panes::pin_drag::conflict_words;
+use crate::ui::panes::pins::{self, Emphasis, PinKind};
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Purpose, Request, Tool, keys_of};
+
+/// Height that is kept free below the table, points.
+const BELOW: f32 = 250.0;
+
+/// Widths of a coordinate's and a weight's field, points.
+const FIELDS: [f32; 2] = [56.0, 44.0];
+
+/// Shows the panel.
+pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let document = editor.session.document();
+    if !document.settings.method.uses_pins() {
+        ui.label(
+            "A convex boundary needs no pins: every boundary vertex has its place. Pins come back with another method.",
+        );
+        return;
+    }
+    if document.pins.is_empty() {
+        no_pins(ui);
+    } else {
+        table(ui, editor, requests);
+        together(ui, editor, requests);
+        conflicts(ui, editor, requests);
+        errors(ui, editor);
+    }
+    ui.separator();
+    egui::ScrollArea::vertical().id_salt("below the pins").auto_shrink([false, true]).show(ui, |ui| {
+        all_of_them(ui, editor, requests);
+        ui.separator();
+        picture_panel::picture_ui(ui, editor, requests);
+    });
+}
+
+fn no_pins(ui: &mut egui::Ui) {
+    let [fix, constrain] = [Tool::Fix, Tool::Constrain].map(|tool| keys_of(ui.ctx(), &Request::SetTool(tool)));
+    ui.label(format!(
+        "No pins of yours. The hollow squares are gauge pins: they only fix position, turn and size.\n\nConstrain \
+         ({constrain}): click a vertex and its place on the picture. Fix ({fix}): pin vertices where they lie, then drag \
+         them. Dragging a hollow square makes it yours."
+    ));
+}
+
+/// A pin in the table.
+#[derive(Clone, Copy)]
+struct Row {
+    vertex: VertexId,
+    pin: Pin,
+    /// How the solver holds it: a treatment may weigh what was asked for exactly.
+    held: Hold,
+    /// How far a coordinate goes with a point of a drag.
+    speed: f64,
+}
+
+fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let document = editor.session.document();
+    let speed = editor.plane_scene().map_or(0.01, |plane| plane.arrays.bounds().extent() / 500.0);
+    let height = (ui.available_height() - BELOW).max(80.0);
+    egui::ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+        ui.spacing_mut().button_padding.x = 4.0;
+        egui::Grid::new("pins").num_columns(6).min_col_width(0.0).spacing([4.0, 4.0]).striped(true).show(ui, |ui| {
+            for words in ["", "Vertex", "u", "v", "Weight", ""] {
+                ui.weak(words);
+            }
+            ui.end_row();
+            let held = document.settings.held(&document.pins);
+            for ((&vertex, &pin), held) in document.pins.iter().zip(held.values()) {
+                row(ui, editor, Row { vertex, pin, held: held.hold, speed }, requests);
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
+    let Row { vertex, pin, held, .. } = row;
+    hold_button(ui, row, requests);
+    let selected = editor.selection.contains(vertex);
+    let label = ui.selectable_label(selected, vertex.to_string());
+    let label = label.on_hover_text("Select; Shift selects all up to it, Ctrl adds it, a double click shows it");
+    if label.double_clicked() {
+        requests.push(Request::GoTo(vec![vertex]));
+    } else if label.clicked() {
+        requests.push(chosen(ui, editor, vertex));
+    }
+    coordinates(ui, row, requests);
+    match (pin.hold, held) {
+        (Hold::Weighted(weight), _) => {
+            weight_field(ui, &format!("Weight of pin {vertex}"), weight, &[vertex], requests);
+        }
+        (Hold::Fixed | Hold::Hard, Hold::Weighted(weight)) => {
+            ui.weak(weight_words(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
+        }
+        (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => exact(ui, editor, vertex),
+    }
+    let free = ui.small_button("×").on_hover_text("Free this pin").named(Role::Button, &format!("Free pin {vertex}"));
+    free.asks(Action::Unpin(vec![vertex]), requests);
+}
+
+/// What there is to say about a pin that is to be met exactly.
+fn exact(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId) {
+    let theme = theme_of(ui);
+    if editor.unmet_shown().contains(&vertex) {
+        let label = ui.colored_label(theme.unmet, "not met");
+        label.on_hover_text("The embedding on the screen is planar, but this vertex is not on its target");
+    } else if let Some(conflict) = editor.session.conflict_of(vertex) {
+        ui.colored_label(theme.stale, "conflict").on_hover_text(conflict_words(conflict));
+    } else {
+        ui.weak("exact");
+    }
+}
+
+/// The pin's mark; a click makes a hard one weighted and a weighted one hard.
+fn hold_button(ui: &mut egui::Ui, Row { vertex, pin, held, .. }: Row, requests: &mut Vec<Request>) {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
+    let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
+    pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(held), emphasis));
+    let words = match pin.hold {
+        Hold::Weighted(_) => "weighted",
+        Hold::Fixed => "fixed",
+        Hold::Hard => "hard",
+    };
+    let (note, tip) = if pin.hold != held {
+        let tip =
+            "To be met exactly, but this treatment of pinned vertices weighs it. Click: give it a weight of its own";
+        (", weighed by the treatment", tip)
+    } else if pin.hold.is_exact() {
+        ("", "Met exactly. Click: let it pull with a weight instead")
+    } else {
+        ("", "Pulls with a weight. Click: meet it exactly")
+    };
+    let hold = if pin.hold.is_exact() { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { Hold::Hard };
+    let response = response.named(Role::Button, &format!("Hold of pin {vertex}: {words}{note}")).on_hover_text(tip);
+    response.asks(Action::SetHold { vertices: vec![vertex], hold }, requests);
+}
+
+/// What a click on a row selects.
+fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
+    let modifiers = ui.input(|input| input.modifiers);
+    let from = editor.pins_selected().next().filter(|_| modifiers.shift);
+    match from {
+        Some(from) => {
+            let range = from.min(vertex)..=from.max(vertex);
+            let pins = editor.session.document().pins.range(range);
+            Request::Select(pins.map(|(&vertex, _)| vertex).collect())
+        }
+        None if modifiers.command => Request::ToggleSelected(vertex),
+        None => Request::Select(vec![vertex]),
+    }
+}
+
+fn coordinates(ui: &mut egui::Ui, Row { vertex, pin, speed, .. }: Row, requests: &mut Vec<Request>) {
+    let target = pin.target;
+    let mut moved = target;
+    let mut has_ended = false;
+    for (axis, name) in [(0, "u"), (1, "v")] {
+        let tip = format!("{name} = {:?}", target[axis]);
+        let field = ui.add_sized([FIELDS[0], 20.0], coordinate(&mut moved[axis], speed)).on_hover_text(tip);
+        has_ended |= field.named(Role::SpinButton, &format!("{name} of pin {vertex}")).has_ended();
+    }
+    if moved != target && moved.is_finite() {
+        requests.push(Action::MovePin { vertex, target: moved }.into());
+    }
+    if has_ended {
+        requests.push(Action::EndGesture.into());
+    }
+}
+
+/// A field for the weight of some pins: what is typed is one edit, made when the field is left; a drag is one gesture.
+fn weight_field(ui: &mut egui::Ui, name: &str, weight: f64, vertices: &[VertexId], requests: &mut Vec<Request>) {
+    let mut typed = weight;
+    let shown = weight_words(weight);
+    let drag = DragValue::new(&mut typed).range(1e-9..=1e9).speed(weight * 0.02).update_while_editing(false);
+    // A weight that is only looked at keeps all of its digits.
+    let drag = drag.custom_formatter(|weight, _| weight_words(weight)).custom_parser(move |text| {
+        let text = text.trim();
+        if text == shown { Some(weight) } else { text.parse().ok().filter(|weight: &f64| weight.is_finite()) }
+    });
+    let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("How strongly it pulls: drag, or type");
+    let field = field.named(Role::SpinButton, name);
+    let (vertices, hold) = (vertices.to_vec(), Hold::Weighted(typed));
+    if field.drag_stopped() {
+        requests.push(Action::EndGesture.into());
+    } else if typed.to_bits() != weight.to_bits() {
+        let is_sliding = field.dragged();
+        let action = if is_sliding { Action::SlideHold { vertices, hold } } else { Action::SetHold { vertices, hold } };
+        requests.push(action.into());
+    }
+}
+
+/// What is done to several selected pins at once.
+fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let selected: Vec<VertexId> = editor.pins_selected().collect();
+    if selected.len() < 2 {
+        return;
+    }
+    ui.add_space(4.0);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.label(format!("{} selected:", selected.len()));
+        ui.small_button("Hard").on_hover_text("Meet them exactly").asks(Request::SetHold(Hold::Hard), requests);
+        let pins = &editor.session.document().pins;
+        let weights = selected.iter().filter_map(|vertex| match pins.get(vertex)?.hold {
+            Hold::Weighted(weight) => Some(weight),
+            Hold::Fixed | Hold::Hard => None,
+        });
+        let weight = weights.max_by(f64::total_cmp);
+        let hold = Hold::Weighted(weight.unwrap_or(Pin::DEFAULT_WEIGHT));
+        ui.small_button("Weighted").on_hover_text("Let them pull with a weight").asks(Request::SetHold(hold), requests);
+        if let Some(weight) = weight {
+            weight_field(ui, "Weight of the selected pins", weight, &selected, requests);
+        }
+        ui.small_button("Free").on_hover_text("Free the selected pins").asks(Request::UnpinSelected, requests);
+    });
+}
+
+/// Constraints that contradict each other on the mesh as it is, before anything is solved.
+fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let found = editor.session.conflicts();
+    let Some(first) = found.first() else { return };
+    ui.add_space(4.0);
+    let words = match found.iter().filter(|conflict| conflict.needs_new_vertices()).count() {
+        0 => "Targets too near to each other".to_owned(),
+        count => counted(count, "conflict needs new vertices", "conflicts need new vertices"),
+    };
+    let link = ui.link(RichText::new(words).color(theme_of(ui).stale));
+    link.on_hover_text(conflict_words(first)).asks(Request::GoTo(first.vertices()), requests);
+}
+
+/// How far the worst of the exact and of the weighted pins is from its target, in texture coordinates.
+fn errors(ui: &mut egui::Ui, editor: &Editor) {
+    let Some(outcome) = editor.session.outcome().filter(|_| editor.session.is_current()) else { return };
+    let worst = |is_exact: bool| {
+        let errors = outcome.pin_errors().filter(|(_, pin, _)| outcome.settings.is_exact(pin.hold) == is_exact);
+        errors.map(|(vertex, _, error)| (error, vertex)).max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let words: Vec<String> = [(worst(true), "exact"), (worst(false), "weighted")]
+        .into_iter()
+        .filter_map(|(worst, kind)| {
+            let (error, vertex) = worst?;
+            Some(if error == 0.0 { format!("{kind} 0") } else { format!("{kind} {error:.2e} at {vertex}") })
+        })
+        .collect();
+    if !words.is_empty() {
+        remark(ui, format!("Largest error: {}", words.join(", ")));
+    }
+    if editor.session.document().pins.len() == 1 {
+        remark(ui, "One pin only moves the embedding. A second one turns and scales it, more bend it.");
+    }
+}
+
+/// What concerns all pins.
+fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let count = editor.session.document().pins.len();
+    let has_disk = editor.has_disk();
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let buttons: [(bool, &str, &str, Request); 5] = [
+            (count > 0, "Mirror", "Mirror all targets left to right", Action::MirrorTargets.into()),
+            (count > 1, "Fit", "Turn, scale and move all targets together, to fit the mesh", Action::FitTargets.into()),
+            (has_disk, "Import…", "Take over the constraints of a file", Request::Ask(Purpose::ImportConstraints)),
+            (count > 0, "Export…", "Write the pins as a constraint file", Request::Ask(Purpose::ExportConstraints)),
+            (count > 0, "Free all", "Free all pins; undo brings them back", Action::UnpinAll.into()),
+        ];
+        for (enabled, words, tip, request) in buttons {
+            let button = ui.add_enabled(enabled, egui::Button::new(words).small());
+            button.on_hover_text(tip).asks(request, requests);
+        }
+    });
+}
+
+/// A field for a coordinate. It shows a few digits; a value that is not typed over keeps all of its own.
+fn coordinate(value: &mut f64, speed: f64) -> DragValue<'_> {
+    let exact = *value;
+    let shown = digits(exact);
+    DragValue::new(value).speed(speed).custom_formatter(|value, _| digits(value)).custom_parser(move |text| {
+        let text = text.trim().replace('−', "-");
+        if text == shown { Some(exact) } else { text.parse().ok() }
+    })
+}
+
+/// A weight with a few digits that mean something.
+fn weight_words(weight: f64) -> String {
+    if (1e-3..1e6).contains(&weight) { ((weight * 1e4).round() / 1e4).to_string() } else { format!("{weight:.3e}") }
+}
+
+/// Five digits behind the point, or as many that mean something.
+fn digits(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e3).contains(&value.abs()) { format!("{value:.5}") } else { format!("{value:.3e}") }
+}

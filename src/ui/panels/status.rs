@@ -1,0 +1,92 @@
+//! The bar at the bottom: what the tool does, and what is under the pointer.
+
+use std::borrow::Cow;
+
+use eframe::egui;
+use egui::RichText;
+
+use super::vertex_panel::new_vertex_words;
+use crate::ui::theme::theme_of;
+use crate::ui::timeline::PRESS_SPACE;
+use crate::ui::{Editor, Tool};
+
+/// Shows the bar.
+pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
+    let weak = theme_of(ui).weak_text;
+    ui.horizontal_centered(|ui| {
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(numbers(editor)).color(weak).monospace());
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                let hint = hint(editor);
+                let ink = if hint == PRESS_SPACE { theme_of(ui).text } else { weak };
+                ui.add(egui::Label::new(RichText::new(hint.as_ref()).color(ink)).truncate());
+            });
+        });
+    });
+}
+
+fn hint(editor: &Editor) -> Cow<'static, str> {
+    let is_over_new = editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex));
+    let is_constraining = editor.tools.tool() == Tool::Constrain && editor.tools.dragged().is_none();
+    if is_constraining && !is_over_new && editor.session.model().is_some() {
+        return editor.constrain_words().into();
+    }
+    fixed_hint(editor).into()
+}
+
+fn fixed_hint(editor: &Editor) -> &'static str {
+    if editor.tools.dragged().is_some() {
+        return "Move the pin; the embedding follows. Esc gives up.";
+    }
+    if editor.session.model().is_none() {
+        return "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.";
+    }
+    if editor.session.is_held() && !editor.timeline.curves_shown() {
+        return PRESS_SPACE;
+    }
+    if editor.tools.tool() != Tool::Select && editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex))
+    {
+        return "A new vertex belongs to this embedding alone, and cannot be pinned.";
+    }
+    if editor.selected_pins() > 0 && editor.tools.tool() == Tool::Select {
+        return "Drag a selected pin to move them all, arrows nudge by a pixel (Shift: ten), Delete frees them.";
+    }
+    match editor.tools.tool() {
+        Tool::Select | Tool::Constrain => {
+            "Click a vertex to select it, Shift adds, Ctrl and a drag draw a box. Drag a square to move a pin."
+        }
+        Tool::Fix => "Click a vertex to fix it where it lies. Drag a square to move it. Esc ends.",
+    }
+}
+
+fn numbers(editor: &Editor) -> String {
+    let mut parts = Vec::new();
+    if let Some(place) = editor.pointer.in_embedding() {
+        let at = editor.session.document().frame().uv_from_plane(place);
+        parts.push(format!("u {} v {}", short(at.x), short(at.y)));
+    }
+    if let (Some(vertex), Some(scene)) = (editor.pointer.vertex(), editor.mesh_scene()) {
+        parts.push(vertex.to_string());
+        parts.extend(scene.new_vertex(vertex).map(new_vertex_words));
+        if let Some(x) = scene.mesh().positions.get(vertex.index()) {
+            parts.push(format!("({}, {}, {})", short(x.x), short(x.y), short(x.z)));
+        }
+    }
+    if let Some(outcome) = editor.session.outcome().filter(|_| editor.session.preview().is_none()) {
+        parts.push(outcome.step.rung.as_short_rung().to_owned());
+        parts.push(format!("{:.0} ms", 1000.0 * (outcome.step.solution.seconds.total() + outcome.step.verify_seconds)));
+    }
+    parts.join("  ·  ")
+}
+
+/// A number with four digits that mean something.
+pub(in crate::ui) fn short(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e5).contains(&size) {
+        format!("{value:.3e}")
+    } else if size >= 100.0 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.4}")
+    }
+}

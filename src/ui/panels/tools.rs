@@ -1,0 +1,39 @@
+//! The tool bar at the left.
+
+use eframe::egui;
+use egui::{Role, Sense, Vec2, WidgetInfo};
+
+use crate::ui::controls::{Control, tip_with_keys};
+use crate::ui::icons;
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Request, Tool};
+
+/// Side of a tool's button, points.
+const BUTTON: f32 = 32.0;
+
+/// Shows the tools.
+pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    ui.vertical_centered(|ui| {
+        for tool in Tool::ALL {
+            let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
+            let on = editor.tools.tool() == tool;
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, tool.about()));
+            let theme = theme_of(ui);
+            if on || response.hovered() {
+                let share = if on { 0.22 } else { 0.10 };
+                ui.painter().rect_filled(rect, 5.0, theme.accent.gamma_multiply(share));
+            }
+            if response.has_focus() {
+                ui.painter().rect_stroke(rect, 5.0, egui::Stroke::new(1.0, theme.accent), egui::StrokeKind::Inside);
+            }
+            let colour = if on { theme.accent } else { theme.text };
+            match tool {
+                Tool::Select => icons::pointer(ui.painter(), rect, colour),
+                Tool::Fix => icons::pin(ui.painter(), rect, colour),
+                Tool::Constrain => icons::pair(ui.painter(), rect, colour),
+            }
+            let request = Request::SetTool(tool);
+            response.on_hover_text(tip_with_keys(ui, tool.about(), &request)).asks(request, requests);
+        }
+    });
+}

@@ -1,0 +1,150 @@
+//! The one question that stops everything: what to do with work that is not saved when something else is to open, or
+//! the window to close.
+
+use eframe::egui;
+
+use crate::session::Action;
+use crate::ui::controls::Control;
+use crate::ui::{Editor, Purpose, Request};
+
+/// What waits for the answer.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::ui) enum Wish {
+    /// Closing the window.
+    Quit,
+    /// Opening something else.
+    Do(Action),
+}
+
+/// The answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Save first.
+    Save,
+    /// Let the work go.
+    DontSave,
+    /// Stay.
+    Cancel,
+}
+
+/// The question as the window has it.
+#[derive(Debug, Default)]
+pub struct Unsaved {
+    /// What is asked about.
+    asked: Option<Wish>,
+    /// What goes on once the project is saved.
+    after_saving: Option<Wish>,
+}
+
+impl Unsaved {
+    /// Whether the question is on the screen.
+    pub fn is_asked(&self) -> bool {
+        self.asked.is_some()
+    }
+}
+
+impl Editor {
+    /// What the open document is called.
+    pub(super) fn document_name(&self) -> String {
+        self.session.project_name().unwrap_or_else(|| "Freebound".to_owned())
+    }
+
+    /// Does what would lose the open document: at once where nothing is lost, else once the person has answered.
+    pub(in crate::ui) fn wish(&mut self, wish: Wish) {
+        if self.session.has_unsaved_work() {
+            self.unsaved.asked = Some(wish);
+        } else {
+            self.grant(wish);
+        }
+    }
+
+    fn grant(&mut self, wish: Wish) {
+        match wish {
+            Wish::Quit => self.quit = true,
+            Wish::Do(action) => self.session.handle(action),
+        }
+    }
+
+    /// Takes the answer.
+    pub(in crate::ui) fn answer(&mut self, answer: Answer) {
+        let Some(wish) = self.unsaved.asked.take() else { return };
+        match answer {
+            Answer::Cancel => {}
+            Answer::DontSave => self.grant(wish),
+            Answer::Save => {
+                self.unsaved.after_saving = Some(wish);
+                self.save_project();
+            }
+        }
+    }
+
+    /// Saves where the project was saved before, or asks where.
+    pub(in crate::ui) fn save_project(&mut self) {
+        match self.session.project_path().cloned() {
+            Some(path) => {
+                self.keep_view();
+                self.session.handle(Action::SaveProject(path));
+            }
+            None => self.ask(Purpose::SaveProject),
+        }
+    }
+
+    /// Goes on with what waited for the project to be saved. Where it was not saved, that is given up. Call once per
+    /// frame.
+    pub(in crate::ui) fn go_on_after_saving(&mut self) {
+        if self.unsaved.after_saving.is_none() || self.dialogs.is_open() || self.session.is_saving_project() {
+            return;
+        }
+        let wish = self.unsaved.after_saving.take();
+        if let Some(wish) = wish.filter(|_| !self.session.has_unsaved_work()) {
+            self.grant(wish);
+        }
+    }
+
+    /// Takes the question away. Returns whether it was asked.
+    pub(in crate::ui) fn close_question(&mut self) -> bool {
+        self.unsaved.asked.take().is_some()
+    }
+}
+
+/// Keeps a window open that somebody closes while work is not saved.
+pub(in crate::ui) fn hold_window(context: &egui::Context, editor: &mut Editor) {
+    let is_closing = context.input(|input| input.viewport().close_requested());
+    if is_closing && !editor.quit && editor.session.has_unsaved_work() {
+        context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+        editor.wish(Wish::Quit);
+    }
+}
+
+/// Shows the question where it is asked.
+pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests: &mut Vec<Request>) {
+    let Some(wish) = &editor.unsaved.asked else { return };
+    let name = editor.document_name();
+    egui::Modal::new(egui::Id::unique("unsaved work")).show(context, |ui| {
+        ui.set_width(340.0);
+        ui.strong(format!("Save the changes to {name}?"));
+        ui.add_space(4.0);
+        ui.label(match wish {
+            Wish::Quit => "They are lost when the window closes.",
+            Wish::Do(_) => "They are lost when something else opens.",
+        });
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            for (answer, words) in
+                [(Answer::Save, "Save"), (Answer::DontSave, "Don't save"), (Answer::Cancel, "Cancel")]
+            {
+                ui.button(words).asks(Request::Answer(answer), requests);
+            }
+        });
+    });
+}
+
+/// Gives the window its title: the document's name, with a mark where work is not saved.
+pub(in crate::ui) fn title_of_window(editor: &mut Editor) {
+    let mark = if editor.session.has_unsaved_work() { "• " } else { "" };
+    let title = match editor.session.model() {
+        Some(_) => format!("{mark}{} – Freebound", editor.document_name()),
+        None => "Freebound".to_owned(),
+    };
+    editor.host.set_title(title);
+}

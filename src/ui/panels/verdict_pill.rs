@@ -1,0 +1,219 @@
+//! The verdict at one glance, in the bar at the top; beside it, or in its place, what goes on in the background.
+
+use eframe::egui;
+use egui::{RichText, Role};
+
+use crate::session::{Action, Busy, Surface};
+use crate::solver::{Phase, Step, Verdict};
+use crate::ui::controls::{Control, counted};
+use crate::ui::icons::{self, Sign};
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Request, Tab};
+
+/// Side of the sign in the pill, points.
+const SIGN: f32 = 11.0;
+
+/// What the pill says.
+struct Pill {
+    sign: Sign,
+    words: String,
+    tip: String,
+}
+
+impl Pill {
+    fn new(sign: Sign, words: impl Into<String>, tip: impl Into<String>) -> Self {
+        Self { sign, words: words.into(), tip: tip.into() }
+    }
+}
+
+/// The truth at one glance: proved, wrong and how, being solved, or not up to date.
+pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let (pill, busy) = shown(editor);
+    if let Some(pill) = &pill
+        && show_pill(ui, pill).clicked()
+    {
+        let unmet = editor.unmet_shown();
+        requests.push(match editor.has_defects() {
+            true => Request::StepDefect(1),
+            false if unmet.is_empty() => Request::ShowTab(Tab::Defects),
+            false => Request::GoTo(unmet),
+        });
+    }
+    let Some(busy) = busy else { return };
+    ui.small_button("Stop").on_hover_text("Stop the work in the background").asks(Action::Cancel, requests);
+    if pill.is_none() {
+        ui.label(RichText::new(busy_words(busy)).color(theme_of(ui).weak_text));
+    }
+    ui.add(egui::Spinner::new().size(12.0));
+}
+
+/// The pill, and the work that goes on. Work takes the pill's place, but never where it says that the screen shows a
+/// preview: that stays true, whatever is being solved, until a first step is there.
+fn shown(editor: &Editor) -> (Option<Pill>, Option<Busy>) {
+    let busy = editor.busy_for_long();
+    let is_replaced = busy.is_some() && editor.session.preview().is_none();
+    (if is_replaced { None } else { pill(editor) }, busy)
+}
+
+fn busy_words(busy: Busy) -> String {
+    match busy {
+        Busy::Loading => "opening…".to_owned(),
+        Busy::Solving(None | Some(Phase::Solve)) => "solving…".to_owned(),
+        Busy::Solving(Some(phase)) => format!("solving… {}", phase.words()),
+        Busy::Saving => "saving…".to_owned(),
+    }
+}
+
+fn pill(editor: &Editor) -> Option<Pill> {
+    let session = &editor.session;
+    let model = session.model()?;
+    if let Surface::Faulty(_, diagnosis) = &model.surface {
+        let words = counted(diagnosis.faults.len(), "fault", "faults");
+        return Some(Pill::new(Sign::Bad, words, "The bars over the mesh say what is wrong and what to do"));
+    }
+    if session.is_preview() || session.preview().is_some() {
+        let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
+        return Some(Pill::new(Sign::Warning, preview_words(editor), tip));
+    }
+    let more_to_come = session.is_running() && session.timeline().records().len() <= 1;
+    let is_at_work = session.busy().is_some() || session.is_following();
+    if more_to_come || (is_at_work && !session.is_current()) {
+        let words = if session.outcome().is_some() && !more_to_come { "following…" } else { "solving…" };
+        return Some(Pill::new(Sign::Working, words, "The solve is on its way"));
+    }
+    Some(match session.outcome().filter(|_| session.is_current()) {
+        Some(outcome) => of_step(&outcome.step),
+        None => {
+            let tip = "The embedding does not belong to these settings and pins: press Solve";
+            Pill::new(Sign::Warning, "not solved", tip)
+        }
+    })
+}
+
+/// The verdict on a step that is up to date, and the rung that a planar one comes from.
+fn of_step(step: &Step) -> Pill {
+    let (unmet, rung) = (step.unmet().len(), step.rung.as_short_rung());
+    if !step.verdict.planar {
+        return Pill::new(Sign::Bad, short_verdict(&step.verdict), "Not planar. Click for the next defect (D)");
+    }
+    if unmet > 0 {
+        let tip = "No two faces overlap, but exact pins are not on their targets. Click shows them";
+        return Pill::new(Sign::Unmet, format!("Planar, constraints not met: {unmet} · {rung}"), tip);
+    }
+    let new = step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len());
+    let note = match new {
+        0 => String::new(),
+        _ => format!(". The mesh has {}", counted(new, "new vertex", "new vertices")),
+    };
+    let tip = format!("Exact arithmetic shows that no two faces overlap{note}");
+    Pill::new(Sign::Good, format!("Planar: proved · {rung}"), tip)
+}
+
+/// What follows a drag, and what is known of it.
+fn preview_words(editor: &Editor) -> String {
+    let known = match editor.session.preview().map(crate::session::Preview::verdict) {
+        None => return "preview, not repaired".to_owned(),
+        Some(None) => "checking…".to_owned(),
+        Some(Some(verdict)) if verdict.planar => "planar".to_owned(),
+        Some(Some(verdict)) => short_verdict(verdict),
+    };
+    format!("preview, not repaired · {known}")
+}
+
+/// The verdict in the fewest words.
+fn short_verdict(verdict: &Verdict) -> String {
+    let counts = [
+        (verdict.flipped_faces.len(), ["flipped"; 2]),
+        (verdict.boundary_crossings.len() + verdict.unlisted_crossings, ["crossing", "crossings"]),
+        (verdict.overwound_vertices.len(), ["overwound"; 2]),
+    ];
+    let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, [one, many])| counted(*count, one, many));
+    words.collect::<Vec<_>>().join(" · ")
+}
+
+fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
+    let theme = theme_of(ui);
+    let colour = pill.sign.colour(theme);
+    let text = egui::WidgetText::from(RichText::new(&pill.words).color(colour).strong());
+    let galley = text.into_galley(ui, None, f32::INFINITY, egui::TextStyle::Body);
+    let size = galley.size() + egui::vec2(20.0 + SIGN + 6.0, 6.0);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
+    let strength = if response.hovered() { 0.24 } else { 0.13 };
+    ui.painter().rect_filled(rect, rect.height() / 2.0, colour.gamma_multiply(strength));
+    if response.has_focus() {
+        let stroke = egui::Stroke::new(1.0, colour);
+        ui.painter().rect_stroke(rect, rect.height() / 2.0, stroke, egui::StrokeKind::Inside);
+    }
+    let square =
+        egui::Rect::from_center_size(rect.left_center() + egui::vec2(10.0 + SIGN / 2.0, 0.0), egui::Vec2::splat(SIGN));
+    icons::sign(ui.painter(), square, pill.sign, theme);
+    let at = egui::pos2(square.right() + 6.0, rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(at, galley, colour);
+    response.named(Role::Button, &format!("Verdict: {}", pill.words)).on_hover_text(&pill.tip)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use super::*;
+    use crate::examples::Example;
+    use crate::mesh::VertexId;
+    use crate::session::RecentFiles;
+    use crate::ui::theme::LIGHT;
+
+    /// Takes in what the background has done until a condition holds.
+    fn wait(editor: &mut Editor, is_there: impl Fn(&Editor) -> bool) {
+        let begun = Instant::now();
+        while !is_there(editor) {
+            assert!(begun.elapsed() < Duration::from_secs(90), "still waiting: {editor:?}");
+            std::thread::sleep(Duration::from_millis(1));
+            editor.session.poll();
+        }
+    }
+
+    fn is_solved(editor: &Editor) -> bool {
+        editor.session.busy().is_none() && editor.session.is_current()
+    }
+
+    /// A window in the middle of a drag, with a preview.
+    fn dragging() -> Editor {
+        let mut editor = Editor::new(&egui::Context::default(), RecentFiles::default());
+        editor.session.handle(Action::OpenExample(Example::Dome));
+        wait(&mut editor, is_solved);
+        editor.session.handle(Action::Fix([0, 10, 20].map(VertexId::new).to_vec()));
+        wait(&mut editor, is_solved);
+        let vertex = VertexId::new(10);
+        let target = editor.session.document().pins[&vertex].target + glam::DVec2::new(0.1, 0.05);
+        editor.session.handle(Action::MovePin { vertex, target });
+        wait(&mut editor, |editor| editor.session.preview().is_some());
+        editor
+    }
+
+    fn a_while_ago() -> Instant {
+        Instant::now().checked_sub(Duration::from_secs(1)).expect("the clock runs for longer")
+    }
+
+    #[test]
+    fn a_preview_says_so_while_its_run_is_solved_for_long() {
+        let mut editor = dragging();
+        editor.session.handle(Action::Rest);
+        // As if it had begun a while ago. Nothing is taken in meanwhile, so that no step has replaced the preview.
+        editor.host.note_work(true, a_while_ago());
+        let (pill, busy) = shown(&editor);
+        assert!(matches!(busy, Some(Busy::Solving(_))), "{busy:?}");
+        let words = pill.expect("the preview says what it is").words;
+        assert!(words.starts_with("preview, not repaired"), "{words}");
+    }
+
+    #[test]
+    fn work_takes_the_place_of_any_other_verdict() {
+        let mut editor = dragging();
+        editor.session.handle(Action::EndGesture);
+        wait(&mut editor, is_solved);
+        editor.session.handle(Action::Solve);
+        editor.host.note_work(true, a_while_ago());
+        let (pill, busy) = shown(&editor);
+        assert!(pill.is_none() && busy.is_some());
+    }
+}

@@ -1,0 +1,97 @@
+//! The selected vertex: where it lies and what surrounds it.
+
+use std::f64::consts::TAU;
+
+use eframe::egui;
+use glam::DVec2;
+
+use super::equation_table;
+use super::status::short;
+use crate::mesh::{DiskMesh, NewVertex, VertexId};
+use crate::session::Action;
+use crate::ui::controls::{Control, number, pairs};
+use crate::ui::{Editor, Request};
+
+/// Shows the panel.
+pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let Some(&vertex) = editor.selection.vertices().first() else {
+        ui.label("Select a vertex: click one in either pane, or press G and type its number.");
+        return;
+    };
+    if editor.selection.vertices().len() > 1 {
+        ui.weak(format!("{} selected; this is the first", editor.selection.vertices().len()));
+    }
+    let Some(scene) = editor.mesh_scene() else { return };
+    let Some(position) = scene.mesh().positions.get(vertex.index()) else { return };
+    ui.horizontal(|ui| {
+        ui.strong(vertex.to_string());
+        if ui.small_button("Copy").on_hover_text("Copy the number").clicked() {
+            ui.ctx().copy_text(vertex.number().to_string());
+        }
+        ui.small_button("Frame").asks(Request::GoTo(vec![vertex]), requests);
+    });
+    if let Some(new) = scene.new_vertex(vertex) {
+        ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
+    }
+    let embedding = editor.session.outcome().map(|outcome| outcome.step.solution.embedding.as_slice());
+    pairs(ui, "vertex", [16.0, 4.0], |ui| {
+        let mut row = |name: &str, value: String| {
+            number(ui, name, value);
+        };
+        for (axis, value) in ["x", "y", "z"].iter().zip(position.to_array()) {
+            row(axis, short(value));
+        }
+        if let Some(z) = embedding.and_then(|embedding| embedding.get(vertex.index())) {
+            let frame = editor.session.outcome().map(|outcome| outcome.frame).unwrap_or_default();
+            let uv = frame.uv_from_plane(*z);
+            row("u", short(uv.x));
+            row("v", short(uv.y));
+        }
+        if let Some(disk) = scene.disk() {
+            let valence = disk.outgoing(vertex).count();
+            row("Valence", valence.to_string());
+            let place = disk.boundary_place(vertex);
+            row("Lies", place.map_or_else(|| "inside".to_owned(), |at| format!("on the boundary ({at})")));
+            row("Angles on the mesh", turns(angle_sum_on_mesh(disk, vertex)));
+            if let Some(embedding) = embedding {
+                row("Angles in the plane", turns(angle_sum_in_plane(disk, embedding, vertex)));
+            }
+        }
+    });
+    equation_table::equation_ui(ui, editor, vertex, requests);
+    ui.add_space(8.0);
+    if editor.session.document().pins.contains_key(&vertex) {
+        ui.button("Free").on_hover_text("Take its pin away").asks(Action::Unpin(vec![vertex]), requests);
+    } else if embedding.is_some() && scene.new_vertex(vertex).is_none() {
+        ui.button("Fix").on_hover_text("Pin it where it lies").asks(Action::Fix(vec![vertex]), requests);
+    }
+}
+
+/// Where a new vertex lies.
+pub(super) fn new_vertex_words(new: &NewVertex) -> String {
+    let [a, b] = new.edge;
+    format!("new vertex on edge {a}–{b}")
+}
+
+/// Why a new vertex takes no pin.
+pub(super) const NOT_TO_PIN: &str = "It belongs to this embedding alone, and cannot be pinned";
+
+/// An angle sum as a multiple of a full turn.
+fn turns(angle: f64) -> String {
+    format!("{:.4} × 2π", angle / TAU)
+}
+
+fn angle_sum_on_mesh(disk: &DiskMesh, vertex: VertexId) -> f64 {
+    let at = |v: VertexId| disk.position(v) - disk.position(vertex);
+    corners(disk, vertex).map(|[a, b]| at(a).angle_between(at(b))).sum()
+}
+
+fn angle_sum_in_plane(disk: &DiskMesh, embedding: &[DVec2], vertex: VertexId) -> f64 {
+    let at = |v: VertexId| embedding[v.index()] - embedding[vertex.index()];
+    corners(disk, vertex).map(|[a, b]| at(a).angle_to(at(b)).abs()).sum()
+}
+
+/// The other two corners of each face around a vertex.
+fn corners(disk: &DiskMesh, vertex: VertexId) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+    disk.outgoing(vertex).filter(|&h| !disk.is_outer(h)).map(|h| [disk.head(h), disk.tail(disk.previous(h))])
+}

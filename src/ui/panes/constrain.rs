@@ -1,0 +1,261 @@
+//! The tool that joins a vertex with its place on the picture: vertex first, or place first. One function says what a
+//! click would do; the preview, the words in the status bar and the click itself all ask it.
+
+use eframe::egui;
+use egui::{Painter, Pos2, Stroke};
+use glam::DVec2;
+
+use super::pane;
+use super::pins;
+use crate::geom::VAxis;
+use crate::mesh::VertexId;
+use crate::session::Action;
+use crate::solver::Pin;
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Pane, Request, Tool};
+
+/// Targets snap to pixels that are larger than this, points.
+const SNAP_FROM: f64 = 8.0;
+
+/// The half of a pair that was placed first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Half {
+    /// The vertex; its place is to come.
+    Vertex(VertexId),
+    /// The place, in texture coordinates; the vertex is to come.
+    Target(DVec2),
+}
+
+/// What a click of the tool would do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Intent {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Take a vertex as the first half of a pair.
+    TakeVertex(VertexId),
+    /// Take a place, in texture coordinates, as the first half.
+    TakeTarget(DVec2),
+    /// Complete the pair.
+    Join(VertexId, DVec2),
+    /// Select a pin that is there.
+    Select(VertexId),
+}
+
+impl Editor {
+    /// Takes in where the pointer is, and what a click there would do. Call in each pane, once it knows the vertex under
+    /// the pointer; `grip` is the vertex of the pin whose mark would take the click.
+    pub(super) fn aim(&mut self, ui: &egui::Ui, pane: Pane, grip: Option<VertexId>) {
+        if self.tools.tool() != Tool::Constrain {
+            return;
+        }
+        let modifiers = ui.input(|input| input.modifiers);
+        let target = self.pointer.in_embedding().map(|place| self.target_at(place, modifiers));
+        self.tools.set_intent(match pane {
+            Pane::Mesh => self.intent_on_mesh(),
+            Pane::Plane => self.intent_in_plane(target, modifiers, grip),
+        });
+    }
+
+    fn intent_on_mesh(&self) -> Intent {
+        match (self.tools.pair(), self.vertex_to_pin()) {
+            (Some(Half::Target(target)), Some(vertex)) => Intent::Join(vertex, target),
+            (_, Some(vertex)) => self.first_half(vertex),
+            (_, None) => Intent::Nothing,
+        }
+    }
+
+    fn intent_in_plane(&self, target: Option<DVec2>, modifiers: egui::Modifiers, grip: Option<VertexId>) -> Intent {
+        let Some(target) = target else { return Intent::Nothing };
+        match (self.tools.pair(), self.vertex_to_pin()) {
+            (Some(Half::Vertex(vertex)), _) => Intent::Join(vertex, target),
+            (Some(Half::Target(first)), Some(vertex)) => Intent::Join(vertex, first),
+            (None, Some(vertex)) if grip == Some(vertex) => Intent::Select(vertex),
+            // Over a picture a click means a place of the picture.
+            (None, Some(vertex)) if modifiers.shift || !(modifiers.alt || self.has_picture()) => {
+                self.first_half(vertex)
+            }
+            _ => Intent::TakeTarget(target),
+        }
+    }
+
+    /// The vertex under the pointer, where it can be pinned: new vertices belong to one embedding alone.
+    pub(super) fn vertex_to_pin(&self) -> Option<VertexId> {
+        self.pointer.vertex().filter(|&vertex| !self.is_new_vertex(vertex))
+    }
+
+    /// Whether the mesh on the screen has a vertex that the mesh as given does not have.
+    pub(in crate::ui) fn is_new_vertex(&self, vertex: VertexId) -> bool {
+        self.mesh_scene().is_some_and(|scene| scene.new_vertex(vertex).is_some())
+    }
+
+    fn first_half(&self, vertex: VertexId) -> Intent {
+        let is_pinned = self.session.document().pins.contains_key(&vertex);
+        if is_pinned && self.tools.pair().is_none() { Intent::Select(vertex) } else { Intent::TakeVertex(vertex) }
+    }
+
+    /// The texture coordinates of a place in the plane: those of a pixel's corner or middle, where pixels are large on
+    /// the screen, unless Alt is held.
+    fn target_at(&self, place: DVec2, modifiers: egui::Modifiers) -> DVec2 {
+        let document = self.session.document();
+        let target = document.frame().uv_from_plane(place);
+        let (Some(picture), Some(camera)) = (&document.picture, &self.plane_camera) else { return target };
+        let pixels = DVec2::new(picture.pixels.width.into(), picture.pixels.height.into());
+        let is_large = camera.points_per_unit() / pixels.y > SNAP_FROM;
+        if is_large && !modifiers.alt { snapped(target, pixels) } else { target }
+    }
+
+    /// Carries out what a click would do.
+    pub(in crate::ui) fn constrain(&mut self) -> Vec<Request> {
+        match self.tools.take_intent() {
+            Intent::Nothing if self.tools.pair().is_some() => Vec::new(),
+            Intent::Nothing => vec![Request::Select(Vec::new())],
+            Intent::TakeVertex(vertex) => {
+                self.tools.set_pair(Some(Half::Vertex(vertex)));
+                vec![Request::Select(vec![vertex])]
+            }
+            Intent::TakeTarget(target) => {
+                self.tools.set_pair(Some(Half::Target(target)));
+                vec![Request::Select(Vec::new())]
+            }
+            Intent::Join(vertex, target) => {
+                self.tools.set_pair(None);
+                let pin = Pin { target, hold: self.tools.hold() };
+                vec![Request::Do(Action::Place { vertex, pin }), Request::Select(vec![vertex])]
+            }
+            Intent::Select(vertex) => vec![Request::Select(vec![vertex])],
+        }
+    }
+
+    /// What the tool does, in words.
+    pub(in crate::ui) fn constrain_words(&self) -> String {
+        let numbers = |target: DVec2| format!("u {:.4} v {:.4}", target.x, target.y);
+        match (self.tools.intent(), self.tools.pair()) {
+            (Intent::Join(vertex, target), _) => format!("Click: {vertex} goes to {}.", numbers(target)),
+            (Intent::Select(vertex), _) => format!("Click: select the pin of {vertex}."),
+            (Intent::TakeVertex(vertex), _) => format!("Click: take {vertex}; its place comes next."),
+            (Intent::TakeTarget(target), _) => {
+                format!("Click: take the place {}; the vertex comes next.", numbers(target))
+            }
+            (Intent::Nothing, Some(Half::Vertex(vertex))) => {
+                format!("Click the place of {vertex} in the embedding. Esc gives it up.")
+            }
+            (Intent::Nothing, Some(Half::Target(_))) => {
+                "Click the vertex that goes there, in either pane. Esc gives it up.".to_owned()
+            }
+            (Intent::Nothing, None) => {
+                "Click a vertex on the mesh, then its place in the embedding; or the place first. Esc ends.".to_owned()
+            }
+        }
+    }
+
+    /// Where a place in texture coordinates lies in the plane.
+    fn in_plane(&self, target: DVec2) -> DVec2 {
+        self.session.document().frame().plane_from_uv(target)
+    }
+
+    /// Where a vertex of the mesh's pane is on the screen.
+    fn on_mesh(&self, vertex: VertexId) -> Option<Pos2> {
+        let position = *self.mesh_scene()?.mesh().positions.get(vertex.index())?;
+        let rect = self.pane_rects[0]?;
+        Some(pane::on_screen(rect, self.orbit?.pane_from_world(position, pane::size_of(rect))?))
+    }
+
+    /// Where a place of the plane is on the screen.
+    fn in_embedding_pane(&self, place: DVec2) -> Option<Pos2> {
+        let rect = self.pane_rects[1]?;
+        Some(pane::on_screen(rect, self.plane_camera?.pane_from_embedding(place, pane::size_of(rect))))
+    }
+
+    /// The target of the pair that is being placed, in the plane: taken already, or under the pointer.
+    pub(super) fn target_of_pair(&self) -> Option<DVec2> {
+        match (self.tools.pair(), self.tools.intent()) {
+            (Some(Half::Target(target)), _) | (_, Intent::Join(_, target) | Intent::TakeTarget(target)) => {
+                Some(self.in_plane(target))
+            }
+            _ => None,
+        }
+    }
+
+    /// The vertex of the pair that is being placed.
+    pub(super) fn vertex_of_pair(&self) -> Option<VertexId> {
+        match (self.tools.pair(), self.tools.intent()) {
+            (Some(Half::Vertex(vertex)), _) | (_, Intent::Join(vertex, _)) => Some(vertex),
+            _ => None,
+        }
+    }
+}
+
+/// Texture coordinates at the nearest corner or middle of a pixel.
+fn snapped(target: DVec2, pixels: DVec2) -> DVec2 {
+    let at = target * pixels;
+    let corner = at.round();
+    let middle = at.floor() + 0.5;
+    let nearest = if at.distance_squared(corner) < at.distance_squared(middle) { corner } else { middle };
+    nearest / pixels
+}
+
+/// What a click would place, over the embedding, and the line from the vertex that goes there.
+pub(in crate::ui) fn preview(painter: &Painter, ui: &egui::Ui, editor: &Editor, spot: &dyn Fn(DVec2) -> Pos2) {
+    if editor.tools.tool() != Tool::Constrain {
+        return;
+    }
+    let theme = theme_of(ui);
+    let Some(target) = editor.target_of_pair() else { return };
+    let place =
+        |vertex: VertexId| editor.drawn_plane().and_then(|plane| plane.positions().get(vertex.index()).copied());
+    if let Some(from) = editor.vertex_of_pair().and_then(place) {
+        painter.line_segment([spot(from), spot(target)], Stroke::new(1.5, theme.constraint.gamma_multiply(0.75)));
+    }
+    pins::ghost(painter, spot(target), theme);
+}
+
+/// The line across both panes, from the vertex on the mesh to its place.
+pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
+    let [Some(mesh), Some(plane)] = editor.pane_rects else { return };
+    if editor.tools.tool() != Tool::Constrain || editor.tools.pair().is_none() {
+        return;
+    }
+    let theme = theme_of(ui);
+    let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|_| editor.pointer.pane().is_some());
+    let vertex = editor.vertex_of_pair().and_then(|vertex| editor.on_mesh(vertex));
+    let target = editor.target_of_pair().and_then(|target| editor.in_embedding_pane(target));
+    let ends = match editor.tools.pair() {
+        Some(Half::Vertex(_)) => vertex.zip(target.or(pointer)),
+        _ => vertex.or(pointer).zip(target),
+    };
+    let Some((from, to)) = ends.filter(|(from, to)| mesh.contains(*from) && plane.contains(*to)) else { return };
+    let stroke = Stroke::new(1.0, theme.constraint.gamma_multiply(0.6));
+    ui.painter().with_clip_rect(mesh.union(plane)).add(egui::Shape::dashed_line(&[from, to], stroke, 6.0, 4.0));
+}
+
+/// Where v = 0 is, in words.
+pub(in crate::ui) const fn axis_words(v_axis: VAxis) -> &'static str {
+    match v_axis {
+        VAxis::Up => "v up",
+        VAxis::Down => "v down",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn targets_snap_to_corners_and_middles_of_pixels() {
+        let pixels = DVec2::new(8.0, 4.0);
+        for (from, to) in [([0.26, 0.26], [2.0, 1.0]), ([0.31, 0.38], [2.5, 1.5]), ([0.99, 0.01], [8.0, 0.0])] {
+            assert_eq!(snapped(DVec2::from(from), pixels), DVec2::from(to) / pixels, "{from:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_snapped_stays() {
+        let pixels = DVec2::new(640.0, 427.0);
+        for target in [DVec2::new(0.123, 0.877), DVec2::new(1.0, 0.5), DVec2::new(-0.2, 1.3)] {
+            let once = snapped(target, pixels);
+            assert_eq!(snapped(once, pixels), once);
+            assert!(((once - target) * pixels).length() <= 0.5 + 1e-9, "{target} to {once}");
+        }
+    }
+}

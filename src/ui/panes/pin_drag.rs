@@ -1,0 +1,188 @@
+//! Pins in the embedding's pane: each is a widget of its own, with a name, that can be grabbed. Where several are
+//! selected, they go together.
+
+use eframe::egui;
+use egui::{CursorIcon, Rect, Response, Role, Sense, Vec2, WidgetInfo};
+use glam::DVec2;
+
+use super::pane;
+use super::pins::{self, Emphasis, PinShown};
+use crate::geom::PictureFrame;
+use crate::mesh::VertexId;
+use crate::session::Action;
+use crate::solver::Conflict;
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Request};
+use crate::view::PlaneCamera;
+
+/// Side of the square around a pin that can be grabbed, points.
+const GRAB_SIZE: f32 = 18.0;
+
+/// A pointer that has not moved for so long in the middle of a drag rests, seconds.
+const REST: f64 = 0.2;
+
+/// A pin that is dragged.
+#[derive(Clone, Debug)]
+pub struct PinDrag {
+    vertex: VertexId,
+    /// From where the pointer grabbed it to its middle, points.
+    offset: Vec2,
+    /// The other pins that go with it, and how far from it they lie in the plane.
+    others: Vec<(VertexId, DVec2)>,
+    /// When the pointer moved last, seconds of the window's clock.
+    moved_at: f64,
+    /// Whether it was said since then that the pointer rests.
+    has_rested: bool,
+}
+
+impl PinDrag {
+    /// The pin that was grabbed.
+    pub(in crate::ui) fn vertex(&self) -> VertexId {
+        self.vertex
+    }
+
+    /// What moves the pin to a place in the plane, and all that go with it.
+    fn moves_to(&self, place: DVec2, frame: PictureFrame) -> Action {
+        let (vertex, target) = (self.vertex, frame.uv_from_plane(place));
+        if self.others.is_empty() {
+            return Action::MovePin { vertex, target };
+        }
+        let others = self.others.iter().map(|&(other, offset)| (other, frame.uv_from_plane(place + offset)));
+        Action::MovePins(std::iter::once((vertex, target)).chain(others).collect())
+    }
+}
+
+/// Where a pin is, and what it is about.
+struct Grip {
+    pin: PinShown,
+    at: egui::Pos2,
+    camera: PlaneCamera,
+    rect: Rect,
+}
+
+/// Shows the pins and takes their gestures.
+pub(super) fn pins_ui(
+    ui: &mut egui::Ui,
+    rect: Rect,
+    editor: &mut Editor,
+    camera: PlaneCamera,
+    requests: &mut Vec<Request>,
+) {
+    let theme = theme_of(ui);
+    let size = pane::size_of(rect);
+    let pins = editor.pins_shown();
+    if let Some(dragged) = editor.tools.dragged()
+        && !pins.iter().any(|pin| pin.vertex == dragged)
+    {
+        // It was taken away in the middle of the drag, by undo for one.
+        editor.tools.end_drag();
+        requests.push(Request::Do(Action::EndGesture));
+    }
+    for pin in pins {
+        let at = pane::on_screen(rect, camera.pane_from_embedding(pin.target, size));
+        let is_dragged = editor.tools.dragged() == Some(pin.vertex);
+        // A pin that is dragged out of the pane stays in the hand.
+        if !is_dragged && !rect.expand(GRAB_SIZE).contains(at) {
+            continue;
+        }
+        let grip = Grip { pin, at, camera, rect };
+        let response = grip.widget(ui, editor);
+        let strong = response.hovered() || editor.selection.contains(pin.vertex);
+        let emphasis = if strong { Emphasis::Strong } else { Emphasis::Plain };
+        let conflict = editor.session.conflict_of(pin.vertex);
+        if conflict.is_some() {
+            pins::conflict_mark(&ui.painter_at(rect), at, theme);
+        }
+        let response = match conflict {
+            Some(conflict) => response.on_hover_text(conflict_words(conflict)),
+            None => response,
+        };
+        pins::mark(&ui.painter_at(rect), at, theme, (pin.kind, emphasis));
+        // A mark that leaves the click to the pane leaves it what is said of it, too.
+        if editor.tools.pair().is_none() && (response.hovered() || response.dragged()) {
+            ui.ctx().set_cursor_icon(if response.dragged() { CursorIcon::Grabbing } else { CursorIcon::Grab });
+            editor.pointer.set_vertex(Some(pin.vertex));
+        }
+        if response.clicked() {
+            let adds = ui.input(|input| input.modifiers.shift || input.modifiers.command);
+            let toggle = Request::ToggleSelected(pin.vertex);
+            requests.push(if adds { toggle } else { Request::Select(vec![pin.vertex]) });
+        }
+        grip.drag(ui, &response, editor, requests);
+    }
+}
+
+/// What is amiss with constraints before they are solved for.
+pub(in crate::ui) fn conflict_words(conflict: &Conflict) -> String {
+    crate::ui::sentence(&conflict.words())
+}
+
+/// The vertex of the pin whose mark is under a place of the screen: of several the one on top, which takes the click.
+pub(super) fn pin_at(editor: &Editor, rect: Rect, camera: PlaneCamera, at: egui::Pos2) -> Option<VertexId> {
+    let size = pane::size_of(rect);
+    let is_under = |pin: &PinShown| {
+        let middle = pane::on_screen(rect, camera.pane_from_embedding(pin.target, size));
+        Rect::from_center_size(middle, Vec2::splat(GRAB_SIZE)).contains(at)
+    };
+    editor.pins_shown().into_iter().rfind(is_under).map(|pin| pin.vertex)
+}
+
+impl Grip {
+    fn widget(&self, ui: &egui::Ui, editor: &Editor) -> Response {
+        let PinShown { vertex, kind, .. } = self.pin;
+        let grab = Rect::from_center_size(self.at, Vec2::splat(GRAB_SIZE));
+        let seen = grab.intersect(self.rect);
+        let grab = if seen.is_positive() { seen } else { grab };
+        // The pane itself takes the click that completes a pair, even over a pin.
+        let sense = if editor.tools.pair().is_some() { Sense::hover() } else { Sense::click_and_drag() };
+        let response = ui.interact(grab, ui.scope_id().with(("pin", vertex)), sense);
+        let name = kind.name(vertex);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+        response
+    }
+
+    fn drag(&self, ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
+        let vertex = self.pin.vertex;
+        if response.drag_started() {
+            self.grab(ui, editor, requests);
+        }
+        let Some(drag) = editor.tools.drag_of(vertex) else { return };
+        let now = ui.input(|input| input.time);
+        if response.dragged() && response.drag_delta() != Vec2::ZERO {
+            let pointer = response.interact_pointer_pos().map_or(self.at, |pointer| pointer + drag.offset);
+            let place = self.camera.embedding_from_pane(pane::in_pane(self.rect, pointer), pane::size_of(self.rect));
+            requests.push(Request::Do(drag.moves_to(place, editor.session.document().frame())));
+            (drag.moved_at, drag.has_rested) = (now, false);
+        } else if response.dragged() && !drag.has_rested {
+            let still = now - drag.moved_at;
+            if still >= REST {
+                drag.has_rested = true;
+                requests.push(Request::Do(Action::Rest));
+            } else {
+                ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(REST - still));
+            }
+        }
+        // Also where the end came unseen, such as in another window.
+        if response.drag_stopped() || !response.dragged() {
+            editor.tools.end_drag();
+            requests.push(Request::Do(Action::EndGesture));
+        }
+    }
+
+    fn grab(&self, ui: &egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+        let PinShown { vertex, target, .. } = self.pin;
+        let pressed = ui.input(|input| input.pointer.press_origin());
+        let goes_together = editor.selection.contains(vertex);
+        let others: Vec<(VertexId, DVec2)> = if goes_together {
+            let selected = editor.pins_shown().into_iter().filter(|pin| editor.selection.contains(pin.vertex));
+            selected.filter(|pin| pin.vertex != vertex).map(|pin| (pin.vertex, pin.target - target)).collect()
+        } else {
+            requests.push(Request::Select(vec![vertex]));
+            Vec::new()
+        };
+        let offset = pressed.map_or(Vec2::ZERO, |pressed| self.at - pressed);
+        // Nothing has moved yet that rest would bring any further.
+        editor.tools.begin_drag(PinDrag { vertex, offset, others, moved_at: 0.0, has_rested: true });
+        requests.push(Request::Do(Action::EndGesture));
+    }
+}

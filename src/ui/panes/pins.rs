@@ -1,0 +1,199 @@
+//! Pins as both panes show them: what kind each is, and its mark.
+
+use std::collections::BTreeMap;
+
+use eframe::egui;
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2};
+use glam::DVec2;
+
+use crate::mesh::VertexId;
+use crate::solver::Hold;
+use crate::ui::Editor;
+use crate::ui::theme::Theme;
+
+/// Side of a pin's square, points.
+const SQUARE: f32 = 9.0;
+
+/// Half the height of a hard constraint's diamond, points.
+const DIAMOND: f32 = 6.5;
+
+/// Half the heights of the diamonds of the least and the largest weight that differ in size, points.
+const DIAMONDS: [f32; 2] = [4.0, 9.0];
+
+/// Those weights.
+const WEIGHTS: [f64; 2] = [1e-2, 1e2];
+
+/// What a strong mark is larger by, points.
+const STRONG: f32 = 2.0;
+
+/// An arrow or line shorter than this would only hide its ends, points.
+const LEAST_LINE: f32 = 3.0;
+
+/// What kind a pin is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PinKind {
+    /// A gauge pin that the solver chose.
+    Gauge,
+    /// A pin of the user's, held in this way.
+    User(Hold),
+}
+
+impl PinKind {
+    /// The pin's name, for those who do not see it.
+    pub fn name(self, vertex: VertexId) -> String {
+        match self {
+            Self::Gauge => format!("Gauge pin {vertex}"),
+            Self::User(Hold::Fixed) => format!("Pin {vertex}"),
+            Self::User(Hold::Hard | Hold::Weighted(_)) => format!("Constraint {vertex}"),
+        }
+    }
+}
+
+/// A pin with its target in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PinShown {
+    /// The pinned vertex.
+    pub vertex: VertexId,
+    /// Where it is to be, in the plane.
+    pub target: DVec2,
+    /// What kind it is.
+    pub kind: PinKind,
+}
+
+impl Editor {
+    /// The pins as drawn: the user's, then the gauge pins that the solver chose.
+    pub fn pins_shown(&self) -> Vec<PinShown> {
+        let document = self.session.document();
+        let uses_pins = document.settings.method.uses_pins();
+        // Marks show what the solver does: a treatment may weigh what was asked for exactly.
+        let users = if uses_pins { document.settings.held(&document.plane_pins()) } else { BTreeMap::new() };
+        let gauge = self.plane_scene.as_ref().filter(|scene| {
+            scene.outcome.step.solution.gauge_completed && scene.outcome.settings.method.uses_pins() && users.len() < 2
+        });
+        let gauge = gauge.map(|scene| &scene.outcome.step.solution.pins).into_iter().flatten();
+        let solver = gauge.filter(|(vertex, _)| !users.contains_key(vertex)).map(|(&vertex, pin)| PinShown {
+            vertex,
+            target: pin.target,
+            kind: PinKind::Gauge,
+        });
+        let own =
+            users.iter().map(|(&vertex, pin)| PinShown { vertex, target: pin.target, kind: PinKind::User(pin.hold) });
+        own.chain(solver).collect()
+    }
+
+    /// The exact pins that are not on their targets in the planar embedding on the screen, ascending.
+    pub fn unmet_shown(&self) -> Vec<VertexId> {
+        let outcome = self.plane_scene.as_ref().map(|scene| &scene.outcome);
+        let planar = outcome.filter(|outcome| outcome.step.verdict.planar && self.preview_plane().is_none());
+        planar.map(|outcome| outcome.step.unmet()).unwrap_or_default()
+    }
+
+    /// The selected vertices that are pins of the user's.
+    pub fn pins_selected(&self) -> impl Iterator<Item = VertexId> + '_ {
+        let pins = &self.session.document().pins;
+        self.selection.vertices().iter().copied().filter(|vertex| pins.contains_key(vertex))
+    }
+}
+
+/// How a mark is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::ui) enum Emphasis {
+    /// As any.
+    Plain,
+    /// Selected, or under the pointer.
+    Strong,
+}
+
+/// A pin's mark: a square for one that was fixed, hollow for the solver's own; a diamond for a constraint, hollow and
+/// as large as its weight for one that pulls.
+pub(in crate::ui) fn mark(painter: &Painter, at: Pos2, theme: &Theme, (kind, emphasis): (PinKind, Emphasis)) {
+    let more = if emphasis == Emphasis::Strong { STRONG } else { 0.0 };
+    match kind {
+        PinKind::Gauge => hollow_square(painter, at, theme, SQUARE + more),
+        PinKind::User(Hold::Fixed) => {
+            let square = Rect::from_center_size(at, Vec2::splat(SQUARE + more));
+            painter.rect_filled(square, 1.0, theme.pin);
+            painter.rect_stroke(square, 1.0, Stroke::new(1.0, Color32::WHITE), egui::StrokeKind::Outside);
+        }
+        PinKind::User(Hold::Hard) => {
+            let edge = Stroke::new(1.0, Color32::WHITE);
+            painter.add(Shape::convex_polygon(diamond(at, DIAMOND + more), theme.constraint, edge));
+        }
+        PinKind::User(Hold::Weighted(weight)) => hollow_diamond(painter, at, theme, half_height(weight) + more),
+    }
+}
+
+/// A ring around a pin's vertex that is not on its target.
+pub(super) fn unmet_mark(painter: &Painter, at: Pos2, theme: &Theme) {
+    painter.circle_stroke(at, DIAMOND + 4.0, Stroke::new(2.0, theme.unmet));
+}
+
+/// A thin ring around a pin that contradicts others on the mesh as it is.
+pub(super) fn conflict_mark(painter: &Painter, at: Pos2, theme: &Theme) {
+    painter.circle_stroke(at, DIAMOND + 3.0, Stroke::new(1.25, theme.stale));
+}
+
+/// What a click would place: a diamond that is not there yet.
+pub(in crate::ui) fn ghost(painter: &Painter, at: Pos2, theme: &Theme) {
+    let colour = theme.constraint.gamma_multiply(0.7);
+    let edge = Stroke::new(1.5, colour);
+    painter.add(Shape::convex_polygon(diamond(at, DIAMOND + STRONG), colour.gamma_multiply(0.3), edge));
+}
+
+fn hollow_square(painter: &Painter, at: Pos2, theme: &Theme, side: f32) {
+    let square = Rect::from_center_size(at, Vec2::splat(side));
+    painter.rect_filled(square, 1.0, theme.background.gamma_multiply(0.7));
+    let edge = Stroke::new(if side > SQUARE { 2.5 } else { 1.5 }, theme.pin);
+    painter.rect_stroke(square, 1.0, edge, egui::StrokeKind::Inside);
+}
+
+fn hollow_diamond(painter: &Painter, at: Pos2, theme: &Theme, half: f32) {
+    let under = Stroke::new(4.0, theme.background.gamma_multiply(0.8));
+    painter.add(Shape::closed_line(diamond(at, half), under));
+    let fill = theme.background.gamma_multiply(0.35);
+    painter.add(Shape::convex_polygon(diamond(at, half), fill, Stroke::new(2.0, theme.constraint)));
+}
+
+/// Half the height of the diamond of a weight.
+fn half_height(weight: f64) -> f32 {
+    let [least, most] = WEIGHTS.map(f64::log10);
+    let share = ((weight.log10() - least) / (most - least)).clamp(0.0, 1.0);
+    #[expect(clippy::cast_possible_truncation, reason = "a share of a few points")]
+    let share = share as f32;
+    egui::lerp(DIAMONDS[0]..=DIAMONDS[1], share)
+}
+
+fn diamond(at: Pos2, half: f32) -> Vec<Pos2> {
+    [(0.0, -half), (half, 0.0), (0.0, half), (-half, 0.0)].map(|(x, y)| at + Vec2::new(x, y)).to_vec()
+}
+
+/// What joins a vertex and its target where they differ: a line, and for a constraint that pulls an arrow.
+pub(in crate::ui) fn residual(painter: &Painter, [vertex, target]: [Pos2; 2], theme: &Theme, kind: PinKind) {
+    let way = target - vertex;
+    if !(LEAST_LINE..1e5).contains(&way.length()) {
+        return;
+    }
+    let colour = if matches!(kind, PinKind::User(Hold::Fixed) | PinKind::Gauge) { theme.pin } else { theme.constraint };
+    let stroke = Stroke::new(1.5, colour.gamma_multiply(0.75));
+    painter.circle_filled(vertex, 2.5, colour);
+    painter.line_segment([vertex, target], stroke);
+    if matches!(kind, PinKind::User(Hold::Weighted(_))) {
+        let along = way.normalized();
+        let wing = |turn: f32| target + (egui::emath::Rot2::from_angle(turn) * along) * -8.0;
+        painter.line_segment([target, wing(0.45)], stroke);
+        painter.line_segment([target, wing(-0.45)], stroke);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_larger_weight_has_a_larger_diamond() {
+        let sizes = [1e-9, 1e-2, 0.1, 1.0, 10.0, 1e2, 1e9].map(half_height);
+        assert!(sizes.is_sorted(), "{sizes:?}");
+        assert!(sizes[1] < sizes[3] && sizes[3] < sizes[5], "{sizes:?}");
+        assert!((DIAMONDS[0]..=DIAMONDS[1]).contains(&sizes[0]) && (DIAMONDS[0]..=DIAMONDS[1]).contains(&sizes[6]));
+    }
+}

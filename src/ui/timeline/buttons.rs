@@ -1,0 +1,190 @@
+//! The timeline's buttons: through the steps that there are, on to new ones, and where a run comes to rest.
+
+use eframe::egui;
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Button, Color32, PopupCloseBehavior, Rect, RichText, Role, Sense, Shape, Stroke, Vec2};
+
+use super::Room;
+use crate::session::{Action, StopConditions};
+use crate::ui::controls::{Control, tip_with_keys};
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Request, StepTarget};
+
+/// Side of a button with a drawing, points.
+const BUTTON: f32 = 24.0;
+
+/// The drawings on the buttons.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Drawing {
+    First,
+    Previous,
+    Play,
+    Pause,
+    Next,
+    Last,
+    FoldDown,
+    FoldUp,
+}
+
+/// Through the steps that there are.
+pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    ui.spacing_mut().item_spacing.x = 2.0;
+    let [has_previous, has_next] = editor.steps_around();
+    let is_playing = editor.timeline.playing_since.is_some();
+    let (play, play_name) =
+        if is_playing { (Drawing::Pause, "Stop playing") } else { (Drawing::Play, "Play the steps") };
+    let buttons = [
+        (Drawing::First, "First step", has_previous, Request::GoToStep(StepTarget::First)),
+        (Drawing::Previous, "Previous step", has_previous, Request::GoToStep(StepTarget::Previous)),
+        (play, play_name, has_previous || has_next, Request::TogglePlay),
+        (Drawing::Next, "Next step", has_next, Request::GoToStep(StepTarget::Next)),
+        (Drawing::Last, "Last step", has_next, Request::GoToStep(StepTarget::Last)),
+    ];
+    for (drawing, name, enabled, request) in buttons {
+        ui.add_enabled_ui(enabled, |ui| drawn_button(ui, drawing, name, request, requests));
+    }
+}
+
+/// Shows or hides the curves.
+pub(super) fn fold_button(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let shown = editor.timeline.curves_shown();
+    let (drawing, name) = if shown { (Drawing::FoldDown, "Hide the curves") } else { (Drawing::FoldUp, "Curves") };
+    drawn_button(ui, drawing, name, Request::ToggleCurves, requests);
+}
+
+fn drawn_button(ui: &mut egui::Ui, drawing: Drawing, name: &str, request: Request, requests: &mut Vec<Request>) {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
+    let theme = theme_of(ui);
+    if ui.is_enabled() && response.hovered() {
+        ui.painter().rect_filled(rect, 4.0, theme.accent.gamma_multiply(0.12));
+    }
+    if response.has_focus() {
+        ui.painter().rect_stroke(rect, 4.0, Stroke::new(1.0, theme.accent), egui::StrokeKind::Inside);
+    }
+    // Where it does nothing, egui draws it faintly.
+    draw(ui.painter(), rect, drawing, theme.text);
+    let tip = tip_with_keys(ui, name, &request);
+    let response = response.named(Role::Button, name).on_hover_text(&tip).on_disabled_hover_text(&tip);
+    response.asks(request, requests);
+}
+
+fn draw(painter: &egui::Painter, rect: Rect, drawing: Drawing, colour: Color32) {
+    let middle = rect.center();
+    let at = |x: f32, y: f32| middle + Vec2::new(x, y);
+    // From the tip to the base and half as high, points.
+    let triangle = |tip: f32, base: f32, half: f32| {
+        let corners = vec![at(tip, 0.0), at(base, -half), at(base, half)];
+        painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+    };
+    let bar = |x: f32| {
+        painter.rect_filled(Rect::from_center_size(at(x, 0.0), Vec2::new(2.0, 9.0)), 0.0, colour);
+    };
+    let ring = || {
+        painter.circle_stroke(middle, 9.0, Stroke::new(1.3, colour));
+    };
+    let chevron = |up: f32| {
+        let points = vec![at(-4.0, 2.0 * up), at(0.0, -2.0 * up), at(4.0, 2.0 * up)];
+        painter.add(Shape::line(points, Stroke::new(1.6, colour)));
+    };
+    match drawing {
+        Drawing::First => {
+            bar(-5.0);
+            triangle(-3.0, 5.0, 4.5);
+        }
+        Drawing::Previous => triangle(-4.5, 3.5, 4.5),
+        Drawing::Play => {
+            ring();
+            triangle(5.0, -2.5, 4.0);
+        }
+        Drawing::Pause => {
+            ring();
+            bar(-2.5);
+            bar(2.5);
+        }
+        Drawing::Next => triangle(4.5, -3.5, 4.5),
+        Drawing::Last => {
+            triangle(3.0, -5.0, 4.5);
+            bar(5.0);
+        }
+        Drawing::FoldDown => chevron(-1.0),
+        Drawing::FoldUp => chevron(1.0),
+    }
+}
+
+/// On to new steps.
+pub(super) fn run_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    ui.spacing_mut().item_spacing.x = 4.0;
+    let session = &editor.session;
+    let theme = theme_of(ui);
+    let is_disk = editor.has_disk();
+    let button = if session.is_held() {
+        // The one thing to do for whoever has just begun.
+        Button::new(RichText::new("Step").color(theme.panel)).fill(theme.accent)
+    } else {
+        Button::new("Step")
+    };
+    let step = Action::Step.into();
+    let tip = tip_with_keys(ui, "Take one further step", &step);
+    ui.add_enabled(is_disk, button).on_hover_text(tip).asks(step, requests);
+    let (words, enabled, tip) = if session.is_running() {
+        ("Pause", true, "Rest after the steps that there are")
+    } else {
+        ("Run", session.can_run(), "Go on until something stops it")
+    };
+    let tip = tip_with_keys(ui, tip, &Request::RunOrPause);
+    let at_rest = session.stopped().map_or("", crate::session::Stop::words);
+    let response = ui.add_enabled(enabled, Button::new(words).min_size(Vec2::new(50.0, 0.0)));
+    let response = response.on_disabled_hover_text(format!("At rest: {at_rest}. A single step goes on all the same."));
+    response.on_hover_text(tip).asks(Request::RunOrPause, requests);
+    ui.add_space(4.0);
+}
+
+/// Where a run comes to rest.
+pub(super) fn stop_menu(ui: &mut egui::Ui, editor: &Editor, room: Room, requests: &mut Vec<Request>) {
+    let before = editor.session.stop_conditions();
+    let mut stop = before;
+    let words = if room == Room::Ample { format!("Stop: {}", conditions_in_words(before)) } else { "Stop".to_owned() };
+    let response = lasting_menu(ui, &words, |ui| {
+        ui.weak("A run comes to rest where");
+        ui.checkbox(&mut stop.planar, "it is planar").on_hover_text("The embedding is proved one-to-one");
+        ui.checkbox(&mut stop.stalled, "it stalls").on_hover_text("The iteration gets no better and hardly moves");
+        ui.checkbox(&mut stop.crossing, "the boundary crosses").on_hover_text("Two boundary edges meet");
+        ui.horizontal(|ui| {
+            let mut at_step = stop.at_step.is_some();
+            let newest = editor.session.timeline().newest().unwrap_or_default();
+            if ui.checkbox(&mut at_step, "it reaches step").on_hover_text("Counted from 0").changed() {
+                stop.at_step = at_step.then_some(newest + 10);
+            }
+            if let Some(step) = &mut stop.at_step {
+                let field = ui.add(egui::DragValue::new(step).range(0..=100_000)).on_hover_text("Step, counted from 0");
+                field.named(Role::SpinButton, "Step to stop at");
+            }
+        });
+        ui.weak("The end of the method always counts.");
+    });
+    response.named(Role::Button, "Where a run stops").on_hover_text("Where a run comes to rest");
+    if stop != before {
+        requests.push(Action::SetStop(stop).into());
+    }
+}
+
+/// A quiet button with a menu that stays open while its boxes are ticked.
+pub(super) fn lasting_menu(ui: &mut egui::Ui, words: &str, add: impl FnOnce(&mut egui::Ui)) -> egui::Response {
+    let ink = theme_of(ui).weak_text;
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    // Room at the end for the mark that tells a menu from a button.
+    let button = Button::new(RichText::new(format!("{words}    ")).color(ink)).frame(false);
+    let (response, _) = MenuButton::from_button(button).config(config).ui(ui, add);
+    let middle = response.rect.right_center() - Vec2::new(4.5, -1.0);
+    let corners = [(-3.5, -2.0), (3.5, -2.0), (0.0, 3.0)].map(|(x, y)| middle + Vec2::new(x, y));
+    ui.painter().add(Shape::convex_polygon(corners.to_vec(), ink, Stroke::NONE));
+    response
+}
+
+/// The conditions in the fewest words.
+fn conditions_in_words(stop: StopConditions) -> String {
+    let named = [(stop.planar, "planar"), (stop.stalled, "stalled"), (stop.crossing, "crossing")];
+    let mut words: Vec<String> = named.iter().filter(|(on, _)| *on).map(|(_, words)| (*words).to_owned()).collect();
+    words.extend(stop.at_step.map(|step| format!("step {step}")));
+    if words.is_empty() { "at the end".to_owned() } else { words.join(", ") }
+}

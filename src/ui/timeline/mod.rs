@@ -1,0 +1,133 @@
+//! The strip under the panes: buttons, the steps in a row, and their numbers as curves.
+
+mod buttons;
+pub(super) mod chips;
+mod curves;
+
+use eframe::egui;
+use egui::{Align, Layout, RichText};
+
+use crate::session::Stop;
+use crate::ui::controls::remark;
+use crate::ui::theme::theme_of;
+use crate::ui::{Editor, Request};
+use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
+use chips::chips;
+use curves::{CURVE_COUNT, curves, curves_menu};
+
+/// Height of the strip's buttons and steps, points.
+const ROW_HEIGHT: f32 = 34.0;
+
+/// Height of the whole strip, points.
+const STRIP_HEIGHT: f32 = 150.0;
+
+/// In a window lower than this the curves do not show until they are asked for, points.
+pub(super) const CURVES_FROM: f32 = 560.0;
+
+/// Width of the strip below which it says less in words, points.
+const ROOMY: f32 = 720.0;
+
+/// How much there is to say in one row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Room {
+    /// All of it.
+    Ample,
+    /// What is needed.
+    Scarce,
+}
+
+/// What the window knows of its timeline, beyond the steps themselves.
+#[derive(Clone, Debug, Default)]
+pub struct TimelineView {
+    /// Whether the curves show; where nobody said, a low window does without.
+    pub curves_wanted: Option<bool>,
+    /// Whether the window is high enough for the curves.
+    pub window_is_high: bool,
+    /// The curves that a person has put away, by place.
+    pub curves_hidden: [bool; CURVE_COUNT],
+    /// When the step on the screen was put there, while the steps are played; seconds of the window's clock.
+    pub playing_since: Option<f64>,
+    /// The step that was scrolled to last.
+    scrolled_to: Option<usize>,
+}
+
+impl TimelineView {
+    /// Whether the curves show.
+    pub fn curves_shown(&self) -> bool {
+        self.curves_wanted.unwrap_or(self.window_is_high)
+    }
+
+    /// Height of the strip, points.
+    pub(super) fn height(&self) -> f32 {
+        if self.curves_shown() { STRIP_HEIGHT } else { ROW_HEIGHT }
+    }
+}
+
+/// Shows the strip.
+pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let room = if ui.available_width() >= ROOMY { Room::Ample } else { Room::Scarce };
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ui.allocate_ui_with_layout(
+        egui::vec2(ui.available_width(), ROW_HEIGHT),
+        Layout::left_to_right(Align::Center),
+        |ui| {
+            ui.set_min_height(ROW_HEIGHT);
+            playback_buttons(ui, editor, requests);
+            ui.separator();
+            run_buttons(ui, editor, requests);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                fold_button(ui, editor, requests);
+                if editor.timeline.curves_shown() && room == Room::Ample {
+                    curves_menu(ui, &mut editor.timeline);
+                }
+                stop_menu(ui, editor, room, requests);
+                if let Some(words) = rest_words(editor).filter(|_| room == Room::Ample) {
+                    remark(ui, words);
+                }
+                ui.add_space(6.0);
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| chips(ui, editor, requests));
+            });
+        },
+    );
+    if editor.timeline.curves_shown() {
+        if let Some(words) = notice(editor) {
+            let theme = theme_of(ui);
+            let ink = if words == PRESS_SPACE { theme.text } else { theme.weak_text };
+            ui.centered_and_justified(|ui| ui.label(RichText::new(words).color(ink)));
+        } else {
+            curves(ui, editor, requests);
+        }
+    }
+}
+
+/// Why the run is at rest, where the verdict does not say it.
+fn rest_words(editor: &Editor) -> Option<&'static str> {
+    match editor.session.stopped()? {
+        Stop::Planar | Stop::Done => None,
+        stop => Some(stop.words()),
+    }
+}
+
+/// What stands in the place of curves as long as there is only one step.
+fn notice(editor: &Editor) -> Option<&'static str> {
+    let session = &editor.session;
+    let count = session.timeline().records().len();
+    if count > 1 {
+        None
+    } else if count == 0 {
+        Some(if session.is_running() { "The first step is on its way." } else { "There is no step yet." })
+    } else if session.is_held() {
+        Some(PRESS_SPACE)
+    } else if session.is_preview() {
+        Some("The other steps follow when the gesture ends.")
+    } else if session.is_running() {
+        Some("The first step is there, the others follow.")
+    } else if session.stopped() == Some(Stop::Planar) {
+        Some("Planar at the first step: nothing to repair. Space takes one more.")
+    } else {
+        Some("This method is a single solve. Space goes on with a mean-value iteration.")
+    }
+}
+
+/// The hint for whoever has just begun.
+pub(super) const PRESS_SPACE: &str = "Press Space to take a step.";
