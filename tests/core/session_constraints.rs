@@ -112,6 +112,17 @@ fn relaxing_lowers_the_energy_and_keeps_the_constraints() {
 }
 
 #[test]
+fn a_planar_start_is_kept_when_targets_are_edited() {
+    let mut session = with_grid();
+    settled(&mut session, Action::SetSettings(Settings::new(Method::Continuation, Family::Conformal)));
+    place(&mut session, &twist()[..5]);
+    settle(&mut session);
+    assert_eq!(session.timeline().records()[0].rung, Method::Continuation, "one without pins had made the start");
+    settled(&mut session, Action::TurnFaces);
+    assert_eq!(session.timeline().records()[0].rung, Method::Natural, "that of other faces does not serve");
+}
+
+#[test]
 fn what_is_not_planar_is_not_relaxed() {
     let mut session = with_grid();
     settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
