@@ -7,21 +7,23 @@
 //! has 16.7 ms.
 
 mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::io::{ObjMesh, write_obj};
+use freebound::io::{ObjMesh, Target, write_obj};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, RecentFiles, Session};
-use freebound::solver::{Family, Hold, Method, Pin, Settings, verdict};
+use freebound::solver::{Family, Hold, Method, Settings, verdict};
 use freebound::view::{PlaneArrays, PlaneBox, UnitPlane};
 use glam::DVec2;
 
 use common::machine::print_machine;
-use common::sheet::sheet_of_faces;
 use common::table::{Table, seconds};
 use common::{Times, arguments};
+use makers::sheet_of_faces;
 
 /// Vertices of the meshes.
 const SIZES: [usize; 2] = [20_000, 100_000];
@@ -77,13 +79,13 @@ fn drag(vertices: usize) -> [String; 7] {
         let vertex = VertexId::from_index((2 * k + 1) * mesh.vertex_count() / (2 * CONSTRAINTS));
         let hold = if k % 6 == 5 { Hold::Weighted(10.0) } else { Hold::Hard };
         let target = flat[vertex.index()] + DVec2::from_angle(k as f64) * (0.01 * extent);
-        session.handle(Action::Place { vertex, pin: Pin { target, hold } });
+        session.handle(Action::Place { vertex, target: Target { uv: target, hold } });
     }
     settle(&mut session);
     let (mut first, mut move_, mut arrays, mut proof) =
         (Times::default(), Times::default(), Times::default(), Times::default());
     let mut bytes = 0;
-    let pins: Vec<(VertexId, DVec2)> = session.document().pins.iter().map(|(&v, pin)| (v, pin.target)).collect();
+    let pins: Vec<(VertexId, DVec2)> = session.document().targets.iter().map(|(&v, target)| (v, target.uv)).collect();
     for (vertex, from) in pins {
         let begin = Instant::now();
         session.handle(Action::MovePin { vertex, target: from + DVec2::X * (1e-4 * extent) });

@@ -3,6 +3,8 @@
 //! `cargo bench --bench iterate -- VERTICES…` takes other sizes.
 
 mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,9 +18,9 @@ use freebound::solver::{
 use glam::DVec2;
 
 use common::machine::{print_machine, processor_seconds};
-use common::sheet::sheet_of_faces;
 use common::table::{Table, seconds};
 use common::{Times, arguments, time};
+use makers::sheet_of_faces;
 
 /// Vertices of the meshes.
 const SIZES: [usize; 3] = [20_000, 100_000, 500_000];

@@ -7,9 +7,11 @@
 //! prints every step.
 
 mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use freebound::io::{StepReport, read_mesh};
 use freebound::mesh::DiskMesh;
@@ -17,9 +19,9 @@ use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, Step, f
 use glam::DVec2;
 
 use common::machine::print_machine;
-use common::sheet::Random;
 use common::table::Table;
 use common::{arguments, time};
+use makers::{Random, corpus};
 
 const PAIRS: usize = 20;
 
@@ -90,11 +92,7 @@ fn main() {
 
 /// The disks of the corpus whose name contains `name`, small ones first.
 fn meshes(name: &str) -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus");
-    let Ok(entries) = fs::read_dir(&folder) else {
-        println!("nothing to do: there is no corpus at {}", folder.display());
-        return Vec::new();
-    };
+    let Some(entries) = corpus().and_then(|folder| fs::read_dir(folder).ok()) else { return Vec::new() };
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "obj"));
     paths.retain(|path| path.file_name().is_some_and(|file| file.to_string_lossy().contains(name)));

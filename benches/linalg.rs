@@ -5,6 +5,8 @@
 //! have the same pattern and the same order, so that their times and memory compare. They are run in turns.
 
 mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
 
 use std::sync::atomic::AtomicBool;
 
@@ -15,9 +17,9 @@ use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
 use common::machine::{print_machine, processor_seconds};
-use common::sheet::sheet;
 use common::table::{Table, megabytes, ratio, seconds, target};
 use common::{Times, arguments};
+use makers::jittered_sheet;
 
 type C = Complex<f64>;
 
@@ -85,7 +87,7 @@ impl Job {
 
 fn measure(vertex_count: usize) {
     let cells = u32::try_from(vertex_count.isqrt() - 1).expect("a size that fits the memory");
-    let mesh = DiskMesh::try_from(sheet(cells)).expect("a sheet is a disk");
+    let mesh = DiskMesh::try_from(jittered_sheet(cells)).expect("a sheet is a disk");
     let mut jobs = [
         Job::new("LLT, conformal", Kind::Hermitian, &mesh, 1.0),
         Job::new("LU, mean value", Kind::General, &mesh, 0.0),

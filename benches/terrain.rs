@@ -7,6 +7,8 @@
 //! `cargo bench --bench terrain -- FILE.obj` writes the terrain, to be opened in the editor.
 
 mod common;
+#[path = "../examples/makers/mod.rs"]
+mod makers;
 
 use std::path::Path;
 
@@ -16,9 +18,9 @@ use freebound::solver::{Control, Family, Method, Pins, Settings, distortion, fla
 use glam::{DVec2, DVec3};
 
 use common::machine::print_machine;
-use common::sheet::{Random, sheet_of_faces};
 use common::table::Table;
 use common::{arguments, time};
+use makers::{Random, sheet_of_faces};
 
 const FACES: usize = 100_000;
 

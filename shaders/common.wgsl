@@ -39,7 +39,6 @@ struct Pane {
     checker_dark: vec4<f32>,
     wire: vec4<f32>,
     flipped: vec4<f32>,
-    selection: vec4<f32>,
     hover: vec4<f32>,
 }
 
@@ -51,9 +50,8 @@ const SHADING_CHECKER: u32 = 1u;
 const SHADING_PAINT: u32 = 2u;
 const SHADING_PICTURE: u32 = 3u;
 
-// Bits of a face, as in `FacePaint` of src/view/draw.rs.
+// Bit of a face, as in `FacePaint` of src/view/draw.rs.
 const FLIPPED: u32 = 1u;
-const SELECTED: u32 = 2u;
 
 fn linear_from_srgb(c: vec3<f32>) -> vec3<f32> {
     let low = c / 12.92;

@@ -65,9 +65,6 @@ fn marked(colour: vec3<f32>, flags: u32, face: u32) -> vec3<f32> {
     if (flags & FLIPPED) != 0u {
         result = pane.flipped.rgb;
     }
-    if (flags & SELECTED) != 0u {
-        result = mix(result, pane.selection.rgb, pane.selection.a);
-    }
     if face == pane.choice.z {
         result = mix(result, pane.hover.rgb, pane.hover.a);
     }

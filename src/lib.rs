@@ -7,13 +7,15 @@
 //!
 //! ```text
 //! geom   mesh         the plane · connectivity and 3D positions
-//!    \   /   \
-//!   linalg   examples sparse LLT and LU · built-in meshes
-//!      |        |
-//!    solver     |     the paper: weights, systems, methods, verdict, distortion
-//!      |   \    |
-//!      |    io  |     files in and out
-//!      |   /   /
+//!    \   /
+//!   linalg            sparse LLT and LU
+//!      |
+//!    solver           the paper: weights, systems, methods, verdict, distortion
+//!      |   \
+//!      |    io        files in and out
+//!      |   /  \
+//!      |  |  examples built-in meshes
+//!      |  |  /
 //!    session          one open document: commands, undo, background job
 //!      |
 //!     view            pure maths between document and pixels

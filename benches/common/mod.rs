@@ -8,7 +8,6 @@
 )]
 
 pub(crate) mod machine;
-pub(crate) mod sheet;
 pub(crate) mod table;
 
 use std::time::Instant;

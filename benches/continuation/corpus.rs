@@ -3,12 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use freebound::io::{Constraints, read_mesh};
+use freebound::geom::PictureFrame;
+use freebound::io::{Constraints, pins_in_plane, read_mesh};
 use freebound::mesh::DiskMesh;
 use freebound::solver::{Choice as _, Pins, Settings, Step, distortion, verdict};
 use glam::DVec2;
 
 use crate::common::table::{Table, seconds};
+use crate::makers::corpus;
 use crate::outcome::Outcome;
 
 /// Rounds of relaxing at the end.
@@ -54,9 +56,7 @@ pub(crate) fn run(is_quick: bool) {
 
 /// The constraint files, in the order of their names.
 fn sets() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus/constrained");
-    let Ok(entries) = fs::read_dir(&folder) else {
-        println!("nothing to do: there is no corpus at {}", folder.display());
+    let Some(entries) = corpus().and_then(|folder| fs::read_dir(folder.join("constrained")).ok()) else {
         return Vec::new();
     };
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -82,7 +82,8 @@ fn mesh_of(set: &Path) -> PathBuf {
 fn row(path: &Path) -> Result<[String; 13], String> {
     let file = read_mesh(&mesh_of(path)).map_err(|error| error.to_string())?;
     let mesh = DiskMesh::try_from(file.polygons.triangulate()).map_err(|error| error.to_string())?;
-    let pins = Constraints::read(path, mesh.vertex_count()).map_err(|error| error.to_string())?.pins;
+    let targets = Constraints::read(path, mesh.vertex_count()).map_err(|error| error.to_string())?.targets;
+    let pins = pins_in_plane(&targets, PictureFrame::default());
     let settings = Settings { relax_rounds: Some(RELAX_ROUNDS), ..Settings::default() };
     let found = Outcome::of(&mesh, settings, &pins);
     let shown = found.solved.as_ref().map(|(_, step)| step).or(found.last.as_ref());

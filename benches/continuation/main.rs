@@ -10,6 +10,8 @@
 mod common;
 
 mod corpus;
+#[path = "../../examples/makers/mod.rs"]
+mod makers;
 mod outcome;
 mod size;
 mod synthetic;

@@ -5,8 +5,8 @@ use std::fs;
 use freebound::io::peak_memory_bytes;
 use freebound::solver::{Choice as _, Settings};
 
-use crate::common::sheet::Random;
 use crate::common::table::{Table, megabytes, seconds, target};
+use crate::makers::Random;
 use crate::outcome::Outcome;
 use crate::synthetic::{Cap, Change};
 

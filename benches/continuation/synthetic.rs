@@ -7,14 +7,14 @@
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
-use freebound::examples::bumpy_cap_of;
+use crate::makers::bumpy_cap_of;
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::{Choice as _, Control, Ladder, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::common::Times;
-use crate::common::sheet::Random;
 use crate::common::table::{Table, seconds};
+use crate::makers::Random;
 use crate::outcome::Outcome;
 
 const VERTICES: [usize; 3] = [800, 5_000, 20_000];

@@ -8,8 +8,8 @@ use freebound::io::{ObjMesh, write_atomically, write_obj};
 
 use crate::common::Times;
 use crate::common::machine::PeakWatch;
-use crate::common::sheet::sheet_of_faces;
 use crate::common::table::{Table, seconds, target};
+use crate::makers::sheet_of_faces;
 use crate::{COMMON_FACES, LARGE_FACES};
 
 /// Faces, runs, the most seconds, and the most memory in millions of bytes where there is a limit.

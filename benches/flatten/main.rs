@@ -14,6 +14,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod end;
+#[path = "../../examples/makers/mod.rs"]
+mod makers;
 mod phases;
 mod solve;
 
@@ -21,7 +23,7 @@ use freebound::mesh::DiskMesh;
 
 use common::arguments;
 use common::machine::print_machine;
-use common::sheet::sheet_of_faces;
+use makers::sheet_of_faces;
 
 /// The size that an editor must handle with ease.
 const COMMON_FACES: usize = 100_000;

@@ -7,9 +7,9 @@ use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::solver::{Control, PhaseSeconds, Pins, Prepared, Settings, distortion, verdict};
 use glam::DVec3;
 
-use crate::common::sheet::{sheet, sheet_of_faces};
 use crate::common::table::{Table, megabytes, seconds, target};
 use crate::common::{Times, time};
+use crate::makers::{jittered_sheet, sheet_of_faces};
 use crate::{COMMON_FACES, LARGE_FACES, disk_of_faces};
 
 /// Sizes, in thousands of vertices.
@@ -90,7 +90,7 @@ pub(crate) fn growth() {
     let (source, result) = (folder.path().join("sheet.obj"), folder.path().join("flat.obj"));
     for thousand in THOUSANDS {
         let cells = (1000 * thousand).isqrt() - 1;
-        let mesh = sheet(u32::try_from(cells).expect("few cells"));
+        let mesh = jittered_sheet(u32::try_from(cells).expect("few cells"));
         write(&source, &ObjMesh::from(&mesh), &[]);
         let mut times = PhaseTimes::default();
         let mut last = (0, 0.0);

@@ -7,8 +7,9 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
+use crate::io::Target;
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Pin, Settings, Treatment};
+use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -60,7 +61,7 @@ pub struct FlattenArguments {
     pub family: Option<Family>,
     /// Pin a vertex, numbered from 0, at u,v: exactly, or pulled there by a weight. Repeatable.
     #[arg(long = "pin", value_name = "V:U,V[:WEIGHT]", value_parser = parse_pin, allow_hyphen_values = true)]
-    pub pins: Vec<(VertexId, Pin)>,
+    pub pins: Vec<(VertexId, Target)>,
     /// Pin vertices as a file says: lines `vertex u v [weight]`, vertices numbered from 0, comments behind a #.
     #[arg(long, value_name = "FILE")]
     pub constraints: Option<PathBuf>,
@@ -189,7 +190,7 @@ fn choice<C: Choice>() -> impl TypedValueParser<Value = C> {
     PossibleValuesParser::new(values).map(|name| C::named(&name).expect("only these names pass"))
 }
 
-fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
+fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
     let parsed = || {
         let (vertex, place) = text.split_once(':')?;
         let (place, weight) = place.split_once(':').map_or((place, None), |(place, weight)| (place, Some(weight)));
@@ -198,15 +199,15 @@ fn parse_pin(text: &str) -> Result<(VertexId, Pin), String> {
             None => Hold::Hard,
             Some(weight) => Hold::Weighted(weight.trim().parse().ok()?),
         };
-        let target = DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?);
-        Some((VertexId::new(vertex.trim().parse().ok()?), Pin { target, hold }))
+        let uv = DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?);
+        Some((VertexId::new(vertex.trim().parse().ok()?), Target { uv, hold }))
     };
-    let (vertex, pin) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
-    match pin.hold {
-        Hold::Weighted(weight) if !pin.hold.is_valid() => {
+    let (vertex, target) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
+    match target.hold {
+        Hold::Weighted(weight) if !target.hold.is_valid() => {
             Err(format!("the weight {weight} of vertex {vertex} is not a positive number"))
         }
-        _ => Ok((vertex, pin)),
+        _ => Ok((vertex, target)),
     }
 }
 
@@ -218,35 +219,4 @@ fn parse_aspect(text: &str) -> Result<f64, String> {
         (aspect.is_normal() && aspect > 0.0).then_some(aspect)
     };
     parsed().ok_or_else(|| "write WIDTH:HEIGHT, for example 16:9".to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_arguments_hold_together() {
-        use clap::CommandFactory as _;
-        Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn a_pin_is_a_vertex_and_two_numbers_and_perhaps_a_weight() {
-        let target = DVec2::new(0.5, -2.0);
-        assert_eq!(parse_pin("7:0.5,-2").unwrap(), (VertexId::new(7), Pin::hard(target)));
-        assert_eq!(parse_pin("7:0.5,-2:3e2").unwrap(), (VertexId::new(7), Pin::weighted(target, 300.0)));
-        for wrong in
-            ["", "7", "7:1", "7:1,x", "-1:0,0", "7:1,2,3", "7:1,2:", "7:1,2:x", "7:1,2:0", "7:1,2:-1", "7:1,2:inf"]
-        {
-            assert!(parse_pin(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn an_aspect_is_a_width_and_a_height() {
-        assert_eq!(parse_aspect("3:2").unwrap().to_bits(), 1.5_f64.to_bits());
-        for wrong in ["", "3", "3:0", "0:3", "-3:2", "nan:1", "inf:1", "3x2", "1e300:1e-300"] {
-            assert!(parse_aspect(wrong).is_err(), "{wrong}");
-        }
-    }
 }

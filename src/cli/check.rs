@@ -1,17 +1,13 @@
 //! `freebound check`: the diagnosis of a mesh, and the verdict on its texture coordinates where it has some.
 
-use std::io::Write as _;
-use std::path::Path;
 use std::time::Instant;
 
 use super::args::CheckArguments;
-use super::flatten::{disk_of, go_on, print_report};
+use super::flatten::{disk_of, go_on};
 use super::progress::is_interrupted;
+use super::summary::{StandardOutput, deliver};
 use super::{Failure, Status};
-use crate::io::{
-    MeshReport, Report, Seconds, TextureError, TextureMesh, WriteError, peak_memory_bytes, verdict_as_in_file,
-    write_atomically,
-};
+use crate::io::{MeshReport, Report, Seconds, TextureError, TextureMesh, WriteError, verdict_as_in_file};
 use crate::mesh::DiskMesh;
 use crate::session::Model;
 use crate::solver::{distortion, verdict};
@@ -55,38 +51,14 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
 /// A report on the mesh alone.
 fn report(mesh: MeshReport, start: Instant, read: f64) -> Report {
     let total = start.elapsed().as_secs_f64();
-    Report {
-        freebound: env!("CARGO_PKG_VERSION"),
-        mesh,
-        method: None,
-        boundary: None,
-        placement: None,
-        family: None,
-        pins: None,
-        steps: Vec::new(),
-        verdict: None,
-        distortion: None,
-        new_vertices: 0,
-        split_edges: Vec::new(),
-        seconds: Seconds { read, verify: total - read, total, ..Seconds::default() },
-        peak_memory_bytes: peak_memory_bytes(),
-    }
+    Report { seconds: Seconds { read, verify: total - read, total, ..Seconds::default() }, ..Report::of_mesh(mesh) }
 }
 
-/// Writes the report where it is wanted, and the words unless standard output is for the report.
+/// Delivers the report, and the words where there is room for them.
 fn conclude(arguments: &CheckArguments, report: &Report, words: &str) -> Result<(), WriteError> {
-    match &arguments.report {
-        Some(path) if path == Path::new("-") => {
-            print_report(report);
-            return Ok(());
-        }
-        Some(path) => write_atomically(path, |out| {
-            serde_json::to_writer_pretty(&mut *out, report)?;
-            writeln!(out)
-        })?,
-        None => {}
+    if deliver(report, arguments.report.as_deref())? == StandardOutput::Free {
+        println!("{words}");
     }
-    println!("{words}");
     Ok(())
 }
 

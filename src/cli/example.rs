@@ -27,7 +27,8 @@ fn flatten_example() -> Result<Status, Failure> {
     let [mesh, picture, report] = ["face.obj", "face.png", "face.json"].map(|name| folder.join(name));
     let job = HeadlessJob {
         document: Document::of_example(Example::Face),
-        sizes: [OutputFit::Unit; 2],
+        fit: OutputFit::Unit,
+        svg_fit: OutputFit::Unit,
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
         report: Some(&report),
         steps: None,

@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::args::{Fit, FlattenArguments};
 use super::constraints::gather;
 use super::progress::{Progress, interrupted, is_interrupted};
-use super::summary::{ending_words, print_conflicts, print_summary, step_words};
+use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, print_summary, step_words};
 use super::{Failure, Status};
 use crate::io::{OutputKind, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
@@ -32,9 +32,9 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let start = Instant::now();
         progress.enter("reading");
         let model = Model::read_until(&arguments.mesh, &is_interrupted)?;
-        let pins = gather(arguments, disk_of(&model)?.vertex_count())?;
+        let targets = gather(arguments, disk_of(&model)?.vertex_count())?;
         let document = Document {
-            pins,
+            targets,
             settings: arguments.settings(),
             picture: picture.map(Arc::new),
             aspect: arguments.aspect,
@@ -42,7 +42,8 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         };
         let job = HeadlessJob {
             document,
-            sizes: [fit, arguments.svg_scale.map_or(fit, output_fit)],
+            fit,
+            svg_fit: arguments.svg_scale.map_or(fit, output_fit),
             outputs: [
                 (OutputKind::Obj, arguments.output.as_deref()),
                 (OutputKind::Svg, arguments.svg.as_deref()),
@@ -68,8 +69,10 @@ fn output_fit(fit: Fit) -> OutputFit {
 /// A flattening without a screen, the mesh already read.
 pub(super) struct HeadlessJob<'a> {
     pub(super) document: Document,
-    /// Size of the texture coordinates and of the drawing.
-    pub(super) sizes: [OutputFit; 2],
+    /// Size of the texture coordinates.
+    pub(super) fit: OutputFit,
+    /// Size of the drawing.
+    pub(super) svg_fit: OutputFit,
     pub(super) outputs: Vec<(OutputKind, &'a Path)>,
     pub(super) report: Option<&'a Path>,
     pub(super) steps: Option<&'a Path>,
@@ -82,11 +85,10 @@ impl HeadlessJob<'_> {
         let read_seconds = start.elapsed().as_secs_f64();
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
         let mut solved = self.solve(mesh, folder.as_mut(), progress)?;
-        let [fit, svg_fit] = self.sizes;
         let records = std::mem::take(&mut solved.records);
-        let mut finished = Finished::new((model, mesh), &solved.outcome, records, fit, read_seconds)
+        let mut finished = Finished::new((model, mesh), &solved.outcome, records, self.fit, read_seconds)
             .with_picture(self.document.picture.clone())
-            .with_svg_fit(svg_fit);
+            .with_svg_fit(self.svg_fit);
         progress.enter("writing");
         let before_writing = Instant::now();
         go_on()?;
@@ -99,12 +101,7 @@ impl HeadlessJob<'_> {
         }
         finished.report.seconds.write = before_writing.elapsed().as_secs_f64();
         finished.report.seconds.total = start.elapsed().as_secs_f64();
-        match self.report {
-            Some(path) if path == Path::new("-") => print_report(&finished.report),
-            Some(path) => finished.write(OutputKind::Json, path)?,
-            None => {}
-        }
-        if self.report != Some(Path::new("-")) {
+        if deliver(&finished.report, self.report)? == StandardOutput::Free {
             print_summary(&finished.report, &ending_words(&solved, &finished));
         }
         Ok(if finished.verdict().planar && are_met(&finished.report) { Status::Fine } else { Status::FallsShort })
@@ -121,12 +118,12 @@ impl HeadlessJob<'_> {
         let control = Control::new(interrupted(), &report_phase);
         let document = &self.document;
         let settings = document.run_settings();
-        let pins = document.plane_pins();
+        let pins = document.pins();
         if settings.method.uses_pins() {
             print_conflicts(&conflicts(mesh, &settings.held(&pins)));
         }
         let mut run = Ladder::new(settings, pins);
-        let placed = |step: Step| Outcome::new(mesh, settings, (document.frame(), document.pins.clone()), step);
+        let placed = |step: Step| Outcome::new(mesh, document.problem(), step);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;
         loop {
@@ -163,11 +160,6 @@ pub(super) struct Solved {
     records: Vec<StepReport>,
     /// Why it ended; the error of the rung that gave nothing, where it could not go on.
     pub(super) ending: Result<Ending, SolveError>,
-}
-
-/// Writes a report to standard output, which must then hold nothing else.
-pub(super) fn print_report(report: &Report) {
-    println!("{}", serde_json::to_string_pretty(report).expect("a report is plain data"));
 }
 
 /// An error where the user asked to stop.

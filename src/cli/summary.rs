@@ -1,7 +1,9 @@
 //! What a person reads: the line that follows the work, and the lines that sum it up.
 
+use std::path::Path;
+
 use super::flatten::Solved;
-use crate::io::{PinsReport, Report};
+use crate::io::{PinsReport, Report, WriteError};
 use crate::mesh::VertexId;
 use crate::session::{Finished, Placement};
 use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step};
@@ -41,7 +43,7 @@ pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
     let mut words = finished.verdict().summary();
     let Solved { outcome, ending, .. } = solved;
     let step = &outcome.step;
-    if outcome.settings.method.takes_steps() {
+    if outcome.problem.settings.method.takes_steps() {
         let count = finished.report.steps.len();
         let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
         let why = match ending {
@@ -79,6 +81,28 @@ fn pins_words(pins: &PinsReport) -> Option<String> {
     });
     let parts: Vec<String> = hard.into_iter().chain(weighted).collect();
     (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
+}
+
+/// Whether standard output may be written to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StandardOutput {
+    /// It may.
+    Free,
+    /// A report is on it, which must stand alone.
+    Taken,
+}
+
+/// Writes a report where it is wanted: into a file, or to standard output for `-`.
+pub(super) fn deliver(report: &Report, to: Option<&Path>) -> Result<StandardOutput, WriteError> {
+    match to {
+        Some(path) if path == Path::new("-") => {
+            println!("{}", serde_json::to_string_pretty(report).expect("a report is plain data"));
+            return Ok(StandardOutput::Taken);
+        }
+        Some(path) => report.write(path)?,
+        None => {}
+    }
+    Ok(StandardOutput::Free)
 }
 
 /// Prints what a run came to.

@@ -1,4 +1,13 @@
 //! The plane: exact predicates on points, segments and closed polygons, convex hulls, and pictures. Knows no mesh.
+//!
+//! | file | what |
+//! |---|---|
+//! | `orient.rs` | the side of a line that a point lies on, exactly |
+//! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; where it meets itself |
+//! | `hull.rs` | the convex hull |
+//! | `delaunay.rs`, `outside.rs`, `spade_points.rs` | triangulations of points, and of what lies outside a polygon |
+//! | `similarity.rs` | the similarity that fits pairs of points best |
+//! | `picture.rs`, `picture_frame.rs` | a picture, and how texture coordinates lie in the plane |
 
 mod crossings;
 mod delaunay;

@@ -6,15 +6,16 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
+use super::{Target, Targets};
 use crate::mesh::VertexId;
-use crate::solver::{Hold, Pin, Pins};
+use crate::solver::Hold;
 
 /// What a constraint file says, with the line of each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Constraints {
-    /// The pins: hard where no weight is given.
-    pub pins: Pins,
-    /// The line of each pin, counted from 1.
+    /// The targets: hard where no weight is given.
+    pub targets: Targets,
+    /// The line of each target, counted from 1.
     pub lines: BTreeMap<VertexId, u64>,
 }
 
@@ -138,9 +139,9 @@ impl Constraints {
             if text.is_empty() {
                 continue;
             }
-            let (vertex, pin) = parse_line(text).map_err(|kind| (line, kind))?;
-            found.check(vertex, &pin, vertex_count, &mut taken).map_err(|kind| (line, kind))?;
-            found.pins.insert(vertex, pin);
+            let (vertex, target) = parse_line(text).map_err(|kind| (line, kind))?;
+            found.check(vertex, &target, vertex_count, &mut taken).map_err(|kind| (line, kind))?;
+            found.targets.insert(vertex, target);
             found.lines.insert(vertex, line);
         }
         Ok(found)
@@ -149,7 +150,7 @@ impl Constraints {
     fn check(
         &self,
         vertex: VertexId,
-        pin: &Pin,
+        target: &Target,
         vertex_count: usize,
         taken: &mut BTreeMap<[u64; 2], VertexId>,
     ) -> Result<(), ConstraintFault> {
@@ -159,9 +160,9 @@ impl Constraints {
         if let Some(&first) = self.lines.get(&vertex) {
             return Err(ConstraintFault::Twice { vertex, first });
         }
-        if pin.hold.is_exact() {
+        if target.hold.is_exact() {
             // Adding zero makes one bit pattern of the two zeros.
-            let place = (pin.target + 0.0).to_array().map(f64::to_bits);
+            let place = (target.uv + 0.0).to_array().map(f64::to_bits);
             if let Some(&other) = taken.get(&place) {
                 return Err(ConstraintFault::OnePlace { vertex, other, first: self.lines[&other] });
             }
@@ -171,7 +172,7 @@ impl Constraints {
     }
 }
 
-fn parse_line(text: &str) -> Result<(VertexId, Pin), ConstraintFault> {
+fn parse_line(text: &str) -> Result<(VertexId, Target), ConstraintFault> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let (&[vertex, u, v] | &[vertex, u, v, _]) = words.as_slice() else {
         return Err(ConstraintFault::Form { text: text.to_owned() });
@@ -181,8 +182,8 @@ fn parse_line(text: &str) -> Result<(VertexId, Pin), ConstraintFault> {
     let number = |word: &str| -> Result<f64, ConstraintFault> {
         word.parse().map_err(|_| ConstraintFault::BadNumber { text: word.to_owned() })
     };
-    let target = DVec2::new(number(u)?, number(v)?);
-    if !target.is_finite() {
+    let uv = DVec2::new(number(u)?, number(v)?);
+    if !uv.is_finite() {
         return Err(ConstraintFault::NotFinite { vertex });
     }
     let hold = match words.get(3) {
@@ -191,19 +192,19 @@ fn parse_line(text: &str) -> Result<(VertexId, Pin), ConstraintFault> {
     };
     match hold {
         Hold::Weighted(weight) if !hold.is_valid() => Err(ConstraintFault::WeightNotPositive { vertex, weight }),
-        _ => Ok((vertex, Pin { target, hold })),
+        _ => Ok((vertex, Target { uv, hold })),
     }
 }
 
-/// Writes pins as a constraint file; numbers read back bit for bit.
+/// Writes targets as a constraint file; numbers read back bit for bit.
 ///
 /// # Errors
 ///
 /// What `out` says.
-pub fn write_constraints(out: &mut impl Write, pins: &Pins) -> io::Result<()> {
+pub fn write_constraints(out: &mut impl Write, targets: &Targets) -> io::Result<()> {
     writeln!(out, "# vertex u v [weight]; vertices count from 0, without a weight a target is met exactly")?;
-    for (vertex, Pin { target, hold }) in pins {
-        write!(out, "{} {:?} {:?}", vertex.number(), target.x, target.y)?;
+    for (vertex, Target { uv, hold }) in targets {
+        write!(out, "{} {:?} {:?}", vertex.number(), uv.x, uv.y)?;
         match hold {
             Hold::Weighted(weight) => writeln!(out, " {weight:?}")?,
             Hold::Fixed | Hold::Hard => writeln!(out)?,

@@ -27,6 +27,7 @@ mod report;
 mod stamp;
 mod steps;
 mod svg;
+mod targets;
 
 pub use atomic::{WriteError, write_atomically, write_durably};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
@@ -36,7 +37,7 @@ pub use obj::{
     write_obj,
 };
 pub use output::{Output, OutputKind, ProvedEmbedding, TexturePicture};
-pub use picture::{PictureError, read_picture};
+pub use picture::{PictureError, decode_picture, read_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
@@ -46,3 +47,4 @@ pub use report::{
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;
 pub use svg::SvgPage;
+pub use targets::{Target, Targets, hard_targets, pins_in_plane};

@@ -1,6 +1,6 @@
 //! The files that a finished flattening is written to, by their kind.
 
-use std::io::{self, Write as _};
+use std::io;
 use std::path::Path;
 
 use glam::{DVec2, DVec3};
@@ -143,10 +143,7 @@ impl Output<'_> {
                 write_atomically(path, |out| write_svg(out, self.proved(self.coordinates), self.svg_page))
             }
             OutputKind::Png => write_atomically(path, |out| self.picture().write_png(out).map_err(io::Error::other)),
-            OutputKind::Json => write_atomically(path, |out| {
-                serde_json::to_writer_pretty(&mut *out, self.report)?;
-                writeln!(out)
-            }),
+            OutputKind::Json => self.report.write(path),
         }
     }
 

@@ -1,7 +1,11 @@
 //! The report: one JSON object per run.
 
+use std::io::Write as _;
+use std::path::Path;
+
 use serde::Serialize;
 
+use super::{WriteError, write_atomically};
 use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
 use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
 
@@ -44,6 +48,40 @@ pub struct Report {
     pub seconds: Seconds,
     /// Most memory that the process held, where the system tells.
     pub peak_memory_bytes: Option<u64>,
+}
+
+impl Report {
+    /// A report on a mesh alone.
+    pub fn of_mesh(mesh: MeshReport) -> Self {
+        Self {
+            freebound: env!("CARGO_PKG_VERSION"),
+            mesh,
+            method: None,
+            family: None,
+            pins: None,
+            boundary: None,
+            placement: None,
+            steps: Vec::new(),
+            verdict: None,
+            distortion: None,
+            new_vertices: 0,
+            split_edges: Vec::new(),
+            seconds: Seconds::default(),
+            peak_memory_bytes: peak_memory_bytes(),
+        }
+    }
+
+    /// Writes the report into a file.
+    ///
+    /// # Errors
+    ///
+    /// Where the file cannot be written; the error names it.
+    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
+        write_atomically(path, |out| {
+            serde_json::to_writer_pretty(&mut *out, self)?;
+            writeln!(out)
+        })
+    }
 }
 
 /// The input mesh.

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use faer::Conj;
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 
@@ -138,17 +137,8 @@ impl<T: Scalar> Factor<T> {
     /// [`LinalgError::NotFinite`] for a broken right-hand side; [`LinalgError::WrongLength`],
     /// [`LinalgError::OtherPattern`].
     pub fn solve(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.one(matrix, Operation::Plain, rhs)
-    }
-
-    /// Solves Aᵀ x = b, otherwise as [`Factor::solve`]. An answer with a backward error of a few units of
-    /// rounding is accepted whatever its residual.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Factor::solve`].
-    pub fn solve_transpose(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.one(matrix, Operation::Transpose, rhs)
+        self.check_single(rhs)?;
+        self.solve_many(matrix, rhs)
     }
 
     /// Solves Aᴴ x = b, otherwise as [`Factor::solve`]. An answer with a backward error of a few units of
@@ -158,7 +148,8 @@ impl<T: Scalar> Factor<T> {
     ///
     /// Those of [`Factor::solve`].
     pub fn solve_adjoint(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.one(matrix, Operation::Adjoint, rhs)
+        self.check_single(rhs)?;
+        self.solve_adjoint_many(matrix, rhs)
     }
 
     /// Solves A X = B for several right-hand sides, stored one after another; so is the answer. The residual is that
@@ -168,16 +159,17 @@ impl<T: Scalar> Factor<T> {
     ///
     /// Those of [`Factor::solve`].
     pub fn solve_many(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, (Operation::Plain, Accept::Residual), rhs)
+        self.run(matrix, Operation::Plain, Accept::Residual, rhs)
     }
 
-    /// Solves Aᴴ X = B, otherwise as [`Factor::solve_many`].
+    /// Solves Aᴴ X = B, otherwise as [`Factor::solve_many`]. The adjoint systems of this project have single rows on
+    /// their right, and answers larger than those by up to the condition number: so here the backward error decides.
     ///
     /// # Errors
     ///
     /// Those of [`Factor::solve`].
     pub fn solve_adjoint_many(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, (Operation::Adjoint, Accept::BackwardError), rhs)
+        self.run(matrix, Operation::Adjoint, Accept::BackwardError, rhs)
     }
 
     /// Size of the factors and number of replaced pivots.
@@ -188,14 +180,14 @@ impl<T: Scalar> Factor<T> {
         }
     }
 
-    /// Solves A x = b for a correction x of an answer at hand, b being what that answer leaves; several, stored one
-    /// after another. An answer with a backward error of a few units of rounding is accepted whatever its residual.
+    /// Solves A x = b for a correction x of an answer, b being the residual of that answer; several, stored one after
+    /// another. An answer with a backward error of a few units of rounding is accepted whatever its residual.
     ///
     /// # Errors
     ///
     /// Those of [`Factor::solve`].
     pub fn solve_correction(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, (Operation::Plain, Accept::BackwardError), rhs)
+        self.run(matrix, Operation::Plain, Accept::BackwardError, rhs)
     }
 
     /// Solves A x = b by substitution alone, without refinement: for directions of descent, where any answer near to the
@@ -211,18 +203,17 @@ impl<T: Scalar> Factor<T> {
         x
     }
 
-    fn one(&self, matrix: &CscMatrix<T>, operation: Operation, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        let order = self.shared.pattern.order();
-        if rhs.len() != order {
-            return Err(LinalgError::WrongLength { order, found: rhs.len() });
-        }
-        self.run(matrix, (operation, accept_of(operation)), rhs)
+    /// Refuses all but one right-hand side.
+    fn check_single(&self, rhs: &[T]) -> Result<(), LinalgError> {
+        let (order, found) = (self.shared.pattern.order(), rhs.len());
+        if found == order { Ok(()) } else { Err(LinalgError::WrongLength { order, found }) }
     }
 
     fn run(
         &self,
         matrix: &CscMatrix<T>,
-        (operation, accept): (Operation, Accept),
+        operation: Operation,
+        accept: Accept,
         rhs: &[T],
     ) -> Result<Solved<T>, LinalgError> {
         let order = self.shared.pattern.order();
@@ -247,9 +238,8 @@ impl<T: Scalar> Factor<T> {
     fn solve_in_place(&self, operation: Operation, columns: &mut [T]) {
         match (&self.shared.symbolic, &self.numeric) {
             (Symbolic::Llt(analysis), Numeric::Llt(llt)) => {
-                // A = Aᴴ, so Aᵀ is the conjugate of A.
-                let conj = if operation == Operation::Transpose { Conj::Yes } else { Conj::No };
-                analysis.solve_in_place(llt, columns, conj);
+                // A = Aᴴ: both operations are one.
+                analysis.solve_in_place(llt, columns);
             }
             (Symbolic::Lu(analysis), Numeric::Lu(lu)) => lu.solve_in_place(analysis, operation, columns),
             _ => unreachable!("a factor is made by its own analysis"),
@@ -263,17 +253,11 @@ impl<T: Scalar> Factor<T> {
         let Some(row) = lu.first_replaced_row() else { return Ok(()) };
         let probe = |(index, scale): (usize, &f64)| T::from_real((0.5 + spread(index)) / scale);
         let rhs: Vec<T> = lu.row_scale().iter().enumerate().map(probe).collect();
-        match self.run(matrix, (Operation::Plain, Accept::Residual), &rhs) {
+        match self.run(matrix, Operation::Plain, Accept::Residual, &rhs) {
             Err(LinalgError::ResidualTooLarge { .. }) => Err(LinalgError::Singular { row }),
             other => other.map(|_| ()),
         }
     }
-}
-
-/// The adjoint systems of this project have single rows on their right, and answers larger than those by up to the
-/// condition number: there the backward error decides.
-fn accept_of(operation: Operation) -> Accept {
-    if operation == Operation::Plain { Accept::Residual } else { Accept::BackwardError }
 }
 
 /// A number in [0, 1) that looks random: multiples of the golden ratio, modulo one (Weyl's sequence).

@@ -96,8 +96,8 @@ impl LltAnalysis {
         LinalgError::NotPositiveDefinite { row }
     }
 
-    /// Solves A X = B in place; `columns` is column-major. `conj` asks for the system of the conjugate matrix.
-    pub(super) fn solve_in_place<T: Scalar>(&self, factor: &Llt<T>, columns: &mut [T], conj: Conj) {
+    /// Solves A X = B in place; `columns` is column-major.
+    pub(super) fn solve_in_place<T: Scalar>(&self, factor: &Llt<T>, columns: &mut [T]) {
         let n = self.symbolic.nrows();
         if n == 0 {
             return;
@@ -108,7 +108,7 @@ impl LltAnalysis {
             let mut memory = MemBuffer::new(scratch);
             let count = columns.len() / n;
             let view = MatMut::from_column_major_slice_mut(columns, n, count);
-            llt.solve_in_place_with_conj(conj, view, Par::Seq, MemStack::new(&mut memory));
+            llt.solve_in_place_with_conj(Conj::No, view, Par::Seq, MemStack::new(&mut memory));
         });
         if factor.sign < 0.0 {
             for x in columns {

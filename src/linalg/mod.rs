@@ -9,11 +9,13 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `analysis.rs` | the interface |
 //! | `order.rs` | fill-reducing order (AMD), elimination tree, postorder |
 //! | `llt.rs` | Hermitian: faer's supernodal Cholesky |
 //! | `lu/` | unsymmetric: our multifrontal LU |
 //! | `gram.rs` | inner products of many columns |
 //! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
+//! | `sparse.rs`, `scalar.rs`, `error.rs` | products and norms; real and complex numbers alike; what can go wrong |
 
 mod analysis;
 mod error;

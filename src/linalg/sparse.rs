@@ -5,13 +5,11 @@ use nalgebra_sparse::CscMatrix;
 use super::LinalgError;
 use super::scalar::Scalar;
 
-/// Which of the three systems of a matrix is meant.
+/// Which of the two systems of a matrix is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Operation {
     /// A x = b.
     Plain,
-    /// Aᵀ x = b.
-    Transpose,
     /// Aᴴ x = b.
     Adjoint,
 }
@@ -27,11 +25,6 @@ pub(super) fn residual<T: Scalar>(matrix: &CscMatrix<T>, operation: Operation, x
                 for (&row, &value) in rows.iter().zip(values) {
                     out[row] -= value * xj;
                 }
-            }
-        }
-        Operation::Transpose => {
-            for ((rows, values), out) in columns.zip(out) {
-                *out -= rows.iter().zip(values).fold(T::ZERO, |sum, (&row, &value)| sum + value * x[row]);
             }
         }
         Operation::Adjoint => {

@@ -120,7 +120,7 @@ impl Gpu {
                 Sampling::Smooth => &self.smooth,
                 Sampling::Sharp => &self.sharp,
             };
-            let group = pane_group(io.device, &self.pipelines, &state.uniforms, (picture, sampler));
+            let group = pane_group(io.device, &self.pipelines, &state.uniforms, picture, sampler);
             let scene = Scene { pipelines: &self.pipelines, cache: &self.cache, group: &group };
             self.stats.drawn_panes += 1;
             self.stats.draw_calls += scene.draw(io.encoder, state, &plan);
@@ -309,7 +309,8 @@ fn pane_group(
     device: &wgpu::Device,
     pipelines: &Pipelines,
     uniforms: &wgpu::Buffer,
-    (picture, sampler): (&wgpu::TextureView, &wgpu::Sampler),
+    picture: &wgpu::TextureView,
+    sampler: &wgpu::Sampler,
 ) -> wgpu::BindGroup {
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("pane"),

@@ -12,6 +12,14 @@
 //! egui::PaintCallback        add it to the painter
 //! ```
 //!
+//! | file | what |
+//! |---|---|
+//! | `frame.rs` | what a pane shows |
+//! | `callback.rs` | the way into egui |
+//! | `plan.rs`, `uniforms.rs` | from a frame to draw calls and the small numbers of the shaders |
+//! | `gpu.rs`, `pipelines.rs`, `target.rs`, `cache.rs` | what lives on the device |
+//! | `shrink.rs` | pictures that are larger than the device takes |
+//!
 //! [`install`] must have run once; without it, or where egui runs without a graphics card, a pane stays empty.
 
 mod cache;

@@ -29,7 +29,7 @@ pub(super) struct PaneUniforms {
     picture_box: [f32; 4],
     strength: [f32; 4],
     choice: [u32; 4],
-    colours: [[f32; 4]; 13],
+    colours: [[f32; 4]; 12],
 }
 
 /// Matches `Line` of shaders/lines.wgsl.
@@ -172,7 +172,7 @@ impl PaneUniforms {
 const WIRE: usize = 9;
 
 /// In the order of the fields of `Pane`.
-fn colours(palette: &Palette) -> [[f32; 4]; 13] {
+fn colours(palette: &Palette) -> [[f32; 4]; 12] {
     [
         palette.background,
         palette.grid,
@@ -185,7 +185,6 @@ fn colours(palette: &Palette) -> [[f32; 4]; 13] {
         palette.checker[1],
         palette.wire,
         palette.flipped,
-        palette.selection,
         palette.hover,
     ]
     .map(Srgb::to_linear)

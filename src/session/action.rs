@@ -7,8 +7,9 @@ use glam::DVec2;
 use super::{SaveRequest, StopConditions};
 use crate::examples::Example;
 use crate::geom::VAxis;
+use crate::io::Target;
 use crate::mesh::VertexId;
-use crate::solver::{Hold, Pin, Settings};
+use crate::solver::{Hold, Settings};
 
 /// One request.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,8 +34,8 @@ pub enum Action {
     Place {
         /// The vertex.
         vertex: VertexId,
-        /// Its target, in texture coordinates, and how it is held there.
-        pin: Pin,
+        /// Its target.
+        target: Target,
     },
     /// Moves a pin, as part of a drag. A gauge pin becomes the user's, with all others.
     MovePin {

@@ -26,8 +26,7 @@ impl Session {
     /// Looks for conflicts anew where pins or mesh have changed.
     pub(super) fn refresh_conflicts(&mut self) {
         let settings = self.document.settings;
-        let pins =
-            if settings.method.uses_pins() { settings.held(&self.document.plane_pins()) } else { Pins::default() };
+        let pins = if settings.method.uses_pins() { settings.held(&self.document.pins()) } else { Pins::default() };
         let of = (self.model_revision, pins);
         if self.conflicts.of == of {
             return;

@@ -3,17 +3,18 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::{Outcome, PictureFile};
+use super::{Outcome, PictureFile, Problem};
 use crate::examples::Example;
 use crate::geom::{PictureFrame, VAxis};
+use crate::io::{Target, Targets, hard_targets, pins_in_plane};
 use crate::mesh::VertexId;
-use crate::solver::{GaugeSize, Pin, Pins, Settings, hard_pins};
+use crate::solver::{GaugeSize, Pins, Settings};
 
 /// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
-    /// The user's pins, in texture coordinates.
-    pub pins: Pins,
+    /// The user's pins by their targets.
+    pub targets: Targets,
     /// Method and weights.
     pub settings: Settings,
     /// The picture that is mapped on the mesh.
@@ -31,7 +32,7 @@ impl Document {
     pub fn of_example(example: Example) -> Self {
         let landmarks = example.landmarks().into_iter();
         Self {
-            pins: hard_pins(landmarks.map(|landmark| (landmark.vertex, landmark.target.into()))),
+            targets: hard_targets(landmarks.map(|landmark| (landmark.vertex, landmark.target.into()))),
             picture: PictureFile::of_example(example).map(Arc::new),
             ..Self::default()
         }
@@ -51,35 +52,39 @@ impl Document {
         Settings { size, ..self.settings }
     }
 
+    /// What a run of it is to solve.
+    pub fn problem(&self) -> Problem {
+        Problem { settings: self.run_settings(), frame: self.frame(), targets: self.targets.clone() }
+    }
+
     /// The user's pins in that plane.
-    pub fn plane_pins(&self) -> Pins {
-        let frame = self.frame();
-        let placed = |pin: &Pin| Pin { target: frame.plane_from_uv(pin.target), ..*pin };
-        self.pins.iter().map(|(&vertex, pin)| (vertex, placed(pin))).collect()
+    pub fn pins(&self) -> Pins {
+        pins_in_plane(&self.targets, self.frame())
     }
 
     /// Whether an outcome is one of this document: a convex boundary takes no pins.
     pub(super) fn is_solved_in(&self, outcome: &Outcome) -> bool {
-        let has_pins = !outcome.settings.method.uses_pins() || outcome.pins == self.pins;
-        has_pins && outcome.frame == self.frame() && outcome.settings == self.run_settings()
+        let Problem { settings, frame, targets } = &outcome.problem;
+        let has_targets = !settings.method.uses_pins() || *targets == self.targets;
+        has_targets && *frame == self.frame() && *settings == self.run_settings()
     }
 
     /// Whether a run of these settings and pins (in the plane) is a run of this document: a convex boundary takes no
     /// pins.
     pub(super) fn is_solved_by(&self, settings: &Settings, pins: &Pins) -> bool {
-        self.run_settings() == *settings && (!settings.method.uses_pins() || self.plane_pins() == *pins)
+        self.run_settings() == *settings && (!settings.method.uses_pins() || self.pins() == *pins)
     }
 }
 
 /// One undoable edit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Pins `vertex`, or frees it when `pin` is `None`.
+    /// Pins `vertex`, or frees it when `target` is `None`.
     SetPin {
         /// The vertex to pin or free.
         vertex: VertexId,
-        /// Its target, in texture coordinates, and how it is held there.
-        pin: Option<Pin>,
+        /// Its target.
+        target: Option<Target>,
     },
     /// Chooses method and weights.
     SetSettings(Settings),
@@ -98,12 +103,12 @@ impl Command {
     #[must_use = "dropping the inverse makes the edit impossible to undo"]
     pub fn apply(self, document: &mut Document) -> Self {
         match self {
-            Self::SetPin { vertex, pin } => {
-                let before = match pin {
-                    Some(pin) => document.pins.insert(vertex, pin),
-                    None => document.pins.remove(&vertex),
+            Self::SetPin { vertex, target } => {
+                let before = match target {
+                    Some(target) => document.targets.insert(vertex, target),
+                    None => document.targets.remove(&vertex),
                 };
-                Self::SetPin { vertex, pin: before }
+                Self::SetPin { vertex, target: before }
             }
             Self::SetSettings(settings) => Self::SetSettings(std::mem::replace(&mut document.settings, settings)),
             Self::SetPicture(picture) => Self::SetPicture(std::mem::replace(&mut document.picture, picture)),
@@ -275,7 +280,7 @@ mod tests {
     use crate::solver::{Family, Method};
 
     fn pin(vertex: u32, x: f64) -> Command {
-        Command::SetPin { vertex: VertexId::new(vertex), pin: Some(Pin::hard(DVec2::new(x, 0.0))) }
+        Command::SetPin { vertex: VertexId::new(vertex), target: Some(Target::hard(DVec2::new(x, 0.0))) }
     }
 
     #[test]
@@ -290,7 +295,7 @@ mod tests {
         assert_eq!(document, Document::default());
         assert!(!history.can_undo());
         assert!(history.redo(&mut document));
-        assert_eq!(document.pins[&VertexId::new(7)].target, DVec2::X);
+        assert_eq!(document.targets[&VertexId::new(7)].uv, DVec2::X);
     }
 
     #[test]
@@ -336,7 +341,7 @@ mod tests {
                 history.end_gesture(&document);
             }
             assert!(history.redo(&mut document));
-            assert_eq!(document.pins[&VertexId::new(3)].target.x.to_bits(), 2.0_f64.to_bits());
+            assert_eq!(document.targets[&VertexId::new(3)].uv.x.to_bits(), 2.0_f64.to_bits());
         }
     }
 
@@ -382,7 +387,7 @@ mod tests {
         history.end_gesture(&document);
         history.apply_in_gesture(pin(7, 1.0), &mut document);
         history.undo(&mut document);
-        assert_eq!(document.pins[&VertexId::new(7)].target, DVec2::new(0.5, 0.0));
+        assert_eq!(document.targets[&VertexId::new(7)].uv, DVec2::new(0.5, 0.0));
     }
 
     #[test]

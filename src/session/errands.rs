@@ -117,13 +117,13 @@ impl Session {
     }
 
     fn take_constraints(&mut self, constraints: Constraints) {
-        if constraints.pins.is_empty() {
+        if constraints.targets.is_empty() {
             return self.fail(Place::Embedding, "the file has no constraints".to_owned(), None);
         }
         if self.takes_pins() {
-            let fresh =
-                constraints.pins.into_iter().filter(|(vertex, pin)| self.document.pins.get(vertex) != Some(pin));
-            let commands = fresh.map(|(vertex, pin)| Command::SetPin { vertex, pin: Some(pin) }).collect();
+            let known = &self.document.targets;
+            let fresh = constraints.targets.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
+            let commands = fresh.map(|(vertex, target)| Command::SetPin { vertex, target: Some(target) }).collect();
             self.edit(commands);
         }
     }

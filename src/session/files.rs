@@ -42,10 +42,10 @@ impl Session {
         });
     }
 
-    /// Writes the pins as a constraint file.
+    /// Writes the targets as a constraint file.
     pub(super) fn export_constraints(&mut self, path: PathBuf) {
-        let pins = self.document.pins.clone();
-        if pins.is_empty() {
+        let targets = self.document.targets.clone();
+        if targets.is_empty() {
             return self.fail(
                 Place::Embedding,
                 "there are no constraints to write: pin a vertex first".to_owned(),
@@ -53,8 +53,8 @@ impl Session {
             );
         }
         self.write(move || {
-            write_durably(&path, |out| write_constraints(out, &pins))?;
-            Ok(Saved::Constraints(path, pins.len()))
+            write_durably(&path, |out| write_constraints(out, &targets))?;
+            Ok(Saved::Constraints(path, targets.len()))
         });
     }
 

@@ -31,7 +31,7 @@ type FlatJob = Job<(), Result<Vec<DVec2>, SolveError>>;
 impl Session {
     /// Whether the targets of the document look mirrored: known only some time after there are enough of them.
     pub fn targets_look_mirrored(&self) -> bool {
-        let (pins, uses_pins) = (self.document.plane_pins(), self.document.settings.method.uses_pins());
+        let (pins, uses_pins) = (self.document.pins(), self.document.settings.method.uses_pins());
         let Some((revision, Some(embedding))) = &self.undistorted.embedding else { return false };
         if *revision != self.model_revision || pins.len() < LEAST_PINS || !uses_pins {
             return false;
@@ -53,7 +53,7 @@ impl Session {
         let revision = self.model_revision;
         let is_known = self.undistorted.embedding.as_ref().is_some_and(|(of, _)| *of == revision);
         let disk = self.model.as_ref().and_then(|model| model.disk());
-        let Some(disk) = disk.filter(|_| !is_known && self.document.pins.len() >= LEAST_PINS) else { return };
+        let Some(disk) = disk.filter(|_| !is_known && self.document.targets.len() >= LEAST_PINS) else { return };
         let disk = Arc::clone(disk);
         let work = move |context: &JobContext<()>| {
             let control = Control::new(context.cancel_flag(), &|_| {});

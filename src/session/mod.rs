@@ -2,6 +2,7 @@
 
 mod action;
 mod autosave;
+mod background;
 mod conflicts;
 mod document;
 mod errands;
@@ -23,12 +24,14 @@ mod run;
 mod save;
 mod solve;
 mod state;
+mod status;
 mod stop;
 mod targets;
 mod timeline;
 mod turn;
 
 pub use action::Action;
+pub use background::{Background, Failure, Wake};
 pub use document::{Command, Document, History};
 pub use job::{Job, JobContext, Poll};
 pub use load::{Model, Surface};
@@ -38,7 +41,8 @@ pub use preview::Preview;
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
 pub use save::{Finished, SaveRequest};
-pub use solve::{Outcome, OutputFit, Placement};
-pub use state::{Busy, Session, Wake};
+pub use solve::{Outcome, OutputFit, Placement, Problem};
+pub use state::{Busy, Session};
+pub use status::Status;
 pub use stop::{Stop, StopConditions};
 pub use timeline::{Standing, TIMELINE_BUDGET, Timeline};

@@ -7,9 +7,8 @@ use super::{Document, Model, PictureFile, Place};
 use crate::examples::Example;
 use crate::io::{
     FileStamp, PROJECT_EXTENSION, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError, RecoveryNote,
-    material_picture,
+    Targets, material_picture,
 };
-use crate::solver::Pins;
 
 /// Something that was opened, ready to be put on the table.
 #[derive(Debug)]
@@ -123,11 +122,11 @@ impl Opened {
             model = model.turned();
         }
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
-        let pin_count = project.pins.len();
-        let pins = pins_there_are(project.pins, &model, &mut remarks);
-        let lost_pins = pins.len() < pin_count;
+        let pin_count = project.targets.len();
+        let targets = targets_there_are(project.targets, &model, &mut remarks);
+        let lost_pins = targets.len() < pin_count;
         let document = Document {
-            pins,
+            targets,
             settings: project.settings,
             picture: picture.map(Arc::new),
             v_axis: project.v_axis,
@@ -206,16 +205,16 @@ fn example_called(name: &str) -> Option<Example> {
     Example::ALL.into_iter().find(|example| example.name() == name)
 }
 
-/// The pins on vertices that the mesh has, with a remark about the others.
-fn pins_there_are(mut pins: Pins, model: &Model, remarks: &mut Vec<Remark>) -> Pins {
+/// The targets of vertices that the mesh has, with a remark about the others.
+fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Remark>) -> Targets {
     let count = model.mesh().vertex_count();
-    let before = pins.len();
-    pins.retain(|vertex, pin| vertex.index() < count && pin.target.is_finite());
-    let lost = before - pins.len();
+    let before = targets.len();
+    targets.retain(|vertex, target| vertex.index() < count && target.uv.is_finite());
+    let lost = before - targets.len();
     if lost > 0 {
         let text = format!("{lost} of the project's {before} pins are left out: the mesh has only {count} vertices");
         let remedy = "place them again, or put the mesh back as it was and open the project again".to_owned();
         remarks.push(Remark { place: Place::Embedding, text, remedy });
     }
-    pins
+    targets
 }

@@ -57,16 +57,16 @@ pub(super) type VerdictJob = Job<(), Verdict>;
 impl Follow {
     /// Whether it serves a drag of these pins in this document: only their targets differ.
     fn serves(&self, document: &Document, dragged: &[VertexId]) -> bool {
-        let others_stay = document.pins.iter().all(|(vertex, pin)| {
+        let others_stay = document.targets.iter().all(|(vertex, target)| {
             dragged.binary_search(vertex).is_ok()
-                || self.document.pins.get(vertex).is_some_and(|before| before.target == pin.target)
+                || self.document.targets.get(vertex).is_some_and(|before| before.uv == target.uv)
         });
         self.dragged == dragged && others_stay && are_alike(&self.document, document)
     }
 
     /// The embedding of the document's first solve; none where the dragged pins did not all go the same way.
     fn embedding(&self, document: &Document) -> Option<Vec<DVec2>> {
-        let (from, to) = (self.document.plane_pins(), document.plane_pins());
+        let (from, to) = (self.document.pins(), document.pins());
         let way = |vertex: &VertexId| Some(to.get(vertex)?.target - from.get(vertex)?.target);
         let by = way(self.dragged.first()?)?;
         let goes_along = |vertex: &VertexId| way(vertex).is_some_and(|w| w.distance(by) <= SAME_WAY * by.length());
@@ -87,7 +87,7 @@ fn are_alike(a: &Document, b: &Document) -> bool {
     a.run_settings() == b.run_settings()
         && a.frame() == b.frame()
         && a.faces_turned == b.faces_turned
-        && are_held_alike(&a.pins, &b.pins)
+        && are_held_alike(&a.pins(), &b.pins())
 }
 
 impl Session {
@@ -126,7 +126,7 @@ impl Session {
         let work = move |context: &JobContext<()>| {
             let quiet = |_| {};
             let control = Control::new(context.cancel_flag(), &quiet);
-            let (settings, pins) = (document.run_settings(), document.plane_pins());
+            let (settings, pins) = (document.run_settings(), document.pins());
             let prepared = match at_hand.filter(|prepared| prepared.serves(&settings, &pins)) {
                 Some(prepared) => prepared,
                 None => Arc::new(Prepared::new(&disk, &settings, &pins, control)?),

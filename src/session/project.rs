@@ -90,7 +90,7 @@ impl Session {
             },
             v_axis: document.v_axis,
             settings: document.settings,
-            pins: document.pins.clone(),
+            targets: document.targets.clone(),
             view: self.view.clone(),
             recovery: None,
         })

@@ -16,10 +16,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::state::{REPORT_IT, lost};
 use super::stop::Goal;
-use super::{Document, Job, JobContext, Outcome, Place, Poll, Session, Severity, Stop, Timeline, Wake};
-use crate::geom::PictureFrame;
+use super::{Document, Job, JobContext, Outcome, Place, Poll, Problem, Session, Severity, Stop, Timeline, Wake};
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Ending, Ladder, Phase, Pins, SolveError, are_held_alike};
+use crate::solver::{Control, Ending, Ladder, Phase, SolveError, are_held_alike};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;
@@ -70,7 +69,7 @@ impl Running {
     fn is_followed_by(&self, document: &Document) -> bool {
         let only_targets_differ = self.document.run_settings() == document.run_settings()
             && self.document.frame() == document.frame()
-            && are_held_alike(&self.document.pins, &document.pins);
+            && are_held_alike(&self.document.pins(), &document.pins());
         self.paused.is_none() && !self.has_delivered && only_targets_differ
     }
 }
@@ -85,10 +84,7 @@ struct Courier {
     deliveries: SyncSender<Delivery>,
     goal: Arc<Mutex<Goal>>,
     wake: Wake,
-    /// How the run's pins came from texture coordinates.
-    frame: PictureFrame,
-    /// The run's pins in texture coordinates.
-    pins: Pins,
+    problem: Problem,
 }
 
 impl Courier {
@@ -98,8 +94,7 @@ impl Courier {
         let control = Control::new(context.cancel_flag(), &report);
         loop {
             let step = run.step(mesh, control)?;
-            let placed = (self.frame, self.pins.clone());
-            let outcome = Arc::new(Outcome::new(mesh, *run.settings(), placed, step));
+            let outcome = Arc::new(Outcome::new(mesh, self.problem.clone(), step));
             let ending = run.ending();
             let is_reached = {
                 let mut goal = locked(&self.goal);
@@ -144,11 +139,11 @@ impl Session {
         if let Some(running) = &mut self.running
             && running.is_followed_by(&self.document)
         {
-            self.solve_again = running.document.pins != self.document.pins;
+            self.solve_again = running.document.targets != self.document.targets;
             running.set_goal(|_| goal);
             return;
         }
-        let (settings, pins) = (self.document.run_settings(), self.document.plane_pins());
+        let (settings, pins) = (self.document.run_settings(), self.document.pins());
         self.spawn(Ladder::new(settings, pins).with_kept(&self.kept), goal);
     }
 
@@ -166,8 +161,7 @@ impl Session {
             deliveries: sender,
             goal: Arc::clone(&goal),
             wake: Arc::clone(&self.wake),
-            frame: document.frame(),
-            pins: document.pins.clone(),
+            problem: document.problem(),
         };
         let work = move |context: &JobContext<Phase>| {
             let result = courier.take_steps(&mut run, &disk, context);

@@ -10,10 +10,10 @@ use super::{Model, Outcome, OutputFit, PictureFile, Placement};
 use crate::geom::VAxis;
 use crate::io::{
     MeshReport, Output, OutputKind, PinsReport, Report, Seconds, StepReport, SvgPage, TexturePicture,
-    WeightedPinReport, WriteError, peak_memory_bytes, verdict_as_in_file,
+    WeightedPinReport, WriteError, verdict_as_in_file,
 };
 use crate::mesh::{DiskMesh, Refinement, VertexId};
-use crate::solver::{Hold, Pin, Verdict, distortion, verdict};
+use crate::solver::{Hold, Verdict, distortion, verdict};
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -61,7 +61,7 @@ impl<'a> Finished<'a> {
         let is_as_solved = is_on_picture || coordinates == outcome.step.solution.embedding;
         let summary = if is_as_solved { outcome.distortion.summary } else { distortion(mesh, &coordinates).summary };
         let pins = pins_report(outcome, &coordinates);
-        let (coordinates, verdict) = if is_on_picture && outcome.frame.v_axis == VAxis::Down {
+        let (coordinates, verdict) = if is_on_picture && outcome.problem.frame.v_axis == VAxis::Down {
             // Where v runs down in the document, it runs up in the file, which rounds.
             let upright: Vec<DVec2> = coordinates.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
             let of_file = verdict(mesh, &upright);
@@ -69,13 +69,11 @@ impl<'a> Finished<'a> {
         } else {
             (coordinates, of_coordinates)
         };
-        let aspect = if is_on_picture { outcome.frame.aspect } else { 1.0 };
+        let aspect = if is_on_picture { outcome.problem.frame.aspect } else { 1.0 };
         let solve = steps.iter().map(|step| step.seconds).sum();
         let verify = outcome.step.verify_seconds + start.elapsed().as_secs_f64();
-        let settings = &outcome.settings;
+        let settings = &outcome.problem.settings;
         let report = Report {
-            freebound: env!("CARGO_PKG_VERSION"),
-            mesh: MeshReport::new(model.path_words(), given),
             method: Some(settings.method),
             family: settings.method.uses_family().then_some(settings.family),
             pins: Some(pins),
@@ -87,7 +85,7 @@ impl<'a> Finished<'a> {
             new_vertices: outcome.new_vertex_count(),
             split_edges: outcome.step.refinement.as_ref().map(|r| r.split_edges()).unwrap_or_default(),
             seconds: Seconds { read: read_seconds, solve, verify, write: 0.0, total: read_seconds + solve + verify },
-            peak_memory_bytes: peak_memory_bytes(),
+            ..Report::of_mesh(MeshReport::new(model.path_words(), given))
         };
         let refinement = outcome.step.refinement.as_deref();
         Self { model, mesh, refinement, coordinates, verdict, aspect, picture: None, svg_fit: fit, report }
@@ -140,19 +138,19 @@ impl<'a> Finished<'a> {
 /// What became of the user's pins. Those that are to be met exactly have their own numbers in `coordinates`, whatever
 /// was solved: for them the solver's places count too.
 fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
-    let settings = &outcome.settings;
-    let held = settings.held(&outcome.pins);
+    let settings = &outcome.problem.settings;
     let (mut max_hard_error, mut max_weighted_error) = (None::<f64>, None::<f64>);
     let (mut weighted, mut unmet) = (Vec::new(), Vec::new());
-    for (&vertex, pin) in held.iter().filter(|_| settings.method.uses_pins()) {
-        let written = coordinates[vertex.index()].distance(pin.target);
-        let (largest, error) = match pin.hold {
+    let targets = &outcome.problem.targets;
+    for (&vertex, target) in targets.iter().filter(|_| settings.method.uses_pins()) {
+        let written = coordinates[vertex.index()].distance(target.uv);
+        let (largest, error) = match settings.hold_of(target.hold) {
             Hold::Weighted(weight) => {
                 weighted.push(WeightedPinReport { vertex, weight, error: written });
                 (&mut max_weighted_error, written)
             }
             Hold::Fixed | Hold::Hard => {
-                let error = written.max(solver_error(outcome, vertex, pin));
+                let error = written.max(solver_error(outcome, vertex, target.uv));
                 if error != 0.0 {
                     unmet.push(vertex);
                 }
@@ -162,8 +160,8 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
         *largest = Some(largest.unwrap_or(0.0).max(error));
     }
     PinsReport {
-        treatment: settings.treatment_on(outcome.step.rung, outcome.pins.len()),
-        count: outcome.pins.len(),
+        treatment: settings.treatment_on(outcome.step.rung, targets.len()),
+        count: targets.len(),
         max_error: max_hard_error.unwrap_or(0.0).max(max_weighted_error.unwrap_or(0.0)),
         max_hard_error,
         max_weighted_error,
@@ -174,9 +172,9 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
 
 /// Distance of a pinned vertex from its target as solved for, in texture coordinates. Compared in the plane, so that it
 /// is 0 where the solver met the target to the last bit, and only there.
-fn solver_error(outcome: &Outcome, vertex: VertexId, pin: &Pin) -> f64 {
-    let frame = outcome.frame;
-    let off = outcome.step.solution.embedding[vertex.index()] - frame.plane_from_uv(pin.target);
+fn solver_error(outcome: &Outcome, vertex: VertexId, target: DVec2) -> f64 {
+    let frame = outcome.problem.frame;
+    let off = outcome.step.solution.embedding[vertex.index()] - frame.plane_from_uv(target);
     // The frame has no offset: it takes differences to differences.
     frame.uv_from_plane(off).length()
 }
@@ -186,7 +184,9 @@ mod tests {
     use super::*;
     use crate::examples::Example;
     use crate::geom::PictureFrame;
-    use crate::solver::{Control, Ladder, Pins, Settings, hard_pins};
+    use crate::io::hard_targets;
+    use crate::session::Problem;
+    use crate::solver::{Control, Ladder, Settings};
 
     /// The dome's first step with hard pins, on a picture twice as wide as high.
     fn first_step() -> Outcome {
@@ -194,11 +194,11 @@ mod tests {
         let mesh = model.disk().expect("a dome is a disk");
         let frame = PictureFrame { aspect: 2.0, ..PictureFrame::default() };
         let targets = [(3, [0.2, 0.2]), (40, [0.8, 0.3]), (11, [0.7, 0.9])];
-        let uv: Pins = hard_pins(targets.map(|(vertex, target)| (VertexId::new(vertex), target.into())));
-        let placed = |(&vertex, pin): (&VertexId, &Pin)| (vertex, frame.plane_from_uv(pin.target));
-        let mut run = Ladder::new(Settings::default(), hard_pins(uv.iter().map(placed)));
+        let targets = hard_targets(targets.map(|(vertex, uv)| (VertexId::new(vertex), uv.into())));
+        let problem = Problem { settings: Settings::default(), frame, targets };
+        let mut run = Ladder::new(problem.settings, problem.pins());
         let step = run.step(mesh, Control::unattended()).expect("a dome can be solved");
-        Outcome::new(mesh, Settings::default(), (frame, uv), step)
+        Outcome::new(mesh, problem, step)
     }
 
     /// The largest error of the hard pins that the report tells.

@@ -3,9 +3,10 @@
 use glam::DVec2;
 
 use crate::geom::{PictureFrame, VAxis};
+use crate::io::{Target, Targets, pins_in_plane};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Candidate, Distortion, GaugeSize, Pin, Pins, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
+    Candidate, Distortion, GaugeSize, Pins, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
     to_unit_square_by_power_of_two, verdict,
 };
 
@@ -47,15 +48,29 @@ impl Placement {
     }
 }
 
+/// What a run is to solve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Problem {
+    /// Method and weights.
+    pub settings: Settings,
+    /// How texture coordinates lie in the plane of the embedding.
+    pub frame: PictureFrame,
+    /// The targets of the user's pins.
+    pub targets: Targets,
+}
+
+impl Problem {
+    /// The pins in the plane.
+    pub fn pins(&self) -> Pins {
+        pins_in_plane(&self.targets, self.frame)
+    }
+}
+
 /// A step of a run with everything the screen and files show of it.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// What was asked for.
-    pub settings: Settings,
-    /// How texture coordinates lie in the plane of the embedding.
-    pub frame: PictureFrame,
-    /// The user's pins that it was solved for, in texture coordinates.
-    pub pins: Pins,
+    pub problem: Problem,
     /// The embedding, its verdict and its numbers.
     pub step: Step,
     /// How faces are distorted.
@@ -63,11 +78,10 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Measures the distortion of a step on `mesh`, the mesh as given. `pins` are the user's that its run was begun
-    /// with, in texture coordinates.
-    pub fn new(mesh: &DiskMesh, settings: Settings, (frame, pins): (PictureFrame, Pins), step: Step) -> Self {
+    /// Measures the distortion of a step on `mesh`, the mesh as given.
+    pub fn new(mesh: &DiskMesh, problem: Problem, step: Step) -> Self {
         let distortion = distortion(step.mesh(mesh), &step.solution.embedding);
-        Self { settings, frame, pins, step, distortion }
+        Self { problem, step, distortion }
     }
 
     /// Bytes of memory that it takes. The factors of a linear solve are kept once, for the next solve, and a mesh with
@@ -75,7 +89,7 @@ impl Outcome {
     pub fn bytes(&self) -> usize {
         let Step { candidate, verdict, .. } = &self.step;
         let Candidate { solution, virtual_boundary, outside, .. } = candidate;
-        let pin_count = self.pins.len() + solution.pins.len();
+        let pin_count = self.problem.targets.len() + solution.pins.len();
         let stages = virtual_boundary.as_ref().map_or(0, |stages| {
             size_of_val(&*stages.before)
                 + size_of_val(&*stages.solved)
@@ -114,10 +128,10 @@ impl Outcome {
     pub fn output(&self, mesh: &DiskMesh, fit: OutputFit) -> (Vec<DVec2>, Placement, Verdict) {
         type Way = (fn(&mut [DVec2]), Placement);
         let (embedding, mesh) = (&self.step.solution.embedding, self.step.mesh(mesh));
-        if self.pins_in_use().next().is_some() {
+        if self.targets_in_use().next().is_some() {
             return self.as_it_lies(mesh, Placement::Pins);
         }
-        if self.settings.size != GaugeSize::TrueArea {
+        if self.problem.settings.size != GaugeSize::TrueArea {
             return self.as_it_lies(mesh, Placement::Picture);
         }
         if fit == OutputFit::True {
@@ -143,14 +157,15 @@ impl Outcome {
     /// them in the plane. `mesh` is the step's own.
     fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Vec<DVec2>, Placement, Verdict) {
         let embedding = &self.step.solution.embedding;
-        let mut coordinates: Vec<DVec2> = embedding.iter().map(|&z| self.frame.uv_from_plane(z)).collect();
-        for (vertex, pin, error) in self.pin_errors().filter(|(_, pin, _)| self.settings.is_exact(pin.hold)) {
+        let mut coordinates: Vec<DVec2> = embedding.iter().map(|&z| self.problem.frame.uv_from_plane(z)).collect();
+        let settings = &self.problem.settings;
+        for (vertex, target, error) in self.pin_errors().filter(|(_, target, _)| settings.is_exact(target.hold)) {
             // A step on the way to the constraints has not met them yet.
             if error == 0.0 {
-                coordinates[vertex.index()] = pin.target;
+                coordinates[vertex.index()] = target.uv;
             }
         }
-        let upright: Vec<DVec2> = match self.frame.v_axis {
+        let upright: Vec<DVec2> = match self.problem.frame.v_axis {
             VAxis::Up => coordinates.clone(),
             VAxis::Down => coordinates.iter().map(|uv| DVec2::new(uv.x, -uv.y)).collect(),
         };
@@ -161,13 +176,13 @@ impl Outcome {
 
     /// Distance of each of the user's pinned vertices from its target, in texture coordinates; 0 for exact ones, whose
     /// numbers are those given.
-    pub fn pin_errors(&self) -> impl Iterator<Item = (VertexId, &Pin, f64)> {
-        let embedding = &self.step.solution.embedding;
-        self.pins_in_use().map(|(&vertex, pin)| {
+    pub fn pin_errors(&self) -> impl Iterator<Item = (VertexId, &Target, f64)> {
+        let (embedding, frame) = (&self.step.solution.embedding, self.problem.frame);
+        self.targets_in_use().map(move |(&vertex, target)| {
             let z = embedding[vertex.index()];
-            let is_met = z == self.frame.plane_from_uv(pin.target);
-            let error = if is_met { 0.0 } else { self.frame.uv_from_plane(z).distance(pin.target) };
-            (vertex, pin, error)
+            let is_met = z == frame.plane_from_uv(target.uv);
+            let error = if is_met { 0.0 } else { frame.uv_from_plane(z).distance(target.uv) };
+            (vertex, target, error)
         })
     }
 
@@ -176,8 +191,8 @@ impl Outcome {
         self.pin_errors().map(|(.., error)| error).fold(0.0, f64::max)
     }
 
-    /// The user's pins, where the method takes any.
-    fn pins_in_use(&self) -> impl Iterator<Item = (&VertexId, &Pin)> {
-        self.pins.iter().filter(|_| self.settings.method.uses_pins())
+    /// The targets of the user's pins, where the method takes any.
+    fn targets_in_use(&self) -> impl Iterator<Item = (&VertexId, &Target)> {
+        self.problem.targets.iter().filter(|_| self.problem.settings.method.uses_pins())
     }
 }

@@ -16,14 +16,11 @@ use super::project::ProjectSaves;
 use super::run::Running;
 use super::{
     Action, Command, Document, History, Job, Message, Model, Outcome, Place, Preview, RecentFiles, Severity,
-    StopConditions, Timeline,
+    StopConditions, Timeline, Wake,
 };
 use crate::io::ProjectView;
 use crate::mesh::VertexId;
 use crate::solver::{Ending, Kept, Ladder, Phase, Settings};
-
-/// Asks the screen to look again; called from background threads.
-pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 pub(super) type LoadJob = Job<(), Result<Opened, OpenError>>;
 
@@ -263,14 +260,14 @@ impl Session {
             Action::Rest => self.rest(),
             Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
             Action::SetVAxis(v_axis) => self.edit(vec![Command::SetVAxis(v_axis)]),
-            Action::Place { vertex, pin } => self.place(vertex, pin),
+            Action::Place { vertex, target } => self.place(vertex, target),
             Action::MovePin { vertex, target } => self.move_pins(&[(vertex, target)]),
             Action::MovePins(moves) => self.move_pins(&moves),
             Action::SetHold { vertices, hold } => self.set_hold(&vertices, hold),
             Action::SlideHold { vertices, hold } => self.slide_hold(&vertices, hold),
             Action::EndGesture => self.end_gesture(),
             Action::Unpin(vertices) => self.unpin(&vertices),
-            Action::UnpinAll => self.unpin(&self.document.pins.keys().copied().collect::<Vec<_>>()),
+            Action::UnpinAll => self.unpin(&self.document.targets.keys().copied().collect::<Vec<_>>()),
             Action::SetSettings(settings) => self.edit(vec![Command::SetSettings(settings)]),
             Action::SlideSettings(settings) => self.slide_settings(settings),
             Action::GiveUpGesture => self.travel(History::give_up_gesture),

@@ -77,7 +77,7 @@ impl StopConditions {
             Ending::Stalled if self.stalled => Some(Stop::Stalled),
             // Beyond the method's own ending the number of steps is the only limit that is left.
             Ending::Planar | Ending::Stalled => {
-                (outcome.step.index >= outcome.settings.max_steps).then_some(Stop::Limit)
+                (outcome.step.index >= outcome.problem.settings.max_steps).then_some(Stop::Limit)
             }
         }
     }

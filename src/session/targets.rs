@@ -5,7 +5,8 @@ use glam::DVec2;
 use super::errands::{Errand, Purpose};
 use super::{Command, Place, Session};
 use crate::geom::{PictureFrame, Similarity};
-use crate::solver::{Control, Family, GaugeSize, Method, Pin, Pins, Settings, SolveError, flatten};
+use crate::io::Target;
+use crate::solver::{Control, Family, GaugeSize, Method, Pins, Settings, SolveError, flatten};
 
 /// The mesh flattened without pins, in the middle of the picture.
 pub(super) struct Flat {
@@ -20,16 +21,16 @@ pub(super) struct Flat {
 impl Session {
     /// Mirrors all targets left to right, within the box around them.
     pub(super) fn mirror_targets(&mut self) {
-        let across = self.document.pins.values().map(|pin| pin.target.x);
+        let across = self.document.targets.values().map(|target| target.uv.x);
         let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| (low.min(u), high.max(u)));
-        let mirrored = |pin: &Pin| DVec2::new(low + (high - pin.target.x), pin.target.y);
-        let targets: Vec<DVec2> = self.document.pins.values().map(mirrored).collect();
+        let mirrored = |target: &Target| DVec2::new(low + (high - target.uv.x), target.uv.y);
+        let targets: Vec<DVec2> = self.document.targets.values().map(mirrored).collect();
         self.move_targets(&targets);
     }
 
     /// Flattens the mesh, to fit the targets to it.
     pub(super) fn fit_targets(&mut self) {
-        if self.document.pins.len() < 2 {
+        if self.document.targets.len() < 2 {
             let text = "one target can be anywhere: fitting needs two pins or more".to_owned();
             return self.fail(Place::Embedding, text, Some("place another constraint"));
         }
@@ -59,9 +60,8 @@ impl Session {
             let text = "picture or faces changed while the targets were being fitted".to_owned();
             return self.fail(Place::Embedding, text, Some("fit them again"));
         }
-        let pairs: Vec<[DVec2; 2]> = (self.document.plane_pins().into_iter())
-            .map(|(vertex, pin)| [pin.target, embedding[vertex.index()]])
-            .collect();
+        let pairs: Vec<[DVec2; 2]> =
+            (self.document.pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex.index()]]).collect();
         let fitted = Similarity::fitting(&pairs).map(|similarity| {
             let targets = pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target)));
             targets.collect::<Vec<_>>()
@@ -74,9 +74,9 @@ impl Session {
 
     /// Gives the pins other targets, in their order, as one edit.
     fn move_targets(&mut self, targets: &[DVec2]) {
-        let moved = self.document.pins.iter().zip(targets).filter(|((_, pin), target)| pin.target != **target);
+        let moved = self.document.targets.iter().zip(targets).filter(|((_, before), uv)| before.uv != **uv);
         let commands =
-            moved.map(|((&vertex, pin), &target)| Command::SetPin { vertex, pin: Some(Pin { target, ..*pin }) });
+            moved.map(|((&vertex, before), &uv)| Command::SetPin { vertex, target: Some(Target { uv, ..*before }) });
         let commands = commands.collect();
         self.edit(commands);
     }

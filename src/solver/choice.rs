@@ -92,26 +92,3 @@ macro_rules! stand_by_name {
 }
 
 stand_by_name!(Method, BoundaryShape, Family, Treatment, Growth);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn assert_told_apart<C: Choice + PartialEq + fmt::Debug>() {
-        for &choice in C::ALL {
-            assert_eq!(C::named(&choice.written()), Some(choice), "a name of its own");
-            let Words { title, about, .. } = choice.words();
-            assert!(!title.is_empty() && !about.is_empty(), "{choice:?}");
-        }
-        assert_eq!(C::named("relax"), None);
-    }
-
-    #[test]
-    fn every_choice_has_a_name_of_its_own_and_a_line_on_it() {
-        assert_told_apart::<Method>();
-        assert_told_apart::<BoundaryShape>();
-        assert_told_apart::<Family>();
-        assert_told_apart::<Treatment>();
-        assert_told_apart::<Growth>();
-    }
-}

@@ -160,12 +160,14 @@ impl Settings {
         hold.is_exact() && self.treatment != Some(Treatment::Weighted)
     }
 
+    /// How this treatment holds a pin: it may weigh one that is to be met exactly.
+    pub fn hold_of(&self, asked: Hold) -> Hold {
+        let is_weighed = asked.is_exact() && !self.is_exact(asked);
+        if is_weighed { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { asked }
+    }
+
     /// The user's pins as this treatment holds them.
     pub fn held(&self, pins: &Pins) -> Pins {
-        let is_weighed = |hold: Hold| hold.is_exact() && !self.is_exact(hold);
-        let weigh = |pin: &Pin| {
-            if is_weighed(pin.hold) { Pin::weighted(pin.target, Pin::DEFAULT_WEIGHT) } else { *pin }
-        };
-        pins.iter().map(|(&vertex, pin)| (vertex, weigh(pin))).collect()
+        pins.iter().map(|(&vertex, pin)| (vertex, Pin { hold: self.hold_of(pin.hold), ..*pin })).collect()
     }
 }

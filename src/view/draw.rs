@@ -166,7 +166,7 @@ impl PlaneArrays {
     }
 }
 
-/// A colour and flags per face. Made anew when a quantity, the verdict or the selection changes.
+/// A colour and flags per face. Made anew when a quantity or the verdict changes.
 #[derive(Debug)]
 pub struct FacePaint {
     revision: Revision,
@@ -177,8 +177,6 @@ pub struct FacePaint {
 impl FacePaint {
     /// The bit of a face that is flipped.
     pub const FLIPPED: u8 = 1;
-    /// The bit of a face that is selected.
-    pub const SELECTED: u8 = 2;
 
     /// White faces with the flipped ones marked. Faces that are not there are passed over.
     pub fn plain(face_count: usize, flipped: &[FaceId]) -> Self {
@@ -191,31 +189,14 @@ impl FacePaint {
     }
 
     fn from_colours(colours: Vec<[u8; 3]>, flipped: &[FaceId]) -> Self {
-        let mut corners = Vec::with_capacity(3 * colours.len());
-        for [r, g, b] in colours {
-            corners.extend([[r, g, b, 0]; 3]);
-        }
-        let mut paint = Self { revision: Revision::fresh(), corners, flipped: Vec::new() };
-        paint.mark(flipped, Self::FLIPPED);
-        paint.flipped = flipped.iter().copied().filter(|f| f.index() < paint.face_count()).collect();
-        paint
-    }
-
-    /// The same with some faces marked as selected.
-    #[must_use]
-    pub fn with_selected(mut self, selected: &[FaceId]) -> Self {
-        self.mark(selected, Self::SELECTED);
-        self.revision = Revision::fresh();
-        self
-    }
-
-    fn mark(&mut self, faces: &[FaceId], bit: u8) {
-        for face in faces {
-            let range = 3 * face.index()..3 * face.index() + 3;
-            for corner in self.corners.get_mut(range).into_iter().flatten() {
-                corner[3] |= bit;
+        let flipped: Vec<FaceId> = flipped.iter().copied().filter(|f| f.index() < colours.len()).collect();
+        let mut corners: Vec<[u8; 4]> = colours.into_iter().flat_map(|[r, g, b]| [[r, g, b, 0]; 3]).collect();
+        for face in &flipped {
+            for corner in &mut corners[3 * face.index()..][..3] {
+                corner[3] |= Self::FLIPPED;
             }
         }
+        Self { revision: Revision::fresh(), corners, flipped }
     }
 
     /// Which colouring this is.

@@ -11,6 +11,12 @@ pub(super) struct KdTree {
     numbers: Vec<u32>,
 }
 
+/// The nearest point of those that were looked at; before the first one, how far it may lie.
+struct Nearest {
+    place: Option<usize>,
+    distance: f64,
+}
+
 impl KdTree {
     /// Takes O(n log n). Points that are not finite are left out.
     pub(super) fn new(points: &[DVec2]) -> Self {
@@ -21,25 +27,25 @@ impl KdTree {
 
     /// Number and distance of the point nearest to `query`, no farther than `radius`.
     pub(super) fn nearest(&self, query: DVec2, radius: f64) -> Option<(u32, f64)> {
-        let mut best = (None, radius);
+        let mut best = Nearest { place: None, distance: radius };
         self.search(0..self.points.len(), 0, query, &mut best);
-        best.0.map(|place: usize| (self.numbers[place], best.1))
+        best.place.map(|place| (self.numbers[place], best.distance))
     }
 
-    fn search(&self, range: std::ops::Range<usize>, axis: usize, query: DVec2, best: &mut (Option<usize>, f64)) {
+    fn search(&self, range: std::ops::Range<usize>, axis: usize, query: DVec2, best: &mut Nearest) {
         if range.is_empty() {
             return;
         }
         let middle = range.start.midpoint(range.end);
         let distance = self.points[middle].distance(query);
-        if distance <= best.1 && (best.0.is_none() || distance < best.1) {
-            *best = (Some(middle), distance);
+        if distance <= best.distance && (best.place.is_none() || distance < best.distance) {
+            *best = Nearest { place: Some(middle), distance };
         }
         let offset = query[axis] - self.points[middle][axis];
         let halves = [range.start..middle, middle + 1..range.end];
         let [near, far] = if offset < 0.0 { halves } else { [halves[1].clone(), halves[0].clone()] };
         self.search(near, 1 - axis, query, best);
-        if offset.abs() <= best.1 {
+        if offset.abs() <= best.distance {
             self.search(far, 1 - axis, query, best);
         }
     }

@@ -2,6 +2,14 @@
 //!
 //! Here f64 becomes f32. Nothing in this module knows a screen or a graphics card, so all of it is tested without.
 //!
+//! | file | what |
+//! |---|---|
+//! | `space.rs` | extents, and unit space |
+//! | `orbit.rs`, `plane.rs` | the cameras of the two panes |
+//! | `pick.rs`, `bvh.rs`, `kdtree.rs` | what lies under the pointer, and how it is found fast |
+//! | `draw.rs`, `corners.rs` | arrays for the graphics card, and normals |
+//! | `colour.rs`, `ticks.rs`, `palette.rs` | scales of colours with their legends; the colours of the panes |
+//!
 //! Spaces, as they appear in names:
 //!
 //! | space     | is                                                                                      |
@@ -34,4 +42,4 @@ pub use plane::{Grid, PlaneCamera};
 #[cfg(feature = "gui")]
 pub(crate) use space::split_point;
 pub use space::{PlaneBox, Sphere, UnitFrame, UnitPlane};
-pub use ticks::{Tick, nice_step_at_least, nice_step_at_most};
+pub use ticks::{Tick, nice_step_at_least};

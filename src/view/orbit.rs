@@ -29,8 +29,6 @@ const NEARLY_FLAT: f64 = 0.6;
 const STEEPEST_FIRST_PITCH: f64 = 1.0;
 /// Pitch of the first view of a body at most, radians: a bust that is open below is not seen from above.
 const ROUND_FIRST_PITCH: f64 = 0.4;
-/// Nearest distance that [`OrbitCamera::frame_positions`] takes, as a share of the one that shows the whole ball.
-const NEAREST_FRAME: f64 = 0.6;
 
 /// Which axis of the world points up on the screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -100,23 +98,6 @@ impl OrbitCamera {
             camera.pitch = (back.y.atan2(across) + FIRST_TURN.y).clamp(0.0, steepest);
         }
         camera
-    }
-
-    /// Comes as near as it can with all positions in the pane, in the direction that it looks in.
-    pub fn frame_positions(&mut self, positions: &[DVec3], pane_size: DVec2) {
-        let ball = Sphere::around(positions);
-        self.frame(ball, pane_size);
-        let up_share = (FIELD_OF_VIEW / 2.0).tan();
-        let right_share = up_share * aspect_ratio(pane_size);
-        let [right, up, back] = self.axes();
-        let needed = |&p: &DVec3| {
-            let from_center = p - ball.center;
-            let across = (from_center.dot(right).abs() / right_share).max(from_center.dot(up).abs() / up_share);
-            from_center.dot(back) + across * FRAME_MARGIN * FRAME_MARGIN
-        };
-        let tight = positions.iter().filter(|p| p.is_finite()).map(needed).fold(0.0, f64::max);
-        // Never so near that a quarter turn would show a long mesh cut off by far.
-        self.distance = tight.clamp(self.distance * NEAREST_FRAME, self.distance);
     }
 
     /// Turns about the pivot by a drag in points.

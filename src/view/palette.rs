@@ -53,8 +53,6 @@ pub struct Palette {
     pub wire: Srgb,
     /// Flipped faces.
     pub flipped: Srgb,
-    /// Selected faces, mixed in.
-    pub selection: Srgb,
     /// The face under the pointer, mixed in.
     pub hover: Srgb,
 }

@@ -1,6 +1,6 @@
 //! The camera of the embedding's pane: shift and scale, never a turn. y points up in the plane, down in the pane.
 
-use glam::{DAffine2, DVec2};
+use glam::DVec2;
 
 use super::ticks::nice_step_at_least;
 use super::{PlaneBox, UnitPlane};
@@ -87,12 +87,6 @@ impl PlaneCamera {
     /// Where a point of the plane shows in the pane. It may lie outside.
     pub fn pane_from_embedding(&self, point: DVec2, pane_size: DVec2) -> DVec2 {
         (point - self.center) * DVec2::new(1.0, -1.0) * self.points_per_unit + pane_size / 2.0
-    }
-
-    /// The way from the plane to clip space.
-    pub fn clip_from_embedding(&self, pane_size: DVec2) -> DAffine2 {
-        let scale = 2.0 * self.points_per_unit / pane_size.max(DVec2::ONE);
-        DAffine2 { matrix2: glam::DMat2::from_diagonal(scale), translation: -scale * self.center }
     }
 
     /// The pane's middle in an embedding's unit space, and clip units per unit of that space.

@@ -22,16 +22,6 @@ pub fn nice_step_at_least(width: f64) -> f64 {
     leading.unwrap_or(10.0) * decade
 }
 
-/// The greatest of 1, 2, 5 × 10ᵏ that is at most `width`. 1 for a width that is not positive and finite.
-pub fn nice_step_at_most(width: f64) -> f64 {
-    if !(width.is_normal() && width > 0.0) {
-        return 1.0;
-    }
-    let decade = 10_f64.powf(width.log10().floor());
-    let leading = [5.0, 2.0, 1.0].into_iter().find(|&m| m * decade <= width * (1.0 + SLACK));
-    leading.unwrap_or(1.0) * decade
-}
-
 /// Multiples of a nice step from `low` to `high`, at most `count` of them and as many as fit.
 pub(super) fn nice_values(low: f64, high: f64, count: usize) -> Vec<(f64, f64)> {
     let step = nice_step_at_least((high - low) / count.max(2) as f64);

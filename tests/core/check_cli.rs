@@ -11,7 +11,9 @@ use freebound::solver::{Verdict, verdict};
 use glam::DVec2;
 use serde_json::Value;
 
-use crate::common::{corpus, corpus_disks, grid};
+use crate::common::corpus_disks;
+use crate::makers::corpus;
+use crate::makers::grid;
 use crate::program::{Program, obj_text, polygons_of, textured_text};
 
 /// The meshes of the corpus that come with a map, and the maps, one position per vertex.

@@ -4,7 +4,7 @@ use freebound::mesh::{DiskMesh, FaceId, VertexId};
 use freebound::solver::{CONFLICTS_LISTED, Conflict, Pin, Pins, conflicts, hard_pins};
 use glam::DVec2;
 
-use crate::common::{fan, grid};
+use crate::makers::{fan, grid};
 
 /// Hard pins on vertices of a mesh.
 fn pinned(places: &[(u32, [f64; 2])]) -> Pins {

@@ -10,7 +10,7 @@ use freebound::solver::{Control, Ladder, Pins, Settings, Step};
 use glam::DVec2;
 use serde_json::Value;
 
-use crate::common::corpus;
+use crate::makers::corpus;
 use crate::program::{Program, argument, coordinates_by_vertex, example_file};
 
 /// The sets, with their meshes.

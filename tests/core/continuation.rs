@@ -9,7 +9,7 @@ use freebound::solver::{Control, Ending, Family, Kept, Ladder, Method, Phase, Pi
 use glam::DVec2;
 use proptest::prelude::*;
 
-use crate::common::{Random, grid};
+use crate::makers::{Random, grid};
 use crate::shapes::{finger, irregular_cube};
 
 /// All steps of a run and why it ended.

@@ -3,7 +3,7 @@
 use freebound::mesh::{DiskMesh, Elements, Fault, TriMesh, VertexId, diagnose};
 use glam::DVec3;
 
-use crate::common::{Random, band, fan, grid, tetrahedron};
+use crate::makers::{Random, band, fan, grid, tetrahedron};
 
 /// Names of the faults of a mesh.
 fn names(mesh: &TriMesh) -> Vec<&'static str> {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId, diagnose};
 use glam::DVec3;
 
-use crate::common::{Random, band, fan, grid, tetrahedron};
+use crate::makers::{Random, band, fan, grid, tetrahedron};
 
 #[test]
 fn random_soups_get_the_verdict_of_a_naive_oracle() {

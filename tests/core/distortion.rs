@@ -4,6 +4,8 @@ use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::solver::{Distortion, DistortionSummary, FaceDistortion, distortion};
 use glam::{DMat2, DVec2, DVec3};
 
+use crate::makers::{self, disk, shaped};
+
 /// Relative; sums over a few hundred faces of numbers that are each right to a few units of the last place.
 const TOLERANCE: f64 = 1e-12;
 
@@ -13,23 +15,12 @@ fn assert_near(value: f64, expected: f64, tolerance: f64) {
 
 /// A grid of n × n squares, two triangles each, its vertices where `place` takes the unit square.
 fn grid(n: u32, place: impl Fn(DVec2) -> DVec3) -> DiskMesh {
-    let vertex = |i: u32, j: u32| i + j * (n + 1);
-    let positions =
-        (0..=n).flat_map(|j| (0..=n).map(move |i| DVec2::new(f64::from(i), f64::from(j)) / f64::from(n))).map(place);
-    let square = |i, j| {
-        let [low, high] = [vertex(i, j), vertex(i + 1, j + 1)];
-        [[low, vertex(i + 1, j), high], [low, high, vertex(i, j + 1)]]
-    };
-    let triangles: Vec<[u32; 3]> = (0..n).flat_map(|j| (0..n).flat_map(move |i| square(i, j))).collect();
-    DiskMesh::try_from(TriMesh::new(positions.collect(), &triangles)).expect("a grid is a disk")
+    disk(shaped(n, n, |x, y| place(DVec2::new(x, y) / f64::from(n))))
 }
 
 /// The same grid's vertices in the unit square, moved by `place`.
 fn flat(n: u32, place: impl Fn(DVec2) -> DVec2) -> Vec<DVec2> {
-    (0..=n)
-        .flat_map(|j| (0..=n).map(move |i| DVec2::new(f64::from(i), f64::from(j)) / f64::from(n)))
-        .map(place)
-        .collect()
+    makers::grid(n, n).positions.iter().map(|x| place(x.truncate() / f64::from(n))).collect()
 }
 
 /// A tilted square of side 3 in space.

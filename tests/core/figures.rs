@@ -10,7 +10,8 @@ use freebound::mesh::{DiskMesh, FaceId};
 use freebound::solver::{Control, Ending, Ladder, Method, Settings, Step, fixed_pins};
 use glam::DVec2;
 
-use crate::common::{csv_rows, grid};
+use crate::common::csv_rows;
+use crate::makers::grid;
 use crate::program::Program;
 
 const NUMBERS: [u32; 7] = [1, 3, 4, 5, 6, 8, 9];

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use freebound::mesh::{DiskMesh, TriMesh};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use crate::common::Random;
+use crate::makers::Random;
 
 /// A planar mesh: its places in the plane, and the same moved into space by a similarity.
 pub(crate) struct Flat {

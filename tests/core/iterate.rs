@@ -12,7 +12,8 @@ use freebound::solver::{
 use glam::DVec2;
 use num_complex::Complex;
 
-use crate::common::{Random, corpus_disks, grid};
+use crate::common::corpus_disks;
+use crate::makers::{Random, disk, grid};
 use crate::shapes::{area_range, finger, interior_pair, irregular_cube};
 
 /// Least-squares solutions of a dense and of our own solver may differ by this share of the extent.
@@ -20,10 +21,6 @@ const AGAINST_DENSE: f64 = 1e-9;
 
 /// A planar embedding may move by this share of its diameter in one step: the limit.
 const FIXED_POINT: f64 = 1e-9;
-
-fn disk(example: Example) -> DiskMesh {
-    DiskMesh::try_from(example.mesh()).unwrap()
-}
 
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: Pins) -> Vec<Step> {
     let mut steps = Vec::new();
@@ -120,7 +117,8 @@ fn pins_are_met_to_the_last_bit() {
 #[test]
 fn a_planar_embedding_is_a_fixed_point() {
     let corpus = corpus_disks();
-    let examples = [Example::Ell, Example::Dome, Example::Cube, Example::BumpyCap].map(|e| (format!("{e:?}"), disk(e)));
+    let examples =
+        [Example::Ell, Example::Dome, Example::Cube, Example::BumpyCap].map(|e| (format!("{e:?}"), disk(e.mesh())));
     let read = corpus.iter().map(|entry| (entry.file.clone(), entry.disk()));
     let mut random = Random(10);
     let mut tried = 0;
@@ -223,9 +221,9 @@ fn beyond_what_doubles_can_tell_apart_the_ladder_ends_planar_all_the_same() {
 
 #[test]
 fn a_planar_embedding_satisfies_its_own_equations() {
-    let spiral = disk(Example::Spiral);
+    let spiral = disk(Example::Spiral.mesh());
     let flat: Vec<DVec2> = spiral.mesh().positions.iter().map(|x| DVec2::new(x.x, x.y)).collect();
-    let dome = disk(Example::Dome);
+    let dome = disk(Example::Dome.mesh());
     let solved = flatten(&dome, &Settings::default(), &Pins::new(), Control::unattended()).unwrap().embedding;
     for (mesh, embedding) in [(spiral, flat), (dome, solved)] {
         let equations = natural_in_plane(&mesh, &embedding);
@@ -318,7 +316,7 @@ fn a_degenerate_embedding_says_that_weights_were_bounded_and_goes_on() {
 
 #[test]
 fn the_iteration_stops_at_the_limit_and_can_be_taken_on_by_hand() {
-    let mesh = disk(Example::Cube);
+    let mesh = disk(Example::Cube.mesh());
     let pins = hard_pins([(VertexId::new(0), DVec2::ZERO), (VertexId::new(1), DVec2::X)]);
     let settings = Settings { max_steps: 2, ..Settings::new(Method::Iterate, Family::Wachspress) };
     let mut run = Ladder::new(settings, pins);

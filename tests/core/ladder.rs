@@ -10,14 +10,11 @@ use freebound::solver::{
 };
 use glam::DVec2;
 
-use crate::common::{Random, corpus_disks};
+use crate::common::corpus_disks;
+use crate::makers::{Random, disk};
 use crate::shapes::{finger, interior_pair};
 
 const FAMILIES: [Family; 3] = [Family::Conformal, Family::MeanValue, Family::Wachspress];
-
-fn disk(example: Example) -> DiskMesh {
-    DiskMesh::try_from(example.mesh()).unwrap()
-}
 
 fn steps_of(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> Vec<Step> {
     let mut steps = Vec::new();
@@ -55,7 +52,7 @@ fn auto_ends_planar_from_any_two_pins_and_any_family() {
     let mut random = Random(0xadd);
     let corpus = corpus_disks();
     let small = corpus.iter().map(|entry| (entry.file.clone(), entry.disk())).filter(|(_, m)| m.face_count() < 6_000);
-    let built_in = Example::ALL.map(|example| (example.name().to_owned(), disk(example)));
+    let built_in = Example::ALL.map(|example| (example.name().to_owned(), disk(example.mesh())));
     for (name, mesh) in built_in.into_iter().chain(small) {
         for pair in [boundary_pair(&mesh, &mut random), interior_pair(&mesh, &mut random)] {
             let pins = pins_on(&mesh, pair);
@@ -126,7 +123,7 @@ fn a_singular_first_rung_is_noted_and_stepped_over() {
 
 #[test]
 fn what_the_user_got_wrong_is_an_error_and_no_rung_hides_it() {
-    let mesh = disk(Example::Dome);
+    let mesh = disk(Example::Dome.mesh());
     let twice = hard_pins([(VertexId::new(1), DVec2::ONE), (VertexId::new(2), DVec2::ONE)]);
     let outcome = Ladder::new(Settings::default(), twice).step(&mesh, Control::unattended());
     assert!(matches!(outcome, Err(SolveError::CoincidentPins { .. })));
@@ -137,7 +134,7 @@ fn what_the_user_got_wrong_is_an_error_and_no_rung_hides_it() {
 
 #[test]
 fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_for_them() {
-    let mesh = disk(Example::Dome);
+    let mesh = disk(Example::Dome.mesh());
     let mut pins = Pins::new();
     let boundary = mesh.boundary_loop();
     for k in 0..5 {
@@ -184,7 +181,7 @@ fn disturbed(mesh: &DiskMesh, mut run: Ladder) -> Vec<Step> {
 
 #[test]
 fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
-    let cube = disk(Example::Cube);
+    let cube = disk(Example::Cube.mesh());
     let pins = pins_on(&cube, interior_pair(&cube, &mut Random(3)));
     let mut cases = vec![(cube, Settings::new(Method::Auto, Family::Wachspress), pins)];
     // Runs that start again, and one that bends the boundary.
@@ -206,7 +203,7 @@ fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
 
 #[test]
 fn the_same_run_gives_the_same_bits() {
-    let mesh = disk(Example::Cube);
+    let mesh = disk(Example::Cube.mesh());
     let settings = Settings::new(Method::Auto, Family::MeanValue);
     let bits = || -> Vec<Vec<DVec2>> {
         steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.candidate.solution.embedding).collect()
@@ -216,7 +213,7 @@ fn the_same_run_gives_the_same_bits() {
 
 #[test]
 fn a_virtual_boundary_refuses_constraints_and_says_what_to_choose() {
-    let mesh = disk(Example::Face);
+    let mesh = disk(Example::Face.mesh());
     let boundary = mesh.boundary_loop();
     let pins = hard_pins((0..3).map(|k| (boundary[7 * k], DVec2::from_angle(k as f64))));
     let outcome =
@@ -246,9 +243,9 @@ fn every_ladder_ends_however_far_apart_the_numbers_are() {
 
 #[test]
 fn small_disks_and_disks_without_inner_vertices_end_planar_too() {
-    let fan = crate::common::fan(3);
+    let fan = crate::makers::fan(3);
     let triangle = TriMesh::new(fan.positions[1..].to_vec(), &[[0, 1, 2]]);
-    let strip = crate::common::grid(6, 1);
+    let strip = crate::makers::grid(6, 1);
     for mesh in [triangle, fan, strip] {
         let mesh = DiskMesh::try_from(mesh).unwrap();
         for family in FAMILIES {
@@ -262,7 +259,7 @@ fn small_disks_and_disks_without_inner_vertices_end_planar_too() {
 
 #[test]
 fn every_method_can_be_taken_on_by_hand() {
-    let mesh = disk(Example::Cube);
+    let mesh = disk(Example::Cube.mesh());
     let convex = Method::Convex(freebound::solver::BoundaryShape::Circle);
     for method in [convex, Method::Lscm, Method::Levy, Method::Natural, Method::VirtualBoundary] {
         let mut run = Ladder::new(Settings::new(method, Family::MeanValue), Pins::new());

@@ -6,9 +6,8 @@ use freebound::linalg::{Analysis, Kind, LinalgError};
 use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
-use crate::linalg_matrices::{
-    Random, dominant, factored, grid_pattern, hermitian, laplacian, pattern_where, scale_rows,
-};
+use crate::linalg_matrices::{dominant, factored, grid_pattern, hermitian, laplacian, pattern_where, scale_rows};
+use crate::makers::Random;
 
 #[test]
 fn a_matrix_with_zero_row_sums_is_singular() {

@@ -7,20 +7,7 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 use num_complex::Complex;
 
-/// A small random number generator (xorshift), so that a seed fixes a whole matrix.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-    pub(crate) fn signed(&mut self) -> f64 {
-        2.0 * self.unit() - 1.0
-    }
-}
+use crate::makers::Random;
 
 /// A scalar drawn from a generator.
 pub(crate) trait Draw: Scalar {
@@ -28,12 +15,12 @@ pub(crate) trait Draw: Scalar {
 }
 impl Draw for f64 {
     fn draw(random: &mut Random) -> Self {
-        random.signed()
+        random.between(-1.0, 1.0)
     }
 }
 impl Draw for Complex<f64> {
     fn draw(random: &mut Random) -> Self {
-        Self::new(random.signed(), random.signed())
+        Self::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0))
     }
 }
 

@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails fails its test")]
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
+mod arguments;
+mod assets;
 mod bad_input;
 mod check_cli;
 mod common;
@@ -24,6 +26,8 @@ mod linalg;
 mod linalg_faults;
 mod linalg_matrices;
 mod linalg_mean_value;
+#[path = "../../examples/makers/mod.rs"]
+mod makers;
 mod matchmaker;
 mod materials;
 mod mesh;

@@ -5,7 +5,7 @@ use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings, SolveError, Step, verdict};
 use glam::DVec2;
 
-use crate::common::{Random, fan, grid};
+use crate::makers::{Random, fan, grid};
 use crate::shapes::{finger, irregular_cube};
 
 /// Area may change by rounding alone.

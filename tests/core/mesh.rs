@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use freebound::mesh::{DiskMesh, HalfedgeId, TriMesh, VertexId, diagnose};
 use glam::DVec3;
 
-use crate::common::{corpus_disks, fan, grid};
+use crate::common::corpus_disks;
+use crate::makers::{fan, grid};
 
 #[test]
 fn the_disks_of_the_corpus_are_disks_with_the_counts_of_the_manifest() {

@@ -15,7 +15,8 @@ use freebound::solver::{
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
 
-use crate::common::{Random, corpus_disks};
+use crate::common::corpus_disks;
+use crate::makers::Random;
 use crate::weights::free_methods;
 
 /// The relative residual of a solve: the limit.

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use freebound::examples::Example;
 use freebound::geom::{Picture, PictureFrame, VAxis};
-use freebound::io::{OutputKind, material_picture, read_mesh, read_picture};
+use freebound::io::{OutputKind, hard_targets, material_picture, read_mesh, read_picture};
 use freebound::mesh::DiskMesh;
-use freebound::session::{Finished, Model, Outcome, OutputFit, PictureFile};
-use freebound::solver::{Control, Ladder, Pin, Pins, Settings};
+use freebound::session::{Finished, Model, Outcome, OutputFit, PictureFile, Problem};
+use freebound::solver::{Control, Ladder, Pins, Settings};
 use glam::DVec2;
 
 use crate::program::{Program, coordinates_by_vertex, example_file};
@@ -154,7 +154,7 @@ fn a_picture_of_no_file_is_not_written_over_files_of_others() {
     let model = Model::example(Example::Dome);
     let mesh: &DiskMesh = model.disk().unwrap();
     let step = Ladder::new(Settings::default(), Pins::new()).step(mesh, Control::unattended()).unwrap();
-    let outcome = Outcome::new(mesh, Settings::default(), (PictureFrame::default(), Pins::new()), step);
+    let outcome = Outcome::new(mesh, Problem::default(), step);
     let picture = PictureFile { name: "four".into(), path: None, stamp: None, pixels: quarters(4, 2).into() };
     let finished = Finished::new((&model, mesh), &outcome, Vec::new(), OutputFit::Unit, 0.0);
     let finished = finished.with_picture(Some(picture.into()));
@@ -196,10 +196,10 @@ fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
     let mesh: &DiskMesh = model.disk().unwrap();
     let frame = PictureFrame { aspect: 2.0, v_axis: VAxis::Down };
     let targets = [(3, [0.2, 0.8]), (40, [0.8, 0.7]), (11, [0.7, 0.1])];
-    let uv: Pins = targets.iter().map(|&(v, z)| (freebound::mesh::VertexId::new(v), Pin::hard(z.into()))).collect();
-    let plane = uv.iter().map(|(&v, pin)| (v, Pin { target: frame.plane_from_uv(pin.target), ..*pin })).collect();
-    let step = Ladder::new(Settings::default(), plane).step(mesh, Control::unattended()).unwrap();
-    let outcome = Outcome::new(mesh, Settings::default(), (frame, uv), step);
+    let uv = hard_targets(targets.map(|(v, uv)| (freebound::mesh::VertexId::new(v), uv.into())));
+    let problem = Problem { frame, targets: uv, ..Problem::default() };
+    let step = Ladder::new(problem.settings, problem.pins()).step(mesh, Control::unattended()).unwrap();
+    let outcome = Outcome::new(mesh, problem, step);
     let finished = Finished::new((&model, mesh), &outcome, Vec::new(), OutputFit::Unit, 0.0);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.obj");

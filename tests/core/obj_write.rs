@@ -8,7 +8,8 @@ use freebound::mesh::{PolygonMesh, VertexId};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-use crate::common::{grid, manifest};
+use crate::common::manifest;
+use crate::makers::grid;
 
 fn written(mesh: &ObjMesh, texture: &[DVec2]) -> Vec<u8> {
     let mut bytes = Vec::new();

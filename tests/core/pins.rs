@@ -12,12 +12,9 @@ use freebound::solver::{
 };
 use glam::{DVec2, DVec3};
 
-use crate::common::{Random, corpus_disks, fan, grid};
+use crate::common::corpus_disks;
+use crate::makers::{Random, disk, fan, grid};
 use crate::weights::free_methods;
-
-fn disk(mesh: TriMesh) -> DiskMesh {
-    DiskMesh::try_from(mesh).expect("a disk")
-}
 
 fn dome() -> DiskMesh {
     disk(Example::Dome.mesh())

@@ -3,7 +3,7 @@
 use freebound::mesh::{FaceId, PolygonMesh, TriMesh, VertexId};
 use glam::{DQuat, DVec3};
 
-use crate::common::Random;
+use crate::makers::Random;
 
 /// A mesh of one polygon.
 fn polygon(points: &[[f64; 3]]) -> PolygonMesh {

@@ -5,15 +5,16 @@
 use std::f64::consts::PI;
 
 use freebound::examples::Example;
-use freebound::mesh::{DiskMesh, TriMesh, VertexId};
+use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::{Control, Family, Method, Pins, Settings, equations, flatten, hard_pins, verdict};
 use glam::{DVec2, DVec3};
 use nalgebra::DMatrix;
 use num_complex::Complex;
 use proptest::prelude::*;
 
-use crate::common::{Random, corpus_disks, grid};
+use crate::common::corpus_disks;
 use crate::flat::Flat;
+use crate::makers::{Random, disk, grid, shaped};
 use crate::weights::free_methods;
 
 /// Largest distance of a vertex from its place, relative to the diameter: the limit.
@@ -190,10 +191,8 @@ fn nullity(matrix: &DMatrix<f64>, what: &str) -> usize {
 }
 
 /// A grid of squares moved into space.
-fn shaped(columns: u32, rows: u32, place: impl Fn(f64, f64) -> DVec3) -> DiskMesh {
-    let mesh = grid(columns, rows);
-    let positions = mesh.positions.iter().map(|p| place(p.x, p.y)).collect();
-    DiskMesh::try_from(TriMesh { positions, ..mesh }).expect("well-formed by construction")
+fn shaped_disk(columns: u32, rows: u32, place: impl Fn(f64, f64) -> DVec3) -> DiskMesh {
+    disk(shaped(columns, rows, place))
 }
 
 #[test]
@@ -203,10 +202,10 @@ fn the_rank_is_2n_minus_4_on_developable_meshes_and_2n_minus_2_on_others() {
         DVec3::new(angle.cos(), angle.sin(), y / 2.0)
     };
     let cases = [
-        ("flat", shaped(5, 4, |x, y| DVec3::new(x, y + 0.2 * x, 0.5 * x)), 4),
-        ("rolled up", shaped(6, 4, rolled), 4),
-        ("saddle", shaped(5, 4, |x, y| DVec3::new(x, y, (x - 2.0) * (y - 2.0))), 2),
-        ("dome", shaped(5, 4, |x, y| DVec3::new(x, y, x * (5.0 - x) * y * (4.0 - y) / 8.0)), 2),
+        ("flat", shaped_disk(5, 4, |x, y| DVec3::new(x, y + 0.2 * x, 0.5 * x)), 4),
+        ("rolled up", shaped_disk(6, 4, rolled), 4),
+        ("saddle", shaped_disk(5, 4, |x, y| DVec3::new(x, y, (x - 2.0) * (y - 2.0))), 2),
+        ("dome", shaped_disk(5, 4, |x, y| DVec3::new(x, y, x * (5.0 - x) * y * (4.0 - y) / 8.0)), 2),
     ];
     for (name, mesh, expected) in cases {
         for settings in free_methods() {
@@ -221,7 +220,7 @@ fn a_rolled_up_sheet_comes_back_flat() {
     // A strip of a cylinder: quads are plane, and the sheet unrolls to a rectangle of chords by height.
     let (columns, rows) = (9, 4);
     let step = PI / 6.0;
-    let mesh = shaped(columns, rows, |x, y| DVec3::new((x * step).cos(), (x * step).sin(), y / 2.0));
+    let mesh = shaped_disk(columns, rows, |x, y| DVec3::new((x * step).cos(), (x * step).sin(), y / 2.0));
     let chord = 2.0 * (step / 2.0).sin();
     let plane: Vec<DVec2> = grid(columns, rows).positions.iter().map(|p| DVec2::new(p.x * chord, p.y / 2.0)).collect();
     assert_comes_back(&mesh, &plane, "a rolled-up sheet");
@@ -229,7 +228,7 @@ fn a_rolled_up_sheet_comes_back_flat() {
 
 #[test]
 fn the_family_power_zero_is_mean_value_and_minus_one_is_wachspress() {
-    let mesh = shaped(5, 4, |x, y| DVec3::new(x, y, 0.2 * x * y));
+    let mesh = shaped_disk(5, 4, |x, y| DVec3::new(x, y, 0.2 * x * y));
     for (power, family) in [(1.0, Family::Conformal), (0.0, Family::MeanValue), (-1.0, Family::Wachspress)] {
         let [a, b] = [Family::Power(power), family]
             .map(|family| solve(&mesh, &Settings::new(Method::Natural, family), &Pins::new(), "saddle"));

@@ -5,16 +5,16 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use freebound::examples::Example;
-use freebound::io::{OutputKind, read_mesh};
+use freebound::io::{OutputKind, Target, read_mesh};
 use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::{
     Action, Document, OutputFit, Place, RecentFiles, SaveRequest, Session, Severity, StopConditions,
 };
-use freebound::solver::{BoundaryShape, Control, Family, Method, Pin, Settings, flatten};
+use freebound::solver::{BoundaryShape, Control, Family, Method, Settings, flatten};
 use glam::DVec2;
 use tempfile::TempDir;
 
-use crate::common::{Random, grid};
+use crate::makers::{Random, grid};
 
 /// What the background is given before a test fails.
 const PATIENCE: Duration = Duration::from_secs(90);
@@ -92,7 +92,7 @@ fn one_fixed_vertex_leaves_the_embedding_where_it_is() {
     let mut session = opened(Example::Dome);
     let before = session.outcome().expect("solved").step.solution.embedding.clone();
     settled(&mut session, Action::Fix(vec![id(100)]));
-    assert_eq!(session.document().pins[&id(100)], Pin::fixed(before[100]));
+    assert_eq!(session.document().targets[&id(100)], Target::fixed(before[100]));
     let after = &session.outcome().expect("solved").step.solution.embedding;
     assert!(before.iter().zip(after).all(|(a, b)| a.distance(*b) < 1e-9));
 }
@@ -112,7 +112,7 @@ fn settings_stay_when_another_mesh_opens_and_pins_go() {
 fn a_drag_ends_where_a_fresh_solve_would() {
     let mut session = opened(Example::Dome);
     settled(&mut session, Action::Fix(vec![id(3), id(100), id(200)]));
-    let from = session.document().pins[&id(100)].target;
+    let from = session.document().targets[&id(100)].uv;
     for i in 1..=40 {
         let target = from + DVec2::new(0.002, 0.001) * f64::from(i);
         session.handle(Action::MovePin { vertex: id(100), target });
@@ -122,8 +122,8 @@ fn a_drag_ends_where_a_fresh_solve_would() {
     settle(&mut session);
     assert!(session.is_current());
     let disk = session.model().expect("open").disk().expect("a disk");
-    let Document { pins, settings, .. } = session.document();
-    let fresh = flatten(disk, settings, pins, Control::unattended()).expect("solvable");
+    let document = session.document();
+    let fresh = flatten(disk, &document.settings, &document.pins(), Control::unattended()).expect("solvable");
     assert_eq!(fresh.embedding, session.outcome().expect("solved").step.solution.embedding);
 }
 
@@ -252,7 +252,7 @@ impl Walk {
             2 => Action::Open(self.folder.path().join("bad.obj")),
             3..15 => Action::Fix(vec![self.vertex(), self.vertex()]),
             15..40 => {
-                let pins: Vec<VertexId> = self.session.document().pins.keys().copied().collect();
+                let pins: Vec<VertexId> = self.session.document().targets.keys().copied().collect();
                 let any = self.vertex();
                 let place = self.random.below(u32::try_from(pins.len() + 1).expect("few")) as usize;
                 Action::MovePin { vertex: pins.get(place).copied().unwrap_or(any), target: self.point() }
@@ -293,7 +293,7 @@ impl Walk {
     }
 
     fn first_pin(&mut self) -> VertexId {
-        let first = self.session.document().pins.keys().next().copied();
+        let first = self.session.document().targets.keys().next().copied();
         first.unwrap_or_else(|| self.vertex())
     }
 
@@ -330,9 +330,9 @@ impl Walk {
         // A step on the way to the constraints is planar, and meets them at the end.
         let is_one_to_one = outcome.step.rung.is_one_to_one() && outcome.is_planar_but_unmet();
         let is_on_its_way = is_one_to_one || outcome.step.is_of_planar_start();
-        if outcome.settings.method.uses_pins() && !is_on_its_way {
-            for (vertex, pin) in &outcome.pins {
-                assert_eq!(outcome.step.solution.embedding[vertex.index()], pin.target);
+        if outcome.problem.settings.method.uses_pins() && !is_on_its_way {
+            for (vertex, pin) in &outcome.problem.targets {
+                assert_eq!(outcome.step.solution.embedding[vertex.index()], pin.uv);
             }
         }
     }

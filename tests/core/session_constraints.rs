@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::geom::PictureFrame;
+use freebound::io::Target;
 use freebound::mesh::{DiskMesh, NewVertex, Refinement, VertexId};
-use freebound::session::{Action, Outcome, OutputFit, Session, Stop};
-use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings};
+use freebound::session::{Action, Outcome, OutputFit, Problem, Session, Stop};
+use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
 use glam::DVec2;
 
-use crate::common::grid;
+use crate::makers::grid;
 use crate::session::{session, settle, settled, write_obj};
 
 fn id(number: u32) -> VertexId {
@@ -30,7 +30,7 @@ fn with_grid() -> Session {
 
 fn place(session: &mut Session, pins: &[(u32, DVec2)]) {
     for &(vertex, target) in pins {
-        session.handle(Action::Place { vertex: id(vertex), pin: Pin::hard(target) });
+        session.handle(Action::Place { vertex: id(vertex), target: Target::hard(target) });
     }
 }
 
@@ -216,7 +216,7 @@ fn an_outcome_with_new_vertices_is_measured_and_proved_on_its_own_mesh() {
     let [a, b] = [0, 3].map(|v: usize| step.solution.embedding[v]);
     step.candidate.solution.embedding.push(a.midpoint(b));
     step.candidate.refinement = Some(refinement);
-    let outcome = Outcome::new(&disk, *run.settings(), (PictureFrame::default(), Pins::new()), step);
+    let outcome = Outcome::new(&disk, Problem { settings: *run.settings(), ..Problem::default() }, step);
     assert_eq!((outcome.new_vertex_count(), outcome.distortion.faces.len()), (1, 4));
     for fit in [OutputFit::Unit, OutputFit::True] {
         let (coordinates, _, verdict) = outcome.output(&disk, fit);

@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use freebound::geom::{Picture, VAxis};
-use freebound::io::read_mesh;
+use freebound::io::{Target, read_mesh};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, OutputFit, Place, SaveRequest, Session, Severity};
-use freebound::solver::{Hold, Pin};
+use freebound::solver::Hold;
 use glam::{DVec2, DVec3};
 use tempfile::TempDir;
 
-use crate::common::{corpus_disks, grid};
+use crate::common::corpus_disks;
+use crate::makers::grid;
 use crate::session::{session, settled, write_obj};
 
 pub(crate) fn id(number: u32) -> VertexId {
@@ -43,12 +44,12 @@ pub(crate) fn with_dome() -> (TempDir, Session) {
     (folder, session)
 }
 
-pub(crate) fn place(session: &mut Session, vertex: u32, pin: Pin) {
-    settled(session, Action::Place { vertex: id(vertex), pin });
+pub(crate) fn place(session: &mut Session, vertex: u32, pin: Target) {
+    settled(session, Action::Place { vertex: id(vertex), target: pin });
 }
 
 fn targets(session: &Session) -> Vec<DVec2> {
-    session.document().pins.values().map(|pin| pin.target).collect()
+    session.document().targets.values().map(|target| target.uv).collect()
 }
 
 pub(crate) fn errors(session: &Session) -> Vec<&str> {
@@ -104,16 +105,16 @@ fn a_picture_that_the_material_names_comes_with_the_mesh() {
 #[test]
 fn constraints_of_a_file_join_those_that_there_are() {
     let (folder, mut session) = with_dome();
-    place(&mut session, 3, Pin::hard(DVec2::new(0.25, 0.5)));
-    place(&mut session, 8, Pin::hard(DVec2::new(0.75, 0.5)));
+    place(&mut session, 3, Target::hard(DVec2::new(0.25, 0.5)));
+    place(&mut session, 8, Target::hard(DVec2::new(0.75, 0.5)));
     let before = session.document().clone();
     let path = folder.path().join("marks.txt");
     std::fs::write(&path, "8 0.5 0.25 2\n# a comment\n20 1e-3 0.1\n").unwrap();
     settled(&mut session, Action::ImportConstraints(path));
-    let pins = &session.document().pins;
+    let pins = &session.document().targets;
     assert_eq!(pins.len(), 3);
-    assert_eq!(pins[&id(8)], Pin::weighted(DVec2::new(0.5, 0.25), 2.0));
-    assert_eq!(pins[&id(20)], Pin::hard(DVec2::new(1e-3, 0.1)));
+    assert_eq!(pins[&id(8)], Target::weighted(DVec2::new(0.5, 0.25), 2.0));
+    assert_eq!(pins[&id(20)], Target::hard(DVec2::new(1e-3, 0.1)));
     settled(&mut session, Action::Undo);
     assert_eq!(*session.document(), before);
 }
@@ -125,27 +126,27 @@ fn a_fault_in_a_constraint_file_names_its_line_and_changes_nothing() {
     std::fs::write(&path, "8 0.5 0.25\n\n35 1 1\n").unwrap();
     settled(&mut session, Action::ImportConstraints(path));
     assert!(errors(&session)[0].starts_with("line 3: there is no vertex v35"), "{:?}", session.messages());
-    assert!(session.document().pins.is_empty() && !session.history().can_undo());
+    assert!(session.document().targets.is_empty() && !session.history().can_undo());
 }
 
 #[test]
 fn exported_constraints_come_back_bit_for_bit() {
     let (folder, mut session) = with_dome();
-    place(&mut session, 3, Pin::hard(DVec2::new(0.1 + 0.2, -0.0)));
-    place(&mut session, 30, Pin::weighted(DVec2::new(1.0 / 3.0, 7e-300), 0.7));
-    let pins = session.document().pins.clone();
+    place(&mut session, 3, Target::hard(DVec2::new(0.1 + 0.2, -0.0)));
+    place(&mut session, 30, Target::weighted(DVec2::new(1.0 / 3.0, 7e-300), 0.7));
+    let pins = session.document().targets.clone();
     let path = folder.path().join("marks.txt");
     settled(&mut session, Action::ExportConstraints(path.clone()));
     settled(&mut session, Action::UnpinAll);
     settled(&mut session, Action::ImportConstraints(path));
-    assert_eq!(session.document().pins, pins);
+    assert_eq!(session.document().targets, pins);
 }
 
 #[test]
 fn mirrored_targets_keep_their_box_and_twice_mirrored_their_places() {
     let (_folder, mut session) = with_dome();
     for (vertex, u) in [(0, 0.25), (6, 0.5), (30, 1.0)] {
-        place(&mut session, vertex, Pin::hard(DVec2::new(u, u * u)));
+        place(&mut session, vertex, Target::hard(DVec2::new(u, u * u)));
     }
     let before = session.document().clone();
     settled(&mut session, Action::MirrorTargets);
@@ -174,10 +175,10 @@ fn fitting_moves_all_targets_by_one_similarity_of_the_picture() {
     settled(&mut session, Action::OpenPicture(path));
     settled(&mut session, Action::SetVAxis(VAxis::Down));
     for (vertex, u, v) in [(0, 5.0, 4.0), (6, 5.5, 4.0), (30, 5.2, 3.0)] {
-        place(&mut session, vertex, Pin::hard(DVec2::new(u, v)));
+        place(&mut session, vertex, Target::hard(DVec2::new(u, v)));
     }
     let places = |session: &Session| -> [DVec2; 3] {
-        let pins: Vec<DVec2> = session.document().plane_pins().values().map(|pin| pin.target).collect();
+        let pins: Vec<DVec2> = session.document().pins().values().map(|pin| pin.target).collect();
         pins.try_into().unwrap()
     };
     let (before, document) = (places(&session), session.document().clone());
@@ -200,15 +201,15 @@ fn fitting_moves_all_targets_by_one_similarity_of_the_picture() {
 fn a_pin_that_nothing_can_hold_is_not_placed() {
     let (_folder, mut session) = with_dome();
     for weight in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        place(&mut session, 3, Pin::weighted(DVec2::X, weight));
-        assert!(session.document().pins.is_empty(), "{weight}");
+        place(&mut session, 3, Target::weighted(DVec2::X, weight));
+        assert!(session.document().targets.is_empty(), "{weight}");
     }
 }
 
 #[test]
 fn fitting_one_target_is_refused() {
     let (_folder, mut session) = with_dome();
-    place(&mut session, 3, Pin::hard(DVec2::X));
+    place(&mut session, 3, Target::hard(DVec2::X));
     settled(&mut session, Action::FitTargets);
     assert!(errors(&session)[0].contains("two pins"));
 }
@@ -292,20 +293,20 @@ fn of_the_corpus_fran_s_faces_point_inward() {
 #[test]
 fn an_edit_that_arrives_in_the_middle_of_a_drag_waits_for_its_end() {
     let (folder, mut session) = with_dome();
-    place(&mut session, 3, Pin::hard(DVec2::X));
-    place(&mut session, 8, Pin::hard(DVec2::Y));
+    place(&mut session, 3, Target::hard(DVec2::X));
+    place(&mut session, 8, Target::hard(DVec2::Y));
     let before = session.document().clone();
     let path: PathBuf = folder.path().join("marks.txt");
     std::fs::write(&path, "20 0.5 0.5\n").unwrap();
     session.handle(Action::MovePin { vertex: id(3), target: DVec2::ZERO });
     settled(&mut session, Action::ImportConstraints(path));
     session.handle(Action::MovePin { vertex: id(3), target: DVec2::NEG_X });
-    assert_eq!(session.document().pins.len(), 2);
+    assert_eq!(session.document().targets.len(), 2);
     settled(&mut session, Action::EndGesture);
-    assert_eq!(session.document().pins.len(), 3);
+    assert_eq!(session.document().targets.len(), 3);
     settled(&mut session, Action::Undo);
     assert_eq!(targets(&session), [DVec2::NEG_X, DVec2::Y]);
     settled(&mut session, Action::Undo);
     assert_eq!(*session.document(), before, "the drag is one step");
-    assert!(session.document().pins.values().all(|pin| pin.hold == Hold::Hard));
+    assert!(session.document().targets.values().all(|pin| pin.hold == Hold::Hard));
 }

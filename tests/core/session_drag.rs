@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use freebound::examples::Example;
+use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Session};
-use freebound::solver::{Control, Hold, Pin, flatten, verdict};
+use freebound::solver::{Control, Hold, flatten, verdict};
 use glam::DVec2;
 
 use crate::session::{opened, settle, settled};
@@ -19,7 +20,7 @@ fn with_constraints() -> Session {
         (100, DVec2::X, Hold::Hard),
         (200, DVec2::new(0.8, 0.9), Hold::Hard),
     ] {
-        settled(&mut session, Action::Place { vertex: VertexId::new(number), pin: Pin { target: place, hold } });
+        settled(&mut session, Action::Place { vertex: VertexId::new(number), target: Target { uv: place, hold } });
     }
     session
 }
@@ -28,7 +29,7 @@ fn with_constraints() -> Session {
 fn first_solve(session: &Session) -> Vec<DVec2> {
     let document = session.document();
     let disk = session.model().expect("open").disk().expect("a disk");
-    flatten(disk, &document.run_settings(), &document.plane_pins(), Control::unattended()).unwrap().embedding
+    flatten(disk, &document.run_settings(), &document.pins(), Control::unattended()).unwrap().embedding
 }
 
 #[test]
@@ -58,7 +59,7 @@ fn pins_that_are_dragged_together_keep_their_distance_and_are_one_undo_step() {
     let before = session.document().clone();
     for i in 1..=10 {
         let by = DVec2::new(0.01, -0.02) * f64::from(i);
-        let moves = [0, 100].map(VertexId::new).map(|v| (v, before.pins[&v].target + by));
+        let moves = [0, 100].map(VertexId::new).map(|v| (v, before.targets[&v].uv + by));
         settled(&mut session, Action::MovePins(moves.to_vec()));
         let apart = {
             let preview = session.preview().expect("a drag shows one");
@@ -84,7 +85,7 @@ fn a_pointer_that_rests_has_the_embedding_repaired_and_the_drag_goes_on() {
     settled(&mut session, Action::EndGesture);
     assert!(session.is_current());
     settled(&mut session, Action::Undo);
-    assert_eq!(session.document().pins[&vertex].target, DVec2::X, "one undo step, rest and all");
+    assert_eq!(session.document().targets[&vertex].uv, DVec2::X, "one undo step, rest and all");
 }
 
 #[test]
@@ -96,7 +97,7 @@ fn a_slower_column_catches_up_with_the_pointer() {
         session.handle(Action::MovePin { vertex, target: DVec2::new(0.8 - 0.01 * f64::from(i), 0.9) });
     }
     settle(&mut session);
-    let target = session.document().pins[&vertex].target;
+    let target = session.document().targets[&vertex].uv;
     assert_eq!(session.preview().expect("it caught up").embedding[vertex.index()], target);
 }
 
@@ -106,7 +107,7 @@ fn a_drag_that_ends_where_it_began_shows_the_proved_embedding_again() {
     let vertex = VertexId::new(100);
     let targets = [(0, DVec2::ZERO), (100, DVec2::X), (200, DVec2::new(0.5, 0.8))];
     for (number, target) in targets {
-        settled(&mut session, Action::Place { vertex: VertexId::new(number), pin: Pin::hard(target) });
+        settled(&mut session, Action::Place { vertex: VertexId::new(number), target: Target::hard(target) });
     }
     let before = session.outcome().expect("solved").clone();
     for target in [DVec2::new(0.9, 0.0), DVec2::X] {
@@ -124,7 +125,7 @@ fn a_vertex_fixed_during_a_drag_is_fixed_where_the_screen_shows_it() {
     settled(&mut session, Action::MovePin { vertex: VertexId::new(100), target: DVec2::new(0.9, 0.1) });
     let shown = session.preview().expect("a drag shows one").embedding[150];
     settled(&mut session, Action::Fix(vec![VertexId::new(150)]));
-    assert_eq!(session.document().pins[&VertexId::new(150)], Pin::fixed(shown));
+    assert_eq!(session.document().targets[&VertexId::new(150)], Target::fixed(shown));
 }
 
 #[test]
@@ -132,5 +133,5 @@ fn pins_that_were_freed_do_not_come_back_with_a_late_move() {
     let mut session = with_constraints();
     session.handle(Action::UnpinAll);
     session.handle(Action::MovePin { vertex: VertexId::new(100), target: DVec2::ONE });
-    assert!(session.document().pins.is_empty());
+    assert!(session.document().targets.is_empty());
 }

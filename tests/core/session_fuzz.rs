@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use freebound::examples::Example;
 use freebound::geom::VAxis;
-use freebound::io::{OutputKind, ProjectFile};
+use freebound::io::{OutputKind, ProjectFile, Target};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document, OutputFit, SaveRequest, Session};
-use freebound::solver::{BoundaryShape, Family, Hold, Method, Pin, Settings, Treatment};
+use freebound::solver::{BoundaryShape, Family, Hold, Method, Settings, Treatment};
 use glam::DVec2;
 use tempfile::TempDir;
 
-use crate::common::Random;
+use crate::makers::Random;
 use crate::session::{session, settle, settled};
 use crate::session_documents::{errors, id, write_dome, write_picture};
 
@@ -68,7 +68,7 @@ impl Fuzz {
 
     /// Mostly a pinned one.
     fn pinned(&mut self) -> VertexId {
-        let pins: Vec<VertexId> = self.session.document().pins.keys().copied().collect();
+        let pins: Vec<VertexId> = self.session.document().targets.keys().copied().collect();
         let any = self.vertex();
         let place = self.random.below(u32::try_from(pins.len()).expect("few") + 1) as usize;
         pins.get(place).copied().unwrap_or(any)
@@ -114,7 +114,7 @@ impl Fuzz {
 
     fn action(&mut self) -> Action {
         match self.random.below(100) {
-            0..14 => Action::Place { vertex: self.vertex(), pin: Pin { target: self.target(), hold: self.hold() } },
+            0..14 => Action::Place { vertex: self.vertex(), target: Target { uv: self.target(), hold: self.hold() } },
             14..28 => Action::MovePin { vertex: self.pinned(), target: self.target() },
             28..30 => Action::MovePins(vec![(self.pinned(), self.target()), (self.pinned(), self.target())]),
             30..36 => Action::EndGesture,
@@ -178,11 +178,11 @@ impl Fuzz {
 
     /// What holds after every action.
     fn check(&self) {
-        let Document { pins, .. } = self.session.document();
+        let Document { targets: pins, .. } = self.session.document();
         let count = self.session.model().map_or(0, |model| model.mesh().vertex_count());
         for (vertex, pin) in pins {
             assert!(vertex.index() < count, "{vertex} of {count}");
-            assert!(pin.target.is_finite(), "{vertex}: {pin:?}");
+            assert!(pin.uv.is_finite(), "{vertex}: {pin:?}");
             assert!(!matches!(pin.hold, Hold::Weighted(weight) if !(weight.is_finite() && weight > 0.0)), "{pin:?}");
         }
         let timeline = self.session.timeline();
@@ -215,14 +215,14 @@ impl Fuzz {
         let disk = model.disk().expect("only a disk is solved");
         assert!(outcome.step.solution.embedding.iter().all(|z| z.is_finite()));
         let is_on_its_way = outcome.step.is_of_planar_start();
-        if !self.session.is_current() || !outcome.settings.method.uses_pins() || is_on_its_way {
+        if !self.session.is_current() || !outcome.problem.settings.method.uses_pins() || is_on_its_way {
             return;
         }
         let (coordinates, ..) = outcome.output(disk, OutputFit::Unit);
-        for (vertex, pin) in &self.session.document().pins {
-            if outcome.settings.is_exact(pin.hold) {
+        for (vertex, pin) in &self.session.document().targets {
+            if outcome.problem.settings.is_exact(pin.hold) {
                 let bits = |z: DVec2| z.to_array().map(f64::to_bits);
-                assert_eq!(bits(coordinates[vertex.index()]), bits(pin.target), "{vertex}: {pin:?}");
+                assert_eq!(bits(coordinates[vertex.index()]), bits(pin.uv), "{vertex}: {pin:?}");
             }
         }
     }
@@ -253,7 +253,7 @@ impl Fuzz {
         self.session.handle(Action::EndGesture);
         let after = self.session.document().clone();
         assert_eq!(self.session.opening_revision(), opening);
-        assert!(before.pins.keys().all(|vertex| after.pins.contains_key(vertex)), "{before:?}\n{after:?}");
+        assert!(before.targets.keys().all(|vertex| after.targets.contains_key(vertex)), "{before:?}\n{after:?}");
         if after != before {
             self.drags += 1;
             self.session.handle(Action::Undo);

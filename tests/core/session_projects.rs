@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
 use freebound::geom::VAxis;
-use freebound::io::{PathStyle, ProjectFile, ProjectSource, ProjectView};
+use freebound::io::{FileStamp, PathStyle, ProjectFile, ProjectSource, ProjectView, Target};
 use freebound::session::{Action, Session, Severity};
-use freebound::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Pin, Settings, Treatment};
+use freebound::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -43,9 +43,9 @@ fn with_everything() -> (TempDir, Session) {
         ..Settings::default()
     };
     settled(&mut session, Action::SetSettings(settings));
-    place(&mut session, 0, Pin::hard(DVec2::new(0.1 + 0.7, -0.0)));
-    place(&mut session, 6, Pin::fixed(DVec2::new(1.0 / 3.0, 1e-310)));
-    place(&mut session, 30, Pin::weighted(DVec2::new(0.4, 0.9), f64::MIN_POSITIVE.sqrt()));
+    place(&mut session, 0, Target::hard(DVec2::new(0.1 + 0.7, -0.0)));
+    place(&mut session, 6, Target::fixed(DVec2::new(1.0 / 3.0, 1e-310)));
+    place(&mut session, 30, Target::weighted(DVec2::new(0.4, 0.9), f64::MIN_POSITIVE.sqrt()));
     session.set_view(ProjectView {
         mesh_shading: Some("checker".to_owned()),
         plane_shading: Some("angle".to_owned()),
@@ -69,8 +69,8 @@ fn everything_in_a_project_comes_back_bit_for_bit() {
     assert_eq!((a.v_axis, a.faces_turned), (b.v_axis, b.faces_turned));
     assert_eq!(a.picture.as_ref().map(|p| (&p.name, &p.pixels)), b.picture.as_ref().map(|p| (&p.name, &p.pixels)));
     let bits = |session: &Session| -> Vec<_> {
-        let pins = session.document().pins.iter();
-        pins.map(|(v, pin)| (*v, pin.target.to_array().map(f64::to_bits), format!("{:?}", pin.hold))).collect()
+        let pins = session.document().targets.iter();
+        pins.map(|(v, pin)| (*v, pin.uv.to_array().map(f64::to_bits), format!("{:?}", pin.hold))).collect()
     };
     assert_eq!(bits(&before), bits(&after));
     assert_eq!(before.view(), after.view());
@@ -122,7 +122,7 @@ fn a_folder_moves_as_a_whole() {
     let moved = elsewhere.path().join("moved");
     fs::rename(folder.path(), &moved).unwrap();
     let after = reopened(&moved.join("work.freebound"));
-    assert!(after.messages().is_empty() && after.document().pins.len() == 3, "{:?}", after.messages());
+    assert!(after.messages().is_empty() && after.document().targets.len() == 3, "{:?}", after.messages());
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn a_project_beside_its_mesh_s_folder_finds_it() {
 fn an_example_s_project_names_the_example() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = opened(Example::Face);
-    place(&mut session, 5, Pin::hard(DVec2::new(0.5, 0.25)));
+    place(&mut session, 5, Target::hard(DVec2::new(0.5, 0.25)));
     settled(&mut session, Action::SaveProject(project_in(&folder)));
     let after = reopened(&project_in(&folder));
     assert_eq!(after.model().expect("open").example, Some(Example::Face));
@@ -153,13 +153,13 @@ fn the_session_knows_what_is_saved() {
     let (folder, mut session) = with_dome();
     assert!(!session.has_unsaved_work(), "a mesh as it was opened");
     assert_eq!((session.project_path(), session.project_name().as_deref()), (None, Some("dome.obj")));
-    place(&mut session, 5, Pin::hard(DVec2::X));
+    place(&mut session, 5, Target::hard(DVec2::X));
     assert!(session.has_unsaved_work());
     settled(&mut session, Action::SaveProject(project_in(&folder)));
     assert!(!session.has_unsaved_work());
     assert_eq!(session.project_path(), Some(&project_in(&folder)));
     assert_eq!(session.project_name().as_deref(), Some("work"));
-    place(&mut session, 6, Pin::hard(DVec2::Y));
+    place(&mut session, 6, Target::hard(DVec2::Y));
     assert!(session.has_unsaved_work());
     settled(&mut session, Action::Undo);
     assert!(!session.has_unsaved_work(), "back at what was saved");
@@ -172,30 +172,30 @@ fn the_session_knows_what_is_saved() {
 #[test]
 fn an_edit_while_a_save_is_under_way_is_unsaved() {
     let (folder, mut session) = with_dome();
-    session.handle(Action::Place { vertex: id(1), pin: Pin::hard(DVec2::X) });
+    session.handle(Action::Place { vertex: id(1), target: Target::hard(DVec2::X) });
     session.handle(Action::SaveProject(project_in(&folder)));
-    session.handle(Action::Place { vertex: id(2), pin: Pin::hard(DVec2::Y) });
+    session.handle(Action::Place { vertex: id(2), target: Target::hard(DVec2::Y) });
     settle(&mut session);
     assert!(session.has_unsaved_work());
-    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().pins.len(), 1);
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().targets.len(), 1);
 }
 
 #[test]
 fn of_many_saves_the_last_one_is_in_the_file() {
     let (folder, mut session) = with_dome();
     for vertex in 0..20 {
-        session.handle(Action::Place { vertex: id(vertex), pin: Pin::hard(DVec2::new(f64::from(vertex), 0.0)) });
+        session.handle(Action::Place { vertex: id(vertex), target: Target::hard(DVec2::new(f64::from(vertex), 0.0)) });
         session.handle(Action::SaveProject(project_in(&folder)));
     }
     settle(&mut session);
-    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().pins, session.document().pins);
+    assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().targets, session.document().targets);
     assert!(!session.has_unsaved_work());
 }
 
 #[test]
 fn the_end_of_the_program_waits_for_what_is_being_written() {
     let (folder, mut session) = with_dome();
-    place(&mut session, 1, Pin::hard(DVec2::X));
+    place(&mut session, 1, Target::hard(DVec2::X));
     session.handle(Action::SaveProject(project_in(&folder)));
     let constraints = folder.path().join("marks.txt");
     session.handle(Action::ExportConstraints(constraints.clone()));
@@ -206,7 +206,7 @@ fn the_end_of_the_program_waits_for_what_is_being_written() {
 #[test]
 fn a_save_that_fails_is_said_and_nothing_counts_as_saved() {
     let (folder, mut session) = with_dome();
-    place(&mut session, 1, Pin::hard(DVec2::X));
+    place(&mut session, 1, Target::hard(DVec2::X));
     settled(&mut session, Action::SaveProject(folder.path().join("no such folder").join("a.freebound")));
     assert!(session.has_unsaved_work() && session.project_path().is_none());
     assert_eq!(errors(&session).len(), 1);
@@ -230,7 +230,7 @@ fn a_changed_mesh_is_said_and_pins_that_it_has_no_vertices_for_are_counted() {
     settled(&mut first, Action::SaveProject(project_in(&folder)));
     write_dome(&folder.path().join("dome.obj"), 6, 3);
     let session = reopened(&project_in(&folder));
-    assert_eq!(session.document().pins.len(), 2, "vertex 30 is gone");
+    assert_eq!(session.document().targets.len(), 2, "vertex 30 is gone");
     let said = errors(&session);
     assert!(said[0].contains("mesh has changed") && said[0].contains("dome.obj"), "{said:?}");
     assert!(said[1].starts_with("1 of the project's 3 pins"), "{said:?}");
@@ -248,7 +248,7 @@ fn a_missing_and_a_changed_picture_are_said() {
     assert!(errors(&session)[0].contains("picture has changed") && errors(&session)[0].contains("ä b.png"));
     fs::remove_file(&picture).unwrap();
     let session = reopened(&project_in(&folder));
-    assert!(session.document().picture.is_none() && session.document().pins.len() == 3);
+    assert!(session.document().picture.is_none() && session.document().targets.len() == 3);
     assert!(errors(&session)[0].contains("is not there") && errors(&session)[0].contains("ä b.png"));
 }
 
@@ -260,7 +260,7 @@ fn saving_a_project_without_its_picture_keeps_the_picture_s_name_in_the_file() {
     assert!(before.is_some());
     fs::remove_file(folder.path().join("pictures").join("ä b.png")).unwrap();
     let mut session = reopened(&project_in(&folder));
-    place(&mut session, 6, Pin::hard(DVec2::Y));
+    place(&mut session, 6, Target::hard(DVec2::Y));
     settled(&mut session, Action::SaveProject(project_in(&folder)));
     assert_eq!(ProjectFile::read(&project_in(&folder)).unwrap().picture, before);
 }
@@ -328,4 +328,15 @@ fn fields_that_nobody_knows_yet_are_ignored_and_few_are_needed() {
     let session = reopened(&project_in(&folder));
     assert!(session.messages().is_empty() && session.is_current());
     assert_eq!(session.document().settings, Settings::default());
+}
+
+#[test]
+fn the_stamp_of_abc_is_that_of_the_standard() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("abc");
+    fs::write(&path, "abc").unwrap();
+    let stamp = FileStamp::read(&path).unwrap();
+    // FIPS 180-4, the example of one block.
+    let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+    assert_eq!((stamp.bytes, stamp.sha256.as_str()), (3, expected));
 }

@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use freebound::io::ProjectFile;
+use freebound::io::{ProjectFile, Target};
 use freebound::session::{Action, Session};
-use freebound::solver::Pin;
 use glam::DVec2;
 
 use crate::session::{session, settle, settled};
@@ -33,7 +32,7 @@ fn until_copies(session: &mut Session, now: Instant, (store, pins): (&Path, &[us
 }
 
 fn pins_in_copies(store: &Path) -> Vec<usize> {
-    copies(store).iter().map(|copy| ProjectFile::read(copy).unwrap().pins.len()).collect()
+    copies(store).iter().map(|copy| ProjectFile::read(copy).unwrap().targets.len()).collect()
 }
 
 fn with_recovery(folder: &Path) -> Session {
@@ -56,8 +55,8 @@ fn what_a_dead_session_leaves_can_be_recovered_and_a_living_one_s_cannot() {
     let now = Instant::now();
     doomed.poll_at(now);
     assert!(!store.exists(), "there is nothing to lose yet");
-    place(&mut doomed, 3, Pin::hard(DVec2::X));
-    place(&mut doomed, 8, Pin::weighted(DVec2::Y, 0.5));
+    place(&mut doomed, 3, Target::hard(DVec2::X));
+    place(&mut doomed, 8, Target::weighted(DVec2::Y, 0.5));
     until_copies(&mut doomed, now + LONG, (&store, &[2]));
     let document = doomed.document().clone();
     assert!(with_recovery(&store).recoverable().is_empty(), "it is alive");
@@ -80,11 +79,11 @@ fn a_save_takes_the_copy_away_and_so_does_undoing_everything() {
     let store = folder.path().join("recovery");
     session.keep_copies_in(store.clone());
     let now = Instant::now();
-    place(&mut session, 3, Pin::hard(DVec2::X));
+    place(&mut session, 3, Target::hard(DVec2::X));
     until_copies(&mut session, now + LONG, (&store, &[1]));
     settled(&mut session, Action::SaveProject(folder.path().join("work.freebound")));
     until_copies(&mut session, now + LONG, (&store, &[]));
-    place(&mut session, 4, Pin::hard(DVec2::Y));
+    place(&mut session, 4, Target::hard(DVec2::Y));
     until_copies(&mut session, now + 2 * LONG, (&store, &[2]));
     settled(&mut session, Action::Undo);
     until_copies(&mut session, now + 3 * LONG, (&store, &[]));
@@ -95,10 +94,10 @@ fn copies_are_made_no_oftener_than_every_few_seconds() {
     let (folder, mut session) = with_dome();
     let store = folder.path().join("recovery");
     session.keep_copies_in(store.clone());
-    place(&mut session, 3, Pin::hard(DVec2::X));
+    place(&mut session, 3, Target::hard(DVec2::X));
     let now = Instant::now();
     until_copies(&mut session, now, (&store, &[1]));
-    place(&mut session, 4, Pin::hard(DVec2::Y));
+    place(&mut session, 4, Target::hard(DVec2::Y));
     for _ in 0..50 {
         session.poll_at(now + Duration::from_secs(1));
         std::thread::sleep(Duration::from_millis(1));
@@ -113,11 +112,11 @@ fn a_discarded_copy_is_gone_and_nothing_else_ever_is() {
     let (folder, mut doomed) = with_dome();
     let store = folder.path().join("recovery");
     doomed.keep_copies_in(store.clone());
-    place(&mut doomed, 3, Pin::hard(DVec2::X));
+    place(&mut doomed, 3, Target::hard(DVec2::X));
     until_copies(&mut doomed, Instant::now() + LONG, (&store, &[1]));
     let own = folder.path().join("own.freebound");
     settled(&mut doomed, Action::SaveProject(own.clone()));
-    place(&mut doomed, 4, Pin::hard(DVec2::X));
+    place(&mut doomed, 4, Target::hard(DVec2::X));
     until_copies(&mut doomed, Instant::now() + 2 * LONG, (&store, &[2]));
     drop(doomed);
 
@@ -138,7 +137,7 @@ fn a_copy_that_cannot_be_opened_stays_for_another_day() {
     let (folder, mut doomed) = with_dome();
     let store = folder.path().join("recovery");
     doomed.keep_copies_in(store.clone());
-    place(&mut doomed, 3, Pin::hard(DVec2::X));
+    place(&mut doomed, 3, Target::hard(DVec2::X));
     until_copies(&mut doomed, Instant::now() + LONG, (&store, &[1]));
     drop(doomed);
     fs::rename(folder.path().join("dome.obj"), folder.path().join("away.obj")).unwrap();
@@ -155,7 +154,7 @@ fn a_folder_that_takes_no_copies_is_said_once() {
     let (folder, mut session) = with_dome();
     session.keep_copies_in(folder.path().join("dome.obj").join("recovery"));
     for round in 1..5 {
-        place(&mut session, round, Pin::hard(DVec2::new(f64::from(round), 0.0)));
+        place(&mut session, round, Target::hard(DVec2::new(f64::from(round), 0.0)));
         session.poll_at(Instant::now() + round * LONG);
         session.poll();
     }
@@ -186,13 +185,13 @@ fn with_pins(folder: &Path, count: u32) -> Session {
     let mut session = session();
     settled(&mut session, Action::Open(folder.join("dome.obj")));
     for vertex in 0..count {
-        session.handle(Action::Place { vertex: id(vertex), pin: numbered(vertex) });
+        session.handle(Action::Place { vertex: id(vertex), target: numbered(vertex) });
     }
     session
 }
 
-fn numbered(vertex: u32) -> Pin {
-    Pin::hard(DVec2::new(f64::from(vertex), 1.0 / 3.0))
+fn numbered(vertex: u32) -> Target {
+    Target::hard(DVec2::new(f64::from(vertex), 1.0 / 3.0))
 }
 
 #[test]
@@ -218,7 +217,7 @@ fn a_project_is_whole_whenever_its_writer_is_killed() {
         fs::remove_file(&sign).ok();
         killed(child("session_recovery::child_saves_two_projects_by_turns", folder.path()), &sign, round);
         let project = ProjectFile::read(&path).unwrap_or_else(|error| panic!("round {round}: {error}"));
-        match project.pins.len() {
+        match project.targets.len() {
             0 => seen[0] += 1,
             30 => seen[1] += 1,
             count => panic!("{count} pins are of neither project"),
@@ -238,7 +237,7 @@ fn child_works_and_keeps_copies() {
     let begun = Instant::now();
     for round in 0.. {
         let vertex = round % 35;
-        session.handle(Action::Place { vertex: id(vertex), pin: numbered(vertex) });
+        session.handle(Action::Place { vertex: id(vertex), target: numbered(vertex) });
         session.poll_at(begun + (round + 1) * LONG);
         std::thread::sleep(Duration::from_micros(300));
         if copies(&folder.join("recovery")).len() == 1 {
@@ -259,7 +258,7 @@ fn the_work_of_a_killed_session_is_recovered() {
         assert_eq!(session.recoverable().len(), 1, "round {round}");
         let path = session.recoverable()[0].path.clone();
         settled(&mut session, Action::Recover(path));
-        let pins = &session.document().pins;
+        let pins = &session.document().targets;
         assert!(!pins.is_empty() && session.has_unsaved_work(), "{:?}", session.messages());
         assert!((0..).zip(pins).all(|(n, (vertex, pin))| *vertex == id(n) && *pin == numbered(n)), "{pins:?}");
         session.close();

@@ -11,7 +11,7 @@ use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop
 use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
-use crate::common::grid;
+use crate::makers::grid;
 use crate::session::{opened, session, settle, settled, write_obj};
 
 /// Neither proof nor standstill ends a run: it goes on to the limit of steps.
@@ -29,7 +29,7 @@ fn embedding(session: &Session) -> Vec<DVec2> {
 fn uninterrupted(session: &Session, count: usize) -> Vec<Step> {
     let disk = session.model().expect("open").disk().expect("a disk");
     let document = session.document();
-    let mut run = Ladder::new(document.run_settings(), document.plane_pins());
+    let mut run = Ladder::new(document.run_settings(), document.pins());
     (0..count).map(|_| run.step(disk, Control::unattended()).expect("solvable")).collect()
 }
 
@@ -186,7 +186,7 @@ fn an_edit_during_a_run_replaces_it() {
     settled(&mut session, Action::SetSettings(settings));
     assert_eq!((step_count(&session), session.stopped()), (1, Some(Stop::Done)));
     assert!(session.is_current());
-    assert_eq!(session.outcome().expect("solved").settings, settings);
+    assert_eq!(session.outcome().expect("solved").problem.settings, settings);
 }
 
 #[test]

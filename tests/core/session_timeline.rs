@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
-use freebound::geom::PictureFrame;
 use freebound::mesh::{DiskMesh, FaceId};
-use freebound::session::{Outcome, Timeline};
+use freebound::session::{Outcome, Problem, Timeline};
 use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
 
-use crate::common::grid;
+use crate::makers::grid;
 
 /// The first step of a small run.
 fn first() -> Outcome {
     let disk = DiskMesh::try_from(grid(4, 4)).expect("a disk");
     let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let step = run.step(&disk, Control::unattended()).expect("solvable");
-    Outcome::new(&disk, *run.settings(), (PictureFrame::default(), Pins::new()), step)
+    Outcome::new(&disk, Problem { settings: *run.settings(), ..Problem::default() }, step)
 }
 
 /// The same as another step with so many flipped faces.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use glam::{DVec2, DVec3};
 
-use crate::common::Random;
+use crate::makers::Random;
 
 /// A disk made of the faces of a closed surface but for some.
 fn disk(positions: &[DVec3], triangles: &[[u32; 3]]) -> DiskMesh {

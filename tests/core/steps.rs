@@ -4,15 +4,15 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use freebound::examples::Example;
-use freebound::geom::PictureFrame;
 use freebound::io::read_mesh;
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::session::{Finished, Model, Outcome, OutputFit};
+use freebound::session::{Finished, Model, Outcome, OutputFit, Problem};
 use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;
 
-use crate::common::{corpus_disks, csv_rows, fan, grid};
+use crate::common::{corpus_disks, csv_rows};
+use crate::makers::{fan, grid};
 use crate::program::{Program, argument, coordinates_by_vertex, example_file};
 
 /// Two opposite corners of the cube's top: mean-value weights fold 8 faces when they are pinned.
@@ -229,7 +229,7 @@ fn outcome_with(mesh: &DiskMesh, places: Vec<DVec2>) -> Outcome {
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
     step.verdict = verdict(mesh, &places);
     step.candidate.solution.embedding = places;
-    Outcome::new(mesh, *run.settings(), (PictureFrame::default(), Pins::new()), step)
+    Outcome::new(mesh, Problem { settings: *run.settings(), ..Problem::default() }, step)
 }
 
 fn finish(mesh: &TriMesh, places: Vec<DVec2>) -> (bool, String, bool) {

@@ -3,37 +3,16 @@
 use freebound::mesh::{DiskMesh, TriMesh};
 use glam::{DVec2, DVec3};
 
-/// Random numbers that are the same everywhere: `SplitMix64` (G. Steele, D. Lea, C. Flood, 2014).
-pub(super) struct Random(pub(super) u64);
+use crate::makers::Random;
 
-impl Random {
-    pub(super) fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
+/// A whole number in `low..=high`.
+fn integer(random: &mut Random, low: i32, high: i32) -> i32 {
+    low + i32::try_from(random.below(high.abs_diff(low) + 1)).expect("a small range")
+}
 
-    /// A whole number in `low..=high`.
-    pub(super) fn integer(&mut self, low: i32, high: i32) -> i32 {
-        let count = u64::from(high.abs_diff(low)) + 1;
-        low + i32::try_from(self.next() % count).expect("a small range")
-    }
-
-    pub(super) fn index(&mut self, count: usize) -> usize {
-        usize::try_from(self.next() % count as u64).expect("less than count")
-    }
-
-    /// Between 0 and 1.
-    pub(super) fn fraction(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// A point with whole coordinates from 0 to `size`.
-    pub(super) fn grid_point(&mut self, size: i32) -> DVec2 {
-        DVec2::new(f64::from(self.integer(0, size)), f64::from(self.integer(0, size)))
-    }
+/// A point with whole coordinates from 0 to `size`.
+fn grid_point(random: &mut Random, size: i32) -> DVec2 {
+    DVec2::new(f64::from(integer(random, 0, size)), f64::from(integer(random, 0, size)))
 }
 
 /// A map of a disk into the plane.
@@ -99,9 +78,9 @@ fn turn_edges(random: &mut Random, triangles: &mut [[u32; 3]]) {
 
 /// A random disk with a convex embedding and some vertices inside.
 fn convex(random: &mut Random) -> Case {
-    let corner_count = random.integer(3, 6);
+    let corner_count = integer(random, 3, 6);
     let mut triangles = triangulated(random, corner_count.unsigned_abs());
-    let turn = random.fraction();
+    let turn = random.unit();
     let corner = |i: i32| {
         let angle = std::f64::consts::TAU * (f64::from(i) + turn) / f64::from(corner_count);
         DVec2::new(4.0 * angle.cos(), 3.0 * angle.sin())
@@ -111,7 +90,7 @@ fn convex(random: &mut Random) -> Case {
         let inserted = u32::try_from(embedding.len()).expect("few vertices");
         let face = random.index(triangles.len());
         let [a, b, c] = triangles[face];
-        let shares = [0, 1, 2].map(|_| 0.1 + random.fraction());
+        let shares = [0, 1, 2].map(|_| 0.1 + random.unit());
         let sum: DVec2 = (0..3).map(|k| embedding[triangles[face][k] as usize] * shares[k]).sum();
         embedding.push(sum / shares.iter().sum::<f64>());
         triangles[face] = [a, b, inserted];
@@ -122,18 +101,18 @@ fn convex(random: &mut Random) -> Case {
 
 /// A fan whose link goes around once or twice, sometimes folded.
 fn star(random: &mut Random) -> Case {
-    let turns = random.integer(1, 2);
-    let count = random.integer(3 * turns, 4 + 2 * turns);
+    let turns = integer(random, 1, 2);
+    let count = integer(random, 3 * turns, 4 + 2 * turns);
     let spoke = |i: i32| {
         let angle = std::f64::consts::TAU * f64::from(turns * i) / f64::from(count);
-        DVec2::from_angle(angle) * (1.0 + 3.0 * random.fraction())
+        DVec2::from_angle(angle) * (1.0 + 3.0 * random.unit())
     };
     fan(DVec2::ZERO, &(0..count).map(spoke).collect::<Vec<_>>())
 }
 
 /// A random disk on whole coordinates: almost never one-to-one, often degenerate.
 pub(super) fn grid_case(random: &mut Random) -> Case {
-    let size = random.integer(1, 6);
+    let size = integer(random, 1, 6);
     let mut case = match random.index(3) {
         0 => star(random),
         1 => {
@@ -146,7 +125,7 @@ pub(super) fn grid_case(random: &mut Random) -> Case {
             case
         }
     };
-    case.embedding.fill_with(|| random.grid_point(size));
+    case.embedding.fill_with(|| grid_point(random, size));
     case
 }
 
@@ -155,7 +134,7 @@ pub(super) fn nearly_planar_case(random: &mut Random) -> Case {
     let mut case = match random.index(3) {
         0 => star(random),
         1 => {
-            let count = random.integer(3, 7);
+            let count = integer(random, 3, 7);
             strip((0..count).map(|i| DVec2::new(f64::from(i - i % 2), f64::from(3 * (i % 2)))).collect())
         }
         _ => convex(random),
@@ -166,7 +145,7 @@ pub(super) fn nearly_planar_case(random: &mut Random) -> Case {
     }
     for _ in 0..random.index(3) {
         let moved = random.index(case.embedding.len());
-        case.embedding[moved] = random.grid_point(8) - DVec2::splat(4.0);
+        case.embedding[moved] = grid_point(random, 8) - DVec2::splat(4.0);
     }
     if random.index(4) == 0 {
         case.embedding.iter_mut().for_each(|p| p.x = -p.x);

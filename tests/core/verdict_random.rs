@@ -4,8 +4,9 @@ use freebound::mesh::{EdgeId, VertexId};
 use freebound::solver::verdict;
 use glam::DVec2;
 
-use super::verdict_cases::{Case, Random, grid_case, nearly_planar_case, nudge};
+use super::verdict_cases::{Case, grid_case, nearly_planar_case, nudge};
 use super::verdict_oracle::{Answer, examine, sorted_pair};
+use crate::makers::Random;
 
 /// Compares the verdict with the oracle; gives back whether the map is planar.
 fn assert_agreement(case: &Case) -> bool {

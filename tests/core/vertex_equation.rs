@@ -11,17 +11,14 @@ use freebound::solver::{
 use glam::DVec2;
 use num_complex::Complex;
 
-use crate::common::{Random, corpus_disks, grid};
+use crate::common::corpus_disks;
+use crate::makers::{Random, disk, grid};
 
 /// Sums in another order, relative to the sizes of their terms.
 const ROUNDING: f64 = 1e-12;
 
 /// What a solve leaves of an equation, relative to the sizes of its terms.
 const SOLVED: f64 = 1e-8;
-
-fn disk(example: Example) -> DiskMesh {
-    DiskMesh::try_from(example.mesh()).unwrap()
-}
 
 fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
     let mut steps = Vec::new();
@@ -78,7 +75,7 @@ fn assert_is_row(
 
 #[test]
 fn each_equation_is_a_row_of_the_system() {
-    let mesh = disk(Example::Cube);
+    let mesh = disk(Example::Cube.mesh());
     let embedding = at_random(mesh.vertex_count(), 1);
     for family in [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.4)] {
         let all = equations::natural(&mesh, family.power().unwrap()).unwrap();
@@ -92,7 +89,7 @@ fn each_equation_is_a_row_of_the_system() {
 
 #[test]
 fn each_equation_of_an_iteration_is_a_row_of_its_system() {
-    let mesh = disk(Example::Cube);
+    let mesh = disk(Example::Cube.mesh());
     let (before, after) = (at_random(mesh.vertex_count(), 2), at_random(mesh.vertex_count(), 3));
     let all = natural_in_plane(&mesh, &before);
     let mut step = step_with(&mesh, Family::Conformal, after.clone());
@@ -106,7 +103,7 @@ fn each_equation_of_an_iteration_is_a_row_of_its_system() {
 
 #[test]
 fn a_planar_ring_and_a_planar_fan_satisfy_it() {
-    let mesh = disk(Example::Ell);
+    let mesh = disk(Example::Ell.mesh());
     let flat: Vec<DVec2> = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
     for family in [Family::Conformal, Family::MeanValue, Family::Wachspress] {
         let step = step_with(&mesh, family, flat.clone());
@@ -139,7 +136,7 @@ fn an_open_fan_leaves_the_boundary_term() {
 
 #[test]
 fn the_offset_along_an_edge_follows_the_family() {
-    let mesh = disk(Example::Dome);
+    let mesh = disk(Example::Dome.mesh());
     let vertex = mesh.boundary_loop()[3];
     for (family, power) in [(Family::Conformal, 1), (Family::MeanValue, 0), (Family::Wachspress, -1)] {
         let settings = Settings::new(Method::Natural, family);
@@ -153,7 +150,7 @@ fn the_offset_along_an_edge_follows_the_family() {
 
 #[test]
 fn a_linear_solve_and_an_iteration_satisfy_theirs_but_at_pins() {
-    let mesh = disk(Example::Face);
+    let mesh = disk(Example::Face.mesh());
     let settings =
         Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Iterate, Family::MeanValue) };
     let steps = steps_of(&mesh, settings);
@@ -188,7 +185,7 @@ fn assert_virtual_boundary_is_solved(mesh: &DiskMesh, step: &Step) {
 
 #[test]
 fn a_boundary_vertex_in_a_pocket_has_a_whole_ring() {
-    let mesh = disk(Example::Face);
+    let mesh = disk(Example::Face.mesh());
     let steps = steps_of(&mesh, Settings::new(Method::VirtualBoundary, Family::Conformal));
     assert_virtual_boundary_is_solved(&mesh, &steps[1]);
 }
@@ -208,7 +205,7 @@ fn virtual_vertices_are_neighbours_too() {
 
 #[test]
 fn what_has_no_equation_says_why() {
-    let mesh = disk(Example::Dome);
+    let mesh = disk(Example::Dome.mesh());
     let boundary = mesh.boundary_loop()[0];
     let inside = mesh.vertices().find(|&v| mesh.boundary_place(v).is_none()).unwrap();
     let reason = |method, family, vertex| {

@@ -12,14 +12,11 @@ use freebound::solver::{
 };
 use glam::{DVec2, DVec3};
 
-use crate::common::{Random, corpus_disks, grid};
+use crate::common::corpus_disks;
+use crate::makers::{Random, disk, grid};
 
 /// A planar embedding may move by this share of its diameter: 2D reproduction.
 const REPRODUCED: f64 = 1e-12;
-
-fn disk(mesh: TriMesh) -> DiskMesh {
-    DiskMesh::try_from(mesh).unwrap()
-}
 
 fn flat(mesh: &DiskMesh) -> Vec<DVec2> {
     mesh.mesh().positions.iter().map(|x| DVec2::new(x.x, x.y)).collect()

@@ -12,7 +12,7 @@ use freebound::solver::{
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
 
-use crate::common::Random;
+use crate::makers::{Random, disk};
 use crate::natural::corner_terms;
 
 /// Two ways to the same answer may be apart by this share of its diameter.
@@ -27,16 +27,12 @@ fn v(number: u32) -> VertexId {
 /// A bumpy sheet of a few hundred vertices, no two edges alike.
 fn bump(columns: u32) -> TriMesh {
     let mut random = Random(3);
-    let mut mesh = crate::common::grid(columns, columns);
+    let mut mesh = crate::makers::grid(columns, columns);
     for x in &mut mesh.positions {
         let jitter = DVec3::new(random.unit(), random.unit(), random.unit()) - 0.5;
         *x += 0.3 * jitter + DVec3::Z * (0.5 * x.x).sin() * (0.4 * x.y).cos() * 2.0;
     }
     mesh
-}
-
-fn disk(mesh: TriMesh) -> DiskMesh {
-    DiskMesh::try_from(mesh).unwrap()
 }
 
 /// The mesh at mean edge length 1.

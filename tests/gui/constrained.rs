@@ -7,9 +7,10 @@ use eframe::egui;
 use egui::Key;
 use egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, StopConditions};
-use freebound::solver::{Family, Method, Pin, Settings};
+use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Tab;
 use glam::DVec2;
 
@@ -22,8 +23,8 @@ fn window() -> Window {
 
 fn place(window: &mut Window, pins: &[(u32, [f64; 2])]) {
     for &(vertex, target) in pins {
-        let pin = Pin::hard(DVec2::from(target));
-        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), pin });
+        let pin = Target::hard(DVec2::from(target));
+        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: pin });
     }
     window.settle();
 }

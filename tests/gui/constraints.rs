@@ -4,9 +4,10 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable as _;
+use freebound::io::{Target, Targets};
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Family, Hold, Method, Pin, Pins, Settings, Treatment};
+use freebound::solver::{Family, Hold, Method, Pin, Settings, Treatment};
 use freebound::ui::{Half, Intent, PinKind, Tool};
 use glam::DVec2;
 
@@ -16,20 +17,20 @@ fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(8, 0.4))
 }
 
-fn pins(window: &Window) -> Pins {
-    window.editor().session.document().pins.clone()
+fn pins(window: &Window) -> Targets {
+    window.editor().session.document().targets.clone()
 }
 
-fn place(window: &mut Window, pins: &[(u32, Pin)]) {
+fn place(window: &mut Window, pins: &[(u32, Target)]) {
     for &(vertex, pin) in pins {
-        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), pin });
+        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: pin });
     }
     window.settle();
 }
 
 /// The corners of the sheet on those of the unit square, and one vertex in between.
 fn corners(window: &mut Window) {
-    let at = |x: f64, y: f64| Pin::hard(DVec2::new(x, y));
+    let at = |x: f64, y: f64| Target::hard(DVec2::new(x, y));
     place(window, &[(0, at(0.0, 0.0)), (8, at(1.0, 0.0)), (72, at(0.0, 1.0)), (80, at(1.0, 1.0)), (40, at(0.5, 0.5))]);
     window.key(Key::F);
 }
@@ -57,7 +58,7 @@ fn a_vertex_and_then_its_place_make_a_constraint() {
     assert!(pins(&window).is_empty(), "half a pair pins nothing");
     window.click_at(to, Modifiers::NONE);
     assert_eq!(window.editor().tools.pair(), None);
-    assert_eq!(pins(&window), [(vertex, Pin::hard(target))].into());
+    assert_eq!(pins(&window), [(vertex, Target::hard(target))].into());
     assert!(window.has_button(&format!("Constraint {vertex}")));
     assert_eq!(*window.editor().selection.vertices(), [vertex].into());
     assert_eq!(window.editor().tools.tool(), Tool::Constrain, "the next pair can follow");
@@ -75,7 +76,7 @@ fn a_place_and_then_its_vertex_make_the_same_constraint() {
     window.click_at(to, Modifiers::NONE);
     assert_eq!(window.editor().tools.pair(), Some(Half::Target(target)));
     window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
-    assert_eq!(pins(&window), [(vertex, Pin::hard(target))].into());
+    assert_eq!(pins(&window), [(vertex, Target::hard(target))].into());
 }
 
 #[test]
@@ -87,7 +88,7 @@ fn a_vertex_can_be_taken_in_the_embedding() {
     let to = free_place(&window);
     let target = in_embedding(&window, to);
     window.click_at(to, Modifiers::NONE);
-    assert_eq!(pins(&window), [(VertexId::new(40), Pin::hard(target))].into());
+    assert_eq!(pins(&window), [(VertexId::new(40), Target::hard(target))].into());
 }
 
 #[test]
@@ -147,7 +148,7 @@ fn a_place_can_lie_near_another_constraint() {
     let target = in_embedding(&window, to);
     window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(30))));
     window.click_at(to, Modifiers::NONE);
-    assert_eq!(pins(&window).get(&VertexId::new(30)), Some(&Pin::hard(target)));
+    assert_eq!(pins(&window).get(&VertexId::new(30)), Some(&Target::hard(target)));
 }
 
 #[test]
@@ -162,7 +163,7 @@ fn a_click_on_another_pin_s_mark_completes_the_pair_as_the_status_line_says() {
     window.settle();
     assert!(window.shows("v40 goes to u 0.3000 v 0.7000"), "{:?}", window.words());
     window.click_at(mark, Modifiers::NONE);
-    assert_eq!(pins(&window)[&VertexId::new(40)], Pin::hard(target));
+    assert_eq!(pins(&window)[&VertexId::new(40)], Target::hard(target));
     assert_eq!(window.editor().tools.pair(), None);
 }
 
@@ -171,7 +172,7 @@ fn a_click_on_a_mark_far_from_its_vertex_selects_as_the_status_line_says() {
     let mut window = window();
     corners(&mut window);
     let target = DVec2::new(0.9, 0.1);
-    place(&mut window, &[(30, Pin::weighted(target, 0.5))]);
+    place(&mut window, &[(30, Target::weighted(target, 0.5))]);
     // An inset over a defect would take the place of what lies under it.
     window.editor_mut().look.magnifier = false;
     window.key(Key::C);
@@ -200,7 +201,7 @@ fn one_of_several_selected_pins_takes_the_others_along() {
     window.drag(from, to, Modifiers::NONE);
     for (vertex, pin) in pins(&window) {
         let moved = if [40, 80].contains(&vertex.number()) { by } else { DVec2::ZERO };
-        assert!((pin.target - before[&vertex].target).distance(moved) < 1e-6, "{vertex}");
+        assert!((pin.uv - before[&vertex].uv).distance(moved) < 1e-6, "{vertex}");
     }
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(pins(&window), before, "one undo step");
@@ -231,7 +232,7 @@ fn a_pin_dragged_out_of_the_pane_stays_in_the_hand() {
     window.harness.hover_at(back);
     window.step();
     window.end_drag(back);
-    let target = pins(&window)[&VertexId::new(40)].target;
+    let target = pins(&window)[&VertexId::new(40)].uv;
     assert!(target.distance(in_embedding(&window, back)) < 1e-6, "{target}");
     assert_eq!(pins(&window).len(), 5, "none is lost");
 }
@@ -245,13 +246,13 @@ fn arrows_nudge_selected_pins_and_only_them() {
     let step = window.editor().plane_scene().expect("solved").arrays.bounds().extent() / 512.0;
     window.key(Key::ArrowRight);
     for (vertex, by) in [(8, step), (40, step), (0, 0.0)] {
-        let moved = pins(&window)[&VertexId::new(vertex)].target - before[&VertexId::new(vertex)].target;
+        let moved = pins(&window)[&VertexId::new(vertex)].uv - before[&VertexId::new(vertex)].uv;
         assert!(moved.distance(DVec2::new(by, 0.0)) < 1e-12, "{vertex}: {moved}");
     }
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(pins(&window), before, "one undo step");
     window.press(Modifiers::SHIFT, Key::ArrowUp);
-    let moved = pins(&window)[&VertexId::new(40)].target - before[&VertexId::new(40)].target;
+    let moved = pins(&window)[&VertexId::new(40)].uv - before[&VertexId::new(40)].uv;
     assert!(moved.distance(DVec2::new(0.0, 10.0 * step)) < 1e-9, "{moved}");
 }
 
@@ -319,7 +320,7 @@ fn a_row_s_mark_makes_a_hard_constraint_pull_and_back() {
 fn a_typed_weight_is_one_undo_step() {
     let mut window = window();
     corners(&mut window);
-    place(&mut window, &[(30, Pin::weighted(DVec2::new(0.9, 0.1), 0.5))]);
+    place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), 0.5))]);
     window.click("Pins 6");
     window.fill_in(Role::SpinButton, "Weight of pin v30", "250");
     assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5), "not before it is whole");
@@ -334,7 +335,7 @@ fn a_weight_that_is_only_looked_at_keeps_its_digits() {
     let mut window = window();
     corners(&mut window);
     for weight in [0.123_456_789, 2.5e-7] {
-        place(&mut window, &[(30, Pin::weighted(DVec2::new(0.9, 0.1), weight))]);
+        place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), weight))]);
         window.click("Pins 6");
         window.harness.get_by_role_and_label(Role::SpinButton, "Weight of pin v30").click();
         window.settle();
@@ -394,7 +395,7 @@ fn the_hold_chosen_last_is_that_of_the_next_constraint() {
 fn the_largest_errors_of_exact_and_weighted_pins_show() {
     let mut window = window();
     corners(&mut window);
-    place(&mut window, &[(30, Pin::weighted(DVec2::new(0.9, 0.1), 0.5))]);
+    place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), 0.5))]);
     window.click("Pins 6");
     let error = window.outcome().pin_error();
     assert!(error > 1e-3, "it cannot be met: {error}");
@@ -419,7 +420,7 @@ fn a_residual_joins_a_weighted_vertex_with_its_target() {
     let mut window = window();
     corners(&mut window);
     let target = DVec2::new(0.9, 0.1);
-    place(&mut window, &[(30, Pin::weighted(target, 0.5))]);
+    place(&mut window, &[(30, Target::weighted(target, 0.5))]);
     let [from, to] = [window.embedding()[30], target].map(|z| window.place_in_plane(z));
     assert!(from.distance(to) > 10.0, "they differ");
     let is_residual = |[a, b]: &[Pos2; 2]| a.distance(from) < 1.0 && b.distance(to) < 1.0;

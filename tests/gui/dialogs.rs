@@ -367,7 +367,7 @@ fn a_long_solve_is_cancelled_at_once() {
     assert!(Arc::ptr_eq(&before, &window.outcome()), "what was there stays");
     assert_eq!(window.verdict(), "not solved");
     window.press(Modifiers::COMMAND, Key::Enter);
-    assert_eq!(window.outcome().settings, slow(Family::MeanValue), "and can be solved again");
+    assert_eq!(window.outcome().problem.settings, slow(Family::MeanValue), "and can be solved again");
 }
 
 #[test]
@@ -377,7 +377,7 @@ fn a_newer_request_replaces_an_older_one() {
     window.editor_mut().session.handle(Action::SetSettings(slow(Family::Wachspress)));
     window.editor_mut().session.handle(Action::SetSettings(slow(Family::Power(0.5))));
     window.settle();
-    assert_eq!(window.outcome().settings, slow(Family::Power(0.5)));
+    assert_eq!(window.outcome().problem.settings, slow(Family::Power(0.5)));
     assert!(window.editor().session.is_current());
 }
 

@@ -3,9 +3,9 @@
 use eframe::egui;
 use egui::{Key, Modifiers, Pos2, Rect, Vec2};
 use freebound::examples::Example;
+use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
-use freebound::solver::Pin;
 use freebound::ui::{Pane, Tool};
 use glam::DVec2;
 
@@ -44,8 +44,8 @@ fn a_click_of_the_fix_tool_on_the_mesh_pins_the_vertex_where_it_lies() {
         window.key(Key::P);
         window.click_at(window.place_on_mesh(vertex), Modifiers::NONE);
         assert_eq!(
-            document(&window).pins.into_iter().collect::<Vec<_>>(),
-            [(vertex, Pin::fixed(before[vertex.index()]))]
+            document(&window).targets.into_iter().collect::<Vec<_>>(),
+            [(vertex, Target::fixed(before[vertex.index()]))]
         );
         assert!(distance(&before, &window.embedding()) < 1e-9, "{}", example.name());
     }
@@ -59,7 +59,7 @@ fn fixing_more_vertices_of_a_flat_mesh_leaves_the_picture_as_it_is() {
     for i in [10, 200, 300] {
         window.click_at(window.place_in_plane(before[i]), Modifiers::NONE);
     }
-    assert_eq!(document(&window).pins.len(), 3);
+    assert_eq!(document(&window).targets.len(), 3);
     assert!(distance(&before, &window.embedding()) < 1e-9 * 100.0);
 }
 
@@ -108,7 +108,7 @@ fn clicks_select_and_shift_adds() {
     assert_eq!(*window.editor().selection.vertices(), [30, 40].map(VertexId::new).into());
     window.click_at(at(&window, 50), Modifiers::NONE);
     assert_eq!(*window.editor().selection.vertices(), [VertexId::new(50)].into());
-    assert!(document(&window).pins.is_empty(), "selecting pins nothing");
+    assert!(document(&window).targets.is_empty(), "selecting pins nothing");
     let empty = window.plane_view().left_top() + Vec2::splat(5.0);
     window.click_at(empty, Modifiers::NONE);
     assert!(window.editor().selection.vertices().is_empty(), "a click on nothing deselects");
@@ -141,23 +141,23 @@ fn a_dragged_pin_goes_where_it_is_dropped_and_no_other_moves() {
     let mut window = window();
     pin(&mut window, &[0, 40, 80]);
     let before = document(&window);
-    let from = window.place_in_plane(before.pins[&VertexId::new(40)].target);
+    let from = window.place_in_plane(before.targets[&VertexId::new(40)].uv);
     let to = from + Vec2::new(60.0, -35.0);
     window.drag(from, to, Modifiers::NONE);
     let target = in_embedding(&window, to);
-    let mut expected = before.pins.clone();
-    expected.insert(VertexId::new(40), Pin::fixed(target));
-    assert_eq!(document(&window).pins, expected);
+    let mut expected = before.targets.clone();
+    expected.insert(VertexId::new(40), Target::fixed(target));
+    assert_eq!(document(&window).targets, expected);
     assert_eq!(window.embedding()[40], target, "and the embedding follows");
     assert!(window.editor().session.is_current());
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(document(&window), before, "a drag is one undo step");
     window.press(Modifiers::COMMAND, Key::Y);
-    assert_eq!(document(&window).pins, expected);
+    assert_eq!(document(&window).targets, expected);
     window.menu(&["Edit", "Undo"]);
     assert_eq!(document(&window), before);
     window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    assert_eq!(document(&window).pins, expected);
+    assert_eq!(document(&window).targets, expected);
 }
 
 #[test]
@@ -195,7 +195,7 @@ fn escape_during_a_drag_gives_it_up() {
     assert_eq!(document(&window), before);
     assert!(!window.editor().session.history().can_redo(), "what was given up is not done again");
     window.press(Modifiers::COMMAND, Key::Z);
-    assert!(document(&window).pins.is_empty(), "undo takes back the step before the drag");
+    assert!(document(&window).targets.is_empty(), "undo takes back the step before the drag");
 }
 
 #[test]
@@ -227,13 +227,14 @@ fn dragging_a_gauge_pin_makes_both_the_user_s() {
     let from = window.place_in_plane(gauge[&first].target);
     let to = from + Vec2::new(30.0, 40.0);
     window.drag(from, to, Modifiers::NONE);
-    let expected = [(first, Pin::fixed(in_embedding(&window, to))), (second, at)];
-    assert_eq!(document(&window).pins.into_iter().collect::<Vec<_>>(), expected);
+    let expected =
+        [(first, Target::fixed(in_embedding(&window, to))), (second, Target { uv: at.target, hold: at.hold })];
+    assert_eq!(document(&window).targets.into_iter().collect::<Vec<_>>(), expected);
     assert!(window.has_button(&format!("Pin {first}")) && window.has_button(&format!("Pin {second}")));
     assert!(!window.has_button(&format!("Gauge pin {first}")));
     assert!(distance(&before, &window.embedding()) > 0.01);
     window.press(Modifiers::COMMAND, Key::Z);
-    assert!(document(&window).pins.is_empty(), "one step");
+    assert!(document(&window).targets.is_empty(), "one step");
     assert!(distance(&before, &window.embedding()) < 1e-9);
 }
 
@@ -254,7 +255,7 @@ fn a_pin_grabbed_beside_its_middle_does_not_jump() {
     let at = window.place_in_plane(window.embedding()[40]);
     let grabbed = at + Vec2::new(5.0, 5.0);
     window.drag(grabbed, grabbed + Vec2::new(40.0, 0.0), Modifiers::NONE);
-    let moved = window.place_in_plane(document(&window).pins[&VertexId::new(40)].target);
+    let moved = window.place_in_plane(document(&window).targets[&VertexId::new(40)].uv);
     assert!((moved - at - Vec2::new(40.0, 0.0)).length() < 0.01, "{:?}", moved - at);
 }
 
@@ -282,7 +283,7 @@ fn a_drag_on_the_mesh_orbits_and_with_shift_pans() {
     let panned = window.editor().orbit.expect("a mesh shows");
     assert_ne!(panned, orbited);
     window.key(Key::F);
-    assert!(document(&window).pins.is_empty() && window.editor().selection.vertices().is_empty());
+    assert!(document(&window).targets.is_empty() && window.editor().selection.vertices().is_empty());
 }
 
 #[test]

@@ -14,8 +14,10 @@ use freebound::examples::Example;
 use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::{Action, Outcome};
 use freebound::ui::Editor;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use tempfile::TempDir;
+
+pub(crate) use crate::makers::{corpus, sheet};
 
 /// What the background is given before a test fails; a test machine under load is slow.
 const PATIENCE: Duration = Duration::from_secs(90);
@@ -412,29 +414,4 @@ pub(crate) fn write_obj(path: &Path, mesh: &TriMesh) {
         writeln!(text, "f {} {} {}", a.number() + 1, b.number() + 1, c.number() + 1).expect("text grows");
     }
     std::fs::write(path, text).expect("a folder for files");
-}
-
-/// A grid of `side` × `side` squares, bent up by `height` in its middle; flat for 0.
-pub(crate) fn sheet(side: u32, height: f64) -> TriMesh {
-    let n = side + 1;
-    let at = |i: u32| {
-        let [x, y] = [i % n, i / n].map(|k| f64::from(k) / f64::from(side));
-        DVec3::new(x, y, height * 16.0 * x * (1.0 - x) * y * (1.0 - y))
-    };
-    let positions = (0..n * n).map(at).collect();
-    let square = |i: u32| {
-        let v = i / side * n + i % side;
-        [[v, v + 1, v + n + 1], [v, v + n + 1, v + n]]
-    };
-    TriMesh::new(positions, &(0..side * side).flat_map(square).collect::<Vec<_>>())
-}
-
-/// The corpus of meshes, where there is one. Says so where there is none.
-pub(crate) fn corpus() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/corpus");
-    if folder.join("manifest.csv").is_file() {
-        return Some(folder);
-    }
-    println!("nothing to do: there is no corpus at {}", folder.display());
-    None
 }

@@ -14,6 +14,8 @@ mod glyphs;
 mod harness;
 mod hull;
 mod magnifier;
+#[path = "../../examples/makers/mod.rs"]
+mod makers;
 mod panels;
 mod pictures;
 mod render;

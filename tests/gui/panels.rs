@@ -38,7 +38,7 @@ fn each_method_solves_when_it_is_chosen() {
     ] {
         window.choose("Method", title);
         assert_eq!(settings(&window).method, method);
-        assert_eq!(window.outcome().settings.method, method, "solved");
+        assert_eq!(window.outcome().problem.settings.method, method, "solved");
         assert_numbers_show(&window);
         seen.push(window.embedding());
     }
@@ -54,7 +54,7 @@ fn each_family_solves_when_it_is_chosen() {
         [("Mean value", Family::MeanValue), ("Wachspress", Family::Wachspress), ("Conformal", Family::Conformal)]
     {
         window.choose("Weights", title);
-        assert_eq!(window.outcome().settings.family, family);
+        assert_eq!(window.outcome().problem.settings.family, family);
         assert_numbers_show(&window);
         assert_ne!(window.embedding(), before);
         before = window.embedding();
@@ -83,12 +83,12 @@ fn uniform_and_shape_preserving_weights_are_offered_for_a_convex_boundary_only()
     window.key(Key::Escape);
     window.choose("Method", "Convex boundary");
     window.choose("Weights", "Uniform");
-    assert_eq!(window.outcome().settings.family, Family::Uniform);
+    assert_eq!(window.outcome().problem.settings.family, Family::Uniform);
     window.choose("Weights", "Shape-preserving");
-    assert_eq!(window.outcome().settings.family, Family::ShapePreserving);
+    assert_eq!(window.outcome().problem.settings.family, Family::ShapePreserving);
     assert!(window.is_proved(), "{}", window.verdict());
     window.choose("Method", "Natural boundary");
-    assert_eq!(window.outcome().settings, Settings::new(Method::Natural, Family::Conformal));
+    assert_eq!(window.outcome().problem.settings, Settings::new(Method::Natural, Family::Conformal));
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn the_power_slider_solves_and_is_one_undo_step() {
     window.drag(at(0.9), at(0.2), Modifiers::NONE);
     let Family::Power(power) = settings(&window).family else { panic!("{:?}", settings(&window)) };
     assert!((-1.0..0.0).contains(&power), "{power}");
-    assert_eq!(window.outcome().settings, settings(&window));
+    assert_eq!(window.outcome().problem.settings, settings(&window));
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(settings(&window), Settings::default());
     assert!(!window.editor().session.history().can_undo());
@@ -122,7 +122,7 @@ fn a_power_can_be_typed_beyond_the_slider_s_ends() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.fill_in(Role::SpinButton, "Power of the weights", "1.5");
     window.key(Key::Enter);
-    assert_eq!(window.outcome().settings.family, Family::Power(1.5));
+    assert_eq!(window.outcome().problem.settings.family, Family::Power(1.5));
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn named_powers_have_buttons() {
         [("Wachspress", Family::Wachspress), ("Mean value", Family::MeanValue), ("Conformal", Family::Conformal)]
     {
         window.click(name);
-        assert_eq!(window.outcome().settings.family, family);
+        assert_eq!(window.outcome().problem.settings.family, family);
     }
 }
 
@@ -149,10 +149,10 @@ fn typed_coordinates_move_a_pin_and_only_it() {
     let before = window.editor().session.document().clone();
     window.fill_in(Role::SpinButton, "u of pin v24", "0.625");
     window.key(Key::Enter);
-    let mut expected = before.pins.clone();
-    expected.get_mut(&VertexId::new(24)).expect("pinned").target.x = 0.625;
-    assert_eq!(window.editor().session.document().pins, expected);
-    assert_eq!(window.embedding()[24], expected[&VertexId::new(24)].target);
+    let mut expected = before.targets.clone();
+    expected.get_mut(&VertexId::new(24)).expect("pinned").uv.x = 0.625;
+    assert_eq!(window.editor().session.document().targets, expected);
+    assert_eq!(window.embedding()[24], expected[&VertexId::new(24)].uv);
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(*window.editor().session.document(), before, "one undo step");
 }
@@ -188,15 +188,15 @@ fn pins_are_freed_one_by_one_and_all_at_once() {
     pin(&mut window, &[0, 24, 48]);
     assert!(window.has_button("Pins 3"));
     window.click("Free pin v24");
-    let pinned: Vec<u32> = window.editor().session.document().pins.keys().map(|v| v.number()).collect();
+    let pinned: Vec<u32> = window.editor().session.document().targets.keys().map(|v| v.number()).collect();
     assert_eq!(pinned, [0, 48]);
     window.click("Free all");
-    assert!(window.editor().session.document().pins.is_empty());
+    assert!(window.editor().session.document().targets.is_empty());
     assert!(window.harness.query_by_role_and_label(Role::Button, "Pins").is_some(), "no count any more");
     window.menu(&["Edit", "Undo"]);
-    assert_eq!(window.editor().session.document().pins.len(), 2);
+    assert_eq!(window.editor().session.document().targets.len(), 2);
     window.menu(&["Edit", "Redo"]);
-    assert!(window.editor().session.document().pins.is_empty());
+    assert!(window.editor().session.document().targets.is_empty());
 }
 
 #[test]
@@ -207,7 +207,7 @@ fn delete_frees_the_selected_pins() {
         window.click("v24");
         assert!(window.editor().selection.contains(VertexId::new(24)));
         window.key(key);
-        assert_eq!(window.editor().session.document().pins.len(), 2, "{key:?}");
+        assert_eq!(window.editor().session.document().targets.len(), 2, "{key:?}");
     }
 }
 
@@ -215,7 +215,7 @@ fn delete_frees_the_selected_pins() {
 fn two_pins_on_one_place_are_refused_with_both_named() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     pin(&mut window, &[0, 48]);
-    let place = window.editor().session.document().pins[&VertexId::new(0)].target;
+    let place = window.editor().session.document().targets[&VertexId::new(0)].uv;
     window.editor_mut().session.handle(Action::MovePin { vertex: VertexId::new(48), target: place });
     window.editor_mut().session.handle(Action::EndGesture);
     window.settle();
@@ -237,9 +237,9 @@ fn the_vertex_tab_tells_of_the_selected_vertex_and_fixes_it() {
     window.settle();
     assert!(window.shows("v24") && window.shows("inside"));
     window.click("Fix");
-    assert!(window.editor().session.document().pins.contains_key(&VertexId::new(24)));
+    assert!(window.editor().session.document().targets.contains_key(&VertexId::new(24)));
     window.click("Free");
-    assert!(window.editor().session.document().pins.is_empty());
+    assert!(window.editor().session.document().targets.is_empty());
 }
 
 #[test]

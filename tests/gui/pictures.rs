@@ -6,9 +6,9 @@ use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, Vec2};
 use freebound::geom::{Picture, VAxis};
+use freebound::io::{Target, Targets};
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Pin, Pins};
 use freebound::ui::{Half, Shading};
 use glam::DVec2;
 
@@ -39,8 +39,8 @@ fn open_picture(window: &mut Window) {
     window.settle();
 }
 
-fn pins(window: &Window) -> Pins {
-    window.editor().session.document().pins.clone()
+fn pins(window: &Window) -> Targets {
+    window.editor().session.document().targets.clone()
 }
 
 fn window() -> Window {
@@ -89,7 +89,7 @@ fn a_file_dropped_on_the_window_goes_where_its_name_says() {
     std::fs::write(&path, "0 0.25 0.5\n48 0.75 0.5 2\n").expect("written");
     window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(path));
     window.settle();
-    let expected = [(0, Pin::hard(DVec2::new(0.25, 0.5))), (48, Pin::weighted(DVec2::new(0.75, 0.5), 2.0))];
+    let expected = [(0, Target::hard(DVec2::new(0.25, 0.5))), (48, Target::weighted(DVec2::new(0.75, 0.5), 2.0))];
     assert_eq!(pins(&window), expected.map(|(v, pin)| (VertexId::new(v), pin)).into());
 }
 
@@ -97,8 +97,8 @@ fn a_file_dropped_on_the_window_goes_where_its_name_says() {
 fn constraints_go_to_a_file_and_come_back() {
     let mut window = window();
     open_picture(&mut window);
-    for (vertex, pin) in [(0, Pin::hard(DVec2::new(0.1, 0.3))), (24, Pin::weighted(DVec2::new(0.5, 0.5), 3.0))] {
-        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), pin });
+    for (vertex, pin) in [(0, Target::hard(DVec2::new(0.1, 0.3))), (24, Target::weighted(DVec2::new(0.5, 0.5), 3.0))] {
+        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: pin });
     }
     window.settle();
     let before = pins(&window);
@@ -120,8 +120,8 @@ fn v_runs_down_where_the_panel_says_so() {
     window.click("v down");
     assert_eq!(window.editor().session.document().v_axis, VAxis::Down);
     let target = DVec2::new(0.25, 0.25);
-    let pin = Pin::hard(target);
-    window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(24), pin });
+    let pin = Target::hard(target);
+    window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(24), target: pin });
     window.settle();
     window.key(Key::F);
     // A quarter from the left and from the top.
@@ -144,13 +144,13 @@ fn a_nudge_is_one_pixel_of_the_picture_upwards_on_the_screen() {
         window.click("Pins");
         window.click(axis);
         let target = DVec2::new(0.5, 0.5);
-        let pin = Pin::hard(target);
-        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(24), pin });
+        let pin = Target::hard(target);
+        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(24), target: pin });
         window.settle();
         window.editor_mut().selection.select([VertexId::new(24)]);
         window.key(Key::ArrowUp);
         window.key(Key::ArrowRight);
-        let moved = pins(&window)[&VertexId::new(24)].target - target;
+        let moved = pins(&window)[&VertexId::new(24)].uv - target;
         let pixel = DVec2::new(1.0 / 40.0, sign / 20.0);
         assert!(moved.distance(pixel) < 1e-12, "{axis}: {moved}");
     }
@@ -165,10 +165,10 @@ fn a_place_snaps_to_pixels_that_are_large_on_the_screen() {
         |window: &Window| window.place_in_plane(DVec2::new(20.5 / 20.0, 10.5 / 20.0)) + Vec2::new(2.0, -1.0);
     window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(24))));
     window.click_at(near_middle(&window), Modifiers::NONE);
-    assert_eq!(pins(&window)[&VertexId::new(24)].target, DVec2::new(20.5, 10.5) / DVec2::new(40.0, 20.0));
+    assert_eq!(pins(&window)[&VertexId::new(24)].uv, DVec2::new(20.5, 10.5) / DVec2::new(40.0, 20.0));
     window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(10))));
     window.click_at(near_middle(&window) + Vec2::new(0.0, 1.0), Modifiers::ALT);
-    let free = pins(&window)[&VertexId::new(10)].target;
+    let free = pins(&window)[&VertexId::new(10)].uv;
     assert!(free.distance(DVec2::new(20.5, 10.5) / DVec2::new(40.0, 20.0)) > 1e-4, "Alt leaves it where it is: {free}");
 }
 
@@ -220,8 +220,8 @@ fn the_picture_stands_upright_behind_the_embedding_and_on_it_whichever_way_v_run
         assert_upright(quarters_shown(&mut window), "behind and on the embedding as it comes");
         // The sheet's corners on those of the picture: all of it is seen through the mesh.
         for (vertex, u, is_top) in [(0, 0.0, false), (6, 1.0, false), (42, 0.0, true), (48, 1.0, true)] {
-            let pin = Pin::hard(DVec2::new(u, if is_top { top } else { 1.0 - top }));
-            window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), pin });
+            let pin = Target::hard(DVec2::new(u, if is_top { top } else { 1.0 - top }));
+            window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: pin });
         }
         window.settle();
         window.key(Key::F);

@@ -40,7 +40,6 @@ const PALETTE: Palette = Palette {
     checker: [Srgb([255, 255, 255, 255]), Srgb([0, 0, 0, 255])],
     wire: Srgb([0, 0, 0, 255]),
     flipped: Srgb([255, 0, 0, 255]),
-    selection: Srgb([255, 255, 0, 128]),
     hover: Srgb([255, 255, 0, 128]),
 };
 

@@ -48,7 +48,7 @@ fn shortcuts_do_what_the_table_says() {
         window.editor_mut().session.handle(Action::ShowStep(1));
         window.settle();
         assert_eq!(steps(&window), (3, Some(1)));
-        let (pins, orbit) = (document(&window).pins.len(), window.editor().orbit);
+        let (pins, orbit) = (document(&window).targets.len(), window.editor().orbit);
         assert_eq!(pins, 3);
         // Away from where framing leads, and Select in hand where that is asked for.
         let request = (binding.request)();
@@ -62,7 +62,7 @@ fn shortcuts_do_what_the_table_says() {
         window.press(binding.shortcut.modifiers, binding.shortcut.logical_key);
         let editor = window.editor();
         let done = match request {
-            Request::Do(Action::Undo | Action::Redo) => document(&window).pins.is_empty(),
+            Request::Do(Action::Undo | Action::Redo) => document(&window).targets.is_empty(),
             Request::Do(Action::Solve) => editor.session.is_current() && steps(&window) == (1, Some(0)),
             Request::Do(Action::Relax) => steps(&window).0 > 3 && window.verdict() == "Planar: proved · relaxed",
             Request::Do(Action::Step) => steps(&window) == (4, Some(3)),
@@ -78,7 +78,7 @@ fn shortcuts_do_what_the_table_says() {
             // Nothing is wrong here to go to.
             Request::StepDefect(_) => editor.selection.defect().is_none(),
             Request::SetTool(tool) => editor.tools.tool() == tool,
-            Request::UnpinSelected => document(&window).pins.len() == pins - 1,
+            Request::UnpinSelected => document(&window).targets.len() == pins - 1,
             Request::Frame => editor.orbit != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),
             Request::SetShading(shading) => editor.look.shading == shading,

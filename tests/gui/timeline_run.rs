@@ -157,7 +157,7 @@ fn a_drag_shows_a_preview_and_says_so() {
     assert!(window.verdict().starts_with("preview, not repaired · "), "{}", window.verdict());
     window.end_drag(to);
     assert!(!window.verdict().contains("preview"), "{}", window.verdict());
-    assert!(window.editor().session.document().pins.contains_key(&vertex));
+    assert!(window.editor().session.document().targets.contains_key(&vertex));
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn treatment_step_limit_and_growth_are_chosen_in_the_method_panel() {
     window.choose("How the virtual boundary goes on", "One more");
     let expected = Settings { max_steps: 7, growth: Growth::One, ..Settings::default() };
     assert_eq!(window.editor().session.document().settings, expected);
-    assert_eq!(window.outcome().settings, expected, "and it is solved");
+    assert_eq!(window.outcome().problem.settings, expected, "and it is solved");
     window.choose("Method", "Convex boundary");
     assert!(window.harness.query_by_label("More").is_none(), "nothing of it matters there");
 }

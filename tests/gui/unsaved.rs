@@ -67,7 +67,7 @@ fn keys_rest_while_the_question_is_asked() {
     edit(&mut window);
     window.press(Modifiers::COMMAND, Key::Q);
     window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!(window.editor().session.document().pins.len(), 3);
+    assert_eq!(window.editor().session.document().targets.len(), 3);
     assert!(window.editor().unsaved.is_asked());
 }
 

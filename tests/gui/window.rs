@@ -6,7 +6,7 @@ use egui::{Key, Modifiers, Rect, Vec2};
 use egui_kittest::kittest::Queryable;
 use freebound::app::Start;
 use freebound::examples::Example;
-use freebound::solver::Pin;
+use freebound::io::Target;
 use freebound::ui::{BINDINGS, Shading, Tab};
 use glam::DVec2;
 
@@ -96,12 +96,12 @@ fn steps(window: &mut Window) {
 fn constraints(window: &mut Window) {
     fix(window, &[0]);
     for (vertex, pin) in [
-        (4, Pin::hard(DVec2::new(1.0, 0.0))),
-        (20, Pin::weighted(DVec2::new(0.0, 1.0), 2.0)),
-        (24, Pin::weighted(DVec2::ONE, 0.5)),
+        (4, Target::hard(DVec2::new(1.0, 0.0))),
+        (20, Target::weighted(DVec2::new(0.0, 1.0), 2.0)),
+        (24, Target::weighted(DVec2::ONE, 0.5)),
     ] {
         let vertex = freebound::mesh::VertexId::new(vertex);
-        window.editor_mut().session.handle(freebound::session::Action::Place { vertex, pin });
+        window.editor_mut().session.handle(freebound::session::Action::Place { vertex, target: pin });
     }
     window.editor_mut().selection.select([0, 4, 20, 24].map(freebound::mesh::VertexId::new));
     window.settle();

@@ -198,13 +198,6 @@ impl Page {
             self.items.push(Item::Words(Words { at, anchor, size, text: text.to_owned() }));
         }
     }
-
-    /// All words, in their order.
-    pub fn texts(&self) -> impl Iterator<Item = &str> {
-        self.items
-            .iter()
-            .filter_map(|item| if let Item::Words(words) = item { Some(words.text.as_str()) } else { None })
-    }
 }
 
 /// The parts of an open line within an area, in its order.

@@ -1,6 +1,5 @@
 //! Everything that can keep an OBJ file from being read.
 
-use std::fmt;
 use std::path::PathBuf;
 
 /// How many parse faults of a file are kept; the others are only counted.
@@ -61,20 +60,6 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// A fixed lower-case name, for reports and tests. Parse faults have their own.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::File { .. } | Self::Stream(_) => "unreadable",
-            Self::NotReadYet { .. } => "format-not-read-yet",
-            Self::NotText => "not-text",
-            Self::LineTooLong { .. } => "line-too-long",
-            Self::Parse { .. } => "parse",
-            Self::NoFaces { .. } => "no-faces",
-            Self::TooLarge => "too-large",
-            Self::Cancelled => "cancelled",
-        }
-    }
-
     /// What to do about it.
     pub const fn remedy(&self) -> &'static str {
         match self {
@@ -98,7 +83,8 @@ fn listed(faults: &[ParseFault], total: usize) -> String {
 }
 
 /// A line that cannot be understood.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}: {kind}")]
 pub struct ParseFault {
     /// Line in the file, counted from 1, as editors do.
     pub line: u64,
@@ -107,15 +93,17 @@ pub struct ParseFault {
 }
 
 /// What is wrong with a line. Indices are quoted as the file writes them, counted from 1 or backwards from −1.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ParseFaultKind {
-    /// Something that ought to be a number is none.
+    /// A word in the place of a number.
+    #[error("\"{text}\" is not a number")]
     BadNumber {
         /// The word.
         text: String,
     },
     /// A vertex or texture coordinate with too few numbers.
+    #[error("{found} numbers where {needed} are needed")]
     TooFewNumbers {
         /// How many there are.
         found: usize,
@@ -123,11 +111,16 @@ pub enum ParseFaultKind {
         needed: usize,
     },
     /// A corner that is not of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+    #[error("\"{text}\" is not a corner of a face")]
     BadCorner {
         /// The word.
         text: String,
     },
-    /// An index of 0, or one that names an element which the file does not have.
+    /// An index that no element can have.
+    #[error("index 0: OBJ files count from 1")]
+    IndexZero,
+    /// An index that names an element which the file does not have.
+    #[error("{element} {index} is out of range: there are {count}")]
     IndexOutOfRange {
         /// `"vertex"` or `"texture coordinate"`.
         element: &'static str,
@@ -137,41 +130,11 @@ pub enum ParseFaultKind {
         count: usize,
     },
     /// A face with fewer than three corners.
+    #[error("a face with {found} {}, three are needed", if *found == 1 { "corner" } else { "corners" })]
     TooFewCorners {
         /// How many there are.
         found: usize,
     },
-}
-
-impl ParseFaultKind {
-    /// A fixed lower-case name, for reports and tests.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::BadNumber { .. } => "bad-number",
-            Self::TooFewNumbers { .. } => "too-few-numbers",
-            Self::BadCorner { .. } => "bad-corner",
-            Self::IndexOutOfRange { .. } => "index-out-of-range",
-            Self::TooFewCorners { .. } => "too-few-corners",
-        }
-    }
-}
-
-impl fmt::Display for ParseFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: ", self.line)?;
-        match &self.kind {
-            ParseFaultKind::BadNumber { text } => write!(f, "\"{text}\" is not a number"),
-            ParseFaultKind::TooFewNumbers { found, needed } => write!(f, "{found} numbers where {needed} are needed"),
-            ParseFaultKind::BadCorner { text } => write!(f, "\"{text}\" is not a corner of a face"),
-            ParseFaultKind::IndexOutOfRange { index: 0, .. } => write!(f, "index 0: OBJ files count from 1"),
-            ParseFaultKind::IndexOutOfRange { element, index, count } => {
-                write!(f, "{element} {index} is out of range: there are {count}")
-            }
-            ParseFaultKind::TooFewCorners { found } => {
-                write!(f, "a face with {found} {}, three are needed", if *found == 1 { "corner" } else { "corners" })
-            }
-        }
-    }
 }
 
 /// Why texture coordinates do not make a mesh.

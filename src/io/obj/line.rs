@@ -5,47 +5,16 @@ use super::error::ParseFaultKind;
 /// Longest piece of a bad word that a message quotes, characters.
 const QUOTED: usize = 40;
 
-/// Words between blanks, up to a comment.
-#[derive(Clone, Debug)]
-pub(super) struct Words<'a> {
-    rest: &'a [u8],
-}
-
-impl<'a> Words<'a> {
-    /// The words of a line.
-    pub(super) const fn new(line: &'a [u8]) -> Self {
-        Self { rest: line }
-    }
-}
-
-const fn is_blank(byte: u8) -> bool {
-    matches!(byte, b' ' | b'\t' | b'\r' | 0x0B | 0x0C)
-}
-
-impl<'a> Iterator for Words<'a> {
-    type Item = &'a [u8];
-
-    fn next(&mut self) -> Option<&'a [u8]> {
-        let mut begin = 0;
-        while begin < self.rest.len() && is_blank(self.rest[begin]) {
-            begin += 1;
-        }
-        let mut end = begin;
-        while end < self.rest.len() && !is_blank(self.rest[end]) {
-            end += 1;
-        }
-        let word = &self.rest[begin..end];
-        if word.first().is_none_or(|&first| first == b'#') {
-            self.rest = &[];
-            return None;
-        }
-        self.rest = &self.rest[end..];
-        Some(word)
-    }
+/// Words of a line between blanks, up to a comment.
+pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+    let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t' | b'\r' | 0x0B | 0x0C);
+    line.split(is_blank).filter(|word| !word.is_empty()).take_while(|word| word[0] != b'#')
 }
 
 /// The first `N` words as numbers; words behind them are ignored.
-pub(super) fn numbers<const N: usize>(words: &mut Words<'_>) -> Result<[f64; N], ParseFaultKind> {
+pub(super) fn numbers<'a, const N: usize>(
+    mut words: impl Iterator<Item = &'a [u8]>,
+) -> Result<[f64; N], ParseFaultKind> {
     let mut values = [0.0; N];
     for (found, value) in values.iter_mut().enumerate() {
         let word = words.next().ok_or(ParseFaultKind::TooFewNumbers { found, needed: N })?;

@@ -51,8 +51,6 @@ pub struct ObjMesh {
     pub texture: Option<Texture>,
     /// Names, groups, smoothing and materials, in file order.
     pub statements: Vec<Statement>,
-    /// Runs of faces on consecutive lines: number of the first face and its line.
-    line_runs: Vec<(u32, u64)>,
 }
 
 /// Texture coordinates, and which of them each corner has.
@@ -90,11 +88,6 @@ impl Statement {
 }
 
 impl ObjMesh {
-    /// The line of the file that a face stands on, counted from 1; `None` where the mesh came from no file.
-    pub fn line_of_face(&self, face: u32) -> Option<u64> {
-        line_in_runs(&self.line_runs, face)
-    }
-
     /// The same mesh with every polygon run around the other way, from the same first corner.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
@@ -109,13 +102,6 @@ impl ObjMesh {
         }
         turned
     }
-}
-
-/// The line of a face, from runs of faces on consecutive lines.
-fn line_in_runs(runs: &[(u32, u64)], face: u32) -> Option<u64> {
-    let after = runs.partition_point(|&(first, _)| first <= face);
-    let &(first, line) = runs.get(after.checked_sub(1)?)?;
-    Some(line + u64::from(face - first))
 }
 
 impl From<PolygonMesh> for ObjMesh {

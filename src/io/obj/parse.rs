@@ -5,8 +5,8 @@
 use glam::{DVec2, DVec3};
 
 use super::error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError};
-use super::line::{Words, corner, numbers};
-use super::{NO_TEXTURE, ObjMesh, Statement, Texture, line_in_runs};
+use super::line::{corner, numbers, words};
+use super::{NO_TEXTURE, ObjMesh, Statement, Texture};
 use crate::mesh::VertexId;
 
 /// The mesh as far as it is read.
@@ -17,6 +17,8 @@ pub(super) struct Parser {
     /// Empty until a corner has a texture coordinate.
     texture_corners: Vec<u32>,
     face_count: u32,
+    /// Runs of faces on consecutive lines: number of the first face and its line.
+    line_runs: Vec<(u32, u64)>,
     /// Complete lines before the present one.
     line: u64,
     /// Whether a line with words was seen.
@@ -66,7 +68,7 @@ impl Parser {
     /// Takes one line, put together from continued ones if it was.
     fn take_line(&mut self, line: &[u8]) -> Result<(), ReadError> {
         let line = if self.line == 0 { line.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(line) } else { line };
-        let mut words = Words::new(line);
+        let mut words = words(line);
         let Some(keyword) = words.next() else { return Ok(()) };
         if !std::mem::replace(&mut self.begun, true)
             && let Some(format) = format_of_word(keyword)
@@ -74,7 +76,7 @@ impl Parser {
             return Err(ReadError::NotReadYet { format });
         }
         match keyword {
-            b"v" => match numbers::<3>(&mut words) {
+            b"v" => match numbers::<3>(words) {
                 Ok(position) => self.mesh.polygons.positions.push(DVec3::from(position)),
                 Err(kind) => {
                     self.fault(kind);
@@ -97,10 +99,10 @@ impl Parser {
     }
 
     /// A second number that is missing is 0, as the format says.
-    fn texture_coordinate(&mut self, mut words: Words<'_>) -> DVec2 {
+    fn texture_coordinate<'a>(&mut self, words: impl Iterator<Item = &'a [u8]> + Clone) -> DVec2 {
         let parsed = match words.clone().count() {
-            1 => numbers::<1>(&mut words).map(|[u]| DVec2::new(u, 0.0)),
-            _ => numbers::<2>(&mut words).map(DVec2::from),
+            1 => numbers(words).map(|[u]| DVec2::new(u, 0.0)),
+            _ => numbers::<2>(words).map(DVec2::from),
         };
         parsed.unwrap_or_else(|kind| {
             self.fault(kind);
@@ -108,7 +110,7 @@ impl Parser {
         })
     }
 
-    fn take_face(&mut self, words: Words<'_>) -> Result<(), ReadError> {
+    fn take_face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Result<(), ReadError> {
         let begin = self.mesh.polygons.corners.len();
         if let Err(kind) = self.take_corners(words) {
             self.mesh.polygons.corners.truncate(begin);
@@ -129,14 +131,14 @@ impl Parser {
             starts.push(place(end));
         }
         let line = self.line + 1;
-        if line_in_runs(&self.mesh.line_runs, self.face_count) != Some(line) {
-            self.mesh.line_runs.push((self.face_count, line));
+        if self.line_of_face(self.face_count) != Some(line) {
+            self.line_runs.push((self.face_count, line));
         }
         self.face_count += 1;
         Ok(())
     }
 
-    fn take_corners(&mut self, words: Words<'_>) -> Result<(), ParseFaultKind> {
+    fn take_corners<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) -> Result<(), ParseFaultKind> {
         let mut found = 0;
         let vertex_count = self.mesh.polygons.positions.len();
         for word in words {
@@ -151,6 +153,13 @@ impl Parser {
             found += 1;
         }
         if found < 3 { Err(ParseFaultKind::TooFewCorners { found }) } else { Ok(()) }
+    }
+
+    /// The line that a face stands on.
+    fn line_of_face(&self, face: u32) -> Option<u64> {
+        let after = self.line_runs.partition_point(|&(first, _)| first <= face);
+        let &(first, line) = self.line_runs.get(after.checked_sub(1)?)?;
+        Some(line + u64::from(face - first))
     }
 
     fn fault(&mut self, kind: ParseFaultKind) {
@@ -200,7 +209,7 @@ impl Parser {
         // Faults of single lines may have filled the list; those found here can stand on earlier lines.
         let mut earlier = std::mem::take(&mut self.faults);
         for face in 0..self.face_count {
-            let line = line_in_runs(&self.mesh.line_runs, face).expect("every face has a line");
+            let line = self.line_of_face(face).expect("every face has a line");
             for place in self.mesh.polygons.corner_range(face as usize) {
                 let vertex = self.mesh.polygons.corners[place].number();
                 if vertex as usize >= vertex_count {
@@ -224,7 +233,7 @@ fn out_of_range(element: &'static str, resolved: u32, count: usize) -> ParseFaul
 fn resolve(element: &'static str, index: i64, count: usize) -> Result<u32, ParseFaultKind> {
     let from_zero = match index {
         1.. => Some(index - 1),
-        0 => None,
+        0 => return Err(ParseFaultKind::IndexZero),
         _ => i64::try_from(count).ok().map(|count| count + index),
     };
     // The highest number is kept free to say "none".

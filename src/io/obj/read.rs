@@ -9,7 +9,7 @@ use std::io::{ErrorKind, Read};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::line::Words;
+use super::line::words;
 use super::parse::{Parser, format_of_word};
 use super::{ObjMesh, ReadError};
 
@@ -128,7 +128,7 @@ fn format_of_extension(extension: &str) -> Option<&'static str> {
 /// What a file with a zero byte is, going by its beginning.
 fn not_text(head: &[u8], lines_before: u64) -> ReadError {
     let first_line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
-    let format = match Words::new(first_line).next() {
+    let format = match words(first_line).next() {
         _ if lines_before > 0 => None,
         _ if head.starts_with(b"glTF") => Some("glTF"),
         word => word.and_then(format_of_word),

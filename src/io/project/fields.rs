@@ -9,9 +9,9 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
 use crate::geom::VAxis;
-use crate::io::FileStamp;
+use crate::io::{FileStamp, Target, Targets};
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Hold, Method, Pin, Pins, Settings, Treatment};
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Hold, Method, Pin, Settings, Treatment};
 
 /// The fields of a project file, in their order.
 #[derive(Serialize, Deserialize)]
@@ -41,7 +41,7 @@ pub(super) struct ProjectFields {
     #[serde(default = "default_new_vertices")]
     new_vertices: bool,
     #[serde(default, with = "pin_list")]
-    pins: Pins,
+    pins: Targets,
     #[serde(default)]
     view: ProjectView,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -114,42 +114,42 @@ struct PinFields {
 }
 
 impl PinFields {
-    fn of(vertex: VertexId, pin: &Pin) -> Self {
-        let (hold, weight) = match pin.hold {
+    fn of(vertex: VertexId, target: &Target) -> Self {
+        let (hold, weight) = match target.hold {
             Hold::Fixed => (HoldName::Fixed, None),
             Hold::Hard => (HoldName::Hard, None),
             Hold::Weighted(weight) => (HoldName::Weighted, Some(weight)),
         };
-        Self { vertex: vertex.number(), u: pin.target.x, v: pin.target.y, hold, weight }
+        Self { vertex: vertex.number(), u: target.uv.x, v: target.uv.y, hold, weight }
     }
 
-    fn pin(&self) -> Pin {
+    fn target(&self) -> Target {
         let hold = match self.hold {
             HoldName::Fixed => Hold::Fixed,
             HoldName::Hard => Hold::Hard,
             HoldName::Weighted => Hold::Weighted(self.weight.unwrap_or(Pin::DEFAULT_WEIGHT)),
         };
-        Pin { target: DVec2::new(self.u, self.v), hold }
+        Target { uv: DVec2::new(self.u, self.v), hold }
     }
 }
 
 /// Pins as a list.
 mod pin_list {
-    use super::{Deserialize, Deserializer, Error, PinFields, Pins, Serializer, VertexId};
+    use super::{Deserialize, Deserializer, Error, PinFields, Serializer, Targets, VertexId};
 
-    pub(super) fn serialize<S: Serializer>(pins: &Pins, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(pins.iter().map(|(&vertex, pin)| PinFields::of(vertex, pin)))
+    pub(super) fn serialize<S: Serializer>(targets: &Targets, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(targets.iter().map(|(&vertex, target)| PinFields::of(vertex, target)))
     }
 
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pins, D::Error> {
-        let mut pins = Pins::new();
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Targets, D::Error> {
+        let mut targets = Targets::new();
         for fields in Vec::<PinFields>::deserialize(deserializer)? {
             let vertex = VertexId::new(fields.vertex);
-            if pins.insert(vertex, fields.pin()).is_some() {
+            if targets.insert(vertex, fields.target()).is_some() {
                 return Err(D::Error::custom(format!("vertex {vertex} is pinned twice")));
             }
         }
-        Ok(pins)
+        Ok(targets)
     }
 }
 
@@ -206,7 +206,7 @@ impl From<ProjectFields> for ProjectFile {
             picture: fields.picture,
             v_axis: fields.v_axis,
             settings,
-            pins: fields.pins,
+            targets: fields.pins,
             view: fields.view,
             recovery: fields.recovery,
         }
@@ -234,7 +234,7 @@ impl From<ProjectFile> for ProjectFields {
             max_steps: settings.max_steps,
             relax_rounds: settings.relax_rounds,
             new_vertices: settings.new_vertices,
-            pins: project.pins,
+            pins: project.targets,
             view: project.view,
             recovery: project.recovery,
         }

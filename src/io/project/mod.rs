@@ -19,9 +19,9 @@ use serde::{Deserialize, Serialize};
 
 pub use self::error::ProjectError;
 use self::fields::{ProjectFields, SourceFields};
-use super::{FileStamp, WriteError, write_durably};
+use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::VAxis;
-use crate::solver::{Pins, Settings};
+use crate::solver::Settings;
 
 /// The version of the format that this program writes, and the newest that it reads.
 pub const PROJECT_VERSION: u64 = 1;
@@ -42,8 +42,8 @@ pub struct ProjectFile {
     pub v_axis: VAxis,
     /// Method and weights. Their size follows from the picture, so that it is not in the file.
     pub settings: Settings,
-    /// The pins, in texture coordinates.
-    pub pins: Pins,
+    /// The targets of the user's pins.
+    pub targets: Targets,
     /// How the person looked at it.
     pub view: ProjectView,
     /// What only a copy for recovery has.
@@ -117,7 +117,7 @@ impl ProjectFile {
             picture: None,
             v_axis: VAxis::Up,
             settings: Settings::default(),
-            pins: Pins::new(),
+            targets: Targets::new(),
             view: ProjectView::default(),
             recovery: None,
         }

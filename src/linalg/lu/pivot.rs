@@ -22,6 +22,14 @@ pub(super) struct Pivots<'a> {
     pub(super) replaced: Vec<usize>,
 }
 
+impl Pivots<'_> {
+    /// Notes that two rows change places.
+    fn swap(&mut self, k: usize, row: usize) {
+        self.swaps[k] = u32::try_from(row).expect("fronts are smaller than that");
+        self.thresholds.swap(k, row);
+    }
+}
+
 /// Factors the top `columns` × `columns` block of `panel` (leading dimension `height`) and moves the rows of `right`
 /// along.
 pub(super) fn factor_block<T: Scalar>(panel: &mut [T], height: usize, right: &mut [T], pivots: &mut Pivots<'_>) {
@@ -30,7 +38,11 @@ pub(super) fn factor_block<T: Scalar>(panel: &mut [T], height: usize, right: &mu
         let last = (first + BLOCK).min(columns);
         for k in first..last {
             let row = choose(panel, height, k, pivots);
-            swap_rows(panel, height, right, (k, row), pivots);
+            pivots.swap(k, row);
+            if row != k {
+                panel.chunks_exact_mut(height).for_each(|column| column.swap(k, row));
+                right.chunks_exact_mut(columns).for_each(|column| column.swap(k, row));
+            }
             replace_if_tiny(panel, height, k, pivots);
             eliminate(panel, height, k, last, columns);
         }
@@ -51,23 +63,6 @@ fn choose<T: Scalar>(panel: &[T], height: usize, k: usize, pivots: &Pivots<'_>) 
         }
     }
     if diagonal >= DIAGONAL_PREFERENCE * largest { k } else { k + best }
-}
-
-fn swap_rows<T: Scalar>(
-    panel: &mut [T],
-    height: usize,
-    right: &mut [T],
-    (k, row): (usize, usize),
-    pivots: &mut Pivots<'_>,
-) {
-    pivots.swaps[k] = u32::try_from(row).expect("fronts are smaller than that");
-    if row == k {
-        return;
-    }
-    pivots.thresholds.swap(k, row);
-    let columns = pivots.swaps.len();
-    panel.chunks_exact_mut(height).for_each(|column| column.swap(k, row));
-    right.chunks_exact_mut(columns).for_each(|column| column.swap(k, row));
 }
 
 /// Static pivoting (Li and Demmel 1998, "Making sparse Gaussian elimination scalable by static pivoting").

@@ -48,7 +48,7 @@ impl<T: Scalar> Lu<T> {
         let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugated() } else { x };
         let (before, after) = match operation {
             Operation::Plain => (Some(&self.row_scale), None),
-            Operation::Transpose | Operation::Adjoint => (None, Some(&self.row_scale)),
+            Operation::Adjoint => (None, Some(&self.row_scale)),
         };
         let factor = |scale: Option<&Vec<f64>>, row: usize| scale.map_or(1.0, |scale| scale[row]);
         let order = &analysis.order.new_to_old;

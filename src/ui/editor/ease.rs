@@ -75,7 +75,9 @@ impl Editor {
         let (Some(before), Some(target)) = (before, self.plane_scene.clone()) else { return };
         let (from, to) = (&before.outcome, &target.outcome);
         let is_other_step = before.outcome_revision != target.outcome_revision;
-        let is_same_run = from.settings == to.settings && from.pins == to.pins && from.step.index != to.step.index;
+        let is_same_run = from.problem.settings == to.problem.settings
+            && from.problem.targets == to.problem.targets
+            && from.step.index != to.step.index;
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
         let is_too_large = self.ease.too_large == Some(self.session.model_revision());
         if self.ease.wanted && is_other_step && is_same_run && is_same_mesh && !is_too_large {
@@ -83,7 +85,9 @@ impl Editor {
             let from = before.positions().to_vec();
             let cameras = self.camera_along(&target);
             self.ease.under_way = Some(Way { from, began, drawn: target, cameras });
-        } else if let Some([_, goal]) = self.camera_along(&target).filter(|_| is_other_step && from.pins == to.pins) {
+        } else if let Some([_, goal]) =
+            self.camera_along(&target).filter(|_| is_other_step && from.problem.targets == to.problem.targets)
+        {
             self.set_framed(goal);
         }
     }

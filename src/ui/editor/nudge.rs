@@ -71,7 +71,7 @@ impl Editor {
         };
         // The frame has no offset: it takes differences to differences.
         let by = frame.uv_from_plane(pixels * step);
-        let nudged = |vertex: VertexId| Some((vertex, document.pins.get(&vertex)?.target + by));
+        let nudged = |vertex: VertexId| Some((vertex, document.targets.get(&vertex)?.uv + by));
         let moves: Vec<(VertexId, DVec2)> = self.pins_selected().filter_map(nudged).collect();
         if !self.tools.is_nudging() {
             self.tools.set_nudging(true);

@@ -125,7 +125,7 @@ fn file_menu(menu: &mut Menu<'_>) {
     menu.item(has_disk, "Open picture…", Request::Ask(Purpose::OpenPicture));
     menu.item(editor.has_picture(), "Remove picture", Action::RemovePicture);
     menu.item(has_disk, "Import constraints…", Request::Ask(Purpose::ImportConstraints));
-    let has_pins = !editor.session.document().pins.is_empty();
+    let has_pins = !editor.session.document().targets.is_empty();
     menu.item(has_pins, "Export constraints…", Request::Ask(Purpose::ExportConstraints));
     menu.separator();
     menu.part("Export", |menu| {
@@ -158,7 +158,7 @@ fn edit_menu(menu: &mut Menu<'_>) {
     let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
     menu.item(fixable, "Fix the selection", Action::Fix(editor.selection.vertices().iter().copied().collect()));
     menu.item(editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected);
-    let pin_count = session.document().pins.len();
+    let pin_count = session.document().targets.len();
     menu.item(pin_count > 0, "Free all pins", Action::UnpinAll);
     menu.separator();
     menu.item(pin_count > 0, "Mirror the targets", Action::MirrorTargets);

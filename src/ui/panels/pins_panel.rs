@@ -4,6 +4,7 @@ use eframe::egui;
 use egui::{DragValue, RichText, Role, Sense, Vec2};
 
 use super::picture_panel;
+use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::{Hold, Pin};
@@ -28,7 +29,7 @@ pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &m
         );
         return;
     }
-    if document.pins.is_empty() {
+    if document.targets.is_empty() {
         no_pins(ui);
     } else {
         table(ui, editor, requests);
@@ -57,7 +58,7 @@ fn no_pins(ui: &mut egui::Ui) {
 #[derive(Clone, Copy)]
 struct Row {
     vertex: VertexId,
-    pin: Pin,
+    target: Target,
     /// How the solver holds it: a treatment may weigh what was asked for exactly.
     held: Hold,
     /// How far a coordinate goes with a point of a drag.
@@ -75,9 +76,9 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 ui.weak(words);
             }
             ui.end_row();
-            let held = document.settings.held(&document.pins);
-            for ((&vertex, &pin), held) in document.pins.iter().zip(held.values()) {
-                row(ui, editor, Row { vertex, pin, held: held.hold, speed }, requests);
+            for (&vertex, &target) in &document.targets {
+                let held = document.settings.hold_of(target.hold);
+                row(ui, editor, Row { vertex, target, held, speed }, requests);
                 ui.end_row();
             }
         });
@@ -85,7 +86,7 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 }
 
 fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
-    let Row { vertex, pin, held, .. } = row;
+    let Row { vertex, target, held, .. } = row;
     hold_button(ui, row, requests);
     let selected = editor.selection.contains(vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
@@ -96,7 +97,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
         requests.push(chosen(ui, editor, vertex));
     }
     coordinates(ui, row, requests);
-    match (pin.hold, held) {
+    match (target.hold, held) {
         (Hold::Weighted(weight), _) => {
             weight_field(ui, &format!("Weight of pin {vertex}"), weight, &[vertex], requests);
         }
@@ -123,25 +124,25 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId) {
 }
 
 /// The pin's mark; a click makes a hard one weighted and a weighted one hard.
-fn hold_button(ui: &mut egui::Ui, Row { vertex, pin, held, .. }: Row, requests: &mut Vec<Request>) {
+fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
     pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(held), emphasis));
-    let words = match pin.hold {
+    let words = match target.hold {
         Hold::Weighted(_) => "weighted",
         Hold::Fixed => "fixed",
         Hold::Hard => "hard",
     };
-    let (note, tip) = if pin.hold != held {
+    let (note, tip) = if target.hold != held {
         let tip =
             "To be met exactly, but this treatment of pinned vertices weighs it. Click: give it a weight of its own";
         (", weighed by the treatment", tip)
-    } else if pin.hold.is_exact() {
+    } else if target.hold.is_exact() {
         ("", "Met exactly. Click: let it pull with a weight instead")
     } else {
         ("", "Pulls with a weight. Click: meet it exactly")
     };
-    let hold = if pin.hold.is_exact() { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { Hold::Hard };
+    let hold = if target.hold.is_exact() { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { Hold::Hard };
     let response = response.named(Role::Button, &format!("Hold of pin {vertex}: {words}{note}")).on_hover_text(tip);
     response.asks(Action::SetHold { vertices: vec![vertex], hold }, requests);
 }
@@ -153,7 +154,7 @@ fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
     match from {
         Some(from) => {
             let range = from.min(vertex)..=from.max(vertex);
-            let pins = editor.session.document().pins.range(range);
+            let pins = editor.session.document().targets.range(range);
             Request::Select(pins.map(|(&vertex, _)| vertex).collect())
         }
         None if modifiers.command => Request::ToggleSelected(vertex),
@@ -161,8 +162,8 @@ fn chosen(ui: &egui::Ui, editor: &Editor, vertex: VertexId) -> Request {
     }
 }
 
-fn coordinates(ui: &mut egui::Ui, Row { vertex, pin, speed, .. }: Row, requests: &mut Vec<Request>) {
-    let target = pin.target;
+fn coordinates(ui: &mut egui::Ui, Row { vertex, target, speed, .. }: Row, requests: &mut Vec<Request>) {
+    let target = target.uv;
     let mut moved = target;
     let mut has_ended = false;
     for (axis, name) in [(0, "u"), (1, "v")] {
@@ -211,7 +212,7 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(format!("{} selected:", selected.len()));
         ui.small_button("Hard").on_hover_text("Meet them exactly").asks(Request::SetHold(Hold::Hard), requests);
-        let pins = &editor.session.document().pins;
+        let pins = &editor.session.document().targets;
         let weights = selected.iter().filter_map(|vertex| match pins.get(vertex)?.hold {
             Hold::Weighted(weight) => Some(weight),
             Hold::Fixed | Hold::Hard => None,
@@ -243,7 +244,8 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 fn errors(ui: &mut egui::Ui, editor: &Editor) {
     let Some(outcome) = editor.session.outcome().filter(|_| editor.session.is_current()) else { return };
     let worst = |is_exact: bool| {
-        let errors = outcome.pin_errors().filter(|(_, pin, _)| outcome.settings.is_exact(pin.hold) == is_exact);
+        let errors =
+            outcome.pin_errors().filter(|(_, target, _)| outcome.problem.settings.is_exact(target.hold) == is_exact);
         errors.map(|(vertex, _, error)| (error, vertex)).max_by(|a, b| a.0.total_cmp(&b.0))
     };
     let words: Vec<String> = [(worst(true), "exact"), (worst(false), "weighted")]
@@ -256,14 +258,14 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
     if !words.is_empty() {
         remark(ui, format!("Largest error: {}", words.join(", ")));
     }
-    if editor.session.document().pins.len() == 1 {
+    if editor.session.document().targets.len() == 1 {
         remark(ui, "One pin only moves the embedding. A second one turns and scales it, more bend it.");
     }
 }
 
 /// What concerns all pins.
 fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let count = editor.session.document().pins.len();
+    let count = editor.session.document().targets.len();
     let has_disk = editor.has_disk();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;

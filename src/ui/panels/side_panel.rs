@@ -14,7 +14,7 @@ pub(in crate::ui) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests
         ui.spacing_mut().item_spacing.x = 2.0;
         for tab in Tab::ALL {
             let count = match tab {
-                Tab::Pins => editor.session.document().pins.len(),
+                Tab::Pins => editor.session.document().targets.len(),
                 Tab::Defects => editor.defect_count(),
                 Tab::Method | Tab::Vertex => 0,
             };

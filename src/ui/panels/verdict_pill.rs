@@ -184,7 +184,7 @@ mod tests {
         editor.session.handle(Action::Fix([0, 10, 20].map(VertexId::new).to_vec()));
         wait(&mut editor, is_solved);
         let vertex = VertexId::new(10);
-        let target = editor.session.document().pins[&vertex].target + glam::DVec2::new(0.1, 0.05);
+        let target = editor.session.document().targets[&vertex].uv + glam::DVec2::new(0.1, 0.05);
         editor.session.handle(Action::MovePin { vertex, target });
         wait(&mut editor, |editor| editor.session.preview().is_some());
         editor

@@ -42,7 +42,7 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
             row(axis, short(value));
         }
         if let Some(z) = embedding.and_then(|embedding| embedding.get(vertex.index())) {
-            let frame = editor.session.outcome().map(|outcome| outcome.frame).unwrap_or_default();
+            let frame = editor.session.outcome().map(|outcome| outcome.problem.frame).unwrap_or_default();
             let uv = frame.uv_from_plane(*z);
             row("u", short(uv.x));
             row("v", short(uv.y));
@@ -60,7 +60,7 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     });
     equation_table::equation_ui(ui, editor, vertex, requests);
     ui.add_space(8.0);
-    if editor.session.document().pins.contains_key(&vertex) {
+    if editor.session.document().targets.contains_key(&vertex) {
         ui.button("Free").on_hover_text("Take its pin away").asks(Action::Unpin(vec![vertex]), requests);
     } else if embedding.is_some() && scene.new_vertex(vertex).is_none() {
         ui.button("Fix").on_hover_text("Pin it where it lies").asks(Action::Fix(vec![vertex]), requests);

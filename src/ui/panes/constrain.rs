@@ -8,9 +8,9 @@ use glam::DVec2;
 use super::pane;
 use super::pins;
 use crate::geom::VAxis;
+use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
-use crate::solver::Pin;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Pane, Request, Tool};
 
@@ -90,7 +90,7 @@ impl Editor {
     }
 
     fn first_half(&self, vertex: VertexId) -> Intent {
-        let is_pinned = self.session.document().pins.contains_key(&vertex);
+        let is_pinned = self.session.document().targets.contains_key(&vertex);
         if is_pinned && self.tools.pair().is_none() { Intent::Select(vertex) } else { Intent::TakeVertex(vertex) }
     }
 
@@ -120,8 +120,8 @@ impl Editor {
             }
             Intent::Join(vertex, target) => {
                 self.tools.set_pair(None);
-                let pin = Pin { target, hold: self.tools.hold() };
-                vec![Request::Do(Action::Place { vertex, pin }), Request::Select(vec![vertex])]
+                let target = Target { uv: target, hold: self.tools.hold() };
+                vec![Request::Do(Action::Place { vertex, target }), Request::Select(vec![vertex])]
             }
             Intent::Select(vertex) => vec![Request::Select(vec![vertex])],
         }

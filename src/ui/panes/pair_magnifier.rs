@@ -42,8 +42,8 @@ impl Editor {
             return self.target_of_pair();
         }
         let document = self.session.document();
-        let pin = document.pins.get(&self.vertex_in_hand()?)?;
-        Some(document.frame().plane_from_uv(pin.target))
+        let target = document.targets.get(&self.vertex_in_hand()?)?;
+        Some(document.frame().plane_from_uv(target.uv))
     }
 
     /// Whether a pair is magnified in the embedding's pane.

@@ -66,9 +66,11 @@ impl Editor {
         let document = self.session.document();
         let uses_pins = document.settings.method.uses_pins();
         // Marks show what the solver does: a treatment may weigh what was asked for exactly.
-        let users = if uses_pins { document.settings.held(&document.plane_pins()) } else { BTreeMap::new() };
+        let users = if uses_pins { document.settings.held(&document.pins()) } else { BTreeMap::new() };
         let gauge = self.plane_scene.as_ref().filter(|scene| {
-            scene.outcome.step.solution.gauge_completed && scene.outcome.settings.method.uses_pins() && users.len() < 2
+            scene.outcome.step.solution.gauge_completed
+                && scene.outcome.problem.settings.method.uses_pins()
+                && users.len() < 2
         });
         let gauge = gauge.map(|scene| &scene.outcome.step.solution.pins).into_iter().flatten();
         let solver = gauge.filter(|(vertex, _)| !users.contains_key(vertex)).map(|(&vertex, pin)| PinShown {
@@ -90,8 +92,8 @@ impl Editor {
 
     /// The selected vertices that are pins of the user's.
     pub fn pins_selected(&self) -> impl Iterator<Item = VertexId> + '_ {
-        let pins = &self.session.document().pins;
-        self.selection.vertices().iter().copied().filter(|vertex| pins.contains_key(vertex))
+        let targets = &self.session.document().targets;
+        self.selection.vertices().iter().copied().filter(|vertex| targets.contains_key(vertex))
     }
 }
 

@@ -9,7 +9,7 @@ use super::caps::{project, rim, stretch, unproject};
 use super::fill::{Sheet, fill, walk_along};
 use super::random::Random;
 use super::sculpt::distance;
-use crate::mesh::TriMesh;
+use freebound::mesh::TriMesh;
 
 /// Where the rays begin.
 const CENTRE: DVec3 = DVec3::new(0.0, -0.02, -0.12);
@@ -95,8 +95,8 @@ fn spacing_table() -> Vec<f64> {
 }
 
 /// The mask, y up, looking to +z.
-pub(super) fn face() -> TriMesh {
-    let mut random = Random::new(0xface);
+pub(crate) fn face() -> TriMesh {
+    let mut random = Random(0xface);
     let table = spacing_table();
     let in_chart = |p: DVec2| {
         let [i, j] =

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::fill::{Sheet, fill, walk_along};
 use super::random::Random;
-use crate::mesh::TriMesh;
+use freebound::mesh::TriMesh;
 
 /// Rounds of settling: enough for good triangles, too few for a regular pattern.
 const ROUNDS: usize = 6;
@@ -42,7 +42,7 @@ pub(super) fn rim(angle: impl Fn(f64) -> f64) -> Vec<DVec2> {
 }
 
 fn cap(rim: &[DVec2], spacing: f64, seed: u64, surface: &(dyn Fn(DVec2) -> DVec3 + Sync)) -> TriMesh {
-    let mut random = Random::new(seed);
+    let mut random = Random(seed);
     let in_chart = |p: DVec2| spacing / stretch(p);
     let outline = walk_along(rim, &in_chart, &mut random);
     let mut plane = fill(&outline, &in_chart, &mut random);
@@ -51,7 +51,7 @@ fn cap(rim: &[DVec2], spacing: f64, seed: u64, surface: &(dyn Fn(DVec2) -> DVec3
 }
 
 /// A cap down to 75° from the pole.
-pub(super) fn dome() -> TriMesh {
+pub(crate) fn dome() -> TriMesh {
     cap(&rim(|_| 75_f64.to_radians()), 0.072, 0xd03e, &unproject)
 }
 
@@ -62,12 +62,12 @@ const BUMPY_SPACING: f64 = 0.085;
 const BUMPY_COUNT: f64 = 1280.0;
 
 /// A ball with bumps, open below about 130° from the pole, its rim wavy.
-pub(super) fn bumpy_cap() -> TriMesh {
+pub(crate) fn bumpy_cap() -> TriMesh {
     bumpy(BUMPY_SPACING, 0xb3b7)
 }
 
 /// The bumpy cap with about so many vertices, which lie otherwise for each seed.
-pub fn bumpy_cap_of(vertices: usize, seed: u64) -> TriMesh {
+pub(crate) fn bumpy_cap_of(vertices: usize, seed: u64) -> TriMesh {
     bumpy(BUMPY_SPACING * (BUMPY_COUNT / vertices as f64).sqrt(), seed)
 }
 

@@ -2,21 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Example;
+use super::face::face;
 use super::portrait::picture_from_sculpture;
 use super::sculpt::{EYE, EYE_HALF_WIDTH, EYE_TILT, MOUTH_HALF_WIDTH, distance};
-use crate::mesh::VertexId;
-
-/// A vertex of the face mesh and its place in the portrait.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Landmark {
-    /// What it is; left and right are the person's.
-    pub name: &'static str,
-    /// The vertex of [`Example::Face`] nearest to it.
-    pub vertex: VertexId,
-    /// u and v of the portrait, v up.
-    pub target: [f64; 2],
-}
+use freebound::examples::Landmark;
+use freebound::mesh::VertexId;
 
 /// Names and places on the sculpture, seen from the front. The person looks along +z, so their left is at +x.
 ///
@@ -47,8 +37,8 @@ fn lift(p: DVec2) -> DVec3 {
 }
 
 /// Landmarks that tie the face mesh to the portrait. No similarity carries the ones to the others.
-pub fn face_landmarks() -> Vec<Landmark> {
-    let mesh = Example::Face.mesh();
+pub(crate) fn landmarks() -> Vec<Landmark> {
+    let mesh = face();
     let nearest = |p: DVec3| {
         let by_distance = |a: &usize, b: &usize| {
             mesh.positions[*a].distance_squared(p).total_cmp(&mesh.positions[*b].distance_squared(p))

@@ -3,36 +3,19 @@
 use freebound::mesh::TriMesh;
 use glam::DVec3;
 
-/// Numbers that look random and are the same in every run (splitmix64, S. Vigna's public-domain generator).
-#[derive(Clone, Debug)]
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    /// 64 random bits.
-    pub(crate) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        mixed ^ (mixed >> 31)
-    }
-
-    /// A number from 0 to 1.
-    pub(crate) fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+use super::random::Random;
 
 /// Farthest that a vertex is moved, in cells. From a quarter on cells could turn over.
 const JITTER: f64 = 0.2;
 
 /// A bulging, bumpy sheet with a bowed outline and about `faces` faces.
 pub(crate) fn sheet_of_faces(faces: usize) -> TriMesh {
-    sheet((faces as f64 / 2.0).sqrt().round() as u32)
+    jittered_sheet((faces as f64 / 2.0).sqrt().round() as u32)
 }
 
 /// The sheet of `cells` × `cells` cells: each vertex jittered, each cell cut by a random diagonal, so that interior
 /// vertices have from 4 to 8 neighbours. Vertices are numbered row by row.
-pub(crate) fn sheet(cells: u32) -> TriMesh {
+pub(crate) fn jittered_sheet(cells: u32) -> TriMesh {
     let mut random = Random(u64::from(cells));
     let stride = cells + 1;
     let mut positions = Vec::with_capacity((stride * stride) as usize);

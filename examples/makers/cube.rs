@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::fill::{Sheet, fill};
 use super::random::Random;
-use crate::mesh::TriMesh;
+use freebound::mesh::TriMesh;
 
 /// Edge length; the cube's is 1.
 const SPACING: f64 = 0.085;
@@ -27,7 +27,7 @@ const SIDES: [[DVec3; 3]; 5] = [
 fn edge_points(a: DVec3, b: DVec3) -> Vec<DVec3> {
     let (low, high) = if (a.x, a.y, a.z) < (b.x, b.y, b.z) { (a, b) } else { (b, a) };
     let seed = [low, high].iter().fold(0xc0be, |s, p| 31 * s + (4.0 * p.x + 2.0 * p.y + p.z) as u64);
-    let mut random = Random::new(seed);
+    let mut random = Random(seed);
     let count = (1.0 / SPACING).round();
     let mut points: Vec<DVec3> =
         (1..count as usize).map(|k| low.lerp(high, (k as f64 + random.between(-0.25, 0.25)) / count)).collect();
@@ -38,8 +38,8 @@ fn edge_points(a: DVec3, b: DVec3) -> Vec<DVec3> {
 }
 
 /// The open cube, from (0, 0, 0) to (1, 1, 1), y up.
-pub(super) fn cube() -> TriMesh {
-    let mut random = Random::new(0xc0be);
+pub(crate) fn cube() -> TriMesh {
+    let mut random = Random(0xc0be);
     let mut number: BTreeMap<[u64; 3], u32> = BTreeMap::new();
     let mut positions = Vec::new();
     let mut triangles = Vec::new();

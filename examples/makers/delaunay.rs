@@ -9,12 +9,12 @@ const NONE: u32 = u32::MAX;
 /// The outer triangle is this much larger than the points, so that it hides no edge of theirs that matters.
 const OUTER_SCALE: f64 = 1e4;
 
-pub(super) fn coord(p: DVec2) -> Coord<f64> {
+pub(crate) fn coord(p: DVec2) -> Coord<f64> {
     Coord { x: p.x, y: p.y }
 }
 
 /// Triangles, counter-clockwise, over points that are pairwise different. May leave out slivers along the hull.
-pub(super) fn triangulate(points: &[DVec2]) -> Vec<[u32; 3]> {
+pub(crate) fn triangulate(points: &[DVec2]) -> Vec<[u32; 3]> {
     let mut work = Work::new(points);
     for v in 0..u32::try_from(points.len()).expect("an example is small") {
         work.insert(v);
@@ -135,29 +135,5 @@ impl Work {
         self.across.push([NONE; 3]);
         self.dead.push(false);
         u32::try_from(self.corners.len() - 1).expect("an example is small")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::examples::random::Random;
-
-    #[test]
-    fn no_circumcircle_holds_a_point_and_the_square_is_covered() {
-        let mut random = Random::new(7);
-        let mut points: Vec<DVec2> = (0..150).map(|_| DVec2::new(random.unit(), random.unit())).collect();
-        points.extend([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec2::new(x, y)));
-        let triangles = triangulate(&points);
-        let mut area = 0.0;
-        for t in &triangles {
-            let [a, b, c] = t.map(|v| points[v as usize]);
-            area += (b - a).perp_dot(c - a) / 2.0;
-            assert!(orient2d(coord(a), coord(b), coord(c)) > 0.0);
-            assert!(points.iter().all(|&p| incircle(coord(a), coord(b), coord(c), coord(p)) <= 0.0));
-        }
-        // Every triangulation of n points, h of them on the hull, has 2n − 2 − h triangles.
-        assert_eq!(triangles.len(), 2 * points.len() - 2 - 4);
-        assert!((area - 1.0).abs() < 1e-12);
     }
 }

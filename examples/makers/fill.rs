@@ -11,7 +11,7 @@ use robust::orient2d;
 
 use super::delaunay::{coord, triangulate};
 use super::random::Random;
-use crate::mesh::{EdgeTable, TriMesh, VertexId};
+use freebound::mesh::{EdgeTable, TriMesh, VertexId};
 
 /// Points nearer than this share of the wanted spacing are not thrown in.
 const NEAREST: f64 = 0.82;

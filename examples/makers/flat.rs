@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::fill::{Sheet, fill};
 use super::random::Random;
-use crate::mesh::TriMesh;
+use freebound::mesh::TriMesh;
 
 /// Rounds of settling: enough for good triangles, too few for a regular pattern.
 const ROUNDS: usize = 5;
@@ -30,9 +30,9 @@ pub(super) fn split_side(a: DVec2, b: DVec2, spacing: f64, random: &mut Random) 
 }
 
 /// An L with arms of width 1 and length 2.
-pub(super) fn ell() -> TriMesh {
+pub(crate) fn ell() -> TriMesh {
     const SPACING: f64 = 0.068;
-    let mut random = Random::new(0x0e11);
+    let mut random = Random(0x0e11);
     let corners =
         [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)].map(|(x, y)| DVec2::new(x, y));
     let outline: Vec<DVec2> =
@@ -41,13 +41,13 @@ pub(super) fn ell() -> TriMesh {
 }
 
 /// Three turns of an Archimedean spiral, a strip as wide as the gap beside it.
-pub(super) fn spiral() -> TriMesh {
+pub(crate) fn spiral() -> TriMesh {
     const TURNS: f64 = 3.0;
     const PITCH: f64 = 0.3;
     const INNER: f64 = 0.22;
     const HALF_WIDTH: f64 = 0.075;
     const SPACING: f64 = 0.045;
-    let mut random = Random::new(0x5917);
+    let mut random = Random(0x5917);
     let at = |turn: f64, offset: f64| DVec2::from_angle(TAU * turn) * (INNER + PITCH * turn + offset);
     let steps = (TURNS * 180.0) as usize;
     let turn = |k: usize| TURNS * k as f64 / steps as f64;

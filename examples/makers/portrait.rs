@@ -9,7 +9,10 @@ use rayon::prelude::*;
 
 use super::relief::Relief;
 use super::sculpt::{bump, ramp};
-use crate::geom::Picture;
+use freebound::geom::Picture;
+
+/// Width and height of the face's portrait, pixels.
+pub(crate) const PORTRAIT_SIZE: u32 = 768;
 
 /// Half the picture's width and height, in the sculpture's units.
 pub(super) const REACH: f64 = 1.5;
@@ -52,7 +55,7 @@ fn sculpture_height(y: f64) -> f64 {
 /// From the picture's plane (x right, y up, in the sculpture's units) to x and y of the sculpture.
 ///
 /// Across, eyes, nose and mouth are narrower; cheeks, ears and hair stay.
-pub(super) fn sculpture_from_plane(p: DVec2) -> DVec2 {
+pub(crate) fn sculpture_from_plane(p: DVec2) -> DVec2 {
     let x = p.x.abs();
     let eyes = 0.10 * bump(p.y - 0.24, 0.22) * (1.0 - ramp(x, 0.40, 0.90));
     let nose_and_mouth = (0.14 * bump(p.y + 0.17, 0.17) + 0.08 * bump(p.y + 0.52, 0.15)) * (1.0 - ramp(x, 0.24, 0.58));
@@ -70,20 +73,20 @@ fn invert(rising: impl Fn(f64) -> f64, value: f64) -> f64 {
 }
 
 /// Where a point of the sculpture, given by its x and y, lies in the picture: u and v in `[0, 1]`, v up.
-pub(super) fn picture_from_sculpture(p: DVec2) -> DVec2 {
+pub(crate) fn picture_from_sculpture(p: DVec2) -> DVec2 {
     let y = invert(sculpture_height, p.y);
     let x = invert(|x| sculpture_from_plane(DVec2::new(x, y)).x, p.x);
     (DVec2::new(x, y - MIDDLE) / REACH + 1.0) / 2.0
 }
 
 /// The plane's point at a place in a picture, in pixels from its upper left corner.
-pub(super) fn plane(size: usize, pixel: DVec2) -> DVec2 {
+pub(crate) fn plane(size: usize, pixel: DVec2) -> DVec2 {
     let p = (2.0 * pixel / size as f64 - 1.0) * REACH;
     DVec2::new(p.x, MIDDLE - p.y)
 }
 
 /// A square painted portrait, `size` pixels wide. Its proportions are not those of the face mesh.
-pub fn portrait(size: u32) -> Picture {
+pub(crate) fn portrait(size: u32) -> Picture {
     let pixels_across = size;
     let size = size as usize;
     let relief = Relief::new(size.div_ceil(2).max(1));
@@ -106,19 +109,4 @@ pub fn portrait(size: u32) -> Picture {
         })
         .collect();
     Picture { width: pixels_across, height: pixels_across, pixels: rows.concat() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_place_of_a_feature_leads_back_to_it() {
-        for (x, y) in [(0.437, 0.137), (-0.153, 0.113), (0.0, -0.92), (-0.26, -0.57), (0.3, 1.1)] {
-            let uv = picture_from_sculpture(DVec2::new(x, y));
-            let pixel = DVec2::new(uv.x, 1.0 - uv.y) * 512.0;
-            let back = sculpture_from_plane(plane(512, pixel));
-            assert!(back.distance(DVec2::new(x, y)) < 1e-9, "{back}");
-        }
-    }
 }

@@ -1,0 +1,50 @@
+//! Writes the built-in meshes, the portrait and the landmarks into `assets/`: `cargo run --release --example assets`.
+//!
+//! OBJ files have the fewest digits that read back as the same numbers.
+
+mod makers;
+
+use std::fs;
+use std::path::Path;
+
+use freebound::examples::{Example, Landmark};
+use freebound::io::{ObjMesh, write_obj};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{DynamicImage, RgbaImage};
+
+fn main() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    fs::create_dir_all(&folder).expect("the folder can be made");
+    let write = |name: &str, bytes: &[u8]| {
+        fs::write(folder.join(name), bytes).expect("the file can be written");
+        println!("{:>9} bytes: {name}", bytes.len());
+    };
+    for example in Example::ALL {
+        let mut text = Vec::new();
+        write_obj(&mut text, &ObjMesh::from(&makers::example_mesh(example)), &[]).expect("memory takes it");
+        write(&format!("{}.obj", example.name()), &text);
+    }
+    write("face-landmarks.txt", landmarks().as_bytes());
+    write("portrait.png", &portrait());
+}
+
+/// The landmarks as a constraint file, each with its name.
+fn landmarks() -> String {
+    let head = "# vertex u v # name; vertices count from 0, left and right are the person's".to_owned();
+    let line = |landmark: Landmark| {
+        let [u, v] = landmark.target;
+        format!("{} {u:?} {v:?} # {}", landmark.vertex.number(), landmark.name)
+    };
+    let lines = makers::landmarks().into_iter().map(line);
+    std::iter::once(head).chain(lines).map(|line| line + "\n").collect()
+}
+
+/// The portrait as a PNG file without opacity.
+fn portrait() -> Vec<u8> {
+    let picture = makers::portrait(makers::PORTRAIT_SIZE);
+    let pixels = RgbaImage::from_raw(picture.width, picture.height, picture.pixels).expect("four bytes a pixel");
+    let mut bytes = Vec::new();
+    let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    DynamicImage::from(pixels).into_rgb8().write_with_encoder(encoder).expect("memory takes it");
+    bytes
+}

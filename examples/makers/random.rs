@@ -1,0 +1,37 @@
+//! Numbers that look random and are the same in every run: splitmix64 (Steele, Lea, Flood 2014).
+
+/// A stream of pseudo-random numbers that its seed decides.
+#[derive(Clone, Debug)]
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    /// 64 random bits.
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number in `0..limit`.
+    pub(crate) fn below(&mut self, limit: u32) -> u32 {
+        u32::try_from(self.bits() % u64::from(limit)).expect("smaller than a u32")
+    }
+
+    /// A place in a list of so many.
+    pub(crate) fn index(&mut self, count: usize) -> usize {
+        usize::try_from(self.bits() % count as u64).expect("smaller than a usize")
+    }
+
+    /// A number in `[0, 1)`.
+    pub(crate) fn unit(&mut self) -> f64 {
+        // The upper 53 bits are a whole multiple of 2⁻⁵³.
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A number in `[low, high)`.
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
