@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 use freebound::io::{ObjMesh, Target, write_obj};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, RecentFiles, Session};
-use freebound::solver::{Family, Hold, Method, Settings, verdict};
+use freebound::solver::{Embedding, Family, Hold, Method, Settings, verdict};
 use freebound::view::{PlaneArrays, PlaneBox, UnitPlane};
 use glam::DVec2;
 
@@ -59,7 +59,8 @@ fn opened(vertices: usize) -> Session {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("sheet.obj");
     let mut text = Vec::new();
-    write_obj(&mut text, &ObjMesh::from(&sheet_of_faces(2 * vertices)), &[]).expect("memory takes it");
+    write_obj(&mut text, &ObjMesh::from(&sheet_of_faces(2 * vertices)), &Embedding::default())
+        .expect("memory takes it");
     std::fs::write(&path, text).expect("a file");
     let mut session = Session::new(Arc::new(|| ()), RecentFiles::default());
     session.handle(Action::Open(path));

@@ -29,7 +29,7 @@ fn main() {
         .wgpu()
         .build_eframe(move |context| App::new(context, start));
     let begin = Instant::now();
-    while window.state().editor().look.paint().is_none() || window.state().editor().plane_scene().is_none() {
+    while window.state().editor().look.paint().is_none() || window.state().editor().plane.scene().is_none() {
         assert!(begin.elapsed() < PATIENCE, "the mesh was not opened and solved in time");
         window.step();
         std::thread::sleep(Duration::from_millis(5));

@@ -12,10 +12,8 @@ use std::time::{Duration, Instant};
 
 use freebound::mesh::DiskMesh;
 use freebound::solver::{
-    Control, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move,
+    Control, Embedding, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move,
 };
-
-use glam::DVec2;
 
 use common::machine::{print_machine, processor_seconds};
 use common::table::{Table, seconds};
@@ -88,16 +86,16 @@ fn main() {
 }
 
 /// The same pins where an embedding has them.
-fn held_in(embedding: &[DVec2], pins: &Pins) -> Pins {
-    fixed_pins(pins.keys().map(|&v| (v, embedding[v.index()])))
+fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
+    fixed_pins(pins.keys().map(|&v| (v, embedding[v])))
 }
 
 /// An embedding in which every fiftieth inner vertex was pushed across a neighbour: a planar one would be left alone.
-fn folded(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<DVec2> {
-    let mut folded = embedding.to_vec();
+fn folded(mesh: &DiskMesh, embedding: &Embedding) -> Embedding {
+    let mut folded = embedding.clone();
     for v in mesh.vertices().step_by(50).filter(|&v| mesh.boundary_place(v).is_none()) {
         let neighbour = mesh.outgoing(v).next().map_or(v, |h| mesh.head(h));
-        folded[v.index()] += 1.5 * (embedding[neighbour.index()] - embedding[v.index()]);
+        folded[v] += 1.5 * (embedding[neighbour] - embedding[v]);
     }
     folded
 }

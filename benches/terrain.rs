@@ -14,7 +14,7 @@ use std::path::Path;
 
 use freebound::io::{ObjMesh, write_atomically, write_obj};
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Control, Family, Method, Pins, Settings, distortion, flatten, verdict};
+use freebound::solver::{Control, Embedding, Family, Method, Pins, Settings, distortion, flatten, verdict};
 use glam::{DVec2, DVec3};
 
 use common::machine::print_machine;
@@ -85,7 +85,8 @@ fn main() {
     let mesh = terrain();
     if let Some(path) = arguments().first() {
         let file = ObjMesh::from(&mesh);
-        write_atomically(Path::new(path), |out| write_obj(out, &file, &[])).expect("the file can be written");
+        write_atomically(Path::new(path), |out| write_obj(out, &file, &Embedding::default()))
+            .expect("the file can be written");
         println!("wrote {path}");
         return;
     }
@@ -114,7 +115,7 @@ fn main() {
         table.row([
             family.to_string(),
             found.flipped_faces.len().to_string(),
-            (found.boundary_crossings.len() + found.unlisted_crossings).to_string(),
+            found.crossing_count().to_string(),
             found.overwound_vertices.len().to_string(),
             found.turning_number.map_or_else(|| "-".to_owned(), |turns| turns.to_string()),
             format!("{:.1e}", linear.residual),

@@ -9,6 +9,7 @@ use std::path::Path;
 
 use freebound::examples::{Example, Landmark};
 use freebound::io::{ObjMesh, write_obj};
+use freebound::solver::Embedding;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 
@@ -21,7 +22,8 @@ fn main() {
     };
     for example in Example::ALL {
         let mut text = Vec::new();
-        write_obj(&mut text, &ObjMesh::from(&makers::example_mesh(example)), &[]).expect("memory takes it");
+        write_obj(&mut text, &ObjMesh::from(&makers::example_mesh(example)), &Embedding::default())
+            .expect("memory takes it");
         write(&format!("{}.obj", example.name()), &text);
     }
     write("face-landmarks.txt", landmarks().as_bytes());

@@ -45,7 +45,7 @@ impl App {
             editor.host.use_gpu();
         }
         if start.dialogs_inside {
-            editor.dialogs = Dialogs::inside_the_window();
+            editor.files.dialogs = Dialogs::inside_the_window();
         }
         if let Some(folder) = start.recovery_folder {
             editor.session.keep_copies_in(folder);
@@ -73,7 +73,7 @@ impl eframe::App for App {
     fn on_exit(&mut self) {
         self.editor.session.finish_writing();
         // Where the person was not asked, such as at the end of a session of the system's, the copy stays.
-        if self.editor.quit || !self.editor.session.has_unsaved_work() {
+        if self.editor.host.is_quitting() || !self.editor.session.has_unsaved_work() {
             self.editor.session.close();
         }
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use freebound::geom::PictureFrame;
 use freebound::io::{Constraints, pins_in_plane, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Choice as _, Pins, Settings, Step, distortion, verdict};
+use freebound::solver::{Choice as _, Embedding, Pins, Settings, Step, distortion, verdict};
 use glam::DVec2;
 
 use crate::common::table::{Table, seconds};
@@ -108,18 +108,18 @@ fn row(path: &Path) -> Result<[String; 13], String> {
 /// The largest distance of an exactly pinned vertex from its target.
 fn largest_error(step: &Step, pins: &Pins) -> f64 {
     let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
-    exact.map(|(vertex, pin)| step.solution.embedding[vertex.index()].distance(pin.target)).fold(0.0, f64::max)
+    exact.map(|(vertex, pin)| step.solution.embedding[vertex].distance(pin.target)).fold(0.0, f64::max)
 }
 
 /// Mean symmetric Dirichlet energy.
-fn energy(mesh: &DiskMesh, embedding: &[DVec2]) -> String {
+fn energy(mesh: &DiskMesh, embedding: &Embedding) -> String {
     format!("{:.3}", distortion(mesh, embedding).summary.symmetric_dirichlet.mean)
 }
 
 /// The energy of the map that was published with a mesh, with what its verdict is where it is not planar.
 fn published(set: &Path, mesh: &DiskMesh) -> Option<String> {
     let text = fs::read_to_string(set.with_file_name(format!("{}.publishedmap.txt", stem_of(set)))).ok()?;
-    let mut map = vec![DVec2::NAN; mesh.vertex_count()];
+    let mut map = Embedding::from(vec![DVec2::NAN; mesh.vertex_count()]);
     for line in text.lines().filter(|line| !line.starts_with('#')) {
         let mut words = line.split_whitespace();
         let vertex: usize = words.next()?.parse().ok()?;

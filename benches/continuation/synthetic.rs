@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, SQRT_2, TAU};
 
 use crate::makers::bumpy_cap_of;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Choice as _, Control, Ladder, Pins, Settings, Step, hard_pins};
+use freebound::solver::{Choice as _, Control, Embedding, Ladder, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::common::Times;
@@ -51,7 +51,7 @@ impl Change {
 /// A cap with a planar embedding that no constraint has touched.
 pub(crate) struct Cap {
     pub(crate) mesh: DiskMesh,
-    embedding: Vec<DVec2>,
+    embedding: Embedding,
 }
 
 impl Cap {
@@ -71,7 +71,7 @@ impl Cap {
             Change::Permuted => self.vertices_anywhere(count, random),
             _ => self.vertices_apart(count, random),
         };
-        let places: Vec<DVec2> = vertices.iter().map(|v| self.embedding[v.index()]).collect();
+        let places: Vec<DVec2> = vertices.iter().map(|v| self.embedding[v]).collect();
         let targets = self.changed(&places, change, random);
         hard_pins(vertices.into_iter().zip(targets))
     }

@@ -5,6 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use freebound::io::{ObjMesh, write_atomically, write_obj};
+use freebound::solver::Embedding;
 
 use crate::common::Times;
 use crate::common::machine::PeakWatch;
@@ -25,7 +26,8 @@ pub(crate) fn end_to_end() {
     for (faces, runs, most_seconds, most_megabytes) in CASES {
         let mesh = sheet_of_faces(faces);
         let source = folder.path().join("sheet.obj");
-        write_atomically(&source, |out| write_obj(out, &ObjMesh::from(&mesh), &[])).expect("room in the folder");
+        write_atomically(&source, |out| write_obj(out, &ObjMesh::from(&mesh), &Embedding::default()))
+            .expect("room in the folder");
         let mut wall = Times::default();
         let mut parts: [Times; 4] = Default::default();
         let mut peak = 0.0_f64;

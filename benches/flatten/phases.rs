@@ -4,7 +4,7 @@ use std::path::Path;
 
 use freebound::io::{ObjMesh, read_mesh, write_atomically, write_obj};
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Control, PhaseSeconds, Pins, Prepared, Settings, distortion, verdict};
+use freebound::solver::{Control, Embedding, PhaseSeconds, Pins, Prepared, Settings, distortion, verdict};
 use glam::DVec3;
 
 use crate::common::table::{Table, megabytes, seconds, target};
@@ -64,7 +64,7 @@ impl PhaseTimes {
     }
 }
 
-fn write(path: &Path, mesh: &ObjMesh, texture: &[glam::DVec2]) {
+fn write(path: &Path, mesh: &ObjMesh, texture: &Embedding) {
     write_atomically(path, |out| write_obj(out, mesh, texture)).expect("the temporary folder has room");
 }
 
@@ -91,7 +91,7 @@ pub(crate) fn growth() {
     for thousand in THOUSANDS {
         let cells = (1000 * thousand).isqrt() - 1;
         let mesh = jittered_sheet(u32::try_from(cells).expect("few cells"));
-        write(&source, &ObjMesh::from(&mesh), &[]);
+        write(&source, &ObjMesh::from(&mesh), &Embedding::default());
         let mut times = PhaseTimes::default();
         let mut last = (0, 0.0);
         for _ in 0..rounds(mesh.vertex_count()) {
@@ -155,7 +155,7 @@ pub(crate) fn reader() {
         let mesh = ObjMesh::from(&mesh);
         let [mut to_read, mut to_write] = <[Times; 2]>::default();
         for _ in 0..5 {
-            to_write.run(|| write(&path, &mesh, &[]));
+            to_write.run(|| write(&path, &mesh, &Embedding::default()));
             let (taken, read) = time(|| read_mesh(&path).expect("written by this benchmark"));
             assert!(read.polygons == mesh.polygons, "what was written reads back");
             to_read.add(taken);

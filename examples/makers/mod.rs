@@ -44,7 +44,7 @@ pub(crate) use caps::bumpy_cap_of;
 pub(crate) use corpus::corpus;
 pub(crate) use delaunay::{coord, triangulate};
 pub(crate) use landmarks::landmarks;
-pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron};
+pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, write_obj};
 pub(crate) use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};
 pub(crate) use random::Random;
 pub(crate) use sheet::{jittered_sheet, sheet_of_faces};

@@ -1,5 +1,8 @@
 //! Small meshes whose numbers are known.
 
+use std::path::Path;
+
+use freebound::io::ObjMesh;
 use freebound::mesh::{DiskMesh, TriMesh};
 use glam::DVec3;
 
@@ -78,4 +81,12 @@ pub(crate) fn band(length: u32, twisted: u32) -> TriMesh {
 /// A mesh as the disk that it is known to be.
 pub(crate) fn disk(mesh: TriMesh) -> DiskMesh {
     DiskMesh::try_from(mesh).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// Writes a mesh to a file, all its digits with it.
+pub(crate) fn write_obj(path: &Path, mesh: &TriMesh) {
+    let mut text = Vec::new();
+    freebound::io::write_obj(&mut text, &ObjMesh::from(mesh), &freebound::solver::Embedding::default())
+        .expect("memory takes it");
+    std::fs::write(path, text).expect("a folder for files");
 }

@@ -203,11 +203,9 @@ fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
         Some((VertexId::new(vertex.trim().parse().ok()?), Target { uv, hold }))
     };
     let (vertex, target) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
-    match target.hold {
-        Hold::Weighted(weight) if !target.hold.is_valid() => {
-            Err(format!("the weight {weight} of vertex {vertex} is not a positive number"))
-        }
-        _ => Ok((vertex, target)),
+    match target.hold.invalid_weight() {
+        Some(weight) => Err(format!("the weight {weight} of vertex {vertex} is not a positive number")),
+        None => Ok((vertex, target)),
     }
 }
 

@@ -132,7 +132,7 @@ impl HeadlessJob<'_> {
                     last = before;
                     step
                 }
-                // The step before a rung that gives nothing is written.
+                // Where a rung fails, the steps before it are written.
                 (Err(error), Some(before)) if error != SolveError::Cancelled => {
                     return Ok(Solved { outcome: placed(before), records, ending: Err(error) });
                 }
@@ -158,7 +158,7 @@ impl HeadlessJob<'_> {
 pub(super) struct Solved {
     pub(super) outcome: Outcome,
     records: Vec<StepReport>,
-    /// Why it ended; the error of the rung that gave nothing, where it could not go on.
+    /// Why it ended; the error, where a rung failed.
     pub(super) ending: Result<Ending, SolveError>,
 }
 

@@ -1,4 +1,17 @@
 //! The command line: the same library without a screen.
+//!
+//! | file          | what it holds                                                          |
+//! |---------------|------------------------------------------------------------------------|
+//! | `args`        | what can be typed                                                      |
+//! | `flatten`     | reads, solves, proves and writes                                       |
+//! | `check`       | diagnosis of a mesh, verdict on its texture coordinates                |
+//! | `methods`     | list of methods and families                                           |
+//! | `figures`     | the paper's figures, computed again                                    |
+//! | `example`     | the built-in example, where no window can be opened                    |
+//! | `constraints` | pins from options and from a file                                      |
+//! | `progress`    | the line that follows the work, and Ctrl-C                             |
+//! | `summary`     | the lines that sum a run up, and where its report goes                 |
+//! | `exit`        | exit status and last words                                             |
 
 mod args;
 mod check;

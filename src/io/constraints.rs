@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::{Target, Targets};
 use crate::mesh::VertexId;
-use crate::solver::Hold;
+use crate::solver::{Hold, TakenTargets};
 
 /// What a constraint file says, with the line of each vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -132,7 +132,7 @@ impl Constraints {
     /// The first line at fault, counted from 1.
     pub fn parse(text: &str, vertex_count: usize) -> Result<Self, (u64, ConstraintFault)> {
         let mut found = Self::default();
-        let mut taken: BTreeMap<[u64; 2], VertexId> = BTreeMap::new();
+        let mut taken = TakenTargets::default();
         // Some editors begin a text with a byte-order mark.
         for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
             let text = text.split('#').next().unwrap_or_default().trim();
@@ -152,7 +152,7 @@ impl Constraints {
         vertex: VertexId,
         target: &Target,
         vertex_count: usize,
-        taken: &mut BTreeMap<[u64; 2], VertexId>,
+        taken: &mut TakenTargets,
     ) -> Result<(), ConstraintFault> {
         if vertex.index() >= vertex_count {
             return Err(ConstraintFault::NoSuchVertex { vertex, count: vertex_count });
@@ -160,15 +160,10 @@ impl Constraints {
         if let Some(&first) = self.lines.get(&vertex) {
             return Err(ConstraintFault::Twice { vertex, first });
         }
-        if target.hold.is_exact() {
-            // Adding zero makes one bit pattern of the two zeros.
-            let place = (target.uv + 0.0).to_array().map(f64::to_bits);
-            if let Some(&other) = taken.get(&place) {
-                return Err(ConstraintFault::OnePlace { vertex, other, first: self.lines[&other] });
-            }
-            taken.insert(place, vertex);
+        match taken.take(vertex, target.uv, target.hold) {
+            Some(other) => Err(ConstraintFault::OnePlace { vertex, other, first: self.lines[&other] }),
+            None => Ok(()),
         }
-        Ok(())
     }
 }
 
@@ -190,9 +185,9 @@ fn parse_line(text: &str) -> Result<(VertexId, Target), ConstraintFault> {
         None => Hold::Hard,
         Some(word) => Hold::Weighted(number(word)?),
     };
-    match hold {
-        Hold::Weighted(weight) if !hold.is_valid() => Err(ConstraintFault::WeightNotPositive { vertex, weight }),
-        _ => Ok((vertex, Target { uv, hold })),
+    match hold.invalid_weight() {
+        Some(weight) => Err(ConstraintFault::WeightNotPositive { vertex, weight }),
+        None => Ok((vertex, Target { uv, hold })),
     }
 }
 

@@ -3,11 +3,12 @@
 //! | file          | what it holds                                                              |
 //! |---------------|----------------------------------------------------------------------------|
 //! | `obj`         | meshes: OBJ files with their materials and texture coordinates             |
+//! | `targets`     | the user's pins in texture coordinates                                     |
 //! | `constraints` | constraint files: a pinned vertex a line                                   |
 //! | `project`     | project files: what a person has made of a mesh (JSON)                     |
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
 //! | `output`      | a finished flattening written as a file of any kind                        |
-//! | `report`      | what a run has to say (JSON), and a step as a row of a table               |
+//! | `report`      | report of a run (JSON), and a step as a row of a table                     |
 //! | `svg`         | an embedding or a step as a drawing                                        |
 //! | `steps`       | the steps of a run as a folder of drawings and a table                     |
 //! | `raster`      | pictures of meshes without a screen                                        |

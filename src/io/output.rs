@@ -11,7 +11,7 @@ use super::svg::{SvgPage, write_svg};
 use super::{ObjMesh, WriteError, refined_obj, write_atomically, write_obj};
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement};
-use crate::solver::Verdict;
+use crate::solver::{Embedding, Verdict};
 
 /// Width and height of each half of a picture, pixels.
 const PICTURE_SIZE: u32 = 900;
@@ -59,7 +59,7 @@ pub struct ProvedEmbedding<'a> {
     /// The mesh.
     pub mesh: &'a DiskMesh,
     /// The embedding, or texture coordinates.
-    pub embedding: &'a [DVec2],
+    pub embedding: &'a Embedding,
     /// The verdict.
     pub verdict: &'a Verdict,
 }
@@ -94,10 +94,10 @@ pub struct Output<'a> {
     /// The mesh with its new vertices, where there are any.
     pub refinement: Option<&'a Refinement>,
     /// One texture coordinate per vertex.
-    pub coordinates: &'a [DVec2],
+    pub coordinates: &'a Embedding,
     /// The verdict on these coordinates.
     pub verdict: &'a Verdict,
-    /// What the run has to say.
+    /// Report of the run.
     pub report: &'a Report,
     /// The picture on the mesh, where there is one.
     pub picture: Option<TexturePicture<'a>>,
@@ -114,7 +114,7 @@ impl Output<'_> {
         let eye = self.mesh.faces().map(|face| mesh.double_area_vector(face)).sum();
         let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
         let scale = DVec2::new(self.svg_page.aspect(), 1.0);
-        let layout: Vec<DVec2> = self.coordinates.iter().map(|uv| *uv * scale).collect();
+        let layout: Embedding = self.coordinates.iter().map(|uv| *uv * scale).collect();
         let extent = layout.iter().fold(0.0_f64, |m, z| m.max((*z - layout[0]).abs().max_element()));
         let paint = match self.picture {
             Some(picture) => Paint::Picture { coordinates: self.coordinates, picture: picture.pixels },
@@ -126,7 +126,7 @@ impl Output<'_> {
         before.beside(&self.proved(&layout).picture(&drawing))
     }
 
-    fn proved<'b>(&'b self, embedding: &'b [DVec2]) -> ProvedEmbedding<'b> {
+    fn proved<'b>(&'b self, embedding: &'b Embedding) -> ProvedEmbedding<'b> {
         ProvedEmbedding { mesh: self.mesh, embedding, verdict: self.verdict }
     }
 

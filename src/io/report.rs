@@ -9,7 +9,7 @@ use super::{WriteError, write_atomically};
 use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
 use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
 
-/// Everything that a run has to say. Field names are part of the interface.
+/// Everything that is reported of a run. Field names are part of the interface.
 #[derive(Debug, Serialize)]
 pub struct Report {
     /// Version of the program.
@@ -187,7 +187,7 @@ pub struct StepReport {
     pub least_determinant: Option<f64>,
     /// Largest distance of an exact pin from its target, in the plane.
     pub distance_left: Option<f64>,
-    /// What else there is to say about the step.
+    /// Remark on the step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
@@ -198,7 +198,7 @@ fn cell(number: impl Into<Option<f64>>) -> String {
 }
 
 impl StepReport {
-    /// The fields as a row of a table, each with the head of its column; empty where there is nothing to say.
+    /// The fields as a row of a table, each with the head of its column; empty where there is no value.
     pub fn row(&self) -> [(&'static str, String); 19] {
         [
             ("rung", self.rung.name().to_owned()),
@@ -231,7 +231,7 @@ impl StepReport {
             rung: step.rung,
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
-            boundary_crossings: verdict.boundary_crossings.len() + verdict.unlisted_crossings,
+            boundary_crossings: verdict.crossing_count(),
             overwound_vertices: verdict.overwound_vertices.len(),
             turning_number: verdict.turning_number,
             max_move: step.max_move,

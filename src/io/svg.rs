@@ -5,8 +5,9 @@ use std::io::{self, Write};
 use glam::DVec2;
 
 use super::ProvedEmbedding;
+use crate::geom::Similarity;
 use crate::mesh::{DiskMesh, EdgeId, VertexId};
-use crate::solver::{Step, VirtualBoundary, to_true_area};
+use crate::solver::{Embedding, Step, VirtualBoundary, to_true_area};
 
 /// Longer side of a drawing without its margin, in units of its lines' widths.
 const SIZE: f64 = 1000.0;
@@ -43,7 +44,7 @@ impl SvgPage {
 /// magenta.
 pub(super) fn write_svg(out: &mut impl Write, shown: ProvedEmbedding<'_>, page: SvgPage) -> io::Result<()> {
     let scale = DVec2::new(page.aspect(), 1.0);
-    let mut embedding: Vec<DVec2> = shown.embedding.iter().map(|uv| uv * scale).collect();
+    let mut embedding: Embedding = shown.embedding.iter().map(|uv| uv * scale).collect();
     let frame = match page {
         SvgPage::Picture { aspect } => Frame::of_picture(aspect, &embedding),
         SvgPage::TrueArea { .. } => {
@@ -57,11 +58,13 @@ pub(super) fn write_svg(out: &mut impl Write, shown: ProvedEmbedding<'_>, page: 
 /// Draws a step as [`write_svg`] does; one of the virtual boundary with the outline it was solved with (the hull, as a
 /// red line) and the pockets (green). `mesh` is the mesh as given; new vertices are the step's own.
 pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step) -> io::Result<()> {
-    let embedding = step.solution.embedding.as_slice();
+    let embedding = &step.solution.embedding;
     let outside = step.virtual_boundary.as_deref().map(|stages| {
         // The step's embedding may have been turned and scaled since it was solved; the outside goes with it.
-        let fit = Similarity::between(&stages.solved[..embedding.len()], embedding);
-        Outside { embedding: stages.solved.iter().map(|&z| fit.apply(z)).collect(), stages }
+        let pairs: Vec<[DVec2; 2]> = stages.solved.iter().zip(embedding).map(|(&from, &to)| [from, to]).collect();
+        let fit = Similarity::fitting(&pairs);
+        let moved = |&z: &DVec2| fit.map_or(z, |fit| fit.apply(z));
+        Outside { embedding: stages.solved.iter().map(moved).collect(), stages }
     });
     let frame = Frame::around(embedding.iter().chain(outside.iter().flat_map(|outside| &outside.embedding)));
     let shown = ProvedEmbedding { mesh: step.mesh(mesh), embedding, verdict: &step.verdict };
@@ -71,7 +74,7 @@ pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step)
 /// What lies outside the boundary in a step of the virtual boundary.
 struct Outside<'a> {
     /// Of all vertices, the virtual ones last.
-    embedding: Vec<DVec2>,
+    embedding: Embedding,
     stages: &'a VirtualBoundary,
 }
 
@@ -126,7 +129,7 @@ impl<'a> Drawing<'a> {
 
     fn write_pockets(&self, out: &mut impl Write) -> io::Result<()> {
         let Some(outside) = &self.outside else { return Ok(()) };
-        let at = |v: VertexId| self.frame.place(outside.embedding[v.index()]);
+        let at = |v: VertexId| self.frame.place(outside.embedding[v]);
         let pockets = outside.stages.pockets.iter().map(|pocket| pocket.map(at));
         let style = format!(r##"class="pockets" fill="#cfe8d2" stroke="#3fa34d" stroke-width="{}""##, self.width);
         self.write_closed(out, &style, pockets)
@@ -134,7 +137,7 @@ impl<'a> Drawing<'a> {
 
     fn write_hull(&self, out: &mut impl Write) -> io::Result<()> {
         let Some(outside) = &self.outside else { return Ok(()) };
-        let hull = outside.stages.hull.iter().map(|v| self.frame.place(outside.embedding[v.index()]));
+        let hull = outside.stages.hull.iter().map(|v| self.frame.place(outside.embedding[v]));
         let style = format!(r##"class="hull" stroke="#c93a3a" stroke-width="{}""##, 3.0 * self.width);
         self.write_closed(out, &style, [hull.collect::<Vec<_>>()])
     }
@@ -184,31 +187,6 @@ impl<'a> Drawing<'a> {
             write!(out, "{}{:.decimals$} {:.decimals$}", if i == 0 { 'M' } else { 'L' }, point.x, point.y)?;
         }
         Ok(())
-    }
-}
-
-/// The map z ↦ factor·z + shift of complex numbers.
-struct Similarity {
-    factor: DVec2,
-    shift: DVec2,
-}
-
-impl Similarity {
-    /// The one that takes points nearest to others, in the sense of least squares.
-    fn between(from: &[DVec2], to: &[DVec2]) -> Self {
-        let mean = |points: &[DVec2]| points.iter().sum::<DVec2>() / points.len().max(1) as f64;
-        let (a, b) = (mean(from), mean(to));
-        let (mut factor, mut length) = (DVec2::ZERO, 0.0);
-        for (f, t) in from.iter().zip(to).map(|(f, t)| (*f - a, *t - b)) {
-            factor += DVec2::new(f.dot(t), f.perp_dot(t));
-            length += f.length_squared();
-        }
-        let factor = if length > 0.0 { factor / length } else { DVec2::X };
-        Self { factor, shift: b - factor.rotate(a) }
-    }
-
-    fn apply(&self, z: DVec2) -> DVec2 {
-        self.factor.rotate(z) + self.shift
     }
 }
 

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::{Job, JobContext, Poll, Session};
 use crate::geom::Similarity;
-use crate::solver::{Control, Family, Method, Pins, Settings, SolveError, flatten};
+use crate::solver::{Control, Embedding, Family, Method, Pins, Settings, SolveError, flatten};
 
 /// With fewer pins either fits.
 const LEAST_PINS: usize = 3;
@@ -21,12 +21,12 @@ const MUCH_BETTER: f64 = 0.5;
 #[derive(Default)]
 pub(super) struct Undistorted {
     /// None where it cannot be flattened.
-    embedding: Option<(u64, Option<Vec<DVec2>>)>,
+    embedding: Option<(u64, Option<Embedding>)>,
     job: Option<(u64, FlatJob)>,
 }
 
 /// Flattens in the background.
-type FlatJob = Job<(), Result<Vec<DVec2>, SolveError>>;
+type FlatJob = Job<(), Result<Embedding, SolveError>>;
 
 impl Session {
     /// Whether the targets of the document look mirrored: known only some time after there are enough of them.

@@ -13,7 +13,7 @@ impl Session {
     pub(super) fn fix(&mut self, vertices: &[VertexId]) {
         let Some(outcome) = self.outcome().cloned().filter(|_| self.takes_pins()) else { return };
         // What the screen shows is the preview, where there is one.
-        let preview = self.preview().map(|preview| (self.document.frame(), preview.embedding.as_slice()));
+        let preview = self.preview().map(|preview| (self.document.frame(), &*preview.embedding));
         let (frame, shown) = preview.unwrap_or((outcome.problem.frame, &outcome.step.solution.embedding));
         // New vertices belong to one embedding alone: they cannot be pinned.
         let count = self.model.as_ref().map_or(0, |model| model.mesh().vertex_count());
@@ -30,7 +30,11 @@ impl Session {
     /// Pins a vertex, or places its pin anew.
     pub(super) fn place(&mut self, vertex: VertexId, target: Target) {
         let count = self.model.as_ref().map_or(0, |model| model.mesh().vertex_count());
-        if vertex.index() < count && target.uv.is_finite() && target.hold.is_valid() && self.takes_pins() {
+        if vertex.index() < count
+            && target.uv.is_finite()
+            && target.hold.invalid_weight().is_none()
+            && self.takes_pins()
+        {
             self.edit(vec![Command::SetPin { vertex, target: Some(target) }]);
         }
     }
@@ -76,7 +80,7 @@ impl Session {
     }
 
     fn holds(&self, vertices: &[VertexId], hold: Hold) -> Vec<Command> {
-        if !hold.is_valid() {
+        if hold.invalid_weight().is_some() {
             return Vec::new();
         }
         let command = |&vertex: &VertexId| {

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use super::{Document, Job, JobContext, Poll, Session};
 use crate::mesh::VertexId;
-use crate::solver::{Control, Prepared, SolveError, Verdict, are_held_alike, verdict};
+use crate::solver::{Control, Embedding, Prepared, SolveError, Verdict, are_held_alike, verdict};
 
 /// Pins moved together may differ in their way by this share of it: rounding of the pointer's place.
 const SAME_WAY: f64 = 1e-9;
@@ -26,7 +26,7 @@ const SAME_WAY: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct Preview {
     /// Where vertices lie, in the plane.
-    pub embedding: Arc<Vec<DVec2>>,
+    pub embedding: Arc<Embedding>,
     /// Counts the moves of this session, so that a screen can tell when to draw anew.
     pub revision: u64,
     /// The newest verdict that there is, with the revision that it is on.
@@ -47,7 +47,7 @@ pub(super) struct Follow {
     /// The pins that are dragged, ascending.
     dragged: Vec<VertexId>,
     prepared: Arc<Prepared>,
-    base: Vec<DVec2>,
+    base: Embedding,
     column: Vec<DVec2>,
 }
 
@@ -65,7 +65,7 @@ impl Follow {
     }
 
     /// The embedding of the document's first solve; none where the dragged pins did not all go the same way.
-    fn embedding(&self, document: &Document) -> Option<Vec<DVec2>> {
+    fn embedding(&self, document: &Document) -> Option<Embedding> {
         let (from, to) = (self.document.pins(), document.pins());
         let way = |vertex: &VertexId| Some(to.get(vertex)?.target - from.get(vertex)?.target);
         let by = way(self.dragged.first()?)?;
@@ -74,9 +74,9 @@ impl Follow {
             return None;
         }
         let place = |(base, column): (&DVec2, &DVec2)| *base + by.rotate(*column);
-        let mut embedding: Vec<DVec2> = self.base.par_iter().zip(&self.column).map(place).collect();
+        let mut embedding: Embedding = self.base.par_iter().zip(&self.column).map(place).collect::<Vec<_>>().into();
         for (vertex, pin) in to.iter().filter(|(_, pin)| document.settings.is_exact(pin.hold)) {
-            embedding[vertex.index()] = pin.target;
+            embedding[*vertex] = pin.target;
         }
         Some(embedding)
     }

@@ -13,7 +13,7 @@ use crate::io::{
     WeightedPinReport, WriteError, verdict_as_in_file,
 };
 use crate::mesh::{DiskMesh, Refinement, VertexId};
-use crate::solver::{Hold, Verdict, distortion, verdict};
+use crate::solver::{Embedding, Hold, Verdict, distortion, verdict};
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub struct Finished<'a> {
     mesh: &'a DiskMesh,
     refinement: Option<&'a Refinement>,
     /// As files have them, v up.
-    coordinates: Vec<DVec2>,
+    coordinates: Embedding,
     verdict: Verdict,
     /// Width over height of the picture that they are for.
     aspect: f64,
@@ -63,7 +63,7 @@ impl<'a> Finished<'a> {
         let pins = pins_report(outcome, &coordinates);
         let (coordinates, verdict) = if is_on_picture && outcome.problem.frame.v_axis == VAxis::Down {
             // Where v runs down in the document, it runs up in the file, which rounds.
-            let upright: Vec<DVec2> = coordinates.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
+            let upright: Embedding = coordinates.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
             let of_file = verdict(mesh, &upright);
             (upright, of_file)
         } else {
@@ -137,7 +137,7 @@ impl<'a> Finished<'a> {
 
 /// What became of the user's pins. Those that are to be met exactly have their own numbers in `coordinates`, whatever
 /// was solved: for them the solver's places count too.
-fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
+fn pins_report(outcome: &Outcome, coordinates: &Embedding) -> PinsReport {
     let settings = &outcome.problem.settings;
     let (mut max_hard_error, mut max_weighted_error) = (None::<f64>, None::<f64>);
     let (mut weighted, mut unmet) = (Vec::new(), Vec::new());
@@ -174,7 +174,7 @@ fn pins_report(outcome: &Outcome, coordinates: &[DVec2]) -> PinsReport {
 /// is 0 where the solver met the target to the last bit, and only there.
 fn solver_error(outcome: &Outcome, vertex: VertexId, target: DVec2) -> f64 {
     let frame = outcome.problem.frame;
-    let off = outcome.step.solution.embedding[vertex.index()] - frame.plane_from_uv(target);
+    let off = outcome.step.solution.embedding[vertex] - frame.plane_from_uv(target);
     // The frame has no offset: it takes differences to differences.
     frame.uv_from_plane(off).length()
 }

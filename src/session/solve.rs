@@ -6,8 +6,8 @@ use crate::geom::{PictureFrame, VAxis};
 use crate::io::{Target, Targets, pins_in_plane};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Candidate, Distortion, GaugeSize, Pins, Settings, Step, Verdict, distortion, to_unit_box, to_unit_square,
-    to_unit_square_by_power_of_two, verdict,
+    Candidate, Distortion, Embedding, GaugeSize, Pins, Settings, Step, Verdict, distortion, to_unit_box,
+    to_unit_square, to_unit_square_by_power_of_two, verdict,
 };
 
 /// What to do with the size of an embedding that the user's pins do not fix.
@@ -125,8 +125,8 @@ impl Outcome {
     ///
     /// Moving to the unit square rounds. Where that breaks what was planar, the scale is a power of two, so that less
     /// is rounded, and then nothing is moved, so that nothing is.
-    pub fn output(&self, mesh: &DiskMesh, fit: OutputFit) -> (Vec<DVec2>, Placement, Verdict) {
-        type Way = (fn(&mut [DVec2]), Placement);
+    pub fn output(&self, mesh: &DiskMesh, fit: OutputFit) -> (Embedding, Placement, Verdict) {
+        type Way = (fn(&mut Embedding), Placement);
         let (embedding, mesh) = (&self.step.solution.embedding, self.step.mesh(mesh));
         if self.targets_in_use().next().is_some() {
             return self.as_it_lies(mesh, Placement::Pins);
@@ -137,7 +137,7 @@ impl Outcome {
         if fit == OutputFit::True {
             return (embedding.clone(), Placement::TrueArea, self.step.verdict.clone());
         }
-        let placed = |place: fn(&mut [DVec2]), name| {
+        let placed = |place: fn(&mut Embedding), name| {
             let mut coordinates = embedding.clone();
             place(&mut coordinates);
             let verdict = verdict(mesh, &coordinates);
@@ -155,9 +155,9 @@ impl Outcome {
 
     /// The texture coordinates of the embedding where it lies, the user's pins on their own numbers, and the verdict on
     /// them in the plane. `mesh` is the step's own.
-    fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Vec<DVec2>, Placement, Verdict) {
+    fn as_it_lies(&self, mesh: &DiskMesh, placement: Placement) -> (Embedding, Placement, Verdict) {
         let embedding = &self.step.solution.embedding;
-        let mut coordinates: Vec<DVec2> = embedding.iter().map(|&z| self.problem.frame.uv_from_plane(z)).collect();
+        let mut coordinates: Embedding = embedding.iter().map(|&z| self.problem.frame.uv_from_plane(z)).collect();
         let settings = &self.problem.settings;
         for (vertex, target, error) in self.pin_errors().filter(|(_, target, _)| settings.is_exact(target.hold)) {
             // A step on the way to the constraints has not met them yet.
@@ -165,7 +165,7 @@ impl Outcome {
                 coordinates[vertex.index()] = target.uv;
             }
         }
-        let upright: Vec<DVec2> = match self.problem.frame.v_axis {
+        let upright: Embedding = match self.problem.frame.v_axis {
             VAxis::Up => coordinates.clone(),
             VAxis::Down => coordinates.iter().map(|uv| DVec2::new(uv.x, -uv.y)).collect(),
         };
@@ -179,7 +179,7 @@ impl Outcome {
     pub fn pin_errors(&self) -> impl Iterator<Item = (VertexId, &Target, f64)> {
         let (embedding, frame) = (&self.step.solution.embedding, self.problem.frame);
         self.targets_in_use().map(move |(&vertex, target)| {
-            let z = embedding[vertex.index()];
+            let z = embedding[vertex];
             let is_met = z == frame.plane_from_uv(target.uv);
             let error = if is_met { 0.0 } else { frame.uv_from_plane(z).distance(target.uv) };
             (vertex, target, error)

@@ -60,10 +60,8 @@ impl Stop {
 impl StopConditions {
     /// Why a run is at rest after a step, if it is. `ending` is what the run says after that step.
     pub fn reason(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
-        let verdict = &outcome.step.verdict;
-        let crosses = !verdict.boundary_crossings.is_empty() || verdict.unlisted_crossings > 0;
         self.reason_for_good(outcome, ending)
-            .or_else(|| (self.crossing && crosses).then_some(Stop::Crossing))
+            .or_else(|| (self.crossing && outcome.step.verdict.crossing_count() > 0).then_some(Stop::Crossing))
             .or_else(|| (self.at_step == Some(outcome.step.index)).then_some(Stop::AtStep))
     }
 

@@ -6,7 +6,7 @@ use super::errands::{Errand, Purpose};
 use super::{Command, Place, Session};
 use crate::geom::{PictureFrame, Similarity};
 use crate::io::Target;
-use crate::solver::{Control, Family, GaugeSize, Method, Pins, Settings, SolveError, flatten};
+use crate::solver::{Control, Embedding, Family, GaugeSize, Method, Pins, Settings, SolveError, flatten};
 
 /// The mesh flattened without pins, in the middle of the picture.
 pub(super) struct Flat {
@@ -15,7 +15,7 @@ pub(super) struct Flat {
     /// Whether the mesh's faces were turned around.
     faces_turned: bool,
     /// Where vertices lie, in the plane.
-    embedding: Result<Vec<DVec2>, SolveError>,
+    embedding: Result<Embedding, SolveError>,
 }
 
 impl Session {
@@ -61,7 +61,7 @@ impl Session {
             return self.fail(Place::Embedding, text, Some("fit them again"));
         }
         let pairs: Vec<[DVec2; 2]> =
-            (self.document.pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex.index()]]).collect();
+            (self.document.pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex]]).collect();
         let fitted = Similarity::fitting(&pairs).map(|similarity| {
             let targets = pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target)));
             targets.collect::<Vec<_>>()

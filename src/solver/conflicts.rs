@@ -21,7 +21,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
-use super::{Pins, Places};
+use super::{PinPositions, Pins};
 use crate::geom::{Orientation, orientation, segments_meet};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 
@@ -91,7 +91,7 @@ impl Conflict {
 /// are too near, at most [`CONFLICTS_LISTED`] of each. Only exact pins count; those without a vertex or a finite
 /// target are left out.
 pub fn conflicts(mesh: &DiskMesh, pins: &Pins) -> Vec<Conflict> {
-    let targets: Places = pins
+    let targets: PinPositions = pins
         .iter()
         .filter(|(vertex, pin)| pin.hold.is_exact() && vertex.index() < mesh.vertex_count() && pin.target.is_finite())
         .map(|(&vertex, pin)| (vertex, pin.target))
@@ -102,7 +102,7 @@ pub fn conflicts(mesh: &DiskMesh, pins: &Pins) -> Vec<Conflict> {
     found
 }
 
-fn turned_faces(mesh: &DiskMesh, targets: &Places) -> Vec<Conflict> {
+fn turned_faces(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
     let pinned: BTreeSet<FaceId> =
         targets.keys().flat_map(|&v| mesh.outgoing(v)).filter_map(|side| mesh.face_of(side)).collect();
     let turned = |face: FaceId| {
@@ -142,7 +142,7 @@ impl PinnedEdge {
     }
 }
 
-fn crossing_edges(mesh: &DiskMesh, targets: &Places) -> Vec<Conflict> {
+fn crossing_edges(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
     let pinned: BTreeSet<EdgeId> =
         targets.keys().flat_map(|&v| mesh.outgoing(v)).map(|side| mesh.edge_of(side)).collect();
     let edge = |edge: EdgeId| {
@@ -172,7 +172,7 @@ fn listed(mut pairs: Vec<[[VertexId; 2]; 2]>) -> Vec<Conflict> {
     pairs.into_iter().map(|edges| Conflict::CrossingEdges { edges }).collect()
 }
 
-fn near_targets(targets: &Places) -> Vec<Conflict> {
+fn near_targets(targets: &PinPositions) -> Vec<Conflict> {
     let low = targets.values().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = targets.values().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let extent = (high - low).max_element();

@@ -25,7 +25,9 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::Rest;
-use super::{Candidate, Control, Hold, Method, Outside, Pin, Pins, Places, Progress, SolveError, verdict};
+use super::{
+    Candidate, Control, Embedding, Hold, Method, Outside, Pin, PinPositions, Pins, Progress, SolveError, verdict,
+};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -67,7 +69,7 @@ const CRUSHED: f64 = 10.0;
 pub(super) struct Continuation {
     rest: Rest,
     pins: Pins,
-    embedding: Vec<DVec2>,
+    embedding: Embedding,
     /// The way that was left after each step.
     way_left: Vec<f64>,
     /// Mesh and outside after the latest step, all points, and the outside.
@@ -78,9 +80,9 @@ pub(super) struct Continuation {
     loosened: usize,
     is_loose: bool,
     /// Where a second try begins, until it does.
-    start: Option<Vec<DVec2>>,
+    start: Option<Embedding>,
     /// The latest embedding that was not crushed, and the lowest energy so far.
-    sound: (Vec<DVec2>, f64),
+    sound: (Embedding, f64),
 }
 
 struct Settled {
@@ -97,7 +99,7 @@ impl std::fmt::Debug for Continuation {
 
 impl Continuation {
     /// Begins at a planar embedding, wherever it lies.
-    pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
+    pub(super) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let (rest, pins) = (Rest::new(mesh), pins.clone());
         let sound = (embedding.clone(), rest.progress(mesh, &embedding, 0.0).energy);
         let start = Some(embedding.clone());
@@ -123,12 +125,12 @@ impl Continuation {
     }
 
     /// The present embedding, one-to-one.
-    pub(super) fn embedding(&self) -> &[DVec2] {
+    pub(super) fn embedding(&self) -> &Embedding {
         &self.embedding
     }
 
     /// Where exact pins are to go.
-    fn targets(&self) -> Places {
+    fn targets(&self) -> PinPositions {
         let exact = self.pins.iter().filter(|(_, pin)| pin.hold.is_exact());
         exact.map(|(&vertex, pin)| (vertex, pin.target)).collect()
     }
@@ -136,13 +138,13 @@ impl Continuation {
     /// How far it has come.
     pub(super) fn progress(&self, mesh: &DiskMesh) -> Progress {
         let targets = self.targets();
-        let left = targets.iter().map(|(v, target)| self.embedding[v.index()].distance(*target));
+        let left = targets.iter().map(|(v, target)| self.embedding[v].distance(*target));
         self.rest.progress(mesh, &self.embedding, left.fold(0.0, f64::max))
     }
 
     /// Whether every exact pin is on its target.
     pub(super) fn has_arrived(&self) -> bool {
-        self.targets().iter().all(|(v, target)| self.embedding[v.index()] == *target)
+        self.targets().iter().all(|(v, target)| self.embedding[v] == *target)
     }
 
     /// Goes on as far as can be at once; where it is stuck, once again from the beginning with springs that are tightened
@@ -229,7 +231,7 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         settled: &Settled,
-        (targets, moves): (&Places, &[DVec2]),
+        (targets, moves): (&PinPositions, &[DVec2]),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let longest = settled.membrane.longest_step(&settled.points, moves, mesh.face_count());
@@ -246,7 +248,7 @@ impl Continuation {
     fn loosen(
         &mut self,
         mesh: &DiskMesh,
-        (targets, weight): (&Places, f64),
+        (targets, weight): (&PinPositions, f64),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let loose = self.pins.iter().map(|(&v, pin)| match pin.hold {
@@ -256,12 +258,12 @@ impl Continuation {
         let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied(), FRAME_POINTS) else {
             return Ok(false);
         };
-        let around = (self.embedding.as_slice(), &outside);
+        let around = (&self.embedding, &outside);
         let (membrane, mut z) = self.rest.membrane(mesh, around, &loose.collect(), (OUTSIDE_WEIGHT, None))?;
         let unfolded = Energy::Foldover(0.0);
         let limits = Limits { unfolded, steps: LOOSE_STEPS, until_unfolded: false, tolerance: TOLERANCE };
         membrane.descend(&mut z, limits, control)?;
-        z.truncate(mesh.vertex_count());
+        let z = Embedding::of_mesh(mesh, &z);
         let is_planar = verdict(mesh, &z).planar;
         if is_planar {
             (self.embedding, self.settled) = (z, None);
@@ -273,8 +275,8 @@ impl Continuation {
     fn surround(
         &self,
         mesh: &DiskMesh,
-        embedding: &[DVec2],
-        (targets, similar): (&Places, Option<&Membrane>),
+        embedding: &Embedding,
+        (targets, similar): (&PinPositions, Option<&Membrane>),
     ) -> Result<Option<Settled>, SolveError> {
         let Some(outside) = outside_of(mesh, embedding, targets.values().copied(), FRAME_POINTS) else {
             return Ok(None);
@@ -289,14 +291,14 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        (targets, moves): (&Places, &[DVec2]),
+        (targets, moves): (&PinPositions, &[DVec2]),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let mut z = moved(points, moves, 1.0, targets);
         let unfolded = Energy::Foldover(0.0);
         let limits = Limits { unfolded, steps: UNFOLD_STEPS, until_unfolded: true, tolerance: TOLERANCE };
         let is_unfolded = membrane.descend(&mut z, limits, control)?.least_determinant > 0.0;
-        z.truncate(mesh.vertex_count());
+        let z = Embedding::of_mesh(mesh, &z);
         Ok(is_unfolded && verdict(mesh, &z).planar && self.settle(mesh, z, (targets, membrane), control)?)
     }
 
@@ -305,13 +307,13 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        (targets, moves, longest): (&Places, &[DVec2], f64),
+        (targets, moves, longest): (&PinPositions, &[DVec2], f64),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let mut share = (ADVANCE_SHARE * longest).min(1.0);
         while share > SMALLEST_ADVANCE {
-            let mut z = moved(points, moves, share, targets);
-            z.truncate(mesh.vertex_count());
+            let z = moved(points, moves, share, targets);
+            let z = Embedding::of_mesh(mesh, &z);
             if verdict(mesh, &z).planar {
                 return self.settle(mesh, z, (targets, membrane), control);
             }
@@ -324,8 +326,8 @@ impl Continuation {
     fn settle(
         &mut self,
         mesh: &DiskMesh,
-        embedding: Vec<DVec2>,
-        (targets, similar): (&Places, &Membrane),
+        embedding: Embedding,
+        (targets, similar): (&PinPositions, &Membrane),
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let Some(mut settled) = self.surround(mesh, &embedding, (targets, Some(similar)))? else { return Ok(false) };
@@ -333,9 +335,9 @@ impl Continuation {
         let limits = Limits { unfolded, steps: SETTLE_STEPS, until_unfolded: false, tolerance: TOLERANCE };
         let mut z = settled.points.clone();
         settled.membrane.descend(&mut z, limits, control)?;
-        let lower = &z[..mesh.vertex_count()];
-        if verdict(mesh, lower).planar {
-            self.embedding = lower.to_vec();
+        let lower = Embedding::of_mesh(mesh, &z);
+        if verdict(mesh, &lower).planar {
+            self.embedding = lower;
             settled.points = z;
         } else {
             self.embedding = embedding;
@@ -346,7 +348,7 @@ impl Continuation {
 }
 
 /// The points moved by a share of the moves; those with targets exactly onto them by all of it.
-fn moved(points: &[DVec2], moves: &[DVec2], share: f64, targets: &Places) -> Vec<DVec2> {
+fn moved(points: &[DVec2], moves: &[DVec2], share: f64, targets: &PinPositions) -> Vec<DVec2> {
     let mut z: Vec<DVec2> = points.iter().zip(moves).map(|(z, by)| *z + share * *by).collect();
     if share >= 1.0 {
         for (v, target) in targets {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::{BoundaryShape, Places, SolveError};
+use super::{BoundaryShape, PinPositions, SolveError};
 use crate::mesh::DiskMesh;
 
 /// Lays the boundary loop on a shape of unit area-like size, in proportion to its edge lengths.
@@ -12,7 +12,7 @@ use crate::mesh::DiskMesh;
 /// # Errors
 ///
 /// [`SolveError::BoundaryTooShort`] for a square with fewer than four boundary vertices.
-pub fn convex_boundary(mesh: &DiskMesh, shape: BoundaryShape) -> Result<Places, SolveError> {
+pub fn convex_boundary(mesh: &DiskMesh, shape: BoundaryShape) -> Result<PinPositions, SolveError> {
     let arcs = boundary_arcs(mesh);
     let places = match shape {
         BoundaryShape::Circle => arcs.iter().map(|&s| DVec2::from_angle(s * TAU)).collect(),

@@ -39,6 +39,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::Embedding;
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
 
 /// Distortion of one face.
@@ -110,7 +111,7 @@ pub struct Spread {
 /// # Panics
 ///
 /// If the embedding does not have one position per vertex.
-pub fn distortion(mesh: &DiskMesh, embedding: &[DVec2]) -> Distortion {
+pub fn distortion(mesh: &DiskMesh, embedding: &Embedding) -> Distortion {
     assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
     let maps = face_maps(mesh.mesh(), embedding);
     let total = |of: fn(&FaceMap) -> f64| maps.iter().map(of).filter(|area| area.is_finite()).sum::<f64>();
@@ -139,7 +140,7 @@ struct FaceMap {
 const FACES_PER_TASK: usize = 4096;
 
 /// The maps of all faces.
-fn face_maps(mesh: &TriMesh, embedding: &[DVec2]) -> Vec<FaceMap> {
+fn face_maps(mesh: &TriMesh, embedding: &Embedding) -> Vec<FaceMap> {
     let extent = |greatest: f64, size: f64| if size.is_finite() { greatest.max(size) } else { greatest };
     let in_space =
         reciprocal(mesh.positions.iter().map(|&p| (p - mesh.positions[0]).abs().max_element()).fold(0.0, extent));
@@ -147,7 +148,7 @@ fn face_maps(mesh: &TriMesh, embedding: &[DVec2]) -> Vec<FaceMap> {
     let in_plane = reciprocal(embedding.iter().map(|&p| (p - origin).abs().max_element()).fold(0.0, extent));
     let map = |triangle: &[VertexId; 3]| {
         let corners = triangle.map(|v| mesh.positions[v.index()]);
-        let images = triangle.map(|v| embedding[v.index()]);
+        let images = triangle.map(|v| embedding[v]);
         FaceMap::new(
             [1, 2].map(|k| (corners[k] - corners[0]) * in_space),
             [1, 2].map(|k| (images[k] - images[0]) * in_plane),

@@ -5,12 +5,11 @@
 
 use std::ops::Mul;
 
-use glam::DVec2;
 use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::weights::{Corner, CornerWeights, three_point_weights};
-use super::{Family, SolveError};
+use super::{Embedding, Family, SolveError};
 use crate::linalg::Scalar;
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 
@@ -36,9 +35,9 @@ where
     T: Copy + Mul<Complex<f64>, Output = Complex<f64>>,
 {
     /// What a vertex's equation leaves: `Σ a_h (z_head(h) − z_v)`.
-    pub fn discrepancy(&self, mesh: &DiskMesh, embedding: &[DVec2], vertex: VertexId) -> Complex<f64> {
+    pub fn residual_of(&self, mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> Complex<f64> {
         let term = |h: HalfedgeId| {
-            let along = embedding[mesh.head(h).index()] - embedding[vertex.index()];
+            let along = embedding[mesh.head(h)] - embedding[vertex];
             self.coefficients[h.index()] * Complex::new(along.x, along.y)
         };
         mesh.outgoing(vertex).map(term).sum()
@@ -47,11 +46,11 @@ where
 
 impl Equations<Complex<f64>> {
     /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
-    pub fn residual(&self, mesh: &DiskMesh, embedding: &[DVec2], has_equation: impl Fn(VertexId) -> bool) -> f64 {
+    pub fn residual(&self, mesh: &DiskMesh, embedding: &Embedding, has_equation: impl Fn(VertexId) -> bool) -> f64 {
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.coefficients) {
             let tail = mesh.tail(h);
-            let along = embedding[mesh.head(h).index()] - embedding[tail.index()];
+            let along = embedding[mesh.head(h)] - embedding[tail];
             let term = coefficient * Complex::new(along.x, along.y);
             let (sum, size) = &mut sums[tail.index()];
             *sum += term;

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::equations::Equations;
 use super::least_squares::{Factored, LeastSquares, Rest, Spring};
 use super::system::FreeSystem;
-use super::{Control, Hold, Phase, PhaseSeconds, Pins, Places, SolveError, Treatment};
+use super::{Control, Embedding, Hold, Phase, PhaseSeconds, PinPositions, Pins, SolveError, Treatment};
 use crate::linalg::{Analysis, Factor, FactorStats, LinalgError};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -118,10 +118,10 @@ impl FreeSolve {
 
     /// The embedding with the pins on their targets, or as near as their weights bring them, and how well the system is
     /// solved. It is linear in the targets.
-    pub(super) fn solve(&self, site: Site<'_>, targets: &Places) -> Result<(Vec<DVec2>, f64), SolveError> {
-        let mut start = vec![DVec2::ZERO; site.mesh.vertex_count()];
-        for (vertex, target) in targets {
-            start[vertex.index()] = *target;
+    pub(super) fn solve(&self, site: Site<'_>, targets: &PinPositions) -> Result<(Embedding, f64), SolveError> {
+        let mut start = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
+        for (&vertex, target) in targets {
+            start[vertex] = *target;
         }
         let (embedding, residual) =
             self.move_from(site, (&start, &self.left_over(site.mesh, &start)), targets, Begin::Nothing)?;
@@ -136,9 +136,9 @@ impl FreeSolve {
     pub(super) fn solve_from(
         &self,
         site: Site<'_>,
-        at: (&[DVec2], &[Complex<f64>]),
-        targets: &Places,
-    ) -> Result<(Vec<DVec2>, f64), SolveError> {
+        at: (&Embedding, &[Complex<f64>]),
+        targets: &PinPositions,
+    ) -> Result<(Embedding, f64), SolveError> {
         self.move_from(site, at, targets, Begin::Near)
     }
 
@@ -146,20 +146,20 @@ impl FreeSolve {
     fn move_from(
         &self,
         site: Site<'_>,
-        (start, left): (&[DVec2], &[Complex<f64>]),
-        targets: &Places,
+        (start, left): (&Embedding, &[Complex<f64>]),
+        targets: &PinPositions,
         begin: Begin,
-    ) -> Result<(Vec<DVec2>, f64), SolveError> {
+    ) -> Result<(Embedding, f64), SolveError> {
         let named = |error: LinalgError| in_vertices(error, site.system.free());
-        let mut embedding = start.to_vec();
+        let mut embedding = start.clone();
         let Some(least_squares) = &self.least_squares else {
             let terms: Vec<_> = site.system.free().iter().map(|v| left[v.index()]).collect();
             let solved = match begin {
                 Begin::Nothing => self.factor.solve(&self.matrix, &terms),
                 Begin::Near => self.factor.solve_correction(&self.matrix, &terms),
             };
-            for (vertex, z) in site.system.free().iter().zip(solved.map_err(named)?.x) {
-                embedding[vertex.index()] += DVec2::new(z.re, z.im);
+            for (&vertex, z) in site.system.free().iter().zip(solved.map_err(named)?.x) {
+                embedding[vertex] += DVec2::new(z.re, z.im);
             }
             let residual = self.relative_residual(site, &embedding, targets);
             return Ok((embedding, residual));
@@ -181,12 +181,17 @@ impl FreeSolve {
 
     /// The conditions for a minimum: what is left must be orthogonal to every move. ‖Aᴴ A z + W² (z − t)‖ over the
     /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² (|z| + |t|)‖, the sizes of the terms that should cancel.
-    fn gradient_residual(&self, site: Site<'_>, embedding: &[DVec2], (springs, targets): (&[Spring], &Places)) -> f64 {
+    fn gradient_residual(
+        &self,
+        site: Site<'_>,
+        embedding: &Embedding,
+        (springs, targets): (&[Spring], &PinPositions),
+    ) -> f64 {
         let mesh = site.mesh;
         let mut left = self.left_over(mesh, embedding);
         let mut bounds = vec![0.0; mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
-            let along = embedding[mesh.head(h).index()].distance(embedding[mesh.tail(h).index()]);
+            let along = embedding[mesh.head(h)].distance(embedding[mesh.tail(h)]);
             bounds[mesh.tail(h).index()] += coefficient.norm() * along;
         }
         for vertex in &self.eliminated {
@@ -208,7 +213,7 @@ impl FreeSolve {
         }
         for pin in springs {
             let at = &mut sums[pin.vertex.index()];
-            let (place, target) = (embedding[pin.vertex.index()], targets[&pin.vertex]);
+            let (place, target) = (embedding[pin.vertex], targets[&pin.vertex]);
             let way = (place - target) / pin.compliance;
             at.0 += Complex::new(way.x, way.y);
             at.1 += (place.length() + target.length()) / pin.compliance;
@@ -219,13 +224,13 @@ impl FreeSolve {
     }
 
     /// What all equations leave.
-    fn left_over(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<Complex<f64>> {
-        let at = |v: usize| self.equations.discrepancy(mesh, embedding, VertexId::from_index(v));
+    fn left_over(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
+        let at = |v: usize| self.equations.residual_of(mesh, embedding, VertexId::from_index(v));
         (0..mesh.vertex_count()).into_par_iter().map(at).collect()
     }
 
     /// ‖Ax − b‖ / ‖b‖ of the free vertices' equations, b being what the pins give.
-    fn relative_residual(&self, site: Site<'_>, embedding: &[DVec2], targets: &Places) -> f64 {
+    fn relative_residual(&self, site: Site<'_>, embedding: &Embedding, targets: &PinPositions) -> f64 {
         let targets: BTreeMap<VertexId, Complex<f64>> =
             targets.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
         let rhs = site.system.pinned_terms(site.mesh, &self.equations, &targets);
@@ -236,7 +241,7 @@ impl FreeSolve {
     }
 
     /// ‖A z‖ of all equations, relative to their terms.
-    pub(super) fn equation_residual(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+    pub(super) fn equation_residual(&self, mesh: &DiskMesh, embedding: &Embedding) -> f64 {
         self.equations.residual(mesh, embedding, |_| true)
     }
 

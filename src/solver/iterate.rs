@@ -12,11 +12,11 @@ use num_complex::Complex;
 use super::free_solve::{FreeSolve, Layout, Site};
 use super::left_kernel::gauge_or_farthest;
 use super::pins::targets_of;
-use super::plane_weights::{left_over_in_plane, mean_edge_length_in_plane, natural_in_plane};
+use super::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};
 use super::system::FreeSystem;
 use super::{
-    Control, LinearSolve, Phase, PhaseSeconds, Pin, Pins, Solution, SolveError, Treatment, are_held_alike, check_pins,
-    farthest_pair,
+    Control, Embedding, LinearSolve, Phase, PhaseSeconds, Pin, Pins, Solution, SolveError, Treatment, are_held_alike,
+    check_pins, farthest_pair,
 };
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
@@ -40,7 +40,7 @@ impl Iteration {
     /// Pins that cannot be, or the caller's wish to stop.
     pub fn new(
         mesh: &DiskMesh,
-        embedding: &[DVec2],
+        embedding: &Embedding,
         pins: &Pins,
         treatment: Treatment,
         control: Control<'_>,
@@ -68,12 +68,12 @@ impl Iteration {
     /// # Errors
     ///
     /// A singular matrix, a residual that refinement cannot bring down, or the caller's wish to stop.
-    pub fn step(&self, mesh: &DiskMesh, embedding: &[DVec2], control: Control<'_>) -> Result<Solution, SolveError> {
+    pub fn step(&self, mesh: &DiskMesh, embedding: &Embedding, control: Control<'_>) -> Result<Solution, SolveError> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
         let pins = held_in(embedding, &self.pins);
-        let is_pulled = |(v, pin): (&VertexId, &Pin)| embedding[v.index()] != pin.target;
-        let residuals = left_over_in_plane(mesh, embedding);
+        let is_pulled = |(v, pin): (&VertexId, &Pin)| embedding[v] != pin.target;
+        let residuals = residuals_in_plane(mesh, embedding);
         if residuals.iter().all(|residual| *residual == Complex::ZERO) && !pins.iter().any(is_pulled) {
             return Ok(unmoved(embedding, pins, start.elapsed().as_secs_f64()));
         }
@@ -118,16 +118,16 @@ impl Iteration {
 }
 
 /// Pins whose exact ones hold their vertices where an embedding has them.
-fn held_in(embedding: &[DVec2], pins: &Pins) -> Pins {
+fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
     let place = |v: VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
     let held = |pin: &Pin, v| if pin.hold.is_exact() { Pin { target: place(v), ..*pin } } else { *pin };
     pins.iter().map(|(&v, pin)| (v, held(pin, v))).collect()
 }
 
 /// The answer to an embedding that meets its equations and that no pin pulls: itself.
-fn unmoved(embedding: &[DVec2], pins: Pins, seconds: f64) -> Solution {
+fn unmoved(embedding: &Embedding, pins: Pins, seconds: f64) -> Solution {
     Solution {
-        embedding: embedding.to_vec(),
+        embedding: embedding.clone(),
         pins,
         gauge_completed: false,
         linear: Some(LinearSolve::default()),

@@ -6,6 +6,7 @@ mod continuation;
 mod control;
 mod convex;
 mod distortion;
+mod embedding;
 pub mod equations;
 mod error;
 mod family;
@@ -39,13 +40,17 @@ pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use control::{Control, Phase};
 pub use convex::convex_boundary;
 pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread, distortion};
+pub use embedding::Embedding;
 pub use error::SolveError;
 pub use family::Family;
 pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, diameter, largest_move};
 pub use method::{BoundaryShape, Method};
 pub use outside::Outside;
-pub use pins::{Hold, Pin, Pins, Places, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, hard_pins};
+pub use pins::{
+    Hold, Pin, PinPositions, Pins, TakenTargets, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins,
+    hard_pins,
+};
 pub use prepared::{Prepared, flatten};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use settings::{GaugeSize, Growth, Settings, Treatment};

@@ -5,6 +5,7 @@
 
 use glam::DVec2;
 
+use super::Embedding;
 use super::foldover_energy::Element;
 use crate::geom::outside_triangles;
 use crate::mesh::{DiskMesh, VertexId};
@@ -45,11 +46,11 @@ fn frame_around(points: impl Iterator<Item = DVec2> + Clone, per_side: u32) -> V
 /// points on each side.
 pub(super) fn outside_of(
     mesh: &DiskMesh,
-    embedding: &[DVec2],
+    embedding: &Embedding,
     further: impl Iterator<Item = DVec2> + Clone,
     per_side: u32,
 ) -> Option<Outside> {
-    let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|&v| embedding[v.index()]).collect();
+    let boundary = embedding.boundary(mesh);
     let frame = frame_around(boundary.iter().copied().chain(further), per_side);
     let vertex = |corner: u32| {
         let corner = corner as usize;

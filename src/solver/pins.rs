@@ -8,7 +8,7 @@ use super::SolveError;
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Positions of vertices. Ordered, so that solves are repeatable.
-pub type Places = BTreeMap<VertexId, DVec2>;
+pub type PinPositions = BTreeMap<VertexId, DVec2>;
 
 /// Pinned vertices with their targets.
 pub type Pins = BTreeMap<VertexId, Pin>;
@@ -39,11 +39,11 @@ impl Hold {
         !matches!(self, Self::Weighted(_))
     }
 
-    /// Whether a pin can be held so: a weight is a positive number.
-    pub const fn is_valid(self) -> bool {
+    /// The weight, where it is not a positive number.
+    pub fn invalid_weight(self) -> Option<f64> {
         match self {
-            Self::Fixed | Self::Hard => true,
-            Self::Weighted(weight) => weight.is_finite() && weight > 0.0,
+            Self::Weighted(weight) if !(weight.is_finite() && weight > 0.0) => Some(weight),
+            _ => None,
         }
     }
 }
@@ -77,7 +77,7 @@ pub fn are_held_alike(a: &Pins, b: &Pins) -> bool {
 }
 
 /// Where pins want their vertices.
-pub(super) fn targets_of(pins: &Pins) -> Places {
+pub(super) fn targets_of(pins: &Pins) -> PinPositions {
     pins.iter().map(|(&vertex, pin)| (vertex, pin.target)).collect()
 }
 
@@ -91,39 +91,46 @@ pub fn fixed_pins(places: impl IntoIterator<Item = (VertexId, DVec2)>) -> Pins {
     places.into_iter().map(|(vertex, target)| (vertex, Pin::fixed(target))).collect()
 }
 
-/// Checks that every pin can be met and that no two exact ones claim one place.
+/// Targets of exact pins: no two may have the same.
+#[derive(Clone, Debug, Default)]
+pub struct TakenTargets(BTreeMap<[u64; 2], VertexId>);
+
+impl TakenTargets {
+    /// Takes a vertex's target, if it is held exactly. Returns the vertex that has it already, if there is one.
+    pub fn take(&mut self, vertex: VertexId, target: DVec2, hold: Hold) -> Option<VertexId> {
+        // Adding zero makes one bit pattern of the two zeros.
+        let bits = (target + 0.0).to_array().map(f64::to_bits);
+        hold.is_exact().then(|| self.0.insert(bits, vertex)).flatten()
+    }
+}
+
+/// Checks that every pin can be met and that no two exact ones have one target.
 ///
 /// # Errors
 ///
 /// The first pin at fault, by vertex.
 pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
-    let mut at: BTreeMap<[u64; 2], VertexId> = BTreeMap::new();
-    for (&vertex, Pin { target, hold }) in pins {
+    let mut taken = TakenTargets::default();
+    for (&vertex, pin) in pins {
         if vertex.index() >= mesh.vertex_count() {
             return Err(SolveError::NoSuchVertex { vertex, count: mesh.vertex_count() });
         }
-        if !target.is_finite() {
+        if !pin.target.is_finite() {
             return Err(SolveError::TargetNotFinite { vertex });
         }
-        if let Hold::Weighted(weight) = *hold {
-            if !hold.is_valid() {
-                return Err(SolveError::WeightNotPositive { vertex, weight });
-            }
-            continue;
+        if let Some(weight) = pin.hold.invalid_weight() {
+            return Err(SolveError::WeightNotPositive { vertex, weight });
         }
-        // Adding zero makes one bit pattern of the two zeros.
-        let place = [(target.x + 0.0).to_bits(), (target.y + 0.0).to_bits()];
-        if let Some(&first) = at.get(&place) {
+        if let Some(first) = taken.take(vertex, pin.target, pin.hold) {
             return Err(SolveError::CoincidentPins { first, second: vertex });
         }
-        at.insert(place, vertex);
     }
     Ok(())
 }
 
 /// The default gauge: the farthest pair of boundary vertices on the x-axis, the lower id at the origin, at their
 /// distance in space.
-pub fn gauge_pins(mesh: &DiskMesh) -> Places {
+pub fn gauge_pins(mesh: &DiskMesh) -> PinPositions {
     let [a, b] = farthest_pair(mesh);
     let distance = mesh.position(a).distance(mesh.position(b));
     BTreeMap::from([(a.min(b), DVec2::ZERO), (a.max(b), DVec2::new(distance, 0.0))])

@@ -11,7 +11,7 @@
 //!
 //! At a corner of a positive face eq. (1) holds, and its share of A(x) x is zero. At a corner of a flipped face the
 //! unsigned angle turns the sign of one side around: its share is `2i(û₂ − û₁)`, with û₁, û₂ the directions of its edges.
-//! So A(x) x is a sum over the flipped faces alone, and exactly zero for a planar embedding: see [`left_over_in_plane`].
+//! So A(x) x is a sum over the flipped faces alone, and exactly zero for a planar embedding: see [`residuals_in_plane`].
 //!
 //! # Degenerate faces
 //!
@@ -30,6 +30,7 @@ use glam::DVec2;
 use num_complex::Complex;
 use rayon::prelude::*;
 
+use super::Embedding;
 use super::equations::Equations;
 use super::weights::bounded;
 use crate::geom::{Orientation, orientation};
@@ -94,7 +95,7 @@ pub(super) fn edge_radius(corners: [DVec2; 3], k: usize) -> f64 {
 
 /// A power of two that brings an embedding to edges of a length near 1, and that length. Multiplying by it rounds
 /// nothing.
-fn scale_of(embedding: &[DVec2], face_count: usize) -> f64 {
+fn scale_of(embedding: &Embedding, face_count: usize) -> f64 {
     let first = embedding.first().copied().unwrap_or_default();
     let extent = embedding.iter().fold(0.0_f64, |m, z| m.max((*z - first).abs().max_element()));
     let mean_length = extent / (face_count.max(1) as f64).sqrt();
@@ -102,26 +103,26 @@ fn scale_of(embedding: &[DVec2], face_count: usize) -> f64 {
 }
 
 /// Mean length of the edges of an embedding at the size that its equations are those of.
-pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let scale = scale_of(embedding, mesh.face_count());
-    let place = |v: VertexId| embedding[v.index()] * scale;
+    let place = |v: VertexId| embedding[v] * scale;
     let total: f64 = mesh.halfedges().map(|h| place(mesh.tail(h)).distance(place(mesh.head(h)))).sum();
     total / mesh.halfedge_count() as f64
 }
 
 /// A(x) x: what every vertex's equation leaves, the natural boundary's i-terms included, found without rounding where
 /// faces are positive.
-pub fn left_over_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<Complex<f64>> {
+pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
     let scale = scale_of(embedding, mesh.face_count());
     let is_upright = |face: &FaceId| {
-        let [a, b, c] = mesh.face(*face).map(|v| embedding[v.index()]);
+        let [a, b, c] = embedding.corners(mesh, *face);
         orientation(a, b, c) == Some(Orientation::CounterClockwise)
     };
     let folded: Vec<FaceId> = mesh.faces().collect::<Vec<_>>().into_par_iter().filter(|f| !is_upright(f)).collect();
     let mut left = vec![Complex::ZERO; mesh.vertex_count()];
     for face in folded {
         let vertices = mesh.face(face);
-        let corners = vertices.map(|v| embedding[v.index()] * scale);
+        let corners = vertices.map(|v| embedding[v] * scale);
         for (vertex, share) in vertices.iter().zip(shares_left(corners)) {
             left[vertex.index()] += share / scale;
         }
@@ -146,10 +147,10 @@ fn shares_left(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
 }
 
 /// The mean-value equations of an embedding without the boundary's i-terms: paper eq. (2) with d = 1.
-pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Equations<f64> {
+pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<f64> {
     let scale = scale_of(embedding, mesh.face_count());
     let of_face = |face: usize| {
-        let corners = mesh.face(FaceId::from_index(face)).map(|v: VertexId| embedding[v.index()] * scale);
+        let corners = mesh.face(FaceId::from_index(face)).map(|v: VertexId| embedding[v] * scale);
         face_weights(corners, 1.0)
     };
     let found: Vec<FaceWeights> = (0..mesh.face_count()).into_par_iter().map(of_face).collect();
@@ -167,13 +168,13 @@ pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Equations<f6
 }
 
 /// The mean-value equations of an embedding with its natural boundary: paper eq. (2) and (3) with d = 1.
-pub fn natural_in_plane(mesh: &DiskMesh, embedding: &[DVec2]) -> Equations<Complex<f64>> {
+pub fn natural_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<Complex<f64>> {
     let scale = scale_of(embedding, mesh.face_count());
     let mut equations = mean_value_in_plane(mesh, embedding).to_complex();
     let outer_sides = 3 * mesh.face_count()..mesh.halfedge_count();
     for outer in outer_sides.map(HalfedgeId::from_index) {
         let inner = mesh.twin(outer);
-        let corners = mesh.face(FaceId::from_index(inner.index() / 3)).map(|v| embedding[v.index()] * scale);
+        let corners = mesh.face(FaceId::from_index(inner.index() / 3)).map(|v| embedding[v] * scale);
         let (radii, _) = radii_of([corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]], 1.0);
         let offset_share = 1.0 / radii[inner.index() % 3];
         // A fan begins with the inner side of one boundary edge and ends with the outer side of another.

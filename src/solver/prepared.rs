@@ -14,13 +14,13 @@ use super::equations::mean_edge_length;
 use super::equations::{self, Equations};
 use super::free_solve::{FreeSolve, Layout, Site, in_vertices};
 use super::left_kernel::gauge_or_farthest;
-use super::pins::{Pins, Places, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of};
+use super::pins::{PinPositions, Pins, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of};
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::FreeSystem;
 use super::{
-    BoundaryShape, Choice as _, Control, Family, LinearSolve, Method, Phase, PhaseSeconds, Settings, Solution,
-    SolveError,
+    BoundaryShape, Choice as _, Control, Embedding, Family, LinearSolve, Method, Phase, PhaseSeconds, Settings,
+    Solution, SolveError,
 };
 use crate::linalg::{Analysis, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
@@ -34,7 +34,7 @@ pub struct Prepared {
     /// The user's pins that it was made for: whether it fits others is asked of these.
     asked: Pins,
     /// Gauge pins or the convex boundary, where the solver places vertices by itself.
-    own_places: Option<Places>,
+    own_places: Option<PinPositions>,
     system: FreeSystem,
     values: Values,
     seconds: PhaseSeconds,
@@ -152,8 +152,8 @@ impl Prepared {
             return Ok(vec![DVec2::X; mesh.vertex_count()]);
         }
         let target = |v: VertexId| if moved.contains(&v) { DVec2::X } else { DVec2::ZERO };
-        let targets: Places = self.asked.keys().map(|&v| (v, target(v))).collect();
-        Ok(free.solve(Site { mesh, system: &self.system }, &targets)?.0)
+        let targets: PinPositions = self.asked.keys().map(|&v| (v, target(v))).collect();
+        Ok(free.solve(Site { mesh, system: &self.system }, &targets)?.0.into_inner())
     }
 
     /// Solves for the embedding that has the pins on their targets.
@@ -178,7 +178,7 @@ impl Prepared {
         };
         let in_force = if self.own_places.is_some() {
             complete_gauge(mesh, &mut embedding, (&held, self.settings.size));
-            fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex.index()])))
+            fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))
         } else {
             held
         };
@@ -224,7 +224,7 @@ impl Prescribed {
     }
 
     /// Solves for x and y, which share the matrix.
-    fn solve(&self, site: Site<'_>, places: &Places) -> Result<(Vec<DVec2>, f64), SolveError> {
+    fn solve(&self, site: Site<'_>, places: &PinPositions) -> Result<(Embedding, f64), SolveError> {
         let terms = |axis: usize| {
             let targets: BTreeMap<VertexId, f64> = places.iter().map(|(&v, t)| (v, t[axis])).collect();
             site.system.pinned_terms(site.mesh, &self.equations, &targets)
@@ -233,12 +233,12 @@ impl Prescribed {
         let named = |error| in_vertices(error, site.system.free());
         let solved = self.factor.solve_many(&self.matrix, &both).map_err(named)?;
         let (x, y) = solved.x.split_at(site.system.free().len());
-        let mut embedding = vec![DVec2::ZERO; site.mesh.vertex_count()];
-        for (vertex, (&x, &y)) in site.system.free().iter().zip(x.iter().zip(y)) {
-            embedding[vertex.index()] = DVec2::new(x, y);
+        let mut embedding = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
+        for (&vertex, (&x, &y)) in site.system.free().iter().zip(x.iter().zip(y)) {
+            embedding[vertex] = DVec2::new(x, y);
         }
-        for (vertex, target) in places {
-            embedding[vertex.index()] = *target;
+        for (&vertex, target) in places {
+            embedding[vertex] = *target;
         }
         Ok((embedding, solved.residual))
     }

@@ -6,13 +6,11 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::Rest;
-use super::{Candidate, Control, Method, Outside, Pins, Progress, SolveError, verdict};
+use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, SolveError, verdict};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -33,7 +31,7 @@ const STEEP: f64 = 1e-3;
 pub(super) struct Relaxing {
     rest: Rest,
     pins: Pins,
-    embedding: Vec<DVec2>,
+    embedding: Embedding,
     /// How distorted the embedding is.
     progress: Progress,
     /// That of the round before, whose order of elimination is kept.
@@ -49,7 +47,7 @@ impl std::fmt::Debug for Relaxing {
 
 impl Relaxing {
     /// Begins at a planar embedding of `mesh`; `pins` are held, exact ones where they lie.
-    pub(super) fn new(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Self {
+    pub(super) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let rest = Rest::new(mesh);
         let progress = rest.progress(mesh, &embedding, 0.0);
         Self { rest, pins: pins.clone(), embedding, progress, membrane: None, has_converged: false }
@@ -84,7 +82,7 @@ impl Relaxing {
         let limits = Limits { unfolded, steps, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
         let gain = membrane.descend(&mut z, limits, control)?.gain;
         self.membrane = Some(membrane);
-        z.truncate(mesh.vertex_count());
+        let z = Embedding::of_mesh(mesh, &z);
         // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
         let progress = self.rest.progress(mesh, &z, 0.0);

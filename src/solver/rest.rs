@@ -6,7 +6,7 @@ use super::equations::length_scale;
 use super::foldover_energy::{Element, Energy};
 use super::membrane::{Membrane, Spring};
 use super::outside::outside_elements;
-use super::{Hold, Outside, Pins, Progress, SolveError};
+use super::{Embedding, Hold, Outside, Pins, Progress, SolveError};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Faces that are thinner, height to longest side, are measured as if they were so thick.
@@ -34,7 +34,7 @@ impl Rest {
     }
 
     /// How distorted an embedding is whose pins have so far to go.
-    pub(super) fn progress(&self, mesh: &DiskMesh, embedding: &[DVec2], distance_left: f64) -> Progress {
+    pub(super) fn progress(&self, mesh: &DiskMesh, embedding: &Embedding, distance_left: f64) -> Progress {
         let elements = self.elements(mesh, embedding);
         let placed = || elements.iter().map(|element| (element, element.corners.map(|c| embedding[c as usize])));
         let half: f64 = placed().map(|(element, z)| element.energy(z, Energy::SymmetricDirichlet)).sum();
@@ -47,7 +47,7 @@ impl Rest {
     pub(super) fn membrane(
         &self,
         mesh: &DiskMesh,
-        (embedding, outside): (&[DVec2], &Outside),
+        (embedding, outside): (&Embedding, &Outside),
         pins: &Pins,
         (weight, similar): (f64, Option<&Membrane>),
     ) -> Result<(Membrane, Vec<DVec2>), SolveError> {
@@ -71,11 +71,11 @@ impl Rest {
     }
 
     /// The faces' energies, at rest when as large as the embedding is now.
-    fn elements(&self, mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<Element> {
+    fn elements(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Element> {
         let flat: f64 = mesh
             .faces()
             .map(|face| {
-                let [a, b, c] = mesh.face(face).map(|v| embedding[v.index()]);
+                let [a, b, c] = embedding.corners(mesh, face);
                 0.5 * (b - a).perp_dot(c - a)
             })
             .sum();
@@ -90,15 +90,15 @@ impl Rest {
 }
 
 /// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.
-fn spring_unit(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+fn spring_unit(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let mean = mean_edge_length(mesh, embedding);
     1.0 / (mean * mean * mesh.vertex_count() as f64)
 }
 
 /// Mean length of an edge in an embedding.
-pub(super) fn mean_edge_length(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+pub(super) fn mean_edge_length(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let length = |edge| {
-        let [a, b] = mesh.ends(edge).map(|v| embedding[v.index()]);
+        let [a, b] = mesh.ends(edge).map(|v| embedding[v]);
         a.distance(b)
     };
     mesh.edges().map(length).sum::<f64>() / mesh.edge_count() as f64

@@ -3,14 +3,14 @@
 use glam::DVec2;
 
 use super::equations::length_scale;
-use super::{GaugeSize, Pin, Pins};
+use super::{Embedding, GaugeSize, Pin, Pins};
 use crate::mesh::DiskMesh;
 
 /// Scales an embedding about the origin so that its faces have the total area of the surface.
 ///
 /// Both areas are summed at a size near 1, so that no square of a length overflows or vanishes. An embedding without
 /// area, or with one that is not finite, is left as it is.
-pub fn to_true_area(mesh: &DiskMesh, embedding: &mut [DVec2]) {
+pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
     let (in_space, in_plane) = (length_scale(mesh), 1.0 / extent_of(embedding));
     let surface: f64 = mesh
         .faces()
@@ -22,7 +22,7 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut [DVec2]) {
     let flat: f64 = mesh
         .faces()
         .map(|face| {
-            let [a, b, c] = mesh.face(face).map(|v| embedding[v.index()] * in_plane);
+            let [a, b, c] = mesh.face(face).map(|v| embedding[v] * in_plane);
             (b - a).perp_dot(c - a).abs()
         })
         .sum();
@@ -36,31 +36,31 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut [DVec2]) {
 
 /// Brings an embedding to its place where fewer than two pins fix it: at the size asked for; with its first pin, if
 /// there is one, on its target to the last bit.
-pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], (pins, size): (&Pins, GaugeSize)) {
+pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, (pins, size): (&Pins, GaugeSize)) {
     match size {
         GaugeSize::TrueArea => to_true_area(mesh, embedding),
         GaugeSize::Within { low, high } => to_middle_of(low, high, embedding),
     }
     if let Some((vertex, Pin { target, .. })) = pins.first_key_value() {
-        let shift = *target - embedding[vertex.index()];
+        let shift = *target - embedding[vertex];
         for z in &mut *embedding {
             *z += shift;
         }
-        embedding[vertex.index()] = *target;
+        embedding[*vertex] = *target;
     }
 }
 
 /// Moves an embedding by the similarity that takes up to two pins to their targets; without any, to true area. The
 /// pins then lie on their targets to the last bit. Returns whether there is such a similarity.
-pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], (pins, size): (&Pins, GaugeSize)) -> bool {
+pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut Embedding, (pins, size): (&Pins, GaugeSize)) -> bool {
     let mut iter = pins.iter();
     let (Some((first, Pin { target: a, .. })), Some((second, Pin { target: b, .. }))) = (iter.next(), iter.next())
     else {
         complete_gauge(mesh, embedding, (pins, size));
         return true;
     };
-    let origin = embedding[first.index()];
-    let (is, wanted) = (embedding[second.index()] - origin, *b - *a);
+    let origin = embedding[first];
+    let (is, wanted) = (embedding[second] - origin, *b - *a);
     // The quotient wanted / is of complex numbers.
     let turn = DVec2::new(is.dot(wanted), is.perp_dot(wanted)) / is.length_squared();
     if !turn.is_finite() || turn == DVec2::ZERO {
@@ -69,14 +69,14 @@ pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut [DVec2], (pins, size): 
     for z in &mut *embedding {
         *z = *a + turn.rotate(*z - origin);
     }
-    embedding[first.index()] = *a;
-    embedding[second.index()] = *b;
+    embedding[*first] = *a;
+    embedding[*second] = *b;
     true
 }
 
 /// Scales an embedding uniformly into a box and moves it to the box's middle. An embedding without extent, or with one
 /// that is not finite, is left as it is.
-fn to_middle_of(low: DVec2, high: DVec2, embedding: &mut [DVec2]) {
+fn to_middle_of(low: DVec2, high: DVec2, embedding: &mut Embedding) {
     let least = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let most = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let factor = ((high - low) / (most - least)).min_element();
@@ -89,12 +89,12 @@ fn to_middle_of(low: DVec2, high: DVec2, embedding: &mut [DVec2]) {
 }
 
 /// Largest coordinate by amount.
-fn extent_of(embedding: &[DVec2]) -> f64 {
+fn extent_of(embedding: &Embedding) -> f64 {
     embedding.iter().fold(0.0, |m, z| m.max(z.abs().max_element()))
 }
 
 /// As [`to_unit_square`], but scaled by a power of two alone: the one rounding is that of the move.
-pub fn to_unit_square_by_power_of_two(embedding: &mut [DVec2]) {
+pub fn to_unit_square_by_power_of_two(embedding: &mut Embedding) {
     let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     for z in &mut *embedding {
         *z -= low;
@@ -104,7 +104,7 @@ pub fn to_unit_square_by_power_of_two(embedding: &mut [DVec2]) {
 
 /// Scales an embedding about the origin by a power of two, so that no coordinate lies beyond −1 or 1. No digit is lost
 /// unless a coordinate is too small for 64 bits afterwards.
-pub fn to_unit_box(embedding: &mut [DVec2]) {
+pub fn to_unit_box(embedding: &mut Embedding) {
     let extent = extent_of(embedding);
     if extent.is_finite() && extent > 0.0 {
         let factor = (-extent.log2().ceil()).exp2();
@@ -117,7 +117,7 @@ pub fn to_unit_box(embedding: &mut [DVec2]) {
 /// Moves and scales an embedding uniformly so that it fills the unit square's width or height from the origin on.
 ///
 /// An embedding without extent, or with one that is not finite, is left as it is.
-pub fn to_unit_square(embedding: &mut [DVec2]) {
+pub fn to_unit_square(embedding: &mut Embedding) {
     let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let extent = (high - low).max_element();

@@ -1,14 +1,12 @@
 //! What a solve gives back.
 
-use glam::DVec2;
-
-use super::Pins;
+use super::{Embedding, Pins};
 
 /// An embedding and the numbers of the solve that made it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// One position per vertex of the mesh, in the plane.
-    pub embedding: Vec<DVec2>,
+    pub embedding: Embedding,
     /// The pins in force, as they were held: the user's, the two gauge pins where those were fewer, or all of a convex boundary.
     pub pins: Pins,
     /// Whether the pins are gauge pins that the solver chose by itself.

@@ -26,6 +26,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::Embedding;
 use crate::geom::{Orientation, crossings, orientation, turning_number, winding_number};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 
@@ -62,12 +63,14 @@ fn is_zero(count: &usize) -> bool {
 /// # Panics
 ///
 /// If the embedding does not have one position per vertex.
-pub fn verdict(mesh: &DiskMesh, embedding: &[DVec2]) -> Verdict {
+pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
     assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
-    let at = |vertex: VertexId| embedding[vertex.index()];
-    let triangles = &mesh.mesh().triangles;
+    let of_triangle = |triangle: &[VertexId; 3]| {
+        let [a, b, c] = triangle.map(|v| embedding[v]);
+        orientation(a, b, c)
+    };
     let orientations: Vec<Option<Orientation>> =
-        triangles.par_iter().with_min_len(FACES_PER_TASK).map(|t| orientation(at(t[0]), at(t[1]), at(t[2]))).collect();
+        mesh.mesh().triangles.par_iter().with_min_len(FACES_PER_TASK).map(of_triangle).collect();
     let some_are = |wanted| orientations.contains(&Some(wanted));
     let mirrored = some_are(Orientation::Clockwise) && !some_are(Orientation::CounterClockwise);
     let upright = if mirrored { Orientation::Clockwise } else { Orientation::CounterClockwise };
@@ -75,7 +78,7 @@ pub fn verdict(mesh: &DiskMesh, embedding: &[DVec2]) -> Verdict {
 
     let flipped_faces: Vec<FaceId> = mesh.faces().filter(|&face| !is_upright(face)).collect();
     let zero_area_faces = orientations.iter().filter(|&&o| o == Some(Orientation::Collinear)).count();
-    let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|&v| at(v)).collect();
+    let boundary = embedding.boundary(mesh);
     let (boundary_crossings, unlisted_crossings) = boundary_crossings(mesh, &boundary);
     let planar = flipped_faces.is_empty() && boundary_crossings.is_empty();
     let overwound_vertices = if planar { Vec::new() } else { overwound_vertices(mesh, embedding, is_upright) };
@@ -114,7 +117,7 @@ fn boundary_crossings(mesh: &DiskMesh, boundary: &[DVec2]) -> (Vec<[EdgeId; 2]>,
 /// Interior vertices around which all faces are upright and the link winds more than once.
 fn overwound_vertices(
     mesh: &DiskMesh,
-    embedding: &[DVec2],
+    embedding: &Embedding,
     is_upright: impl Fn(FaceId) -> bool + Sync,
 ) -> Vec<VertexId> {
     let is_overwound = |link: &mut Vec<DVec2>, vertex: VertexId| {
@@ -126,9 +129,9 @@ fn overwound_vertices(
             if !mesh.face_of(halfedge).is_some_and(&is_upright) {
                 return false;
             }
-            link.push(embedding[mesh.head(halfedge).index()]);
+            link.push(embedding[mesh.head(halfedge)]);
         }
-        winding_number(link, embedding[vertex.index()]).is_some_and(|turns| turns.abs() > 1)
+        winding_number(link, embedding[vertex]).is_some_and(|turns| turns.abs() > 1)
     };
     let overwound: Vec<bool> = (0..mesh.vertex_count())
         .into_par_iter()
@@ -139,6 +142,16 @@ fn overwound_vertices(
 }
 
 impl Verdict {
+    /// Boundary crossings, listed or not.
+    pub fn crossing_count(&self) -> usize {
+        self.boundary_crossings.len() + self.unlisted_crossings
+    }
+
+    /// Flipped faces, boundary crossings and overwound vertices together.
+    pub fn defect_count(&self) -> usize {
+        self.flipped_faces.len() + self.crossing_count() + self.overwound_vertices.len()
+    }
+
     /// The verdict in a few lower-case words, for a line on the screen or the terminal.
     pub fn summary(&self) -> String {
         if self.planar {
@@ -150,10 +163,9 @@ impl Verdict {
             1 => Some(format!("1 {one}")),
             _ => Some(format!("{count} {many}")),
         };
-        let crossing_count = self.boundary_crossings.len() + self.unlisted_crossings;
         let faults = [
             counted(self.flipped_faces.len(), "flipped face", "flipped faces"),
-            counted(crossing_count, "boundary crossing", "boundary crossings"),
+            counted(self.crossing_count(), "boundary crossing", "boundary crossings"),
             counted(self.overwound_vertices.len(), "overwound vertex", "overwound vertices"),
             self.mirrored.then(|| "mirrored".to_owned()),
         ];

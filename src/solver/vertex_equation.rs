@@ -27,7 +27,7 @@ use glam::DVec2;
 use super::plane_weights::{corner_weights, edge_radius};
 use super::shape_preserving::weights_of_ring;
 use super::weights::{Corner, three_point_weights};
-use super::{Family, Method, Step, VirtualBoundary};
+use super::{Embedding, Family, Method, Step, VirtualBoundary};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// A neighbour in the equation of a vertex.
@@ -104,10 +104,10 @@ impl NoEquation {
 /// Why there is none.
 pub fn equation_of_step(
     mesh: &DiskMesh,
-    (step, before): (&Step, Option<&[DVec2]>),
+    (step, before): (&Step, Option<&Embedding>),
     vertex: VertexId,
 ) -> Result<(VertexEquation, WeightSource), NoEquation> {
-    let embedding = step.solution.embedding.as_slice();
+    let embedding = &step.solution.embedding;
     let on_surface = |family| (on_surface(mesh, family, embedding, vertex), WeightSource::Surface);
     match step.rung {
         Method::Levy => Err(NoEquation::OfTriangles),
@@ -188,7 +188,7 @@ impl Fan {
 }
 
 /// Weights computed in space.
-fn on_surface(mesh: &DiskMesh, family: Family, embedding: &[DVec2], vertex: VertexId) -> VertexEquation {
+fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: VertexId) -> VertexEquation {
     let fan = Fan::of_mesh(mesh, vertex);
     let neighbours = fan.neighbours();
     let centre = mesh.position(vertex);
@@ -211,8 +211,8 @@ fn on_surface(mesh: &DiskMesh, family: Family, embedding: &[DVec2], vertex: Vert
 }
 
 /// Mean-value weights of one embedding, another one put into them.
-fn in_plane(fan: &Fan, weights_from: &[DVec2], embedding: &[DVec2]) -> VertexEquation {
-    let at = |v: VertexId| weights_from[v.index()];
+fn in_plane(fan: &Fan, weights_from: &Embedding, embedding: &Embedding) -> VertexEquation {
+    let at = |v: VertexId| weights_from[v];
     let shares = |next, previous| corner_weights([fan.vertex, next, previous].map(at));
     let weights = fan.sums(shares);
     let mut radii: Vec<f64> = fan.neighbours().iter().map(|&v| at(v).distance(at(fan.vertex))).collect();
@@ -233,11 +233,11 @@ struct Coefficients {
     radii: Vec<f64>,
 }
 
-fn put_together(fan: &Fan, embedding: &[DVec2], coefficients: Coefficients) -> VertexEquation {
+fn put_together(fan: &Fan, embedding: &Embedding, coefficients: Coefficients) -> VertexEquation {
     let Coefficients { weights, offsets, radii } = coefficients;
     let neighbours = fan.neighbours();
-    let place = embedding[fan.vertex.index()];
-    let arms: Vec<DVec2> = neighbours.iter().map(|v| embedding[v.index()] - place).collect();
+    let place = embedding[fan.vertex];
+    let arms: Vec<DVec2> = neighbours.iter().map(|v| embedding[v] - place).collect();
     let weight_sum: f64 = weights.iter().sum();
     let terms = neighbours
         .iter()

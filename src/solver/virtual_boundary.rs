@@ -22,7 +22,7 @@ use num_complex::Complex;
 use super::equations::Equations;
 use super::free_solve::in_vertices;
 use super::system::FreeSystem;
-use super::{Control, Phase, SolveError};
+use super::{Control, Embedding, Phase, SolveError};
 use crate::geom::{Orientation, orientation, outside_triangles};
 use crate::linalg::{Analysis, FactorStats, Kind};
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
@@ -56,7 +56,7 @@ pub struct VirtualBoundary {
     /// What the outside was triangulated up to.
     pub outline: Outline,
     /// What mesh and outside were solved from, with the virtual vertices at its end.
-    pub before: Vec<DVec2>,
+    pub before: Embedding,
     /// Whether the weights are mean values of `before`. Where rounding collapses faces, others are tried at the very end.
     pub weights_of_before: bool,
     /// Vertices of the convex outline B′, counter-clockwise.
@@ -64,7 +64,7 @@ pub struct VirtualBoundary {
     /// The faces between the boundary and the outline.
     pub pockets: Vec<[VertexId; 3]>,
     /// Mesh and outside as solved together.
-    pub solved: Vec<DVec2>,
+    pub solved: Embedding,
 }
 
 /// An embedding with its outside: the paper's E′.
@@ -74,8 +74,8 @@ pub struct Extended {
     pub disk: DiskMesh,
     /// What the outside was triangulated up to.
     pub outline: Outline,
-    /// Where all vertices lie, the virtual ones last.
-    pub positions: Vec<DVec2>,
+    /// Embedding of both, the virtual vertices last.
+    pub embedding: Embedding,
     /// The faces between the boundary and the outline.
     pub pockets: Vec<[VertexId; 3]>,
 }
@@ -83,32 +83,32 @@ pub struct Extended {
 /// Where a solve starts, with the outline in its place.
 #[derive(Clone, Copy, Debug)]
 pub struct Start<'a> {
-    /// All positions.
-    pub positions: &'a [DVec2],
-    /// What they leave of every vertex's equation, where that is known better than by summing up.
-    pub left: Option<&'a [Complex<f64>]>,
+    /// Embedding of mesh and outside.
+    pub embedding: &'a Embedding,
+    /// Residuals of all vertex equations, where they are known better than by summing up.
+    pub residuals: Option<&'a [Complex<f64>]>,
 }
 
 impl Extended {
     /// Extends an embedding whose boundary is simple and runs counter-clockwise: up to the hull, or up to a frame where
     /// the hull would not do. `None` where neither is possible.
-    pub fn new(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
+    pub fn new(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
         Self::up_to_hull(mesh, embedding).or_else(|| Self::up_to_frame(mesh, embedding))
     }
 
     /// Extends an embedding up to its convex hull. `None` where its boundary is not simple, and where Tutte's theorem does
     /// not cover the extended mesh.
-    pub fn up_to_hull(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
-        let triangles = outside_triangles(&boundary_of(mesh, embedding), &[])?;
+    pub fn up_to_hull(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
+        let triangles = outside_triangles(&embedding.boundary(mesh), &[])?;
         let boundary = mesh.boundary_loop();
         let pockets = triangles.into_iter().map(|t| t.map(|corner| boundary[corner as usize])).collect();
-        let extended = Self::join(mesh, Outline::Hull, embedding.to_vec(), pockets)?;
+        let extended = Self::join(mesh, Outline::Hull, embedding.clone(), pockets)?;
         (!extended.has_edge_along_outline()).then_some(extended)
     }
 
     /// Extends an embedding up to a frame. `None` where its boundary is not simple.
-    pub fn up_to_frame(mesh: &DiskMesh, embedding: &[DVec2]) -> Option<Self> {
-        let boundary = boundary_of(mesh, embedding);
+    pub fn up_to_frame(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
+        let boundary = embedding.boundary(mesh);
         let low = boundary.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = boundary.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
         let (centre, half) = ((low + high) / 2.0, (high - low).max_element() / 2.0);
@@ -123,21 +123,21 @@ impl Extended {
         };
         let mut pockets: Vec<[VertexId; 3]> = triangles.into_iter().map(|t| t.map(vertex)).collect();
         split_doubled_edges(mesh, &mut positions, &mut pockets);
-        Self::join(mesh, Outline::Frame, positions, pockets)
+        Self::join(mesh, Outline::Frame, positions.into(), pockets)
     }
 
-    fn join(mesh: &DiskMesh, outline: Outline, positions: Vec<DVec2>, pockets: Vec<[VertexId; 3]>) -> Option<Self> {
+    fn join(mesh: &DiskMesh, outline: Outline, embedding: Embedding, pockets: Vec<[VertexId; 3]>) -> Option<Self> {
         let triangles = mesh.mesh().triangles.iter().chain(&pockets).copied().collect();
-        let places = positions.iter().map(|z| z.extend(0.0)).collect();
-        let joined = TriMesh { positions: places, triangles, polygon_of: None };
+        let positions = embedding.iter().map(|z| z.extend(0.0)).collect();
+        let joined = TriMesh { positions, triangles, polygon_of: None };
         let disk = DiskMesh::of_topology(joined).ok()?;
-        Some(Self { disk, outline, positions, pockets })
+        Some(Self { disk, outline, embedding, pockets })
     }
 
     /// Whether an interior edge lies on a side of the outline: Tutte's theorem does not allow that.
     fn has_edge_along_outline(&self) -> bool {
         let outline = self.disk.boundary_loop();
-        let at = |v: VertexId| self.positions[v.index()];
+        let at = |v: VertexId| self.embedding[v];
         self.disk.dividing_edges().iter().any(|&[u, v]| {
             let Some(place) = self.disk.boundary_place(u) else { return false };
             let beside = [place + 1, place + outline.len() - 1].map(|p| outline[p % outline.len()]);
@@ -156,7 +156,7 @@ impl Extended {
         equations: &Equations<f64>,
         start: Start<'_>,
         control: Control<'_>,
-    ) -> Result<(Vec<DVec2>, f64, FactorStats), SolveError> {
+    ) -> Result<(Embedding, f64, FactorStats), SolveError> {
         let system = FreeSystem::new(&self.disk, |v| self.disk.boundary_place(v).is_some());
         let matrix = system.negated_matrix(&self.disk, equations);
         let named = |error| in_vertices(error, system.free());
@@ -165,40 +165,36 @@ impl Extended {
         control.enter(Phase::Factor)?;
         let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
         control.enter(Phase::Solve)?;
-        let left = |v: &VertexId| match start.left {
-            Some(left) => left[v.index()],
-            None => equations.discrepancy(&self.disk, start.positions, *v),
+        let residual_of = |v: &VertexId| match start.residuals {
+            Some(residuals) => residuals[v.index()],
+            None => equations.residual_of(&self.disk, start.embedding, *v),
         };
-        let left: Vec<Complex<f64>> = system.free().iter().map(left).collect();
-        let both: Vec<f64> = left.iter().map(|z| z.re).chain(left.iter().map(|z| z.im)).collect();
+        let residuals: Vec<Complex<f64>> = system.free().iter().map(residual_of).collect();
+        let both: Vec<f64> = residuals.iter().map(|z| z.re).chain(residuals.iter().map(|z| z.im)).collect();
         let solved = factor.solve_correction(&matrix, &both).map_err(named)?;
         let (x, y) = solved.x.split_at(system.free().len());
-        let mut positions = start.positions.to_vec();
-        for (vertex, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
-            positions[vertex.index()] += DVec2::new(x, y);
+        let mut embedding = start.embedding.clone();
+        for (&vertex, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
+            embedding[vertex] += DVec2::new(x, y);
         }
-        let residual = self.relative_residual(equations, &system, &positions);
-        Ok((positions, residual, factor.stats()))
+        let residual = self.relative_residual(equations, &system, &embedding);
+        Ok((embedding, residual, factor.stats()))
     }
 
     /// ‖A z‖ of the equations within the outline, relative to their terms.
-    pub(super) fn equation_residual(&self, equations: &Equations<f64>, positions: &[DVec2]) -> f64 {
+    pub(super) fn equation_residual(&self, equations: &Equations<f64>, embedding: &Embedding) -> f64 {
         let is_inside = |v: VertexId| self.disk.boundary_place(v).is_none();
-        equations.to_complex().residual(&self.disk, positions, is_inside)
+        equations.to_complex().residual(&self.disk, embedding, is_inside)
     }
 
     /// ‖Ax − b‖ / ‖b‖, b being what the outline gives.
-    fn relative_residual(&self, equations: &Equations<f64>, system: &FreeSystem, positions: &[DVec2]) -> f64 {
-        let fixed = self.disk.boundary_loop().iter().map(|&v| (v, positions[v.index()]));
+    fn relative_residual(&self, equations: &Equations<f64>, system: &FreeSystem, embedding: &Embedding) -> f64 {
+        let fixed = self.disk.boundary_loop().iter().map(|&v| (v, embedding[v]));
         let rhs = system.pinned_terms(&self.disk, equations, &fixed.collect::<BTreeMap<VertexId, DVec2>>());
-        let left = system.free().iter().map(|&v| equations.discrepancy(&self.disk, positions, v).norm_sqr());
+        let left = system.free().iter().map(|&v| equations.residual_of(&self.disk, embedding, v).norm_sqr());
         let (left, whole): (f64, f64) = (left.sum(), rhs.iter().map(|b| b.length_squared()).sum());
         if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
     }
-}
-
-fn boundary_of(mesh: &DiskMesh, embedding: &[DVec2]) -> Vec<DVec2> {
-    mesh.boundary_loop().iter().map(|v| embedding[v.index()]).collect()
 }
 
 /// Splits every edge of the pockets that the mesh has as well, other than the boundary's own, by a vertex at its

@@ -45,6 +45,31 @@ pub(in crate::ui) fn tip_with_keys(ui: &Ui, tip: &str, request: &Request) -> Str
     }
 }
 
+/// A small button: what it says, what it does, and what it asks for.
+pub(in crate::ui) struct Offer {
+    pub(in crate::ui) words: &'static str,
+    pub(in crate::ui) tip: &'static str,
+    pub(in crate::ui) request: Request,
+    pub(in crate::ui) enabled: bool,
+}
+
+impl Offer {
+    pub(in crate::ui) fn new(words: &'static str, tip: &'static str, request: impl Into<Request>) -> Self {
+        Self { words, tip, request: request.into(), enabled: true }
+    }
+
+    /// The same, to be clicked only where a condition holds.
+    pub(in crate::ui) fn when(self, enabled: bool) -> Self {
+        Self { enabled, ..self }
+    }
+
+    /// Shows the button.
+    pub(in crate::ui) fn show(self, ui: &mut Ui, requests: &mut Vec<Request>) {
+        let button = ui.add_enabled(self.enabled, egui::Button::new(self.words).small());
+        button.on_hover_text(self.tip).asks(self.request, requests);
+    }
+}
+
 /// A list to choose from: its name, its width in points, what is chosen, and the entries where it is open.
 pub(in crate::ui) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entries: impl FnOnce(&mut Ui)) -> Response {
     let list = ComboBox::from_id_salt(name).selected_text(shown).width(width);

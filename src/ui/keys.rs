@@ -73,7 +73,7 @@ pub const BINDINGS: &[Binding] = &[
 /// menu's; otherwise what has the keyboard's focus keeps those of them that it needs. Shift+Tab moves the focus, as it
 /// does everywhere.
 pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
-    if editor.unsaved.is_asked() {
+    if editor.files.unsaved.is_asked() {
         let is_left = context.input_mut(|input| input.consume_key(NONE, Key::Escape));
         return if is_left { vec![Request::Escape] } else { Vec::new() };
     }
@@ -141,17 +141,3 @@ pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Click, Shift + click", "The tool's work; add to the selection"),
     ("Shift + click on a step", "Compare with it the step on the screen"),
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_key_is_bound_twice() {
-        for (i, a) in BINDINGS.iter().enumerate() {
-            for b in &BINDINGS[i + 1..] {
-                assert_ne!(a.shortcut, b.shortcut, "{} and {}", a.about, b.about);
-            }
-        }
-    }
-}

@@ -24,12 +24,13 @@ mod window;
 
 pub use controls::sentence;
 pub use editor::{
-    Defect, Ease, Editor, Element, Host, Layout, Look, MeshScene, Nudge, Opened, Paint, PaintKey, Pane, PlaneScene,
-    Pointer, Purpose, Request, Selection, Shading, StepTarget, Tab, Tool, ToolState,
+    Defect, Editor, Element, Files, Host, HullScene, Layout, Look, MeshScene, MeshView, Nudge, Opened, Paint, PaintKey,
+    Pane, PlaneScene, PlaneView, Pointer, Purpose, Request, Selection, Shading, Stage, StepTarget, Tab, Tool,
+    ToolState,
 };
 pub use keys::{BINDINGS, Binding, keys_of};
 pub use panels::{Answer, Choice, Dialogs, Unsaved};
-pub use panes::{Half, HullScene, HullView, Intent, PinDrag, PinKind, PinShown, Stage};
+pub use panes::{Half, Intent, PinDrag, PinKind, PinShown};
 pub use timeline::TimelineView;
 pub use window::window_ui;
 

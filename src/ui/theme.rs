@@ -190,17 +190,3 @@ fn visuals(theme: &Theme, base: Visuals) -> Visuals {
     }
     visuals
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_graphics_card_draws_in_the_theme_s_colours() {
-        for theme in [LIGHT, DARK] {
-            let bytes = |colour: Color32| colour.to_array();
-            assert_eq!(theme.palette.background.0, bytes(theme.background));
-            assert_eq!(theme.palette.flipped.0, bytes(theme.flipped));
-        }
-    }
-}

@@ -7,12 +7,7 @@ use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
 use super::{Editor, Intent, Pane, Request};
 use crate::session::Action;
-use crate::ui::panels::floating;
-use crate::ui::panels::menu;
-use crate::ui::panels::side_panel;
-use crate::ui::panels::status;
-use crate::ui::panels::tools;
-use crate::ui::panels::unsaved;
+use crate::ui::panels::{floating, menu, side_panel, status, tools, unsaved};
 use crate::ui::panes::constrain;
 use crate::ui::panes::mesh_pane::mesh_pane_ui;
 use crate::ui::panes::plane_pane::plane_pane_ui;
@@ -59,7 +54,8 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
     editor.pointer.begin_frame();
     editor.tools.set_intent(Intent::Nothing);
-    editor.pane_rects = [None; 2];
+    editor.mesh.area_mut().hide();
+    editor.plane.area_mut().hide();
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
     if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Not before: the pane drawn first shows what the pointer found in the other.
@@ -130,7 +126,7 @@ fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
 fn carry_out_for_window(context: &egui::Context, editor: &mut Editor) {
     editor.host.put_on_theme();
     unsaved::title_of_window(editor);
-    if editor.quit {
+    if editor.host.is_quitting() {
         context.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 }

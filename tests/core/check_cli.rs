@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use freebound::mesh::{DiskMesh, PolygonMesh, VertexId};
-use freebound::solver::{Verdict, verdict};
+use freebound::solver::{Embedding, Verdict, verdict};
 use glam::DVec2;
 use serde_json::Value;
 
@@ -17,7 +17,7 @@ use crate::makers::grid;
 use crate::program::{Program, obj_text, polygons_of, textured_text};
 
 /// The meshes of the corpus that come with a map, and the maps, one position per vertex.
-fn published() -> Vec<(String, DiskMesh, Vec<DVec2>)> {
+fn published() -> Vec<(String, DiskMesh, Embedding)> {
     let Some(folder) = corpus() else { return Vec::new() };
     let disks = corpus_disks();
     let mapped = ["cow_seamster", "fran_face", "maze", "cortex_conte69_R"];
@@ -32,7 +32,7 @@ fn published() -> Vec<(String, DiskMesh, Vec<DVec2>)> {
 }
 
 /// Lines "vertex u v", in the order of vertices.
-fn read_map(path: &Path) -> Vec<DVec2> {
+fn read_map(path: &Path) -> Embedding {
     let text = fs::read_to_string(path).expect("the map is there");
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     lines
@@ -111,7 +111,7 @@ fn a_map_cut_along_seams_gets_the_verdict_of_the_mesh_cut_there() {
 fn texture_coordinates_repeated_for_every_corner_change_nothing() {
     for (name, mesh, map) in published().into_iter().filter(|(name, ..)| name == "fran_face") {
         let polygons = polygons_of(&mesh);
-        let repeated: Vec<DVec2> = polygons.corners.iter().map(|v| map[v.index()]).collect();
+        let repeated: Embedding = polygons.corners.iter().map(|v| map[v.index()]).collect();
         let text = textured_text(&polygons, &repeated, |face, k| [polygons.face(face)[k].index(), 3 * face + k]);
         assert_eq!(checked(&Program::new(), &text), value(&verdict(&mesh, &map)), "{name}");
     }
@@ -121,7 +121,7 @@ fn texture_coordinates_repeated_for_every_corner_change_nothing() {
 fn a_mirrored_map_is_as_planar_as_the_map_and_says_that_it_is_mirrored() {
     for (name, mesh, map) in published().into_iter().filter(|(name, ..)| name == "fran_face" || name == "maze") {
         let straight = verdict(&mesh, &map);
-        let mirror: Vec<DVec2> = map.iter().map(|z| DVec2::new(-z.x, z.y)).collect();
+        let mirror: Embedding = map.iter().map(|z| DVec2::new(-z.x, z.y)).collect();
         let found = checked(&Program::new(), &by_vertex(&polygons_of(&mesh), &mirror));
         assert_eq!(found["planar"], straight.planar, "{name}");
         assert_eq!(found["turning_number"], straight.turning_number.map_or(Value::Null, |n| (-n).into()), "{name}");
@@ -132,7 +132,7 @@ fn a_mirrored_map_is_as_planar_as_the_map_and_says_that_it_is_mirrored() {
 }
 
 /// A flat grid with itself as its map.
-fn mapped_grid() -> (PolygonMesh, Vec<DVec2>) {
+fn mapped_grid() -> (PolygonMesh, Embedding) {
     let mesh = grid(3, 2);
     let map = mesh.positions.iter().map(|p| p.truncate()).collect();
     (PolygonMesh::from(&mesh), map)
@@ -171,7 +171,7 @@ fn texture_coordinates_that_make_no_disk_are_unusable() {
     let (polygons, map) = mapped_grid();
     let program = Program::new();
     // Every face by itself: as many charts as faces.
-    let repeated: Vec<DVec2> =
+    let repeated: Embedding =
         (0..).zip(&polygons.corners).map(|(k, v)| map[v.index()] + DVec2::X * f64::from(k / 3)).collect();
     program.write("in.obj", &textured_text(&polygons, &repeated, |f, k| [polygons.face(f)[k].index(), 3 * f + k]));
     let run = program.run(&["check", "in.obj", "--report", "out.json"]).expect(3);
@@ -268,7 +268,7 @@ mod interrupt {
     fn an_interrupted_check_ends_with_130_and_leaves_no_file() {
         let program = Program::new();
         let mesh = grid(300, 300);
-        let map: Vec<DVec2> = mesh.positions.iter().map(|p| p.truncate()).collect();
+        let map: Embedding = mesh.positions.iter().map(|p| p.truncate()).collect();
         program.write("in.obj", &by_vertex(&PolygonMesh::from(&mesh), &map));
         let run = interrupted(&program, &["check", "in.obj", "--report", "out.json"], Duration::ZERO);
         assert_eq!(run.status, Some(130), "{run:?}");

@@ -309,7 +309,7 @@ fn the_face_folds_in_the_first_solve_and_a_few_iterations_repair_it() {
     assert!(steps.last().unwrap().verdict.planar, "{flips:?}");
     for step in &steps {
         for (vertex, pin) in &pins {
-            assert_eq!(step.solution.embedding[vertex.index()], pin.target, "step {}: {vertex}", step.index);
+            assert_eq!(step.solution.embedding[vertex], pin.target, "step {}: {vertex}", step.index);
         }
     }
 }

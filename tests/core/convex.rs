@@ -6,7 +6,8 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::{
-    BoundaryShape, Control, Family, Method, Pins, Prepared, Settings, flatten, hard_pins, shape_preserving, verdict,
+    BoundaryShape, Control, Embedding, Family, Method, Pins, Prepared, Settings, flatten, hard_pins, shape_preserving,
+    verdict,
 };
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -23,7 +24,7 @@ fn convex(shape: BoundaryShape, family: Family) -> Settings {
     Settings::new(Method::Convex(shape), family)
 }
 
-fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Vec<DVec2> {
+fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Embedding {
     let solution = flatten(mesh, settings, &Pins::new(), Control::unattended())
         .unwrap_or_else(|error| panic!("{name}, {settings:?}: {error}"));
     assert!(
@@ -44,7 +45,7 @@ fn examples() -> Vec<(String, DiskMesh)> {
 fn the_boundary_lies_on_a_circle_in_the_order_of_the_loop() {
     for (name, mesh) in examples() {
         let embedding = embed(&mesh, &convex(BoundaryShape::Circle, Family::Uniform), &name);
-        let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| embedding[v.index()]).collect();
+        let boundary = embedding.boundary(&mesh);
         let radius = boundary[0].length();
         assert!(boundary.iter().all(|z| (z.length() / radius - 1.0).abs() < 1e-14), "{name}");
         // Arcs are as long as edges, in proportion, and go around once.
@@ -67,9 +68,9 @@ fn edge_lengths(mesh: &DiskMesh) -> Vec<f64> {
 fn the_boundary_lies_on_a_square_in_the_order_of_the_loop() {
     for (name, mesh) in examples() {
         let embedding = embed(&mesh, &convex(BoundaryShape::Square, Family::Uniform), &name);
-        let side = mesh.boundary_loop().iter().map(|v| embedding[v.index()].max_element()).fold(0.0, f64::max);
+        let side = mesh.boundary_loop().iter().map(|v| embedding[v].max_element()).fold(0.0, f64::max);
         let corners = [DVec2::ZERO, DVec2::new(side, 0.0), DVec2::splat(side), DVec2::new(0.0, side)];
-        let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| embedding[v.index()]).collect();
+        let boundary = embedding.boundary(&mesh);
         for corner in corners {
             assert!(boundary.contains(&corner), "{name}: no vertex at {corner}");
         }
@@ -104,7 +105,7 @@ fn every_interior_vertex_lies_at_its_weighted_mean() {
                 let embedding = embed(&mesh, &convex(shape, family), &name);
                 let weights = weights(&mesh, family).coefficients;
                 for v in mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()) {
-                    let arm = |h| embedding[mesh.head(h).index()] - embedding[v.index()];
+                    let arm = |h| embedding[mesh.head(h)] - embedding[v];
                     let sum: DVec2 = mesh.outgoing(v).map(|h| weights[h.index()] * arm(h)).sum();
                     let size: f64 = mesh.outgoing(v).map(|h| weights[h.index()].abs()).sum();
                     // Relative to the whole: a vertex may lie amid neighbours that are all very near.

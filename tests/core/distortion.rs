@@ -1,7 +1,7 @@
 //! Distortion against closed forms.
 
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Distortion, DistortionSummary, FaceDistortion, distortion};
+use freebound::solver::{Distortion, DistortionSummary, Embedding, FaceDistortion, distortion};
 use glam::{DMat2, DVec2, DVec3};
 
 use crate::makers::{self, disk, shaped};
@@ -19,7 +19,7 @@ fn grid(n: u32, place: impl Fn(DVec2) -> DVec3) -> DiskMesh {
 }
 
 /// The same grid's vertices in the unit square, moved by `place`.
-fn flat(n: u32, place: impl Fn(DVec2) -> DVec2) -> Vec<DVec2> {
+fn flat(n: u32, place: impl Fn(DVec2) -> DVec2) -> Embedding {
     makers::grid(n, n).positions.iter().map(|x| place(x.truncate() / f64::from(n))).collect()
 }
 
@@ -125,7 +125,7 @@ fn the_percentile_leaves_out_one_hundredth_of_the_surface() {
         let positions = (0..=count).flat_map(|i| [0.0, 1.0].map(|y| DVec3::new(i as f64, y, 0.0))).collect();
         let square = |i: u32| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]];
         let mesh = TriMesh::new(positions, &(0..300).flat_map(square).collect::<Vec<_>>());
-        distortion(&DiskMesh::try_from(mesh).expect("a row is a disk"), &embedding).summary.angle
+        distortion(&DiskMesh::try_from(mesh).expect("a row is a disk"), &embedding.into()).summary.angle
     };
     assert_near(row(2).p99, 1.0, TOLERANCE);
     assert_near(row(4).p99, 2.0, TOLERANCE);
@@ -143,7 +143,7 @@ fn the_stereographic_map_of_an_octant_keeps_angles_and_scales_as_it_should() {
     };
     let mesh = grid(n, octant);
     let map = |p: DVec3| DVec2::new(p.x, p.y) * 2.0 / (1.0 + p.z);
-    let embedding: Vec<DVec2> = mesh.mesh().positions.iter().copied().map(map).collect();
+    let embedding: Embedding = mesh.mesh().positions.iter().copied().map(map).collect();
     let found = distortion(&mesh, &embedding);
     // A chord of 1/64 of a quarter turn departs from its arc, and the scale changes along it, by about 1/64.
     let chord = 0.03;
@@ -177,7 +177,7 @@ fn a_collapsed_face_is_infinite_and_json_shows_null() {
 fn nothing_is_ever_nan() {
     let spoilt = [DVec2::NAN, DVec2::INFINITY, DVec2::splat(f64::MAX), DVec2::splat(-f64::MAX), DVec2::splat(5e-324)];
     let mesh = grid(2, tilted);
-    let mut embeddings: Vec<Vec<DVec2>> = spoilt.iter().map(|&value| vec![value; 9]).collect();
+    let mut embeddings: Vec<Embedding> = spoilt.iter().map(|&value| vec![value; 9].into()).collect();
     for value in spoilt {
         let mut embedding = flat(2, |p| p);
         embedding[4] = value;

@@ -7,7 +7,7 @@ use freebound::examples::Example;
 use freebound::io::figure::{has_glyph, zones_of};
 use freebound::io::raster::Colour;
 use freebound::mesh::{DiskMesh, FaceId};
-use freebound::solver::{Control, Ending, Ladder, Method, Settings, Step, fixed_pins};
+use freebound::solver::{Control, Embedding, Ending, Ladder, Method, Settings, Step, fixed_pins};
 use glam::DVec2;
 
 use crate::common::csv_rows;
@@ -192,7 +192,7 @@ fn the_pairs_fold_as_measured_and_both_methods_repair_what_they_fold() {
 #[test]
 fn faces_near_each_other_are_one_zone_and_the_largest_comes_first() {
     let mesh = DiskMesh::try_from(grid(20, 20)).unwrap();
-    let places: Vec<DVec2> = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
+    let places: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
     // The first face of the first square; three of the last two squares.
     let faces = [0, 797, 798, 799].map(FaceId::new);
     let zones = zones_of(&mesh, &places, &faces);

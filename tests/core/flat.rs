@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use freebound::mesh::{DiskMesh, TriMesh};
+use freebound::solver::Embedding;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use crate::makers::Random;
@@ -10,13 +11,13 @@ use crate::makers::Random;
 /// A planar mesh: its places in the plane, and the same moved into space by a similarity.
 pub(crate) struct Flat {
     pub(crate) name: String,
-    pub(crate) plane: Vec<DVec2>,
+    pub(crate) plane: Embedding,
     pub(crate) mesh: DiskMesh,
 }
 
 impl Flat {
     /// Lays a mesh of the plane into a random plane of space, scaled and shifted.
-    fn laid_out(name: String, plane: Vec<DVec2>, triangles: &[[u32; 3]], random: &mut Random) -> Self {
+    fn laid_out(name: String, plane: Embedding, triangles: &[[u32; 3]], random: &mut Random) -> Self {
         let turn = DQuat::from_axis_angle(direction(random), TAU * random.unit());
         let size = 10_f64.powf(4.0 * random.unit() - 2.0);
         let shift = direction(random) * size * 3.0;
@@ -48,7 +49,7 @@ fn direction(random: &mut Random) -> DVec3 {
 }
 
 /// A grid of squares, those that `keep` wants, with vertices moved at random and diagonals either way.
-fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random) -> (Vec<DVec2>, Vec<[u32; 3]>) {
+fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random) -> (Embedding, Vec<[u32; 3]>) {
     let [columns, rows] = size;
     let mut number = vec![None; ((columns + 1) * (rows + 1)) as usize];
     let (mut plane, mut triangles) = (Vec::new(), Vec::new());
@@ -66,7 +67,7 @@ fn jittered(size: [u32; 2], keep: impl Fn(u32, u32) -> bool, random: &mut Random
             triangles.extend(squares[random.below(2) as usize]);
         }
     }
-    (plane, triangles)
+    (plane.into(), triangles)
 }
 
 /// A grid with a rectangular bite out of its upper side.
@@ -107,7 +108,7 @@ fn blob(random: &mut Random) -> Flat {
             triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
-    Flat::laid_out(format!("blob of {lobes} lobes"), plane, &triangles, random)
+    Flat::laid_out(format!("blob of {lobes} lobes"), plane.into(), &triangles, random)
 }
 
 /// A strip wound up nearly one and a half times.

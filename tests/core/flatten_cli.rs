@@ -277,7 +277,7 @@ fn the_same_run_writes_the_same_bytes_and_the_number_of_threads_changes_no_verdi
         assert_eq!(one["verdict"], two["verdict"], "{family}");
         assert_eq!(one["mesh"], two["mesh"], "{family}");
         let read = |name| coordinates_by_vertex(&read_mesh(&program.path(name)).unwrap());
-        let off = read("a.obj").iter().zip(read("c.obj")).map(|(a, b)| a.distance(b)).fold(0.0, f64::max);
+        let off = read("a.obj").iter().zip(&read("c.obj")).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         assert!(off <= 1e-10, "{family}: the second thread moved a vertex by {off:e}");
     }
 }

@@ -7,7 +7,6 @@ use std::fs;
 
 use freebound::examples::Example;
 use freebound::io::read_mesh;
-use freebound::mesh::VertexId;
 use freebound::solver::verdict;
 use glam::{DVec2, DVec3};
 use serde_json::Value;
@@ -109,7 +108,7 @@ fn the_result_fits_the_unit_square_or_has_the_area_of_the_surface() {
     assert!(high.max_element() == 1.0 && high.min_element() > 0.5, "{high}");
     let embedding = coordinates("true");
     let area = |face| {
-        let [a, b, c] = mesh.face(face).map(|v: VertexId| embedding[v.index()]);
+        let [a, b, c] = embedding.corners(&mesh, face);
         (b - a).perp_dot(c - a) / 2.0
     };
     let ratio = mesh.faces().map(area).sum::<f64>() / mesh.mesh().area();

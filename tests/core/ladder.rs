@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{
-    Choice as _, Control, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step, hard_pins,
-    verdict,
+    Choice as _, Control, Embedding, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step,
+    hard_pins, verdict,
 };
 use glam::DVec2;
 
@@ -62,11 +62,7 @@ fn auto_ends_planar_from_any_two_pins_and_any_family() {
                 assert!(last.verdict.planar, "{name}, {family}, pins {pair:?}: {}", last.verdict.summary());
                 assert!(verdict(&mesh, &last.solution.embedding).planar);
                 for (v, target) in &pins {
-                    assert_eq!(
-                        last.solution.embedding[v.index()],
-                        target.target,
-                        "{name}: pins are met to the last bit"
-                    );
+                    assert_eq!(last.solution.embedding[v], target.target, "{name}: pins are met to the last bit");
                 }
             }
         }
@@ -150,7 +146,7 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
     let tried = rungs.iter().position(|&rung| rung == Method::Continuation).unwrap();
     assert!(rungs[0] == Method::Natural && tried > 1 && rungs[1..tried].iter().all(|&rung| rung == Method::Iterate));
     assert!(!rungs.contains(&Method::VirtualBoundary));
-    let is_met = |step: &Step| pins.iter().all(|(v, at)| step.solution.embedding[v.index()] == at.target);
+    let is_met = |step: &Step| pins.iter().all(|(v, at)| step.solution.embedding[v] == at.target);
     assert!(steps[..tried].iter().all(is_met) && steps.last().is_some_and(|step| step.verdict.planar && is_met(step)));
 }
 
@@ -193,7 +189,7 @@ fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
     for (mesh, settings, pins) in cases {
         let undisturbed = steps_of(&mesh, settings, &pins);
         let found = disturbed(&mesh, Ladder::new(settings, pins));
-        let told = |steps: &[Step]| -> Vec<(usize, Method, Option<String>, Vec<DVec2>)> {
+        let told = |steps: &[Step]| -> Vec<(usize, Method, Option<String>, Embedding)> {
             let told = |s: &Step| (s.bent_vertices, s.rung, s.note.clone(), s.solution.embedding.clone());
             steps.iter().map(told).collect()
         };
@@ -205,7 +201,7 @@ fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
 fn the_same_run_gives_the_same_bits() {
     let mesh = disk(Example::Cube.mesh());
     let settings = Settings::new(Method::Auto, Family::MeanValue);
-    let bits = || -> Vec<Vec<DVec2>> {
+    let bits = || -> Vec<Embedding> {
         steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.candidate.solution.embedding).collect()
     };
     assert_eq!(bits(), bits());

@@ -29,11 +29,7 @@ fn check(mesh: &DiskMesh, pins: &Pins, name: &str) -> Step {
     assert!(verdict(fine, embedding).planar, "{name}");
     assert!(!step.verdict.mirrored, "{name}");
     for (v, pin) in pins {
-        assert_eq!(
-            embedding[v.index()].to_array().map(f64::to_bits),
-            pin.target.to_array().map(f64::to_bits),
-            "{name}"
-        );
+        assert_eq!(embedding[v].to_array().map(f64::to_bits), pin.target.to_array().map(f64::to_bits), "{name}");
     }
     let old = mesh.vertex_count();
     assert_eq!(refinement.old_vertex_count(), old);

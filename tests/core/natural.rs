@@ -9,8 +9,8 @@ use freebound::linalg::{Analysis, Kind, LinalgError};
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::{
-    Control, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, fixed_pins, flatten, gauge_pins,
-    hard_pins, verdict,
+    Control, Embedding, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, fixed_pins, flatten,
+    gauge_pins, hard_pins, verdict,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
@@ -57,7 +57,7 @@ fn distance(a: &[DVec2], b: &[DVec2]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / extent(b)
 }
 
-fn bits(embedding: &[DVec2]) -> Vec<[u64; 2]> {
+fn bits(embedding: &Embedding) -> Vec<[u64; 2]> {
     embedding.iter().map(|z| z.to_array().map(f64::to_bits)).collect()
 }
 
@@ -141,7 +141,7 @@ pub(crate) fn corner_terms(x: [DVec3; 3], settings: &Settings) -> [Complex<f64>;
 }
 
 /// Solves with a dense matrix, written down corner by corner.
-fn dense_solution(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Vec<DVec2> {
+fn dense_solution(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Embedding {
     let n = mesh.vertex_count();
     let mut matrix = Mat::<Complex<f64>>::zeros(n, n);
     for face in mesh.faces() {

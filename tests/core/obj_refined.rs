@@ -5,8 +5,7 @@ use std::fs;
 
 use freebound::io::{ObjMesh, read_mesh, read_obj, refined_obj, write_obj};
 use freebound::mesh::{DiskMesh, FaceId, NewVertex, Refinement, VertexId};
-use freebound::solver::verdict;
-use glam::DVec2;
+use freebound::solver::{Embedding, verdict};
 
 use crate::program::Program;
 
@@ -36,7 +35,7 @@ fn refined() -> (ObjMesh, DiskMesh, Refinement) {
 }
 
 /// The file as text.
-fn text_of(mesh: &ObjMesh, texture: &[DVec2]) -> String {
+fn text_of(mesh: &ObjMesh, texture: &Embedding) -> String {
     let mut bytes = Vec::new();
     write_obj(&mut bytes, mesh, texture).unwrap();
     String::from_utf8(bytes).unwrap()
@@ -45,7 +44,8 @@ fn text_of(mesh: &ObjMesh, texture: &[DVec2]) -> String {
 #[test]
 fn old_vertices_whole_polygons_and_statements_stay_and_split_polygons_become_triangles() {
     let (file, _, refinement) = refined();
-    let [before, after] = [text_of(&file, &[]), text_of(&refined_obj(&file, &refinement), &[])];
+    let [before, after] =
+        [text_of(&file, &Embedding::default()), text_of(&refined_obj(&file, &refinement), &Embedding::default())];
     let lines = |text: &str, word: &str| -> Vec<String> {
         text.lines().filter(|line| line.starts_with(word)).map(str::to_owned).collect()
     };
@@ -65,7 +65,7 @@ fn old_vertices_whole_polygons_and_statements_stay_and_split_polygons_become_tri
 fn the_refined_file_is_the_refined_mesh() {
     let (file, _, refinement) = refined();
     let disk = refinement.disk();
-    let embedding: Vec<DVec2> = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+    let embedding: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
     let back = read_obj(text_of(&refined_obj(&file, &refinement), &embedding).as_bytes()).unwrap();
     let texture = back.texture_mesh().unwrap();
     assert_eq!(texture.mesh.positions, disk.mesh().positions);
@@ -80,7 +80,7 @@ fn the_refined_file_is_the_refined_mesh() {
 fn other_programs_read_it_and_check_proves_it() {
     let (file, _, refinement) = refined();
     let disk = refinement.disk();
-    let embedding: Vec<DVec2> = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+    let embedding: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
     let program = Program::new();
     let path = program.write("out.obj", &text_of(&refined_obj(&file, &refinement), &embedding));
     program.run(&["check", "out.obj"]).expect(0);
@@ -98,7 +98,7 @@ fn a_refinement_without_new_vertices_changes_nothing() {
     assert_eq!(same.polygons, file.polygons);
     assert_eq!(same.statements, file.statements);
     let program = Program::new();
-    let path = program.write("in.obj", &text_of(&same, &[]));
+    let path = program.write("in.obj", &text_of(&same, &Embedding::default()));
     assert_eq!(read_mesh(&path).unwrap().polygons, file.polygons);
-    assert_eq!(fs::read_to_string(&path).unwrap(), text_of(&file, &[]));
+    assert_eq!(fs::read_to_string(&path).unwrap(), text_of(&file, &Embedding::default()));
 }

@@ -14,7 +14,7 @@ fn texture_vertices_are_cut_at_seams_and_joined_elsewhere() {
     let texture = read(text).texture_mesh().expect("it is complete");
     assert_eq!(texture.vertex_of, [0, 1, 2, 2, 3].map(VertexId::new));
     let expected = [[0., 0.], [1., 0.], [1., 1.], [5., 5.], [0., 1.]].map(DVec2::from);
-    assert_eq!(texture.embedding, expected);
+    assert_eq!(*texture.embedding, expected);
     assert_eq!(texture.mesh.triangles, [[0, 1, 2], [0, 3, 4]].map(|t| t.map(VertexId::new)));
     assert_eq!(texture.mesh.positions[3], DVec3::new(1.0, 1.0, 0.0));
 }
@@ -27,7 +27,7 @@ fn copies_of_coordinates_per_corner_make_no_seams() {
     let mesh = read(&format!("{text}f 1/1 2/2 3/3\nf 1/4 3/5 4/6\n"));
     let texture = mesh.texture_mesh().expect("it is complete");
     assert_eq!(texture.mesh, mesh.polygons.triangulate());
-    assert_eq!(texture.embedding, [[0., 0.], [1., 0.], [1., 1.], [0., 1.]].map(DVec2::from));
+    assert_eq!(*texture.embedding, [[0., 0.], [1., 0.], [1., 1.], [0., 1.]].map(DVec2::from));
 }
 
 #[test]

@@ -5,13 +5,14 @@ use std::io::{self, Write};
 
 use freebound::io::{ObjMesh, Statement, read_mesh, read_obj, write_atomically, write_obj};
 use freebound::mesh::{PolygonMesh, VertexId};
+use freebound::solver::Embedding;
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
 use crate::common::manifest;
 use crate::makers::grid;
 
-fn written(mesh: &ObjMesh, texture: &[DVec2]) -> Vec<u8> {
+fn written(mesh: &ObjMesh, texture: &Embedding) -> Vec<u8> {
     let mut bytes = Vec::new();
     write_obj(&mut bytes, mesh, texture).expect("memory takes all");
     bytes
@@ -44,7 +45,7 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 /// Meshes of polygons with any positions, texture coordinates and statements.
-fn any_mesh() -> impl Strategy<Value = (ObjMesh, Vec<DVec2>)> {
+fn any_mesh() -> impl Strategy<Value = (ObjMesh, Embedding)> {
     let points = prop::collection::vec((any_number(), any_number(), any_number(), any_number(), any_number()), 3..20);
     let polygons = prop::collection::vec(prop::collection::vec(any::<prop::sample::Index>(), 3..6), 1..12);
     let statements = prop::collection::vec((0_u32..14, "(o|g|usemtl|mtllib)( [a-zA-Z0-9.é]{1,5}){1,3}|s off"), 0..5);
@@ -90,7 +91,7 @@ proptest! {
 fn the_corpus_comes_back_from_the_writer() {
     for entry in manifest() {
         let Ok(mesh) = read_mesh(&entry.path) else { continue };
-        let back = read_obj(written(&mesh, &[]).as_slice()).expect("it reads back");
+        let back = read_obj(written(&mesh, &Embedding::default()).as_slice()).expect("it reads back");
         assert_eq!(bits(&back.polygons.positions), bits(&mesh.polygons.positions), "{}", entry.file);
         assert_eq!(back.polygons, mesh.polygons, "{}", entry.file);
         assert_eq!(back.statements, mesh.statements, "{}", entry.file);
@@ -102,7 +103,7 @@ fn a_published_map_goes_through_a_file_unchanged() {
     for entry in manifest().iter().filter(|entry| entry.text("role").contains("+uv")) {
         let name = entry.path.file_stem().expect("a name").to_string_lossy().into_owned();
         let map = entry.path.with_file_name(format!("constrained/{name}.publishedmap.txt"));
-        let texture: Vec<DVec2> = fs::read_to_string(map)
+        let texture: Embedding = fs::read_to_string(map)
             .expect("the map is there")
             .lines()
             .filter(|line| !line.starts_with('#'))
@@ -127,7 +128,7 @@ fn a_mesh_looks_as_any_program_expects() {
         Statement { before_face: 1, text: b"g left".to_vec() },
     ];
     mesh.polygons.positions[3] = DVec3::new(-0.0, 1e-9, 2.5e20);
-    let texture = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.1, 1.0 / 3.0]].map(DVec2::from);
+    let texture = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.1, 1.0 / 3.0]].map(DVec2::from).into_iter().collect();
     let expected = "v 0.0 0.0 0.0\nv 1.0 0.0 0.0\nv 0.0 1.0 0.0\nv -0.0 1e-9 2.5e20\n\
         vt 0.0 0.0\nvt 1.0 0.0\nvt 0.0 1.0\nvt 0.1 0.3333333333333333\n\
         usemtl skin\nf 1/1 2/2 4/4\ng left\nf 1/1 4/4 3/3\n";

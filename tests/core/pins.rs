@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{
-    BoundaryShape, Control, Family, Method, Pins, Settings, SolveError, farthest_pair, flatten, gauge_pins, hard_pins,
-    to_true_area, to_unit_square,
+    BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, farthest_pair, flatten, gauge_pins,
+    hard_pins, to_true_area, to_unit_square,
 };
 use glam::{DVec2, DVec3};
 
@@ -24,15 +24,15 @@ fn pins(list: &[(u32, [f64; 2])]) -> Pins {
     hard_pins(list.iter().map(|&(v, place)| (VertexId::new(v), place.into())))
 }
 
-fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Result<Vec<DVec2>, SolveError> {
+fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Result<Embedding, SolveError> {
     flatten(mesh, settings, pins, Control::unattended()).map(|solution| solution.embedding)
 }
 
 /// Total area of the embedding's faces, turned ones counted as they lie.
-fn signed_area(mesh: &DiskMesh, embedding: &[DVec2]) -> f64 {
+fn signed_area(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     mesh.faces()
         .map(|face| {
-            let [a, b, c] = mesh.face(face).map(|v| embedding[v.index()]);
+            let [a, b, c] = embedding.corners(mesh, face);
             (b - a).perp_dot(c - a) / 2.0
         })
         .sum()
@@ -45,7 +45,7 @@ fn pins_are_met_bit_for_bit() {
     for settings in free_methods() {
         let solution = flatten(&mesh, &settings, &wanted, Control::unattended()).unwrap();
         for (vertex, target) in &wanted {
-            let found = solution.embedding[vertex.index()];
+            let found = solution.embedding[vertex];
             assert_eq!(
                 found.to_array().map(f64::to_bits),
                 target.target.to_array().map(f64::to_bits),
@@ -65,7 +65,7 @@ fn one_pin_moves_the_default_solution_onto_its_target() {
         let free = solve(&mesh, &settings, &Pins::new()).unwrap();
         let pinned = flatten(&mesh, &settings, &hard_pins([(vertex, target)]), Control::unattended()).unwrap();
         let shift = target - free[vertex.index()];
-        assert_eq!(pinned.embedding[vertex.index()], target);
+        assert_eq!(pinned.embedding[vertex], target);
         assert!(pinned.gauge_completed);
         for (moved, z) in pinned.embedding.iter().zip(&free) {
             assert!(
@@ -88,8 +88,8 @@ fn the_default_gauge_lies_on_the_x_axis_from_the_lower_id_at_the_origin() {
     assert!(mesh.boundary_place(low).is_some() && mesh.boundary_place(high).is_some());
     for settings in free_methods() {
         let embedding = solve(&mesh, &settings, &Pins::new()).unwrap();
-        assert_eq!(embedding[low.index()], DVec2::ZERO, "scaling keeps the origin");
-        let other = embedding[high.index()];
+        assert_eq!(embedding[low], DVec2::ZERO, "scaling keeps the origin");
+        let other = embedding[high];
         assert!(other.x > 0.0 && other.y == 0.0, "{settings:?}: {other}");
     }
 }
@@ -102,7 +102,7 @@ fn without_pins_the_embedding_has_the_area_of_the_surface() {
         let flat: f64 = mesh
             .faces()
             .map(|face| {
-                let [a, b, c] = mesh.face(face).map(|v| embedding[v.index()]);
+                let [a, b, c] = embedding.corners(&mesh, face);
                 (b - a).perp_dot(c - a).abs() / 2.0
             })
             .sum();
@@ -117,7 +117,7 @@ fn true_area_holds_at_sizes_whose_squares_no_double_holds() {
         let mesh = grid(3, 2);
         let positions = mesh.positions.iter().map(|&p| p * scale).collect();
         let mesh = disk(TriMesh { positions, ..mesh });
-        let mut embedding: Vec<DVec2> = mesh.mesh().positions.iter().map(|p| p.truncate() / scale * 1e-9).collect();
+        let mut embedding: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate() / scale * 1e-9).collect();
         to_true_area(&mesh, &mut embedding);
         let corner = embedding[3].x / scale;
         assert!((corner - 3.0).abs() < 1e-12, "scale {scale}: {corner}");

@@ -8,6 +8,7 @@ use std::process::{Command, Output, Stdio};
 use freebound::examples::Example;
 use freebound::io::ObjMesh;
 use freebound::mesh::{DiskMesh, PolygonMesh};
+use freebound::solver::Embedding;
 use glam::DVec2;
 use serde_json::Value;
 use tempfile::TempDir;
@@ -150,9 +151,9 @@ pub(crate) fn example_file(program: &Program, example: Example) -> DiskMesh {
 }
 
 /// Texture coordinates by vertex of a file that gives every vertex one.
-pub(crate) fn coordinates_by_vertex(file: &ObjMesh) -> Vec<DVec2> {
+pub(crate) fn coordinates_by_vertex(file: &ObjMesh) -> Embedding {
     let texture = file.texture.as_ref().expect("the file has texture coordinates");
-    let mut found = vec![DVec2::NAN; file.polygons.positions.len()];
+    let mut found = Embedding::from(vec![DVec2::NAN; file.polygons.positions.len()]);
     for (vertex, &place) in file.polygons.corners.iter().zip(&texture.corners) {
         found[vertex.index()] = texture.coordinates[place as usize];
     }

@@ -4,7 +4,7 @@ use freebound::geom::Picture;
 use freebound::io::ProvedEmbedding;
 use freebound::io::raster::{Canvas, Colour, Paint, Shading, View, colours, mesh_picture, plane_picture};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::verdict;
+use freebound::solver::{Embedding, verdict};
 use glam::{DVec2, DVec3};
 
 const SQUARE: [DVec2; 4] = [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0), DVec2::new(0.0, 1.0)];
@@ -27,7 +27,7 @@ fn a_picture_is_as_red_as_the_verdict_says() {
     let points = [SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[3], DVec2::new(0.5, 0.5)];
     let mesh = disk(&points, &faces([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]));
     // In a mirror every face is turned over, and the map is one-to-one all the same.
-    let mirrored = points.map(|p| DVec2::new(-p.x, p.y));
+    let mirrored = points.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
     let verdict = verdict(&mesh, &mirrored);
     assert!(verdict.planar && verdict.mirrored);
     let proved = ProvedEmbedding { mesh: &mesh, embedding: &mirrored, verdict: &verdict };
@@ -124,7 +124,8 @@ fn a_flipped_face_is_red_and_the_boundary_dark() {
     let canvas = Canvas::drawing(200, 200);
     let mesh = disk(&points, &fan);
     let picture_of = |points: &[DVec2]| {
-        ProvedEmbedding { mesh: &mesh, embedding: points, verdict: &verdict(&mesh, points) }.picture(&canvas)
+        let embedding = points.to_vec().into();
+        ProvedEmbedding { mesh: &mesh, embedding: &embedding, verdict: &verdict(&mesh, &embedding) }.picture(&canvas)
     };
     let sound = picture_of(&points);
     assert!(share_of(&sound, colours::FLIPPED) == 0.0);
@@ -139,16 +140,20 @@ fn a_flipped_face_is_red_and_the_boundary_dark() {
 #[test]
 fn a_degenerate_face_of_an_embedding_counts_as_flipped_and_harms_nothing() {
     let points = [DVec2::ZERO, DVec2::X, DVec2::X * 2.0, DVec2::new(f64::NAN, 0.0), DVec2::Y];
-    let picture =
-        plane_picture(&points, &faces([[0, 1, 2], [0, 1, 3], [0, 1, 4]]), &Canvas::drawing(50, 50), Paint::Clay);
+    let picture = plane_picture(
+        &points.to_vec().into(),
+        &faces([[0, 1, 2], [0, 1, 3], [0, 1, 4]]),
+        &Canvas::drawing(50, 50),
+        Paint::Clay,
+    );
     assert_eq!(picture.pixels.len(), 4 * 50 * 50);
-    let empty = plane_picture(&[], &[], &Canvas::drawing(50, 30), Paint::Clay);
+    let empty = plane_picture(&Embedding::default(), &[], &Canvas::drawing(50, 30), Paint::Clay);
     assert!(share_of(&empty, colours::BACKGROUND) > 0.999);
 }
 
 #[test]
 fn the_checker_follows_its_coordinates() {
-    let coordinates = SQUARE;
+    let coordinates = Embedding::from(SQUARE.to_vec());
     let paint = Paint::Checker { coordinates: &coordinates, size: 0.5 };
     let picture = mesh_picture(&flat(&SQUARE), &faces([[0, 1, 2], [0, 2, 3]]), &View::FRONT, &unlit(100, 100), paint);
     let at = |x, y| picture.pixel(x, y).map(|p| [p[0], p[1], p[2]]);

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Family, Method, Pins, Settings, equations, flatten, hard_pins, verdict};
+use freebound::solver::{Control, Embedding, Family, Method, Pins, Settings, equations, flatten, hard_pins, verdict};
 use glam::{DVec2, DVec3};
 use nalgebra::DMatrix;
 use num_complex::Complex;
@@ -32,7 +32,7 @@ fn extent(points: &[DVec2]) -> f64 {
 }
 
 /// Largest distance from the best similar image of `plane`, relative to the embedding's extent.
-fn distance_up_to_similarity(plane: &[DVec2], embedding: &[DVec2]) -> f64 {
+fn distance_up_to_similarity(plane: &[DVec2], embedding: &Embedding) -> f64 {
     let count = plane.len() as f64;
     let mean = |points: &[DVec2]| points.iter().map(|&z| complex(z)).sum::<Complex<f64>>() / count;
     let (from, to) = (mean(plane), mean(embedding));
@@ -42,7 +42,7 @@ fn distance_up_to_similarity(plane: &[DVec2], embedding: &[DVec2]) -> f64 {
     pairs().map(|(p, z)| (turn * p - z).norm()).fold(0.0, f64::max) / extent(embedding)
 }
 
-fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins, name: &str) -> Vec<DVec2> {
+fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins, name: &str) -> Embedding {
     flatten(mesh, settings, pins, Control::unattended())
         .unwrap_or_else(|error| panic!("{name}, {settings:?}: {error}"))
         .embedding
@@ -133,7 +133,7 @@ fn long_thin_strips_come_back_where_the_matrix_is_hermitian() {
 fn the_flat_examples_come_back() {
     for (example, methods) in [(Example::Ell, free_methods()), (Example::Spiral, hermitian_methods())] {
         let mesh = example.mesh();
-        let plane: Vec<DVec2> = mesh.positions.iter().map(|p| p.truncate()).collect();
+        let plane: Embedding = mesh.positions.iter().map(|p| p.truncate()).collect();
         assert!(mesh.positions.iter().all(|p| p.z == mesh.positions[0].z), "{} is flat", example.name());
         assert_comes_back_by(&methods, &DiskMesh::try_from(mesh).unwrap(), &plane, example.name());
     }
@@ -143,7 +143,7 @@ fn the_flat_examples_come_back() {
 fn the_planar_mesh_of_the_corpus_comes_back() {
     for entry in corpus_disks().iter().filter(|entry| entry.file == "flat_bump_domain.obj") {
         let mesh = entry.disk();
-        let plane: Vec<DVec2> = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
+        let plane: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
         assert_comes_back(&mesh, &plane, &entry.file);
     }
 }
@@ -155,7 +155,7 @@ fn a_mirrored_plane_comes_back_by_its_faces() {
     for position in &mut mesh.positions {
         position.x = -position.x;
     }
-    let plane: Vec<DVec2> = mesh.positions.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
+    let plane: Embedding = mesh.positions.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
     assert_comes_back(&DiskMesh::try_from(mesh).unwrap(), &plane, "a grid turned over");
 }
 
@@ -222,7 +222,7 @@ fn a_rolled_up_sheet_comes_back_flat() {
     let step = PI / 6.0;
     let mesh = shaped_disk(columns, rows, |x, y| DVec3::new((x * step).cos(), (x * step).sin(), y / 2.0));
     let chord = 2.0 * (step / 2.0).sin();
-    let plane: Vec<DVec2> = grid(columns, rows).positions.iter().map(|p| DVec2::new(p.x * chord, p.y / 2.0)).collect();
+    let plane: Embedding = grid(columns, rows).positions.iter().map(|p| DVec2::new(p.x * chord, p.y / 2.0)).collect();
     assert_comes_back(&mesh, &plane, "a rolled-up sheet");
 }
 

@@ -1,12 +1,12 @@
 //! A session without a screen: opening, solving, pinning, undoing, saving; and thousands of actions at random.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use freebound::examples::Example;
 use freebound::io::{OutputKind, Target, read_mesh};
-use freebound::mesh::{TriMesh, VertexId};
+use freebound::mesh::VertexId;
 use freebound::session::{
     Action, Document, OutputFit, Place, RecentFiles, SaveRequest, Session, Severity, StopConditions,
 };
@@ -14,7 +14,7 @@ use freebound::solver::{BoundaryShape, Control, Family, Method, Settings, flatte
 use glam::DVec2;
 use tempfile::TempDir;
 
-use crate::makers::{Random, grid};
+use crate::makers::{Random, grid, write_obj};
 
 /// What the background is given before a test fails.
 const PATIENCE: Duration = Duration::from_secs(90);
@@ -47,19 +47,6 @@ pub(crate) fn opened(example: Example) -> Session {
 
 fn id(number: u32) -> VertexId {
     VertexId::new(number)
-}
-
-pub(crate) fn write_obj(path: &Path, mesh: &TriMesh) {
-    use std::fmt::Write as _;
-    let mut text = String::new();
-    for p in &mesh.positions {
-        writeln!(text, "v {} {} {}", p.x, p.y, p.z).unwrap();
-    }
-    for t in &mesh.triangles {
-        let [a, b, c] = t.map(|v| v.number() + 1);
-        writeln!(text, "f {a} {b} {c}").unwrap();
-    }
-    std::fs::write(path, text).unwrap();
 }
 
 #[test]
@@ -332,7 +319,7 @@ impl Walk {
         let is_on_its_way = is_one_to_one || outcome.step.is_of_planar_start();
         if outcome.problem.settings.method.uses_pins() && !is_on_its_way {
             for (vertex, pin) in &outcome.problem.targets {
-                assert_eq!(outcome.step.solution.embedding[vertex.index()], pin.uv);
+                assert_eq!(outcome.step.solution.embedding[vertex], pin.uv);
             }
         }
     }

@@ -11,8 +11,8 @@ use freebound::session::{Action, Outcome, OutputFit, Problem, Session, Stop};
 use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
 use glam::DVec2;
 
-use crate::makers::grid;
-use crate::session::{session, settle, settled, write_obj};
+use crate::makers::{grid, write_obj};
+use crate::session::{session, settle, settled};
 
 fn id(number: u32) -> VertexId {
     VertexId::new(number)
@@ -214,7 +214,7 @@ fn an_outcome_with_new_vertices_is_measured_and_proved_on_its_own_mesh() {
     let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(&disk, Control::unattended()).expect("a square can be solved");
     let [a, b] = [0, 3].map(|v: usize| step.solution.embedding[v]);
-    step.candidate.solution.embedding.push(a.midpoint(b));
+    step.candidate.solution.embedding = step.solution.embedding.iter().copied().chain([a.midpoint(b)]).collect();
     step.candidate.refinement = Some(refinement);
     let outcome = Outcome::new(&disk, Problem { settings: *run.settings(), ..Problem::default() }, step);
     assert_eq!((outcome.new_vertex_count(), outcome.distortion.faces.len()), (1, 4));

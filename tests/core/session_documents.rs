@@ -11,8 +11,8 @@ use glam::{DVec2, DVec3};
 use tempfile::TempDir;
 
 use crate::common::corpus_disks;
-use crate::makers::grid;
-use crate::session::{session, settled, write_obj};
+use crate::makers::{grid, write_obj};
+use crate::session::{session, settled};
 
 pub(crate) fn id(number: u32) -> VertexId {
     VertexId::new(number)

@@ -6,7 +6,7 @@ use freebound::examples::Example;
 use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Session};
-use freebound::solver::{Control, Hold, flatten, verdict};
+use freebound::solver::{Control, Embedding, Hold, flatten, verdict};
 use glam::DVec2;
 
 use crate::session::{opened, settle, settled};
@@ -26,7 +26,7 @@ fn with_constraints() -> Session {
 }
 
 /// The embedding that the document's first solve gives.
-fn first_solve(session: &Session) -> Vec<DVec2> {
+fn first_solve(session: &Session) -> Embedding {
     let document = session.document();
     let disk = session.model().expect("open").disk().expect("a disk");
     flatten(disk, &document.run_settings(), &document.pins(), Control::unattended()).unwrap().embedding
@@ -45,7 +45,7 @@ fn what_follows_the_pointer_is_the_first_solve_and_is_proved_in_its_own_time() {
         let apart = fresh.iter().zip(&*preview.embedding).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         assert!(apart < 1e-10, "{apart:.1e} apart");
         if number != 60 {
-            assert_eq!(preview.embedding[vertex.index()], target, "to the last bit");
+            assert_eq!(preview.embedding[vertex], target, "to the last bit");
         }
         assert_eq!(**preview.verdict().expect("proved by now"), verdict(&disk, &preview.embedding));
     }
@@ -98,7 +98,7 @@ fn a_slower_column_catches_up_with_the_pointer() {
     }
     settle(&mut session);
     let target = session.document().targets[&vertex].uv;
-    assert_eq!(session.preview().expect("it caught up").embedding[vertex.index()], target);
+    assert_eq!(session.preview().expect("it caught up").embedding[vertex], target);
 }
 
 #[test]

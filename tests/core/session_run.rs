@@ -8,11 +8,11 @@ use freebound::examples::Example;
 use freebound::io::OutputKind;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop, StopConditions};
-use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
+use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
-use crate::makers::grid;
-use crate::session::{opened, session, settle, settled, write_obj};
+use crate::makers::{grid, write_obj};
+use crate::session::{opened, session, settle, settled};
 
 /// Neither proof nor standstill ends a run: it goes on to the limit of steps.
 const ON_AND_ON: StopConditions = StopConditions { planar: false, stalled: false, crossing: false, at_step: None };
@@ -21,7 +21,7 @@ fn step_count(session: &Session) -> usize {
     session.timeline().records().len()
 }
 
-fn embedding(session: &Session) -> Vec<DVec2> {
+fn embedding(session: &Session) -> Embedding {
     session.outcome().expect("solved").step.solution.embedding.clone()
 }
 
@@ -225,7 +225,7 @@ fn crossing_pins(session: &Session) -> Pins {
     let boundary = disk.boundary_loop();
     let embedding = embedding(session);
     let opposite = embedding[boundary[boundary.len() / 2].index()];
-    let at = |v: VertexId| embedding[v.index()];
+    let at = |v: VertexId| embedding[v];
     let centre = embedding.iter().sum::<DVec2>() / embedding.len() as f64;
     let through = opposite + (opposite - centre);
     hard_pins([
@@ -353,7 +353,7 @@ fn the_step_on_the_screen_is_saved_with_the_numbers_up_to_it() {
 }
 
 /// The texture coordinates of an OBJ file, in order.
-fn written_coordinates(path: &Path) -> Vec<DVec2> {
+fn written_coordinates(path: &Path) -> Embedding {
     let text = std::fs::read_to_string(path).unwrap();
     let numbers = |line: &str| -> Vec<f64> { line.split(' ').map(|number| number.parse().unwrap()).collect() };
     let lines = text.lines().filter_map(|line| line.strip_prefix("vt "));

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use glam::{DVec2, DVec3};
+use freebound::solver::Embedding;
+use glam::DVec3;
 
 use crate::makers::Random;
 
@@ -121,9 +122,9 @@ pub(crate) fn interior_pair(mesh: &DiskMesh, random: &mut Random) -> [VertexId; 
 }
 
 /// Areas of the faces of an embedding, the least and the greatest.
-pub(crate) fn area_range(mesh: &DiskMesh, embedding: &[DVec2]) -> [f64; 2] {
+pub(crate) fn area_range(mesh: &DiskMesh, embedding: &Embedding) -> [f64; 2] {
     let area = |face| {
-        let [a, b, c] = mesh.face(face).map(|v| embedding[v.index()]);
+        let [a, b, c] = embedding.corners(mesh, face);
         (b - a).perp_dot(c - a).abs() / 2.0
     };
     mesh.faces().map(area).fold([f64::INFINITY, 0.0], |[low, high], area| [low.min(area), high.max(area)])

@@ -7,7 +7,7 @@ use freebound::examples::Example;
 use freebound::io::read_mesh;
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::session::{Finished, Model, Outcome, OutputFit, Problem};
-use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
+use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;
 
@@ -224,7 +224,7 @@ fn auto_ends_planar_and_proved_on_every_disk_of_the_corpus() {
 }
 
 /// A fan whose embedding is `places`, the centre first, as the outcome of a solve.
-fn outcome_with(mesh: &DiskMesh, places: Vec<DVec2>) -> Outcome {
+fn outcome_with(mesh: &DiskMesh, places: Embedding) -> Outcome {
     let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
     step.verdict = verdict(mesh, &places);
@@ -232,7 +232,7 @@ fn outcome_with(mesh: &DiskMesh, places: Vec<DVec2>) -> Outcome {
     Outcome::new(mesh, Problem { settings: *run.settings(), ..Problem::default() }, step)
 }
 
-fn finish(mesh: &TriMesh, places: Vec<DVec2>) -> (bool, String, bool) {
+fn finish(mesh: &TriMesh, places: Embedding) -> (bool, String, bool) {
     let disk = DiskMesh::try_from(mesh.clone()).expect("a disk");
     let program = Program::new();
     let path = program.write("in.obj", &crate::program::obj_text(&crate::program::polygons_of(&disk)));
@@ -248,7 +248,7 @@ fn finish(mesh: &TriMesh, places: Vec<DVec2>) -> (bool, String, bool) {
 fn what_the_unit_square_would_fold_is_written_where_it_was_solved() {
     // A square around the origin so small that its shape is lost when half the extent is added.
     let mesh = grid(3, 3);
-    let mut places: Vec<DVec2> = mesh.positions.iter().map(|p| p.truncate() - DVec2::splat(1.0)).collect();
+    let mut places: Embedding = mesh.positions.iter().map(|p| p.truncate() - DVec2::splat(1.0)).collect();
     // Vertices 5, 6, 9 and 10 are the corners of the square in the middle.
     for (vertex, place) in [(5, [-1e-18, -1e-18]), (6, [1e-18, -1e-18]), (9, [-1e-18, 1e-18]), (10, [1e-18, 1e-18])] {
         places[vertex] = DVec2::from(place);
@@ -268,7 +268,8 @@ fn what_the_division_would_fold_is_scaled_by_a_power_of_two() {
     let mut found = 0;
     for k in 1..200 {
         let x = f64::from(k) / 64.0;
-        let places = vec![DVec2::new(x, x.next_up()), DVec2::ZERO, DVec2::new(3.0, 3.0), DVec2::new(0.0, 3.0)];
+        let corners = [DVec2::new(x, x.next_up()), DVec2::ZERO, DVec2::new(3.0, 3.0), DVec2::new(0.0, 3.0)];
+        let places = Embedding::from(corners.to_vec());
         let mut square = places.clone();
         to_unit_square(&mut square);
         if !verdict(&disk, &places).planar || verdict(&disk, &square).planar {

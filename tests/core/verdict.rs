@@ -1,7 +1,7 @@
 //! The verdict on maps that are known: each kind of failure by itself.
 
 use freebound::mesh::{EdgeId, FaceId, VertexId};
-use freebound::solver::{Verdict, verdict};
+use freebound::solver::{Embedding, Verdict, verdict};
 use glam::DVec2;
 
 use super::common::manifest;
@@ -100,7 +100,7 @@ fn a_flattened_face_counts_as_flipped_and_apart() {
 
 #[test]
 fn a_bow_tie_crosses_itself_once_and_does_not_turn() {
-    let case = strip(vec![at(0.0, 0.0), at(0.0, 1.0), at(1.0, 1.0), at(1.0, 0.0)]);
+    let case = strip(vec![at(0.0, 0.0), at(0.0, 1.0), at(1.0, 1.0), at(1.0, 0.0)].into());
     let verdict = judge(&case);
     assert_eq!(crossings(&case), [[[0, 2], [1, 3]]]);
     assert_eq!(verdict.turning_number, Some(0));
@@ -207,7 +207,7 @@ fn all_vertices_in_one_place_are_not_planar() {
 
 #[test]
 fn the_report_has_the_fields_of_the_design() {
-    let case = strip(vec![at(0.0, 0.0), at(0.0, 1.0), at(1.0, 1.0), at(1.0, 0.0)]);
+    let case = strip(vec![at(0.0, 0.0), at(0.0, 1.0), at(1.0, 1.0), at(1.0, 0.0)].into());
     assert_eq!(
         serde_json::to_string(&judge(&case)).unwrap(),
         "{\"planar\":false,\"flipped_faces\":[1],\"boundary_crossings\":[[0,4]],\"overwound_vertices\":[],\
@@ -219,7 +219,7 @@ fn the_report_has_the_fields_of_the_design() {
 fn the_flat_mesh_of_the_corpus_lies_planar_as_it_is() {
     for entry in manifest().iter().filter(|entry| entry.file == "flat_bump_domain.obj") {
         let mesh = entry.disk();
-        let embedding: Vec<DVec2> = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
+        let embedding: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
         let verdict = verdict(&mesh, &embedding);
         assert!(verdict.planar, "{}", verdict.summary());
     }

@@ -1,6 +1,7 @@
 //! Small disks and maps of them into the plane, for the tests of the verdict.
 
 use freebound::mesh::{DiskMesh, TriMesh};
+use freebound::solver::Embedding;
 use glam::{DVec2, DVec3};
 
 use crate::makers::Random;
@@ -19,7 +20,7 @@ fn grid_point(random: &mut Random, size: i32) -> DVec2 {
 #[derive(Clone, Debug)]
 pub(super) struct Case {
     pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) embedding: Vec<DVec2>,
+    pub(super) embedding: Embedding,
 }
 
 impl Case {
@@ -39,7 +40,7 @@ pub(super) fn fan(middle: DVec2, link: &[DVec2]) -> Case {
 }
 
 /// A strip of triangles between two rows of vertices, the lower even, the upper odd.
-pub(super) fn strip(embedding: Vec<DVec2>) -> Case {
+pub(super) fn strip(embedding: Embedding) -> Case {
     let last = u32::try_from(embedding.len()).expect("few vertices") - 2;
     let triangles = (0..last).map(|i| if i % 2 == 0 { [i, i + 2, i + 1] } else { [i, i + 1, i + 2] }).collect();
     Case { triangles, embedding }
@@ -96,7 +97,7 @@ fn convex(random: &mut Random) -> Case {
         triangles[face] = [a, b, inserted];
         triangles.extend([[b, c, inserted], [c, a, inserted]]);
     }
-    Case { triangles, embedding }
+    Case { triangles, embedding: embedding.into() }
 }
 
 /// A fan whose link goes around once or twice, sometimes folded.
@@ -117,7 +118,7 @@ pub(super) fn grid_case(random: &mut Random) -> Case {
         0 => star(random),
         1 => {
             let count = random.index(4) + 3;
-            strip(vec![DVec2::ZERO; count])
+            strip(vec![DVec2::ZERO; count].into())
         }
         _ => {
             let mut case = convex(random);
@@ -154,7 +155,7 @@ pub(super) fn nearly_planar_case(random: &mut Random) -> Case {
 }
 
 /// Moves every coordinate by a few units of its last place.
-pub(super) fn nudge(random: &mut Random, embedding: &mut [DVec2]) {
+pub(super) fn nudge(random: &mut Random, embedding: &mut Embedding) {
     for point in embedding {
         for coordinate in [&mut point.x, &mut point.y] {
             for _ in 0..random.index(3) {

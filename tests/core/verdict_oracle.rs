@@ -3,9 +3,9 @@
 //! Coordinates are taken as rational numbers; multiplied by their common denominator once, they stay whole, because
 //! every definition below is a matter of signs.
 
+use freebound::solver::Embedding;
 use std::collections::BTreeMap;
 
-use glam::DVec2;
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 
@@ -27,7 +27,7 @@ pub(super) struct Answer {
 }
 
 /// Examines the map of a disk into the plane.
-pub(super) fn examine(triangles: &[[u32; 3]], embedding: &[DVec2]) -> Answer {
+pub(super) fn examine(triangles: &[[u32; 3]], embedding: &Embedding) -> Answer {
     let points = points(embedding);
     let at = |v: u32| &points[v as usize];
     let signs: Vec<i32> = triangles.iter().map(|&[a, b, c]| sign(&cross(at(a), at(b), at(c)))).collect();
@@ -48,7 +48,7 @@ pub(super) fn examine(triangles: &[[u32; 3]], embedding: &[DVec2]) -> Answer {
 }
 
 /// The exact points, all multiplied by the one number that makes them whole and small.
-fn points(embedding: &[DVec2]) -> Vec<Point> {
+fn points(embedding: &Embedding) -> Vec<Point> {
     let exact = |value: f64| BigRational::from_float(value).expect("the oracle takes finite numbers only");
     let points: Vec<[BigRational; 2]> = embedding.iter().map(|p| [exact(p.x), exact(p.y)]).collect();
     // Denominators of floating-point numbers are powers of two: the greatest is a multiple of all.

@@ -5,8 +5,8 @@ use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::plane_weights::natural_in_plane;
 use freebound::solver::{
-    BoundaryShape, Control, Family, Ladder, Method, NoEquation, Pins, Settings, Step, Treatment, VertexEquation,
-    WeightSource, equation_of_step,
+    BoundaryShape, Control, Embedding, Family, Ladder, Method, NoEquation, Pins, Settings, Step, Treatment,
+    VertexEquation, WeightSource, equation_of_step,
 };
 use glam::DVec2;
 use num_complex::Complex;
@@ -27,7 +27,7 @@ fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
 }
 
 /// A linear step with another embedding in the place of its own.
-fn step_with(mesh: &DiskMesh, family: Family, embedding: Vec<DVec2>) -> Step {
+fn step_with(mesh: &DiskMesh, family: Family, embedding: Embedding) -> Step {
     let mut step = steps_of(mesh, Settings::new(Method::Natural, family)).swap_remove(0);
     step.candidate.solution.embedding = embedding;
     step
@@ -37,8 +37,8 @@ fn equation(mesh: &DiskMesh, step: &Step, vertex: VertexId) -> VertexEquation {
     equation_of_step(mesh, (step, None), vertex).unwrap().0
 }
 
-/// Places that satisfy nothing.
-fn at_random(count: usize, seed: u64) -> Vec<DVec2> {
+/// PinPositions that satisfy nothing.
+fn at_random(count: usize, seed: u64) -> Embedding {
     let mut random = Random(seed);
     (0..count).map(|_| DVec2::new(random.unit(), random.unit())).collect()
 }
@@ -48,7 +48,7 @@ fn assert_is_row(
     mesh: &DiskMesh,
     found: &VertexEquation,
     all: &Equations<Complex<f64>>,
-    embedding: &[DVec2],
+    embedding: &Embedding,
     vertex: VertexId,
 ) {
     let row: Vec<(VertexId, Complex<f64>)> =
@@ -67,9 +67,9 @@ fn assert_is_row(
             a.re / sum
         );
     }
-    let at = |v: VertexId| embedding[v.index()] - embedding[vertex.index()];
+    let at = |v: VertexId| embedding[v] - embedding[vertex];
     let whole: f64 = row.iter().map(|(v, a)| a.norm() * at(*v).length()).sum();
-    let left = all.discrepancy(mesh, embedding, vertex).norm() / whole;
+    let left = all.residual_of(mesh, embedding, vertex).norm() / whole;
     assert!((found.residual - left).abs() < 1e-9, "{vertex}: {} is {left}", found.residual);
 }
 
@@ -104,7 +104,7 @@ fn each_equation_of_an_iteration_is_a_row_of_its_system() {
 #[test]
 fn a_planar_ring_and_a_planar_fan_satisfy_it() {
     let mesh = disk(Example::Ell.mesh());
-    let flat: Vec<DVec2> = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
+    let flat: Embedding = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
     for family in [Family::Conformal, Family::MeanValue, Family::Wachspress] {
         let step = step_with(&mesh, family, flat.clone());
         for vertex in mesh.vertices() {
@@ -126,7 +126,7 @@ fn an_open_fan_leaves_the_boundary_term() {
     // A vertex in the middle of the lower side of a grid of unit squares: with d = 1 its offset is i(û₂ − û₁) / Σ k, û₁
     // to the right and û₂ to the left, and so downwards, out of the mesh.
     let mesh = DiskMesh::try_from(grid(4, 4)).unwrap();
-    let flat: Vec<DVec2> = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
+    let flat: Embedding = mesh.vertices().map(|v| mesh.position(v).truncate()).collect();
     let vertex = VertexId::new(2);
     let found = equation(&mesh, &step_with(&mesh, Family::MeanValue, flat), vertex);
     let offset = found.offset_vector.unwrap();
@@ -155,7 +155,7 @@ fn a_linear_solve_and_an_iteration_satisfy_theirs_but_at_pins() {
         Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Iterate, Family::MeanValue) };
     let steps = steps_of(&mesh, settings);
     assert!(steps.len() > 1, "the first step folds");
-    let mut before: Option<&[DVec2]> = None;
+    let mut before: Option<&Embedding> = None;
     for step in &steps {
         for vertex in mesh.vertices().filter(|v| !step.solution.pins.contains_key(v)) {
             let (found, _) = equation_of_step(&mesh, (step, before), vertex).unwrap();

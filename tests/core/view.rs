@@ -1,6 +1,7 @@
 //! Cameras, picking, draw arrays and colour scales.
 
 use freebound::mesh::{FaceId, VertexId};
+use freebound::solver::Embedding;
 use freebound::view::{
     FacePaint, MeshArrays, OrbitCamera, PICK_RADIUS, PlaneArrays, PlaneBox, PlaneCamera, PlanePicker, Range, Scale,
     Sphere, SurfacePicker, UnitPlane, UpAxis, Visibility, crease_normals, nice_step_at_least,
@@ -118,7 +119,7 @@ proptest! {
     ) {
         // Half of the points are squeezed into a corner.
         let squeeze = 10_f64.powi(-decades);
-        let embedding: Vec<DVec2> = points
+        let embedding: Embedding = points
             .iter()
             .enumerate()
             .map(|(k, &(x, y))| DVec2::new(x, y) * if k % 2 == 0 { 1.0 } else { squeeze })

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use freebound::examples::Example;
 use freebound::geom::{Orientation, orientation};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::plane_weights::{left_over_in_plane, mean_value_in_plane};
+use freebound::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use freebound::solver::{
-    Control, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, diameter, largest_move,
-    verdict,
+    Control, Embedding, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, diameter,
+    largest_move, verdict,
 };
 use glam::{DVec2, DVec3};
 
@@ -18,22 +18,22 @@ use crate::makers::{Random, disk, grid};
 /// A planar embedding may move by this share of its diameter: 2D reproduction.
 const REPRODUCED: f64 = 1e-12;
 
-fn flat(mesh: &DiskMesh) -> Vec<DVec2> {
+fn flat(mesh: &DiskMesh) -> Embedding {
     mesh.mesh().positions.iter().map(|x| DVec2::new(x.x, x.y)).collect()
 }
 
 /// Solved within the outline and peeled.
-fn solved(mesh: &DiskMesh, extended: &Extended) -> Vec<DVec2> {
-    let equations = mean_value_in_plane(&extended.disk, &extended.positions);
+fn solved(mesh: &DiskMesh, extended: &Extended) -> Embedding {
+    let equations = mean_value_in_plane(&extended.disk, &extended.embedding);
     // Summed up from the equations, so that the answer does not lean on what is known of positive faces.
-    let start = Start { positions: &extended.positions, left: None };
+    let start = Start { embedding: &extended.embedding, residuals: None };
     let (positions, residual, _) = extended.solve(&equations, start, Control::unattended()).unwrap();
     assert!(residual <= 1e-10, "{residual:.1e}");
-    positions[..mesh.vertex_count()].to_vec()
+    Embedding::of_mesh(mesh, &positions)
 }
 
 /// A grid with further triangles on its lower side, whose tips lie at the given heights above that side's edge.
-fn grid_with_ears(columns: u32, heights: &[(u32, f64)]) -> (DiskMesh, Vec<DVec2>) {
+fn grid_with_ears(columns: u32, heights: &[(u32, f64)]) -> (DiskMesh, Embedding) {
     let TriMesh { mut positions, triangles, .. } = grid(columns, columns);
     let mut faces: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(VertexId::number)).collect();
     let mut places: Vec<DVec2> = positions.iter().map(|x| DVec2::new(x.x, x.y)).collect();
@@ -44,7 +44,7 @@ fn grid_with_ears(columns: u32, heights: &[(u32, f64)]) -> (DiskMesh, Vec<DVec2>
         places.push(DVec2::new(middle, height));
         faces.push([column, tip, column + 1]);
     }
-    (disk(TriMesh::new(positions, &faces)), places)
+    (disk(TriMesh::new(positions, &faces)), places.into())
 }
 
 fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
@@ -72,8 +72,8 @@ fn the_pockets_of_a_planar_embedding_are_positive_and_reach_the_hull() {
     let mesh = disk(Example::Ell.mesh());
     let extended = Extended::up_to_hull(&mesh, &flat(&mesh)).unwrap();
     assert!(!extended.pockets.is_empty());
-    assert!(verdict(&extended.disk, &extended.positions).planar, "mesh and pockets together are one-to-one");
-    let hull: Vec<DVec2> = extended.disk.boundary_loop().iter().map(|v| extended.positions[v.index()]).collect();
+    assert!(verdict(&extended.disk, &extended.embedding).planar, "mesh and pockets together are one-to-one");
+    let hull: Vec<DVec2> = extended.disk.boundary_loop().iter().map(|v| extended.embedding[*v]).collect();
     for k in 0..hull.len() {
         let [a, b, c] = [0, 1, 2].map(|i| hull[(k + i) % hull.len()]);
         assert_ne!(orientation(a, b, c), Some(Orientation::Clockwise), "the outline is convex");
@@ -97,7 +97,7 @@ fn folds_inside_a_simple_boundary_are_solved_away() {
         let mesh = disk(grid(columns, columns));
         let mut embedding = flat(&mesh);
         for v in mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()) {
-            embedding[v.index()] = DVec2::new(random.unit(), random.unit()) * f64::from(columns);
+            embedding[v] = DVec2::new(random.unit(), random.unit()) * f64::from(columns);
         }
         assert!(verdict(&mesh, &embedding).flipped_faces.len() > 10);
         let extended = Extended::new(&mesh, &embedding).unwrap();
@@ -155,7 +155,7 @@ fn an_ear_folded_inward_gets_a_frame_and_unfolds() {
         assert!(before.boundary_crossings.is_empty(), "the boundary is simple");
         let extended = Extended::new(&mesh, &embedding).unwrap();
         assert_eq!(extended.outline, Outline::Frame, "the base of the ear would be a double edge");
-        assert!(extended.positions.len() > mesh.vertex_count() + 8, "the double edges are split");
+        assert!(extended.embedding.len() > mesh.vertex_count() + 8, "the double edges are split");
         let result = verdict(&mesh, &solved(&mesh, &extended));
         assert!(result.planar, "{ears:?}: {}", result.summary());
     }
@@ -179,7 +179,7 @@ fn a_larger_flap_folded_inward_unfolds() {
         upper = lower;
     }
     let mesh = disk(TriMesh::new(positions, &faces));
-    let embedding: Vec<DVec2> =
+    let embedding: Embedding =
         flat(&mesh).iter().map(|z| DVec2::new(z.x, z.y.abs() * if z.y < 0.0 { 0.9 } else { 1.0 })).collect();
     let before = verdict(&mesh, &embedding);
     assert_eq!((before.flipped_faces.len(), before.boundary_crossings.len()), (12, 0), "{}", before.summary());
@@ -192,9 +192,9 @@ fn a_larger_flap_folded_inward_unfolds() {
 fn what_a_flipped_embedding_leaves_is_the_same_both_ways() {
     let (mesh, embedding) = grid_with_ears(5, &[(1, 0.4), (3, 0.2)]);
     let extended = Extended::new(&mesh, &embedding).unwrap();
-    let equations = mean_value_in_plane(&extended.disk, &extended.positions);
-    let left = left_over_in_plane(&extended.disk, &extended.positions);
-    let start = Start { positions: &extended.positions, left: Some(&left) };
+    let equations = mean_value_in_plane(&extended.disk, &extended.embedding);
+    let left = residuals_in_plane(&extended.disk, &extended.embedding);
+    let start = Start { embedding: &extended.embedding, residuals: Some(&left) };
     let (positions, _, _) = extended.solve(&equations, start, Control::unattended()).unwrap();
     let apart = largest_move(&solved(&mesh, &extended), &positions[..mesh.vertex_count()]);
     assert!(apart <= 1e-10 * diameter(&embedding), "{apart:.1e}");

@@ -6,8 +6,8 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::plane_weights::natural_in_plane;
 use freebound::solver::{
-    Control, Family, Iteration, Method, Pin, Pins, Prepared, Settings, SolveError, Treatment, diameter, flatten,
-    hard_pins, largest_move,
+    Control, Embedding, Family, Iteration, Method, Pin, Pins, Prepared, Settings, SolveError, Treatment, diameter,
+    flatten, hard_pins, largest_move,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
@@ -54,7 +54,7 @@ struct Dense {
 
 impl Dense {
     /// The minimiser with the exact pins at their targets.
-    fn solve(mut self, count: usize, pins: &Pins) -> Vec<DVec2> {
+    fn solve(mut self, count: usize, pins: &Pins) -> Embedding {
         for (vertex, pin) in pins {
             if let freebound::solver::Hold::Weighted(weight) = pin.hold {
                 let target = Complex::new(pin.target.x, pin.target.y);
@@ -75,7 +75,7 @@ impl Dense {
             }
         }
         let solved = matrix.qr().solve_lstsq(&right);
-        let mut found: Vec<DVec2> = (0..count).map(|i| is_exact(i).map_or(DVec2::ZERO, |pin| pin.target)).collect();
+        let mut found: Embedding = (0..count).map(|i| is_exact(i).map_or(DVec2::ZERO, |pin| pin.target)).collect();
         for (column, &i) in free.iter().enumerate() {
             found[i] = DVec2::new(solved[(column, 0)].re, solved[(column, 0)].im);
         }
@@ -112,11 +112,11 @@ fn mixed(count: u32, weights: impl Fn(&mut Random) -> f64, mesh: &DiskMesh, rand
     pins
 }
 
-fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Vec<DVec2> {
+fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Embedding {
     flatten(mesh, settings, pins, Control::unattended()).unwrap().embedding
 }
 
-fn apart(a: &[DVec2], b: &[DVec2]) -> f64 {
+fn apart(a: &Embedding, b: &Embedding) -> f64 {
     largest_move(a, b) / diameter(a)
 }
 
@@ -169,7 +169,7 @@ fn a_step_of_the_iteration_with_weighted_constraints_agrees_with_dense_least_squ
     let edges = mesh.edges().map(|edge| mesh.ends(edge));
     let lengths: Vec<f64> = edges.map(|[a, b]| start[a.index()].distance(start[b.index()])).collect();
     let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
-    let flat: Vec<DVec2> = start.iter().map(|z| *z / mean).collect();
+    let flat: Embedding = start.iter().map(|z| *z / mean).collect();
     let equations = natural_in_plane(&mesh, &flat);
     // Coefficients come at a size that is a power of two near mean edge length 1; a mean-value row is a length's inverse.
     let probe = mesh.halfedges().find(|&h| !mesh.is_boundary_edge(mesh.edge_of(h))).unwrap();
@@ -206,7 +206,7 @@ fn a_weight_means_the_same_at_every_size_of_the_mesh() {
             let settings = Settings { max_steps: 1, ..Settings::new(method, family) };
             let last = |mesh: &DiskMesh| {
                 let mut run = freebound::solver::Ladder::new(settings, pins.clone());
-                let mut found = Vec::new();
+                let mut found = Embedding::default();
                 run.finish(mesh, Control::unattended(), |step| found = step.candidate.solution.embedding).unwrap();
                 found
             };
@@ -289,7 +289,7 @@ fn exact_constraints_are_met_to_the_last_bit_beside_weighted_ones_at_every_step(
     run.finish(&mesh, Control::unattended(), |step| {
         count += 1;
         for (vertex, pin) in pins.iter().filter(|(_, pin)| pin.hold.is_exact()) {
-            assert_eq!(step.solution.embedding[vertex.index()], pin.target, "step {}", step.index);
+            assert_eq!(step.solution.embedding[vertex], pin.target, "step {}", step.index);
         }
     })
     .unwrap();
@@ -328,7 +328,7 @@ fn moving_pins_by_their_column_is_solving_anew() {
             let ids: Vec<VertexId> = pins.keys().copied().collect();
             for moved in [&ids[..1], &ids[3..4], &ids[2..6], &ids[..]] {
                 let column = prepared.column(&mesh, moved).unwrap();
-                let followed: Vec<DVec2> = base.iter().zip(&column).map(|(z, c)| *z + by.rotate(*c)).collect();
+                let followed: Embedding = base.iter().zip(&column).map(|(z, c)| *z + by.rotate(*c)).collect();
                 let mut there = pins.clone();
                 for v in moved {
                     there.get_mut(v).unwrap().target += by;

@@ -5,7 +5,7 @@ use egui::Key;
 use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Method, Settings};
+use freebound::solver::{Embedding, Method, Settings};
 use freebound::ui::{Shading, Stage};
 use glam::DVec2;
 
@@ -25,15 +25,15 @@ fn two_steps() -> Window {
     window
 }
 
-fn drawn(window: &Window) -> Vec<DVec2> {
-    window.editor().drawn_plane().expect("solved").positions().to_vec()
+fn drawn(window: &Window) -> Embedding {
+    window.editor().plane.drawn().expect("solved").positions().clone()
 }
 
 /// Steps until vertices are on their way, or for half a second.
 fn step_until_easing(window: &mut Window) -> bool {
     for _ in 0..500 {
         window.step();
-        if window.editor().is_easing() {
+        if window.editor().plane.is_easing() {
             return true;
         }
         std::thread::sleep(std::time::Duration::from_millis(1));
@@ -56,7 +56,7 @@ fn vertices_glide_from_step_to_step() {
     let whole = gap(&first, &last);
     let mut left = whole;
     let mut frames = 0;
-    while window.editor().is_easing() {
+    while window.editor().plane.is_easing() {
         let now = gap(&drawn(&window), &first);
         assert!(now <= left + 1e-12 && now < whole + 1e-12, "{now} after {left}");
         (left, frames) = (now, frames + 1);
@@ -75,9 +75,9 @@ fn a_step_that_comes_while_vertices_glide_takes_them_from_where_they_are() {
         window.step();
     }
     let on_the_way = drawn(&window);
-    let revision = window.editor().plane_scene().expect("solved").outcome_revision;
+    let revision = window.editor().plane.scene().expect("solved").outcome_revision;
     window.key_now(Key::ArrowRight);
-    while window.editor().plane_scene().expect("solved").outcome_revision == revision {
+    while window.editor().plane.scene().expect("solved").outcome_revision == revision {
         window.step();
     }
     // It turns around: no jump to either end. The frames in between have moved them on a little.
@@ -107,7 +107,7 @@ fn all_shows(window: &Window) -> bool {
 fn the_camera_goes_along_with_an_embedding_that_would_leave_the_pane() {
     for wanted in [true, false] {
         let mut window = two_steps();
-        window.editor_mut().ease.wanted = wanted;
+        window.editor_mut().look.glides = wanted;
         window.key(Key::ArrowLeft);
         window.key(Key::F);
         window.settle();
@@ -121,13 +121,13 @@ fn the_camera_goes_along_with_an_embedding_that_would_leave_the_pane() {
 fn a_camera_that_somebody_moved_stays() {
     let mut window = two_steps();
     window.key(Key::ArrowLeft);
-    window.editor_mut().plane_camera.as_mut().expect("framed").pan(DVec2::splat(150.0));
-    let camera = window.editor().plane_camera;
+    window.editor_mut().plane.camera_mut().expect("framed").pan(DVec2::splat(150.0));
+    let camera = window.editor().plane.camera();
     window.key(Key::ArrowRight);
-    assert_eq!(window.editor().plane_camera, camera);
+    assert_eq!(window.editor().plane.camera(), camera);
     window.harness.set_size(egui::vec2(900.0, 700.0));
     window.settle();
-    assert_eq!(window.editor().plane_camera, camera);
+    assert_eq!(window.editor().plane.camera(), camera);
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn an_embedding_that_was_framed_stays_framed_when_the_pane_changes() {
     window.harness.set_size(egui::vec2(1800.0, 1100.0));
     window.settle();
     let width = window.plane_view().size();
-    let bounds = window.editor().drawn_plane().expect("solved").arrays.bounds();
+    let bounds = window.editor().plane.drawn().expect("solved").arrays.bounds();
     let shown = window.place_in_plane(bounds.max) - window.place_in_plane(bounds.min);
     assert!((shown.x / width.x).max(-shown.y / width.y) > 0.85, "it fills the pane: {shown} of {width}");
 }
@@ -163,15 +163,15 @@ fn the_outline_of_the_compared_step_shows_and_goes() {
     let mut window = two_steps();
     window.editor_mut().session.handle(Action::Compare(Some(0)));
     window.settle();
-    assert_eq!(window.editor().ghost_step(), Some(0));
+    assert_eq!(window.editor().plane.ghost_step(), Some(0));
     assert!(window.shows("Outline of step 0"));
     window.key(Key::ArrowLeft);
-    assert_eq!(window.editor().ghost_step(), None, "a step is not compared with itself");
+    assert_eq!(window.editor().plane.ghost_step(), None, "a step is not compared with itself");
     window.key(Key::ArrowRight);
-    assert_eq!(window.editor().ghost_step(), Some(0));
+    assert_eq!(window.editor().plane.ghost_step(), Some(0));
     window.editor_mut().session.handle(Action::Compare(None));
     window.settle();
-    assert_eq!(window.editor().ghost_step(), None);
+    assert_eq!(window.editor().plane.ghost_step(), None);
     assert!(!window.shows("Outline of step"));
 }
 
@@ -191,7 +191,7 @@ fn moves_are_measured_from_the_compared_step_or_else_from_the_one_before() {
     window.editor_mut().session.handle(Action::Compare(Some(1)));
     window.settle();
     assert!(window.shows("Move from step 1"));
-    assert_eq!(window.editor().moved_from().expect("compared").step.index, 1);
+    assert_eq!(window.editor().plane.moved_from(&window.editor().session).expect("compared").step.index, 1);
 }
 
 #[test]
@@ -202,7 +202,7 @@ fn the_stages_of_a_virtual_boundary_show_no_outline_of_another_step() {
     window.settle();
     assert!(window.shows("Outline of step 0"));
     window.key(Key::H);
-    assert_eq!(window.editor().hull.stage, Stage::Pockets);
+    assert_eq!(window.editor().plane.stage(), Stage::Pockets);
     assert!(!window.shows("Outline of step 0"));
 }
 

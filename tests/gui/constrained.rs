@@ -91,9 +91,9 @@ fn h_shows_the_outside_that_keeps_the_boundary_simple() {
     window.key(Key::H);
     let caption = format!("{} triangles around the mesh", outside.triangles.len());
     assert!(window.shows(&caption), "{:?}", window.words());
-    let drawn = window.editor().drawn_plane().expect("solved").positions().to_vec();
+    let drawn = window.editor().plane.drawn().expect("solved").positions().to_vec();
     let embedding = window.embedding();
-    assert_eq!(drawn[..embedding.len()], embedding);
+    assert_eq!(drawn[..embedding.len()], *embedding);
     assert_eq!(drawn[embedding.len()..], outside.frame);
     assert!(window.controls().iter().any(|(_, name, _)| name.starts_with("Constraint v30")), "pins can be dragged");
     window.key(Key::H);

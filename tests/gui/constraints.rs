@@ -1,27 +1,24 @@
-//! Constraints by mouse and keys: pairs in both orders, several at once, nudges, weights.
+//! Constraints by mouse and keys: pairs in both orders, several at once, nudges.
 
 use eframe::egui;
-use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, Vec2};
-use egui_kittest::kittest::Queryable as _;
 use freebound::io::{Target, Targets};
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{Family, Hold, Method, Pin, Settings, Treatment};
-use freebound::ui::{Half, Intent, PinKind, Tool};
+use freebound::ui::{Half, Intent, Tool};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
 
-fn window() -> Window {
+pub(crate) fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(8, 0.4))
 }
 
-fn pins(window: &Window) -> Targets {
+pub(crate) fn pins(window: &Window) -> Targets {
     window.editor().session.document().targets.clone()
 }
 
-fn place(window: &mut Window, pins: &[(u32, Target)]) {
+pub(crate) fn place(window: &mut Window, pins: &[(u32, Target)]) {
     for &(vertex, pin) in pins {
         window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target: pin });
     }
@@ -29,7 +26,7 @@ fn place(window: &mut Window, pins: &[(u32, Target)]) {
 }
 
 /// The corners of the sheet on those of the unit square, and one vertex in between.
-fn corners(window: &mut Window) {
+pub(crate) fn corners(window: &mut Window) {
     let at = |x: f64, y: f64| Target::hard(DVec2::new(x, y));
     place(window, &[(0, at(0.0, 0.0)), (8, at(1.0, 0.0)), (72, at(0.0, 1.0)), (80, at(1.0, 1.0)), (40, at(0.5, 0.5))]);
     window.key(Key::F);
@@ -37,12 +34,12 @@ fn corners(window: &mut Window) {
 
 fn in_embedding(window: &Window, at: Pos2) -> DVec2 {
     let relative = at - window.plane_view().min;
-    let camera = window.editor().plane_camera.expect("an embedding shows");
-    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane_pane_size)
+    let camera = window.editor().plane.camera().expect("an embedding shows");
+    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane.area().size())
 }
 
 /// A place of the plane's pane without a vertex near by.
-fn free_place(window: &Window) -> Pos2 {
+pub(crate) fn free_place(window: &Window) -> Pos2 {
     window.plane_view().left_top() + Vec2::splat(24.0)
 }
 
@@ -243,7 +240,7 @@ fn arrows_nudge_selected_pins_and_only_them() {
     corners(&mut window);
     let before = pins(&window);
     window.editor_mut().selection.select([8, 40].map(VertexId::new));
-    let step = window.editor().plane_scene().expect("solved").arrays.bounds().extent() / 512.0;
+    let step = window.editor().plane.scene().expect("solved").arrays.bounds().extent() / 512.0;
     window.key(Key::ArrowRight);
     for (vertex, by) in [(8, step), (40, step), (0, 0.0)] {
         let moved = pins(&window)[&VertexId::new(vertex)].uv - before[&VertexId::new(vertex)].uv;
@@ -298,144 +295,4 @@ fn delete_frees_all_selected_constraints() {
     window.editor_mut().selection.select([8, 40].map(VertexId::new));
     window.key(Key::Delete);
     assert_eq!(pins(&window).keys().map(|v| v.number()).collect::<Vec<_>>(), [0, 72, 80]);
-}
-
-#[test]
-fn a_row_s_mark_makes_a_hard_constraint_pull_and_back() {
-    let mut window = window();
-    corners(&mut window);
-    window.click("Pins 5");
-    window.click("Hold of pin v40: hard");
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(Pin::DEFAULT_WEIGHT));
-    window.fill_in(Role::SpinButton, "Weight of pin v40", "25");
-    window.key(Key::Enter);
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(25.0));
-    window.click("Hold of pin v40: weighted");
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Hard);
-    window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!(pins(&window)[&VertexId::new(40)].hold, Hold::Weighted(25.0), "each is an undo step");
-}
-
-#[test]
-fn a_typed_weight_is_one_undo_step() {
-    let mut window = window();
-    corners(&mut window);
-    place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), 0.5))]);
-    window.click("Pins 6");
-    window.fill_in(Role::SpinButton, "Weight of pin v30", "250");
-    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5), "not before it is whole");
-    window.key(Key::Enter);
-    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(250.0));
-    window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5));
-}
-
-#[test]
-fn a_weight_that_is_only_looked_at_keeps_its_digits() {
-    let mut window = window();
-    corners(&mut window);
-    for weight in [0.123_456_789, 2.5e-7] {
-        place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), weight))]);
-        window.click("Pins 6");
-        window.harness.get_by_role_and_label(Role::SpinButton, "Weight of pin v30").click();
-        window.settle();
-        window.key(Key::Enter);
-        assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(weight));
-    }
-}
-
-#[test]
-fn where_the_treatment_weighs_exact_pins_marks_and_rows_say_so() {
-    let mut window = window();
-    corners(&mut window);
-    let natural = Settings::new(Method::Natural, Family::Conformal);
-    let settings = Settings { treatment: Some(Treatment::Weighted), ..natural };
-    window.editor_mut().session.handle(Action::SetSettings(settings));
-    window.settle();
-    let kind = PinKind::User(Hold::Weighted(Pin::DEFAULT_WEIGHT));
-    let shown = window.editor().pins_shown();
-    assert!(shown.len() == 5 && shown.iter().all(|pin| pin.kind == kind), "{shown:?}");
-    window.click("Pins 5");
-    assert!(window.has_button("Hold of pin v40: hard, weighed by the treatment"));
-    assert!(!window.words().iter().any(|words| words == "exact"), "{:?}", window.words());
-    assert!(window.shows("Largest error: weighted"), "{:?}", window.words());
-    assert!(pins(&window).values().all(|pin| pin.hold == Hold::Hard), "what was asked for stays");
-}
-
-#[test]
-fn selected_pins_are_held_alike_by_one_click() {
-    let mut window = window();
-    corners(&mut window);
-    window.click("Pins 5");
-    window.editor_mut().selection.select([0, 8, 40].map(VertexId::new));
-    window.settle();
-    assert!(window.shows("3 selected"));
-    window.click("Weighted");
-    let weighted = pins(&window).into_iter().filter(|(_, pin)| !pin.hold.is_exact());
-    assert_eq!(weighted.map(|(v, _)| v.number()).collect::<Vec<_>>(), [0, 8, 40]);
-    window.click("Hard");
-    assert!(pins(&window).values().all(|pin| pin.hold == Hold::Hard));
-}
-
-#[test]
-fn the_hold_chosen_last_is_that_of_the_next_constraint() {
-    let mut window = window();
-    corners(&mut window);
-    window.click("Pins 5");
-    window.editor_mut().selection.select([0, 8].map(VertexId::new));
-    window.settle();
-    window.click("Weighted");
-    window.key(Key::C);
-    window.editor_mut().tools.set_pair(Some(Half::Vertex(VertexId::new(30))));
-    window.click_at(free_place(&window), Modifiers::NONE);
-    assert!(matches!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(_)));
-}
-
-#[test]
-fn the_largest_errors_of_exact_and_weighted_pins_show() {
-    let mut window = window();
-    corners(&mut window);
-    place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), 0.5))]);
-    window.click("Pins 6");
-    let error = window.outcome().pin_error();
-    assert!(error > 1e-3, "it cannot be met: {error}");
-    assert!(window.shows(&format!("exact 0, weighted {error:.2e} at v30")), "{:?}", window.words());
-}
-
-#[test]
-fn rows_are_selected_together_with_shift_and_ctrl() {
-    let mut window = window();
-    corners(&mut window);
-    window.click("Pins 5");
-    let row = |window: &Window, name: &str| window.rect(Role::Button, name).center();
-    window.click_at(row(&window, "v8"), Modifiers::NONE);
-    window.click_at(row(&window, "v72"), Modifiers::SHIFT);
-    assert_eq!(*window.editor().selection.vertices(), [8, 40, 72].map(VertexId::new).into());
-    window.click_at(row(&window, "v40"), Modifiers::COMMAND);
-    assert_eq!(*window.editor().selection.vertices(), [8, 72].map(VertexId::new).into());
-}
-
-#[test]
-fn a_residual_joins_a_weighted_vertex_with_its_target() {
-    let mut window = window();
-    corners(&mut window);
-    let target = DVec2::new(0.9, 0.1);
-    place(&mut window, &[(30, Target::weighted(target, 0.5))]);
-    let [from, to] = [window.embedding()[30], target].map(|z| window.place_in_plane(z));
-    assert!(from.distance(to) > 10.0, "they differ");
-    let is_residual = |[a, b]: &[Pos2; 2]| a.distance(from) < 1.0 && b.distance(to) < 1.0;
-    assert!(window.lines().iter().any(is_residual));
-}
-
-#[test]
-fn the_selected_constraint_is_magnified_in_both_panes() {
-    let mut window = window();
-    corners(&mut window);
-    let named = |window: &Window, name: &str| window.harness.query_by_role_and_label(Role::Image, name).is_some();
-    assert!(!named(&window, "Magnifier: v40 on the mesh"));
-    window.editor_mut().selection.select([VertexId::new(40)]);
-    window.settle();
-    assert!(named(&window, "Magnifier: v40 on the mesh") && named(&window, "Magnifier: the target of v40"));
-    window.menu(&["View", "Magnifier"]);
-    assert!(!named(&window, "Magnifier: v40 on the mesh"));
 }

@@ -31,8 +31,8 @@ fn exchange(window: &mut Window, corners: [u32; 4], inner: [u32; 2]) {
     let [a, b] = inner.map(VertexId::new);
     let session = &mut window.editor_mut().session;
     session.handle(Action::Fix(corners.map(VertexId::new).into_iter().chain([a, b]).collect()));
-    session.handle(Action::MovePin { vertex: a, target: embedding[b.index()] });
-    session.handle(Action::MovePin { vertex: b, target: embedding[a.index()] });
+    session.handle(Action::MovePin { vertex: a, target: embedding[b] });
+    session.handle(Action::MovePin { vertex: b, target: embedding[a] });
     session.handle(Action::EndGesture);
     window.settle();
     assert!(!window.outcome().step.verdict.flipped_faces.is_empty(), "it folds");
@@ -48,15 +48,15 @@ fn the_list_of_defects_jumps_to_a_face_in_both_panes() {
     let mut window = folded();
     window.click(&format!("Defects {}", window.editor().defect_count()));
     let Defect::Flipped(face) = window.editor().defects()[1] else { panic!("flipped faces come first") };
-    let before = (window.editor().orbit, window.editor().plane_camera);
+    let before = (window.editor().mesh.camera(), window.editor().plane.camera());
     window.click(&format!("flipped face {face}"));
     let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
     assert_eq!(*window.editor().selection.vertices(), corners.into_iter().collect());
     assert_eq!(window.editor().selection.defect(), Some(1));
-    assert_ne!((window.editor().orbit, window.editor().plane_camera), before);
+    assert_ne!((window.editor().mesh.camera(), window.editor().plane.camera()), before);
     let embedding = window.embedding();
     for corner in corners {
-        assert!(window.plane_view().contains(window.place_in_plane(embedding[corner.index()])));
+        assert!(window.plane_view().contains(window.place_in_plane(embedding[corner])));
         assert!(window.mesh_view().contains(window.place_on_mesh(corner)));
     }
 }

@@ -1,32 +1,27 @@
-//! Files in and out through the window, what it says of bad ones, and work that takes long.
+//! Files in and out through the window.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use freebound::app::Start;
-use freebound::examples::Example;
 use freebound::io::read_mesh;
-use freebound::mesh::VertexId;
-use freebound::session::{Action, Severity, Surface};
-use freebound::solver::{Family, Method, Settings};
-use freebound::ui::sentence;
+use freebound::session::Severity;
 
-use crate::harness::{SIZE, Window, corpus, sheet, write_obj};
+use crate::harness::{SIZE, Window, sheet, write_obj};
 
-fn window() -> Window {
+pub(crate) fn window() -> Window {
     Window::with_mesh("sheet.obj", &sheet(6, 0.3))
 }
 
-fn ask_where_to_save(window: &mut Window) {
+pub(crate) fn ask_where_to_save(window: &mut Window) {
     window.menu(&["File", "Export", "Mesh with texture coordinates…"]);
 }
 
-fn name(window: &Window) -> String {
+pub(crate) fn name(window: &Window) -> String {
     window.editor().session.model().map(|model| model.name.clone()).unwrap_or_default()
 }
 
@@ -42,7 +37,7 @@ fn a_mesh_is_opened_through_the_dialog() {
     window.click("second.obj");
     window.click("Open");
     assert_eq!(name(&window), "second.obj");
-    assert!(!window.editor().dialogs.is_open());
+    assert!(!window.editor().files.dialogs.is_open());
 }
 
 #[test]
@@ -76,15 +71,15 @@ fn a_dialog_is_left_by_cancel_or_escape() {
     let mut window = window();
     window.press(Modifiers::COMMAND, Key::O);
     window.click("Cancel");
-    assert!(!window.editor().dialogs.is_open());
+    assert!(!window.editor().files.dialogs.is_open());
     ask_where_to_save(&mut window);
     window.key(Key::Escape);
-    assert!(!window.editor().dialogs.is_open());
+    assert!(!window.editor().files.dialogs.is_open());
     ask_where_to_save(&mut window);
     window.harness.get_by_role_and_label(Role::TextInput, "Name").click();
     window.step();
     window.key(Key::Escape);
-    assert!(!window.editor().dialogs.is_open(), "from its text field too");
+    assert!(!window.editor().files.dialogs.is_open(), "from its text field too");
     assert!(!window.path("sheet-flat.obj").exists());
 }
 
@@ -139,7 +134,7 @@ fn the_list_of_exports_has_the_same_entries_as_the_menu() {
     window.press(Modifiers::COMMAND, Key::E);
     assert!(window.has_button("Picture of the mesh's pane…") && window.has_button("Layout at true scale…"));
     window.click("Report…");
-    assert!(window.editor().dialogs.is_open() && !window.editor().layout.exports_shown);
+    assert!(window.editor().files.dialogs.is_open() && !window.editor().layout.exports_shown);
     window.click("Export");
     assert!(window.path("sheet-report.json").exists());
 }
@@ -231,175 +226,4 @@ fn a_recent_file_that_is_gone_says_so_and_changes_nothing() {
     assert_eq!(name(&window), "Flat L");
     assert!(window.shows("gone.obj"));
     assert!(window.editor().session.messages()[0].remedy.is_some());
-}
-
-/// Files of `bad` that can be read as meshes and flattened.
-const USABLE: [&str; 1] = ["raw_polygonfaces.obj"];
-
-#[test]
-fn every_bad_file_of_the_corpus_says_what_is_wrong_and_what_to_do() {
-    let Some(corpus) = corpus() else { return };
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(corpus.join("bad")).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.sort();
-    assert!(files.len() >= 14);
-    for file in files {
-        let file_name = file.file_name().unwrap().to_string_lossy().into_owned();
-        let mut window = window();
-        window.open(&file);
-        let messages = window.editor().session.messages().to_vec();
-        if USABLE.contains(&file_name.as_str()) {
-            assert!(messages.is_empty(), "{file_name}: {messages:?}");
-            continue;
-        }
-        assert!(!messages.is_empty(), "{file_name}");
-        for message in &messages {
-            assert!(message.remedy.as_ref().is_some_and(|remedy| !remedy.is_empty()), "{file_name}: {message:?}");
-        }
-        assert!(window.shows(&sentence(&messages[0].text)), "{file_name}: {:?}", window.words());
-        assert!(window.has_button("Dismiss") && window.has_button("Copy"), "{file_name}");
-        if read_mesh(&file).is_err() {
-            assert_eq!(name(&window), "sheet.obj", "what cannot be read replaces nothing");
-            assert!(window.is_proved(), "{}", window.verdict());
-        } else {
-            assert_eq!(name(&window), file_name);
-            assert!(
-                window.verdict().ends_with("fault") || window.verdict().ends_with("faults"),
-                "{}",
-                window.verdict()
-            );
-        }
-        try_everything(&mut window);
-    }
-}
-
-/// Does what a person may try, to see that nothing panics.
-fn try_everything(window: &mut Window) {
-    for key in [Key::F, Key::D, Key::W, Key::Num4, Key::Num2, Key::P, Key::Delete, Key::Escape] {
-        window.key(key);
-    }
-    for modifiers in [Modifiers::NONE, Modifiers::SHIFT] {
-        window.click_at(window.mesh_view().center(), modifiers);
-        window.click_at(window.plane_view().center(), modifiers);
-    }
-    for tab in ["Pins", "Vertex"] {
-        window.click(tab);
-    }
-    window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(0)]));
-    window.editor_mut().session.handle(Action::Solve);
-    window.press(Modifiers::COMMAND, Key::Z);
-    window.key(Key::G);
-    window.type_text("1");
-    window.key(Key::Enter);
-    window.key(Key::Escape);
-    ask_where_to_save(window);
-    window.key(Key::Escape);
-}
-
-#[test]
-fn a_message_is_copied_gone_to_and_dismissed() {
-    let mut window = window();
-    let mut bad = sheet(4, 0.3);
-    // A face without area, in the middle.
-    bad.positions[12] = bad.positions[13];
-    write_obj(&window.path("bad.obj"), &bad);
-    let file = window.path("bad.obj");
-    window.open(&file);
-    let message = window.editor().session.messages()[0].clone();
-    let Some(Surface::Faulty(..)) = window.editor().session.model().map(|model| &model.surface) else {
-        panic!("it has no area")
-    };
-    window.harness.get_by_label("Copy").click();
-    window.step();
-    let copied = window
-        .harness
-        .output()
-        .platform_output
-        .commands
-        .iter()
-        .any(|command| matches!(command, egui::OutputCommand::CopyText(text) if text.contains(&message.text)));
-    assert!(copied, "{:?}", window.harness.output().platform_output.commands);
-    window.click("Go to");
-    let selected: Vec<VertexId> = window.editor().selection.vertices().iter().copied().collect();
-    let mut expected = message.vertices.clone();
-    expected.sort_unstable();
-    assert_eq!(selected, expected);
-    let count = window.editor().session.messages().len();
-    window.click("Dismiss");
-    assert_eq!(window.editor().session.messages().len(), count - 1);
-    assert!(window.editor().session.messages().iter().all(|left| left.id != message.id));
-}
-
-#[test]
-fn a_good_mesh_after_a_bad_one_takes_its_messages_away() {
-    let mut window = window();
-    std::fs::write(window.path("broken.obj"), "v 0 0\nf 1 2 3\n").unwrap();
-    let file = window.path("broken.obj");
-    window.open(&file);
-    assert!(!window.editor().session.messages().is_empty());
-    window.menu(&["File", "Examples", "Flat L"]);
-    assert!(window.editor().session.messages().is_empty());
-    assert!(!window.has_button("Dismiss"));
-}
-
-/// A mesh whose solve takes a while, with the solve under way.
-fn at_work() -> Window {
-    let mut window = Window::with_mesh("large.obj", &sheet(120, 0.3));
-    window.editor_mut().session.handle(Action::SetSettings(slow(Family::MeanValue)));
-    window
-}
-
-fn slow(family: Family) -> Settings {
-    Settings::new(Method::Natural, family)
-}
-
-#[test]
-fn a_long_solve_is_cancelled_at_once() {
-    let mut window = at_work();
-    let before = window.outcome();
-    assert!(window.editor().session.busy().is_some());
-    let start = Instant::now();
-    window.editor_mut().session.handle(Action::Cancel);
-    while window.editor().session.busy().is_some() {
-        assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
-        window.step();
-    }
-    assert!(Arc::ptr_eq(&before, &window.outcome()), "what was there stays");
-    assert_eq!(window.verdict(), "not solved");
-    window.press(Modifiers::COMMAND, Key::Enter);
-    assert_eq!(window.outcome().problem.settings, slow(Family::MeanValue), "and can be solved again");
-}
-
-#[test]
-fn a_newer_request_replaces_an_older_one() {
-    let mut window = at_work();
-    window.step();
-    window.editor_mut().session.handle(Action::SetSettings(slow(Family::Wachspress)));
-    window.editor_mut().session.handle(Action::SetSettings(slow(Family::Power(0.5))));
-    window.settle();
-    assert_eq!(window.outcome().problem.settings, slow(Family::Power(0.5)));
-    assert!(window.editor().session.is_current());
-}
-
-#[test]
-fn the_newer_of_two_meshes_opens() {
-    let mut window = window();
-    let session = &mut window.editor_mut().session;
-    session.handle(Action::OpenExample(Example::BumpyCap));
-    session.handle(Action::OpenExample(Example::Ell));
-    window.settle();
-    assert_eq!(name(&window), Example::Ell.title());
-}
-
-#[test]
-fn the_window_answers_while_a_solve_runs() {
-    let mut window = at_work();
-    window.key_now(Key::W);
-    assert!(window.editor().look.wireframe && window.editor().session.busy().is_some(), "no waiting");
-    let slowest = (0..10).map(|_| {
-        let start = Instant::now();
-        window.step();
-        start.elapsed()
-    });
-    assert!(slowest.max().expect("ten frames") < Duration::from_millis(500));
 }

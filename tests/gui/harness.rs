@@ -13,11 +13,12 @@ use freebound::app::{App, Start};
 use freebound::examples::Example;
 use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::{Action, Outcome};
+use freebound::solver::Embedding;
 use freebound::ui::Editor;
 use glam::DVec2;
 use tempfile::TempDir;
 
-pub(crate) use crate::makers::{corpus, sheet};
+pub(crate) use crate::makers::{corpus, sheet, write_obj};
 
 /// What the background is given before a test fails; a test machine under load is slow.
 const PATIENCE: Duration = Duration::from_secs(90);
@@ -92,7 +93,7 @@ impl Window {
         Arc::clone(self.editor().session.outcome().expect("solved"))
     }
 
-    pub(crate) fn embedding(&self) -> Vec<DVec2> {
+    pub(crate) fn embedding(&self) -> Embedding {
         self.outcome().step.solution.embedding.clone()
     }
 
@@ -124,11 +125,13 @@ impl Window {
         let editor = self.editor();
         let session = &editor.session;
         let mesh_drawn = editor.mesh_scene().map(|scene| scene.model_revision);
-        let plane_drawn = editor.plane_scene().map(|scene| scene.outcome_revision);
+        let plane_drawn = editor.plane.scene().map(|scene| scene.outcome_revision);
         let mesh_wanted = session.model().map(|_| session.model_revision());
         let plane_wanted = session.outcome().map(|_| session.outcome_revision());
-        let scenes_drawn =
-            mesh_drawn == mesh_wanted && plane_drawn == plane_wanted && editor.hull_is_drawn() && !editor.is_easing();
+        let scenes_drawn = mesh_drawn == mesh_wanted
+            && plane_drawn == plane_wanted
+            && editor.plane.hull_is_drawn()
+            && !editor.plane.is_easing();
         session.busy().is_none() && !session.is_following() && scenes_drawn
     }
 
@@ -306,22 +309,25 @@ impl Window {
         let editor = self.editor();
         let scene = editor.mesh_scene().expect("a mesh shows");
         let position = scene.mesh().positions[vertex.index()];
-        let camera = editor.orbit.expect("a mesh shows");
-        on_screen(self.mesh_view(), camera.pane_from_world(position, editor.mesh_pane_size).expect("before the eye"))
+        let camera = editor.mesh.camera().expect("a mesh shows");
+        on_screen(
+            self.mesh_view(),
+            camera.pane_from_world(position, editor.mesh.area().size()).expect("before the eye"),
+        )
     }
 
     /// Where a point of the embedding shows.
     pub(crate) fn place_in_plane(&self, point: DVec2) -> Pos2 {
-        let camera = self.editor().plane_camera.expect("an embedding shows");
-        on_screen(self.plane_view(), camera.pane_from_embedding(point, self.editor().plane_pane_size))
+        let camera = self.editor().plane.camera().expect("an embedding shows");
+        on_screen(self.plane_view(), camera.pane_from_embedding(point, self.editor().plane.area().size()))
     }
 
     /// A vertex near the middle of the mesh's pane that is well visible.
     pub(crate) fn vertex_in_the_middle(&self) -> VertexId {
         let editor = self.editor();
         let scene = editor.mesh_scene().expect("a mesh shows");
-        let camera = editor.orbit.expect("a mesh shows");
-        let size = editor.mesh_pane_size;
+        let camera = editor.mesh.camera().expect("a mesh shows");
+        let size = editor.mesh.area().size();
         let mut best = (f64::INFINITY, VertexId::new(0));
         for (i, position) in scene.mesh().positions.iter().enumerate() {
             let vertex = VertexId::from_index(i);
@@ -401,17 +407,4 @@ fn collect_words(shape: &egui::Shape, words: &mut Vec<String>) {
 #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
 fn on_screen(rect: Rect, point: DVec2) -> Pos2 {
     rect.min + Vec2::new(point.x as f32, point.y as f32)
-}
-
-/// Writes a mesh with all its digits.
-pub(crate) fn write_obj(path: &Path, mesh: &TriMesh) {
-    use std::fmt::Write as _;
-    let mut text = String::new();
-    for position in &mesh.positions {
-        writeln!(text, "v {} {} {}", position.x, position.y, position.z).expect("text grows");
-    }
-    for [a, b, c] in &mesh.triangles {
-        writeln!(text, "f {} {} {}", a.number() + 1, b.number() + 1, c.number() + 1).expect("text grows");
-    }
-    std::fs::write(path, text).expect("a folder for files");
 }

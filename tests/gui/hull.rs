@@ -3,6 +3,7 @@
 use eframe::egui;
 use egui::Key;
 use freebound::examples::Example;
+use freebound::solver::Embedding;
 use freebound::ui::Stage;
 use glam::DVec2;
 
@@ -16,8 +17,8 @@ fn bent() -> Window {
     window
 }
 
-fn positions(window: &Window) -> Vec<DVec2> {
-    window.editor().drawn_plane().expect("solved").positions().to_vec()
+fn positions(window: &Window) -> Embedding {
+    window.editor().plane.drawn().expect("solved").positions().clone()
 }
 
 #[test]
@@ -29,7 +30,7 @@ fn h_shows_the_stages_and_hides_them_again() {
     assert!(window.shows(&format!("{pockets} triangles up to the hull")), "{:?}", window.words());
     for stage in Stage::ALL {
         window.click(stage.title());
-        assert_eq!(window.editor().hull.stage, stage);
+        assert_eq!(window.editor().plane.stage(), stage);
     }
     window.key(Key::H);
     assert!(!window.has_button("Pockets"));
@@ -45,7 +46,7 @@ fn each_stage_shows_the_mesh_where_it_was_then() {
     let result = window.embedding();
     let stages = window.outcome().step.virtual_boundary.clone().expect("bent");
     window.key(Key::H);
-    let extent = window.editor().drawn_plane().expect("solved").arrays.bounds().extent();
+    let extent = window.editor().plane.drawn().expect("solved").arrays.bounds().extent();
     let gap = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / extent;
 
     let pockets = positions(&window);
@@ -68,7 +69,7 @@ fn the_folds_of_the_stage_before_are_drawn_with_it() {
     let mut window = bent();
     assert!(window.is_proved(), "{}", window.verdict());
     window.key(Key::H);
-    let flipped = |window: &Window| window.editor().hull_scene().expect("shown").flipped_count();
+    let flipped = |window: &Window| window.editor().plane.hull_scene().expect("shown").flipped_count();
     assert_eq!(flipped(&window), 3);
     window.click("Solved");
     assert_eq!(flipped(&window), 0);
@@ -100,19 +101,19 @@ fn a_vertex_is_picked_where_the_stage_shows_it() {
 fn the_camera_comes_back_where_the_stages_needed_more_room() {
     let mut window = bent();
     // Nearer than all of the hull.
-    let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+    let camera = window.editor_mut().plane.camera_mut().expect("framed");
     camera.zoom_at(DVec2::splat(100.0), 1.5, DVec2::splat(400.0));
     let before = *camera;
     window.key(Key::H);
-    assert_ne!(window.editor().plane_camera, Some(before), "all of the hull is framed");
+    assert_ne!(window.editor().plane.camera(), Some(before), "all of the hull is framed");
     window.key(Key::H);
-    assert_eq!(window.editor().plane_camera, Some(before));
+    assert_eq!(window.editor().plane.camera(), Some(before));
     // Where somebody has moved it in between it stays.
     window.key(Key::H);
-    window.editor_mut().plane_camera.as_mut().expect("framed").pan(DVec2::splat(10.0));
-    let moved = window.editor().plane_camera;
+    window.editor_mut().plane.camera_mut().expect("framed").pan(DVec2::splat(10.0));
+    let moved = window.editor().plane.camera();
     window.key(Key::H);
-    assert_eq!(window.editor().plane_camera, moved);
+    assert_eq!(window.editor().plane.camera(), moved);
 }
 
 #[test]

@@ -62,10 +62,10 @@ fn it_shows_the_defect_gone_to() {
 fn a_click_goes_to_its_defect() {
     let mut window = folded();
     let name = inset(&window).expect("it shows");
-    let before = window.editor().plane_camera;
+    let before = window.editor().plane.camera();
     window.click(&name);
     assert_eq!(window.editor().selection.defect(), Some(0));
-    assert_ne!(window.editor().plane_camera, before);
+    assert_ne!(window.editor().plane.camera(), before);
 }
 
 #[test]
@@ -84,13 +84,13 @@ fn the_frame_on_the_layout_lies_around_the_defect_and_not_under_the_inset() {
     let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
     let embedding = window.embedding();
     let place = |window: &Window| {
-        let places = corners.map(|v: VertexId| window.place_in_plane(embedding[v.index()]));
+        let places = corners.map(|v: VertexId| window.place_in_plane(embedding[v]));
         Rect::from_points(&places)
     };
     assert!(window.has_frame_around(place(&window)));
     // Pan until the defect lies where the inset was.
     let by = inset_rect(&window).center() - place(&window).center();
-    let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+    let camera = window.editor_mut().plane.camera_mut().expect("framed");
     camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
     window.settle();
     assert!(!inset_rect(&window).intersects(place(&window)), "it has made room");
@@ -103,7 +103,7 @@ fn what_the_pane_shows_as_large_is_not_magnified() {
     let Defect::Flipped(face) = window.editor().defects()[0] else { panic!("flipped faces come first") };
     let corner = window.editor().session.model().expect("open").mesh().triangles[face.index()][0];
     let at = window.embedding()[corner.index()];
-    let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+    let camera = window.editor_mut().plane.camera_mut().expect("framed");
     camera.frame(freebound::view::PlaneBox { min: at - 1e-3, max: at + 1e-3 }, glam::DVec2::splat(400.0));
     window.settle();
     assert_eq!(inset(&window), None);
@@ -119,7 +119,7 @@ fn the_pointer_over_it_picks_nothing_behind_it() {
     window.harness.hover_at(at(&window));
     window.harness.run_steps(2);
     assert_eq!(window.editor().pointer.vertex(), Some(corner), "as long as nothing lies over it");
-    let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+    let camera = window.editor_mut().plane.camera_mut().expect("framed");
     camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
     window.settle();
     assert!(inset_rect(&window).contains(at(&window)));
@@ -148,7 +148,7 @@ fn a_stage_before_the_result_has_no_verdict_and_so_no_inset() {
     assert!(inset(&window).is_some(), "without stages the result shows");
     window.choose("Method", "Virtual boundary");
     window.click("Before");
-    assert!(window.editor().hull_scene().expect("shown").flipped_count() > 0);
+    assert!(window.editor().plane.hull_scene().expect("shown").flipped_count() > 0);
     assert_eq!(inset(&window), None, "folds, but no verdict");
 }
 

@@ -5,6 +5,7 @@
 
 mod compare;
 mod constrained;
+mod constraint_rows;
 mod constraints;
 mod defects;
 mod dialogs;
@@ -16,9 +17,11 @@ mod hull;
 mod magnifier;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
+mod messages;
 mod panels;
 mod pictures;
 mod render;
+mod render_work;
 mod screens;
 mod shaders;
 mod shortcuts;

@@ -48,7 +48,7 @@ fn count_of(picture: &RgbaImage, part: Rect, colour: Color32) -> usize {
 fn box_of(window: &Window, face: FaceId) -> Rect {
     let embedding = window.embedding();
     let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
-    let places = corners.map(|corner| window.place_in_plane(embedding[corner.index()]));
+    let places = corners.map(|corner| window.place_in_plane(embedding[corner]));
     Rect::from_points(&places)
 }
 
@@ -186,16 +186,16 @@ fn a_pocket_is_filled_with_a_quarter_of_its_green() {
         window.editor_mut().handle(Request::ToggleHull);
         window.settle();
         let stages = window.outcome().step.virtual_boundary.clone().expect("the face bends");
-        let plane = window.editor().drawn_plane().expect("solved").clone();
+        let plane = window.editor().plane.drawn().expect("solved").clone();
         let corners = |t: &[VertexId; 3]| t.map(|v| plane.positions()[v.index()]);
         let area = |t: &[VertexId; 3]| {
             let [a, b, c] = corners(t);
             (b - a).perp_dot(c - a)
         };
         let widest = stages.pockets.iter().max_by(|s, t| area(s).total_cmp(&area(t))).expect("a pocket");
-        let (corners, size) = (corners(widest), window.editor().plane_pane_size);
+        let (corners, size) = (corners(widest), window.editor().plane.area().size());
         let bounds = freebound::view::PlaneBox::around(&corners);
-        window.editor_mut().plane_camera.as_mut().expect("framed").frame(bounds, size);
+        window.editor_mut().plane.camera_mut().expect("framed").frame(bounds, size);
         let picture = picture(&mut window);
         let middle = window.place_in_plane(corners.iter().sum::<DVec2>() / 3.0);
         let mix = |a: u8, b: u8| u8::try_from((3 * u16::from(a) + u16::from(b)) / 4).expect("a mean of bytes");
@@ -214,7 +214,7 @@ fn the_magnifier_shows_its_flipped_face_hatched() {
         let mut window = drawn(name);
         fold(&mut window);
         // From afar hardly a pixel of the layout is red.
-        let camera = window.editor_mut().plane_camera.as_mut().expect("framed");
+        let camera = window.editor_mut().plane.camera_mut().expect("framed");
         camera.zoom_at(DVec2::splat(150.0), 0.02, DVec2::splat(400.0));
         let picture = picture(&mut window);
         let inset = window.controls().into_iter().find(|(_, name, _)| name.starts_with("Magnifier: "));
@@ -254,5 +254,14 @@ fn moves_are_coloured_in_both_panes() {
             let changed = pixels(&plain, view).iter().zip(pixels(&moved, view)).filter(|(a, b)| *a != b).count();
             assert!(changed > 20_000, "{name:?}: {changed} pixels");
         }
+    }
+}
+
+#[test]
+fn the_graphics_card_draws_in_the_theme_s_colours() {
+    for (_, theme) in THEMES {
+        let bytes = |colour: egui::Color32| colour.to_array();
+        assert_eq!(theme.palette.background.0, bytes(theme.background));
+        assert_eq!(theme.palette.flipped.0, bytes(theme.flipped));
     }
 }

@@ -30,6 +30,15 @@ fn pin(window: &mut Window, vertices: &[u32]) {
 }
 
 #[test]
+fn no_key_is_bound_twice() {
+    for (i, a) in BINDINGS.iter().enumerate() {
+        for b in &BINDINGS[i + 1..] {
+            assert_ne!(a.shortcut, b.shortcut, "{} and {}", a.about, b.about);
+        }
+    }
+}
+
+#[test]
 fn shortcuts_do_what_the_table_says() {
     for binding in BINDINGS {
         let mut window = window();
@@ -48,7 +57,7 @@ fn shortcuts_do_what_the_table_says() {
         window.editor_mut().session.handle(Action::ShowStep(1));
         window.settle();
         assert_eq!(steps(&window), (3, Some(1)));
-        let (pins, orbit) = (document(&window).targets.len(), window.editor().orbit);
+        let (pins, orbit) = (document(&window).targets.len(), window.editor().mesh.camera());
         assert_eq!(pins, 3);
         // Away from where framing leads, and Select in hand where that is asked for.
         let request = (binding.request)();
@@ -71,18 +80,18 @@ fn shortcuts_do_what_the_table_says() {
             Request::GoToStep(StepTarget::First | StepTarget::Previous) => steps(&window) == (3, Some(0)),
             Request::GoToStep(StepTarget::Next | StepTarget::Last) => steps(&window) == (3, Some(2)),
             // Never saved before: it asks where.
-            Request::Ask(_) | Request::SaveProject => editor.dialogs.is_open(),
+            Request::Ask(_) | Request::SaveProject => editor.files.dialogs.is_open(),
             Request::ToggleExports => editor.layout.exports_shown,
             // There is work that is not saved.
-            Request::Quit => editor.unsaved.is_asked(),
+            Request::Quit => editor.files.unsaved.is_asked(),
             // Nothing is wrong here to go to.
             Request::StepDefect(_) => editor.selection.defect().is_none(),
             Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
-            Request::Frame => editor.orbit != orbit,
+            Request::Frame => editor.mesh.camera() != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),
             Request::SetShading(shading) => editor.look.shading == shading,
-            Request::ToggleHull => editor.hull.shown,
+            Request::ToggleHull => editor.plane.hull_shown(),
             Request::ToggleWireframe => editor.look.wireframe,
             Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
             Request::Escape => editor.tools.tool() == Tool::Select,

@@ -66,16 +66,16 @@ fn an_embedding_that_leaves_the_pane_is_framed_anew_unless_a_detail_is_looked_at
     window.key(Key::Home);
     let is_in_sight = |window: &Window| {
         let view = window.plane_view();
-        window.embedding().into_iter().all(|point| view.contains(window.place_in_plane(point)))
+        window.embedding().iter().all(|point| view.contains(window.place_in_plane(*point)))
     };
     assert!(is_in_sight(&window));
     window.key(Key::ArrowRight);
     assert!(is_in_sight(&window), "the step moves the top of the face out of a view that stays");
-    let mut camera = window.editor().plane_camera.expect("framed");
-    camera.zoom_at(window.editor().plane_pane_size / 2.0, 4.0, window.editor().plane_pane_size);
-    window.editor_mut().plane_camera = Some(camera);
+    let mut camera = window.editor().plane.camera().expect("framed");
+    camera.zoom_at(window.editor().plane.area().size() / 2.0, 4.0, window.editor().plane.area().size());
+    window.editor_mut().plane.set_camera(camera);
     window.key(Key::ArrowLeft);
-    assert_eq!(window.editor().plane_camera, Some(camera), "whoever looks at a detail keeps it");
+    assert_eq!(window.editor().plane.camera(), Some(camera), "whoever looks at a detail keeps it");
 }
 
 #[test]

@@ -24,16 +24,16 @@ fn quitting_with_unsaved_work_asks_and_cancel_stays() {
     let mut window = window();
     edit(&mut window);
     window.press(Modifiers::COMMAND, Key::Q);
-    assert!(!window.editor().quit);
+    assert!(!window.editor().host.is_quitting());
     assert!(window.shows("Save the changes to sheet"));
     window.click("Cancel");
-    assert!(!window.editor().quit && !window.editor().unsaved.is_asked());
+    assert!(!window.editor().host.is_quitting() && !window.editor().files.unsaved.is_asked());
     window.press(Modifiers::COMMAND, Key::Q);
     window.key(Key::Escape);
-    assert!(!window.editor().quit && !window.editor().unsaved.is_asked(), "Esc is Cancel");
+    assert!(!window.editor().host.is_quitting() && !window.editor().files.unsaved.is_asked(), "Esc is Cancel");
     window.press(Modifiers::COMMAND, Key::Q);
     window.click("Don't save");
-    assert!(window.editor().quit);
+    assert!(window.editor().host.is_quitting());
 }
 
 #[test]
@@ -42,11 +42,11 @@ fn saving_from_the_question_quits_once_it_is_saved() {
     edit(&mut window);
     window.press(Modifiers::COMMAND, Key::Q);
     window.click("Save");
-    assert!(!window.editor().quit, "it asks where first");
+    assert!(!window.editor().host.is_quitting(), "it asks where first");
     window.click("Save");
     window.settle();
     assert!(window.path("sheet.freebound").exists());
-    assert!(window.editor().quit);
+    assert!(window.editor().host.is_quitting());
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn a_dialog_that_is_left_keeps_the_window_open() {
     window.click("Save");
     window.click("Cancel");
     window.settle();
-    assert!(!window.editor().quit && !window.editor().unsaved.is_asked());
+    assert!(!window.editor().host.is_quitting() && !window.editor().files.unsaved.is_asked());
     assert!(window.editor().session.has_unsaved_work());
 }
 
@@ -68,7 +68,7 @@ fn keys_rest_while_the_question_is_asked() {
     window.press(Modifiers::COMMAND, Key::Q);
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(window.editor().session.document().targets.len(), 3);
-    assert!(window.editor().unsaved.is_asked());
+    assert!(window.editor().files.unsaved.is_asked());
 }
 
 #[test]
@@ -78,12 +78,12 @@ fn opening_something_else_asks_too() {
     write_obj(&window.path("other.obj"), &sheet(4, 0.0));
     let name = |window: &Window| window.editor().session.model().expect("open").name.clone();
     window.menu(&["File", "Examples", Example::Dome.title()]);
-    assert!(window.editor().unsaved.is_asked() && name(&window) == "sheet.obj");
+    assert!(window.editor().files.unsaved.is_asked() && name(&window) == "sheet.obj");
     window.click("Cancel");
     let path = window.path("other.obj");
     window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(path));
     window.settle();
-    assert!(window.editor().unsaved.is_asked() && name(&window) == "sheet.obj");
+    assert!(window.editor().files.unsaved.is_asked() && name(&window) == "sheet.obj");
     window.click("Don't save");
     assert_eq!(name(&window), "other.obj");
 }
@@ -104,7 +104,7 @@ fn a_project_is_saved_and_opened_again() {
     window.editor_mut().session.handle(Action::UnpinAll);
     window.settle();
     window.press(Modifiers::COMMAND, Key::S);
-    assert!(!window.editor().dialogs.is_open(), "it knows where");
+    assert!(!window.editor().files.dialogs.is_open(), "it knows where");
     assert!(!window.editor().session.has_unsaved_work());
 }
 
@@ -112,9 +112,9 @@ fn a_project_is_saved_and_opened_again() {
 fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
     let mut window = window();
     edit(&mut window);
-    let size = window.editor().plane_pane_size;
+    let size = window.editor().plane.area().size();
     let editor = window.editor_mut();
-    let (orbit, plane) = (editor.orbit.as_mut().expect("a mesh"), editor.plane_camera.as_mut().expect("an embedding"));
+    let (orbit, plane) = (editor.mesh.camera_mut().expect("a mesh"), editor.plane.camera_mut().expect("an embedding"));
     orbit.orbit(DVec2::new(70.0, -30.0));
     orbit.pan(DVec2::new(20.0, 10.0), size);
     plane.zoom_at(DVec2::splat(100.0), 5.0, size);
@@ -123,10 +123,11 @@ fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
     window.press(Modifiers::COMMAND, Key::S);
     window.click("Save");
     window.menu(&["File", "Examples", Example::Dome.title()]);
-    assert_ne!(window.editor().orbit, Some(orbit));
+    assert_ne!(window.editor().mesh.camera(), Some(orbit));
     let path = window.path("sheet.freebound");
     window.open(&path);
-    let (again, plane_again) = (window.editor().orbit.expect("a mesh"), window.editor().plane_camera.expect("solved"));
+    let (again, plane_again) =
+        (window.editor().mesh.camera().expect("a mesh"), window.editor().plane.camera().expect("solved"));
     assert!(again.eye().distance(orbit.eye()) < 1e-9 && again.pivot().distance(orbit.pivot()) < 1e-9, "{again:?}");
     assert!(plane_again.center().distance(plane.center()) < 1e-9, "{plane_again:?}");
     // What the pane shows is kept, and a bar with a message makes it a little lower.

@@ -297,7 +297,7 @@ fn both_panes_are_framed_when_a_mesh_opens() {
     };
     let vertices = (0..49).map(freebound::mesh::VertexId::new);
     inside(window.mesh_view(), vertices.map(|vertex| window.place_on_mesh(vertex)).collect());
-    inside(window.plane_view(), window.embedding().into_iter().map(|z| window.place_in_plane(z)).collect());
+    inside(window.plane_view(), window.embedding().iter().map(|z| window.place_in_plane(*z)).collect());
 }
 
 /// Sizes from the least to one of a large screen.
@@ -372,5 +372,5 @@ fn the_bar_at_the_top_does_not_overlap_itself() {
 fn quit_closes_the_window() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     window.press(Modifiers::COMMAND, Key::Q);
-    assert!(window.editor().quit);
+    assert!(window.editor().host.is_quitting());
 }

@@ -2,6 +2,18 @@
 //!
 //! Both come from one list of fills, strokes and words on a [`Page`], so that they show the same. Lengths on a page are
 //! points; x runs right, y down.
+//!
+//! | file    | what it holds                                                          |
+//! |---------|------------------------------------------------------------------------|
+//! | `mod`   | the page and what is drawn on it                                       |
+//! | `sheet` | panels with their words, in rows, and the caption                      |
+//! | `panel` | an embedding in a panel: faces, hull and pockets, pins, insets         |
+//! | `space` | a mesh in space in a panel                                             |
+//! | `photo` | a picture with numbered marks in a panel                               |
+//! | `svg`   | a page as a drawing                                                    |
+//! | `ink`   | a page as a picture                                                    |
+//! | `font`  | letters made of strokes                                                |
+//! | `clip`  | lines and polygons cut to a rectangle                                  |
 
 mod clip;
 mod font;
@@ -58,7 +70,7 @@ pub mod colours {
 
 /// A rectangle on a page.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Area {
+struct Area {
     /// Upper left corner.
     pub low: DVec2,
     /// Lower right corner.
@@ -67,22 +79,22 @@ pub struct Area {
 
 impl Area {
     /// A rectangle by its upper left corner and its size.
-    pub fn new(low: DVec2, size: DVec2) -> Self {
+    fn new(low: DVec2, size: DVec2) -> Self {
         Self { low, high: low + size }
     }
 
     /// Width and height.
-    pub fn size(&self) -> DVec2 {
+    fn size(&self) -> DVec2 {
         self.high - self.low
     }
 
     /// The middle.
-    pub fn centre(&self) -> DVec2 {
+    fn centre(&self) -> DVec2 {
         self.low.midpoint(self.high)
     }
 
     /// The corners, clockwise on the page from the upper left.
-    pub fn corners(&self) -> [DVec2; 4] {
+    fn corners(&self) -> [DVec2; 4] {
         let (low, high) = (self.low, self.high);
         [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
     }
@@ -90,7 +102,7 @@ impl Area {
 
 /// What a line or an outline is drawn with.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ink {
+struct Ink {
     /// Colour of the inside.
     pub fill: Option<Colour>,
     /// Colour and width of the line.
@@ -99,24 +111,24 @@ pub struct Ink {
 
 impl Ink {
     /// The inside alone.
-    pub const fn fill(colour: Colour) -> Self {
+    const fn fill(colour: Colour) -> Self {
         Self { fill: Some(colour), stroke: None }
     }
 
     /// The line alone.
-    pub const fn stroke(colour: Colour, width: f64) -> Self {
+    const fn stroke(colour: Colour, width: f64) -> Self {
         Self { fill: None, stroke: Some((colour, width)) }
     }
 
     /// Inside and line.
-    pub const fn both(fill: Colour, stroke: Colour, width: f64) -> Self {
+    const fn both(fill: Colour, stroke: Colour, width: f64) -> Self {
         Self { fill: Some(fill), stroke: Some((stroke, width)) }
     }
 }
 
 /// Where words stand beside their place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
+enum Anchor {
     /// They begin at it.
     Start,
     /// They are centred on it.
@@ -156,12 +168,12 @@ pub struct Page {
 
 impl Page {
     /// An empty page.
-    pub fn new(size: DVec2) -> Self {
+    fn new(size: DVec2) -> Self {
         Self { size, items: Vec::new() }
     }
 
     /// Draws closed outlines, or their parts within an area.
-    pub fn outlines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Area>) {
+    fn outlines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Area>) {
         let Some(area) = within else { return self.path(lines, true, ink) };
         if let Some(fill) = ink.fill {
             let inside = lines.iter().map(|line| clip_polygon(line, area)).collect();
@@ -175,7 +187,7 @@ impl Page {
     }
 
     /// Draws open lines, or their parts within an area.
-    pub fn lines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Area>) {
+    fn lines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Area>) {
         let Some(area) = within else { return self.path(lines, false, ink) };
         self.path(lines.iter().flat_map(|line| parts_within(line, area)).collect(), false, ink);
     }
@@ -188,12 +200,12 @@ impl Page {
     }
 
     /// Draws a picture into an area.
-    pub fn picture_at(&mut self, area: Area, picture: Picture) {
+    fn picture_at(&mut self, area: Area, picture: Picture) {
         self.items.push(Item::Picture(area, picture));
     }
 
     /// Writes words on their baseline.
-    pub fn words(&mut self, at: DVec2, anchor: Anchor, size: f64, text: &str) {
+    fn words(&mut self, at: DVec2, anchor: Anchor, size: f64, text: &str) {
         if !text.is_empty() {
             self.items.push(Item::Words(Words { at, anchor, size, text: text.to_owned() }));
         }

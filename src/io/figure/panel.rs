@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::{Anchor, Area, Ink, Page, colours};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::solver::Step;
+use crate::solver::{Embedding, Step};
 
 /// Half the side of a pin's square, points.
 const PIN: f64 = 3.2;
@@ -53,23 +53,23 @@ impl Window {
     }
 
     /// The square around some faces of an embedding.
-    pub fn on_faces(mesh: &DiskMesh, embedding: &[DVec2], faces: &[FaceId]) -> Self {
-        Self::around(faces.iter().flat_map(|&face| mesh.face(face)).map(|v| embedding[v.index()]), WINDOW_MARGIN)
+    pub fn on_faces(mesh: &DiskMesh, embedding: &Embedding, faces: &[FaceId]) -> Self {
+        Self::around(faces.iter().flat_map(|&face| mesh.face(face)).map(|v| embedding[v]), WINDOW_MARGIN)
     }
 
     /// The square around some triangles of an embedding, moved to where a panel of the whole shows it.
-    pub fn on_triangles(embedding: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
+    pub fn on_triangles(embedding: &Embedding, triangles: &[[VertexId; 3]]) -> Self {
         let whole = Self::around(embedding.iter().copied(), MARGIN);
-        let window = Self::around(triangles.iter().flatten().map(|v| embedding[v.index()]), TRIANGLES_MARGIN);
+        let window = Self::around(triangles.iter().flatten().map(|v| embedding[v]), TRIANGLES_MARGIN);
         let room = DVec2::splat((whole.half - window.half).max(0.0));
         Self { centre: window.centre.clamp(whole.centre - room, whole.centre + room), ..window }
     }
 }
 
 /// Groups faces that lie near each other in an embedding, the largest group first.
-pub fn zones_of(mesh: &DiskMesh, embedding: &[DVec2], faces: &[FaceId]) -> Vec<Vec<FaceId>> {
+pub fn zones_of(mesh: &DiskMesh, embedding: &Embedding, faces: &[FaceId]) -> Vec<Vec<FaceId>> {
     let reach = ZONE * 2.0 * Window::around(embedding.iter().copied(), 0.0).half;
-    let centre = |face: FaceId| mesh.face(face).iter().map(|v| embedding[v.index()]).sum::<DVec2>() / 3.0;
+    let centre = |face: FaceId| mesh.face(face).iter().map(|v| embedding[v]).sum::<DVec2>() / 3.0;
     let mut zones: Vec<Vec<FaceId>> = Vec::new();
     for &face in faces {
         let is_near = |zone: &Vec<FaceId>| zone.iter().any(|&other| centre(face).distance(centre(other)) < reach);
@@ -110,7 +110,7 @@ pub struct PlaneDrawing {
     /// The mesh.
     pub mesh: Arc<DiskMesh>,
     /// Of its vertices, and virtual vertices after them.
-    pub embedding: Vec<DVec2>,
+    pub embedding: Embedding,
     /// Faces drawn red.
     pub flipped: Vec<FaceId>,
     /// Faces tinted: those that were flipped before.
@@ -129,7 +129,7 @@ pub struct PlaneDrawing {
 
 impl PlaneDrawing {
     /// An embedding without anything special.
-    pub fn new(mesh: &Arc<DiskMesh>, embedding: Vec<DVec2>) -> Self {
+    pub fn new(mesh: &Arc<DiskMesh>, embedding: Embedding) -> Self {
         Self {
             mesh: Arc::clone(mesh),
             embedding,
@@ -200,7 +200,7 @@ impl PlaneDrawing {
 
     fn draw_window(&self, page: &mut Page, area: Area, shown: Window) {
         let place = placing(area, shown);
-        let at = |v: VertexId| place(self.embedding[v.index()]);
+        let at = |v: VertexId| place(self.embedding[v]);
         let whole = Window::around(self.embedding.iter().copied(), MARGIN);
         let width = if shown.half < 0.5 * whole.half { MAGNIFIED * EDGE } else { EDGE };
         let clip = Some(area);

@@ -42,7 +42,7 @@ pub use write::write_obj;
 /// Stands in [`Texture::corners`] where a corner has no texture coordinate.
 pub const NO_TEXTURE: u32 = u32::MAX;
 
-/// A mesh with whatever else an OBJ file says about it.
+/// A mesh with what else is kept of an OBJ file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObjMesh {
     /// Positions and faces.

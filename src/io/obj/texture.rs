@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::{NO_TEXTURE, ObjMesh, Texture, TextureError};
 use crate::mesh::{TriMesh, VertexId};
+use crate::solver::Embedding;
 
 /// A mesh over texture vertices, with the embedding that the file gives.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,7 +12,7 @@ pub struct TextureMesh {
     /// The triangles over texture vertices, at their positions in space.
     pub mesh: TriMesh,
     /// The texture coordinates, one per texture vertex.
-    pub embedding: Vec<DVec2>,
+    pub embedding: Embedding,
     /// The file's vertex of each texture vertex.
     pub vertex_of: Vec<VertexId>,
 }
@@ -37,7 +38,9 @@ impl ObjMesh {
         let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
         let bits = |place: u32| (coordinate(place) + DVec2::ZERO).to_array().map(f64::to_bits);
         let mut texture_vertex = vec![0_u32; corners.len()];
-        let mut found = TextureMesh { mesh: TriMesh::default(), embedding: Vec::new(), vertex_of: Vec::new() };
+        let mut found =
+            TextureMesh { mesh: TriMesh::default(), embedding: Embedding::default(), vertex_of: Vec::new() };
+        let mut embedding = Vec::new();
         let mut first_places: Vec<u32> = Vec::new();
         for places in &mut places_by_vertex(corners, self.polygons.positions.len()) {
             // Equal coordinates side by side, then the groups by their first corner.
@@ -54,10 +57,11 @@ impl ObjMesh {
             for &place in &first_places {
                 let vertex = corners[place as usize];
                 found.vertex_of.push(vertex);
-                found.embedding.push(coordinate(place));
+                embedding.push(coordinate(place));
                 found.mesh.positions.push(self.polygons.positions[vertex.index()]);
             }
         }
+        found.embedding = embedding.into();
         let (triangles, polygon_of) = self.polygons.triangle_places();
         found.mesh.triangles =
             triangles.iter().map(|places| places.map(|place| VertexId::new(texture_vertex[place as usize]))).collect();

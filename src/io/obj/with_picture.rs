@@ -4,10 +4,9 @@ use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use glam::DVec2;
-
 use super::{ObjMesh, Statement, write_obj};
 use crate::io::{TexturePicture, WriteError, write_atomically};
+use crate::solver::Embedding;
 
 /// Name of the material.
 const MATERIAL: &str = "picture";
@@ -29,7 +28,7 @@ impl TexturePicture<'_> {
         &self,
         path: &Path,
         mesh: &ObjMesh,
-        coordinates: &[DVec2],
+        coordinates: &Embedding,
     ) -> Result<(), WriteError> {
         let picture_name = put_picture(path, self)?;
         let library = library_beside(path);
@@ -58,7 +57,7 @@ fn with_material(mesh: &ObjMesh, library: &str) -> ObjMesh {
     ObjMesh { statements, ..mesh.clone() }
 }
 
-/// The material library of an OBJ file: beside it, of its name, unless somebody else's has that.
+/// Path of the material library of an OBJ file: beside it, of the same name, or another where that file is not ours.
 fn library_beside(path: &Path) -> PathBuf {
     let stem = stem_of(path);
     let head = head_for(path);
@@ -70,7 +69,7 @@ fn head_for(path: &Path) -> String {
     format!("{HEAD}{}\n", name_of(path))
 }
 
-/// Sees to it that a picture lies beside a mesh, and returns its name there.
+/// Puts a picture beside a mesh where it is not there yet, and returns its name.
 fn put_picture(mesh: &Path, picture: &TexturePicture) -> Result<String, WriteError> {
     let stem = stem_of(mesh);
     let Some(source) = picture.path else {
@@ -108,7 +107,7 @@ fn place_for(mesh: &Path, names: &[String], is_ours: impl Fn(&Path) -> bool) -> 
         .expect("a folder has fewer files than there are numbers")
 }
 
-/// Whether nothing can be seen there. Where that is because nobody may look, writing says so.
+/// Whether no file is seen there. Where permission to look is missing, writing fails and says so.
 fn is_free(place: &Path) -> bool {
     fs::symlink_metadata(place).is_err()
 }

@@ -2,9 +2,8 @@
 
 use std::io::{self, Write};
 
-use glam::DVec2;
-
 use super::ObjMesh;
+use crate::solver::Embedding;
 
 /// Writes a mesh with one texture coordinate per vertex, or with none if `texture` is empty.
 ///
@@ -17,7 +16,7 @@ use super::ObjMesh;
 /// # Panics
 ///
 /// If `texture` is neither empty nor as long as the list of vertices.
-pub fn write_obj(out: &mut impl Write, mesh: &ObjMesh, texture: &[DVec2]) -> io::Result<()> {
+pub fn write_obj(out: &mut impl Write, mesh: &ObjMesh, texture: &Embedding) -> io::Result<()> {
     let polygons = &mesh.polygons;
     assert!(texture.is_empty() || texture.len() == polygons.positions.len(), "one texture coordinate per vertex");
     for position in &polygons.positions {

@@ -172,7 +172,7 @@ impl Visitor<'_> for WeightVisitor {
     }
 
     fn visit_f64<E: Error>(self, weight: f64) -> Result<Option<f64>, E> {
-        let is_weight = Hold::Weighted(weight).is_valid();
+        let is_weight = Hold::Weighted(weight).invalid_weight().is_none();
         if is_weight { Ok(Some(weight)) } else { Err(E::custom(format!("the weight {weight} is not positive"))) }
     }
 

@@ -8,6 +8,7 @@ use glam::{DVec2, Vec3};
 use super::scene::Scene;
 use super::{Colour, Paint, Shading, colours};
 use crate::mesh::VertexId;
+use crate::solver::Embedding;
 
 /// Edges of triangles smaller than this many samples across fade out, since they would only blacken the picture.
 const FAINT: f32 = 8.0;
@@ -80,7 +81,7 @@ impl Brush {
 
 impl Brush {
     /// The mean of what the corners have, by shares.
-    fn mean(&self, coordinates: &[DVec2], shares: Vec3) -> DVec2 {
+    fn mean(&self, coordinates: &Embedding, shares: Vec3) -> DVec2 {
         let [a, b, c] = self.corners.map(|v| coordinates[v.index()]);
         a * f64::from(shares.x) + b * f64::from(shares.y) + c * f64::from(shares.z)
     }

@@ -3,6 +3,12 @@
 //! Light and shade are fixed: a key light from the upper left of the camera, a weaker one from the right, and a sky.
 //! Triangles are drawn in horizontal bands, one per task, each band in file order: the picture does not depend on the
 //! number of threads. Several samples per pixel are averaged.
+//!
+//! | file    | what it holds                                                          |
+//! |---------|------------------------------------------------------------------------|
+//! | `mod`   | view, canvas and paint; pictures of meshes and of embeddings           |
+//! | `scene` | triangles in samples, drawn band by band into a z-buffer               |
+//! | `brush` | paint, light and edges of a face                                       |
 
 mod brush;
 mod scene;
@@ -15,6 +21,7 @@ use rayon::prelude::*;
 use self::scene::{Scene, vertex_normals};
 use crate::geom::Picture;
 use crate::mesh::{EdgeTable, VertexId};
+use crate::solver::Embedding;
 
 /// A colour without opacity, sRGB.
 pub type Colour = [u8; 3];
@@ -57,7 +64,7 @@ impl View {
         Self { eye: DVec3::new(angle.sin(), 0.0, angle.cos()), up: DVec3::Y }
     }
 
-    /// Right, up and towards the eye, orthonormal whatever was given.
+    /// Right, up and towards the eye, orthonormal for any input.
     pub(super) fn axes(&self) -> [DVec3; 3] {
         let towards = self.eye.try_normalize().unwrap_or(DVec3::Z);
         let right = self.up.cross(towards).try_normalize().unwrap_or_else(|| towards.any_orthonormal_vector());
@@ -113,14 +120,14 @@ pub enum Paint<'a> {
     /// A checker in coordinates given per vertex.
     Checker {
         /// One per vertex.
-        coordinates: &'a [DVec2],
+        coordinates: &'a Embedding,
         /// Width of a field.
         size: f64,
     },
     /// A picture at texture coordinates given per vertex, v up; beyond its edges the nearest colour.
     Picture {
         /// One per vertex.
-        coordinates: &'a [DVec2],
+        coordinates: &'a Embedding,
         /// What is at them.
         picture: &'a Picture,
     },
@@ -159,9 +166,9 @@ fn seen_from(positions: &[DVec3], view: &View) -> Vec<DVec3> {
     positions.par_iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect()
 }
 
-/// A picture of an embedding: thin edges, the boundary as a darker line. Which faces are flipped is for the verdict to
-/// say, and for the caller to paint.
-pub fn plane_picture(embedding: &[DVec2], triangles: &[[VertexId; 3]], canvas: &Canvas, paint: Paint) -> Picture {
+/// A picture of an embedding: thin edges, the boundary as a darker line. The caller paints the faces that its verdict
+/// calls flipped.
+pub fn plane_picture(embedding: &Embedding, triangles: &[[VertexId; 3]], canvas: &Canvas, paint: Paint) -> Picture {
     let seen: Vec<DVec3> = embedding.iter().map(|p| p.extend(0.0)).collect();
     let table = EdgeTable::new(embedding.len(), triangles);
     let outer = |sides: &[u32]| (sides.len() == 1).then(|| sides[0] as usize);

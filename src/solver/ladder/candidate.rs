@@ -3,11 +3,9 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use glam::DVec2;
-
 use super::{PlanarStart, Progress};
 use crate::mesh::{DiskMesh, Refinement};
-use crate::solver::{Family, Method, Outside, PhaseSeconds, Pins, Prepared, Solution, VirtualBoundary};
+use crate::solver::{Embedding, Family, Method, Outside, PhaseSeconds, Pins, Prepared, Solution, VirtualBoundary};
 
 /// An embedding, and what made it.
 #[derive(Clone, Debug)]
@@ -57,7 +55,7 @@ impl Candidate {
     }
 
     /// An embedding that minimises an energy: no linear system has it as its solution.
-    pub(in crate::solver) fn one_to_one(rung: Method, embedding: Vec<DVec2>, pins: &Pins) -> Self {
+    pub(in crate::solver) fn one_to_one(rung: Method, embedding: Embedding, pins: &Pins) -> Self {
         let solution = Solution {
             embedding,
             pins: pins.clone(),

@@ -52,7 +52,7 @@ impl Rung for Continue {
             Ok(None) | Err(_) => {}
         }
         let is_crushed = continuation.go_back_to_sound();
-        let (embedding, progress) = (continuation.embedding().to_vec(), continuation.progress(mesh));
+        let (embedding, progress) = (continuation.embedding().clone(), continuation.progress(mesh));
         self.stage = Stage::Stuck;
         if is_crushed && !self.task.adds_vertices() {
             let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held).since(began);

@@ -13,7 +13,7 @@ use super::{Candidate, Ending, Step};
 use crate::geom::Similarity;
 use crate::mesh::DiskMesh;
 use crate::solver::continuation::Continuation;
-use crate::solver::{Control, Method, Pins, SolveError, verdict};
+use crate::solver::{Control, Embedding, Method, Pins, SolveError, verdict};
 
 #[derive(Debug)]
 pub(super) struct Fit {
@@ -60,14 +60,14 @@ impl Rung for Fit {
 
 /// An embedding moved by the similarity that fits the pins best; by a shift alone where none does, or where rounding
 /// would fold it; not at all where even that would.
-fn fitted(mesh: &DiskMesh, embedding: Vec<DVec2>, pins: &Pins) -> Vec<DVec2> {
-    let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v.index()], pin.target]).collect();
-    let is_planar = |embedding: &Vec<DVec2>| verdict(mesh, embedding).planar;
-    let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Vec<_>>();
+fn fitted(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Embedding {
+    let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v], pin.target]).collect();
+    let is_planar = |embedding: &Embedding| verdict(mesh, embedding).planar;
+    let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Embedding>();
     if let Some(embedding) = Similarity::fitting(&pairs).map(fit).filter(is_planar) {
         return embedding;
     }
     let shift = pairs.iter().map(|[is, wanted]| *wanted - *is).sum::<DVec2>() / pairs.len().max(1) as f64;
-    let shifted = embedding.iter().map(|&z| z + shift).collect();
+    let shifted = embedding.iter().map(|&z| z + shift).collect::<Embedding>();
     if is_planar(&shifted) { shifted } else { embedding }
 }

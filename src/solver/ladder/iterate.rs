@@ -59,7 +59,7 @@ impl Iterate {
             complete_gauge(mesh, &mut solution.embedding, (asked, settings.size));
             solution.gauge_completed = true;
             for (vertex, pin) in &mut solution.pins {
-                pin.target = solution.embedding[vertex.index()];
+                pin.target = solution.embedding[vertex];
             }
         }
         Ok(Candidate::new(Method::Iterate, Family::MeanValue, solution))

@@ -38,8 +38,6 @@ mod virtual_boundary;
 use std::sync::Arc;
 use std::time::Instant;
 
-use glam::DVec2;
-
 pub use self::candidate::Candidate;
 pub use self::plan::{Kept, PlanarStart};
 pub use self::step::{Progress, Step, diameter, largest_move};
@@ -47,7 +45,7 @@ pub use self::step::{Progress, Step, diameter, largest_move};
 use self::plan::{Aim, Plan};
 use self::rung::{Failure, Footing, Latest, Notes};
 use self::task::Task;
-use super::{Control, Method, Phase, Pins, Settings, SolveError, fixed_pins, gauge_pins, verdict};
+use super::{Control, Embedding, Method, Phase, Pins, Settings, SolveError, fixed_pins, gauge_pins, verdict};
 use crate::mesh::DiskMesh;
 
 /// Why a ladder has come to its end.
@@ -276,6 +274,6 @@ impl Ladder {
 }
 
 /// The default gauge pins where they lie in an embedding.
-fn gauge_in(mesh: &DiskMesh, embedding: &[DVec2]) -> Pins {
-    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v.index()])))
+fn gauge_in(mesh: &DiskMesh, embedding: &Embedding) -> Pins {
+    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v])))
 }

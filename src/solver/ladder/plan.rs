@@ -7,15 +7,13 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, VirtualBoundary};
 use super::relax::Relax;
 use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
 use super::{again, continuation, fit, iterate, matchmaker, natural, virtual_boundary};
-use crate::solver::{GaugeSize, Method, Prepared};
+use crate::solver::{Embedding, GaugeSize, Method, Prepared};
 
 /// The rungs of a part, flight by flight.
 type Flights = &'static [&'static [Kind]];
@@ -77,7 +75,7 @@ pub struct PlanarStart {
     /// The size that it was computed at.
     pub(super) size: GaugeSize,
     /// One position per vertex, in the plane.
-    pub(super) embedding: Vec<DVec2>,
+    pub(super) embedding: Embedding,
 }
 
 /// What a part of a plan is for.

@@ -52,7 +52,7 @@ impl Relax {
         let before = solution.embedding.clone();
         complete_gauge(mesh, &mut solution.embedding, (&self.task.pins, self.task.settings.size));
         solution.pins = gauge_in(mesh, &solution.embedding);
-        let pairs: Vec<[DVec2; 2]> = before.into_iter().zip(&solution.embedding).map(|(a, b)| [a, *b]).collect();
+        let pairs: Vec<[DVec2; 2]> = before.iter().zip(&solution.embedding).map(|(a, b)| [*a, *b]).collect();
         if let (Some(similarity), Some(outside)) = (Similarity::fitting(&pairs), &candidate.outside) {
             let frame = outside.frame.iter().map(|&z| similarity.apply(z)).collect();
             candidate.outside = Some(Arc::new(Outside { frame, triangles: outside.triangles.clone() }));

@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::{Candidate, Ending, Step};
 use crate::mesh::{DiskMesh, Refinement};
-use crate::solver::{Control, Pins, SolveError};
+use crate::solver::{Control, Embedding, Pins, SolveError};
 
 /// A way to one embedding after another.
 pub(super) trait Rung: std::fmt::Debug + Send {
@@ -47,9 +45,9 @@ pub(super) struct Footing<'a> {
 /// What is remembered of the latest step.
 #[derive(Debug)]
 pub(super) struct Latest {
-    pub(super) embedding: Vec<DVec2>,
+    pub(super) embedding: Embedding,
     /// What the next rung goes on from, where it is not this step.
-    pub(super) onward: Option<Vec<DVec2>>,
+    pub(super) onward: Option<Embedding>,
     /// The pins in force.
     pub(super) pins: Pins,
     pub(super) has_simple_boundary: bool,
@@ -63,7 +61,7 @@ pub(super) struct Latest {
 
 impl Latest {
     /// The embedding to go on from.
-    pub(super) fn onward(&self) -> &[DVec2] {
+    pub(super) fn onward(&self) -> &Embedding {
         self.onward.as_ref().unwrap_or(&self.embedding)
     }
 }
@@ -82,7 +80,7 @@ pub(super) struct WayOn {
     /// What there is to say about it.
     pub(super) note: Option<String>,
     /// What the next rung goes on from, where it is not the latest step.
-    pub(super) embedding: Option<Vec<DVec2>>,
+    pub(super) embedding: Option<Embedding>,
 }
 
 impl From<SolveError> for Failure {

@@ -26,7 +26,7 @@ pub(super) struct Stall {
 impl Stall {
     /// Takes in a step.
     pub(super) fn look_at(&mut self, step: &Step) {
-        let count = step.defect_count();
+        let count = step.verdict.defect_count();
         self.is_slow = self.best.is_some_and(|best| count as f64 > SLOW * best as f64);
         if self.best.is_none_or(|best| count < best) {
             self.best = Some(count);

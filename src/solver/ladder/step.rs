@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::Candidate;
 use crate::mesh::VertexId;
-use crate::solver::{Method, Pin, Pins, Verdict};
+use crate::solver::{Embedding, Method, Pin, Pins, Verdict};
 
 /// Where a one-to-one embedding stands on its way: the numbers of continuation and relaxing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,21 +48,14 @@ impl Step {
     /// Vertices that are to be met exactly and are not, by number.
     pub fn unmet(&self) -> Vec<VertexId> {
         let pins = if self.is_of_planar_start() { &self.set_aside } else { &self.solution.pins };
-        let is_unmet = |(vertex, pin): &(&VertexId, &Pin)| {
-            pin.hold.is_exact() && self.solution.embedding[vertex.index()] != pin.target
-        };
+        let is_unmet =
+            |(vertex, pin): &(&VertexId, &Pin)| pin.hold.is_exact() && self.solution.embedding[*vertex] != pin.target;
         pins.iter().filter(is_unmet).map(|(&vertex, _)| vertex).collect()
     }
 
     /// Whether it is on the way to a planar start, in which the constraints have no part.
     pub fn is_of_planar_start(&self) -> bool {
         !self.set_aside.is_empty()
-    }
-
-    /// Flipped faces, boundary crossings and overwound vertices together.
-    pub fn defect_count(&self) -> usize {
-        let Verdict { flipped_faces, boundary_crossings, unlisted_crossings, overwound_vertices, .. } = &self.verdict;
-        flipped_faces.len() + boundary_crossings.len() + unlisted_crossings + overwound_vertices.len()
     }
 
     /// Whether the boundary is simple and runs counter-clockwise.
@@ -87,7 +80,7 @@ pub fn largest_move(before: &[DVec2], after: &[DVec2]) -> f64 {
 }
 
 /// The diagonal of the box around an embedding.
-pub fn diameter(embedding: &[DVec2]) -> f64 {
+pub fn diameter(embedding: &Embedding) -> f64 {
     let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     low.distance(high)

@@ -20,10 +20,10 @@ use super::task::Task;
 use super::{Candidate, Step};
 use crate::mesh::DiskMesh;
 use crate::solver::equations::{barycentric, uniform};
-use crate::solver::plane_weights::{left_over_in_plane, mean_value_in_plane};
+use crate::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use crate::solver::{
-    Control, Extended, Family, Growth, LinearSolve, Method, PhaseSeconds, Pins, Places, Settings, Solution, SolveError,
-    Start, Treatment, VirtualBoundary, fixed_pins, flatten,
+    Control, Embedding, Extended, Family, Growth, LinearSolve, Method, PhaseSeconds, PinPositions, Pins, Settings,
+    Solution, SolveError, Start, Treatment, VirtualBoundary, fixed_pins, flatten,
 };
 
 /// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,
@@ -70,7 +70,7 @@ pub(super) struct Bend {
     is_all_pinned: bool,
     extended: Option<Extended>,
     /// The last result, with the outside.
-    solved: Vec<DVec2>,
+    solved: Embedding,
     /// How many weights have been tried on `extended`.
     tried: usize,
     /// What gave nothing, and why.
@@ -103,7 +103,7 @@ impl Bend {
             pinned: 2,
             is_all_pinned: false,
             extended: None,
-            solved: Vec::new(),
+            solved: Embedding::default(),
             tried: 0,
             notes: Notes::default(),
         }
@@ -158,7 +158,7 @@ impl Bend {
                 Err(error) => self.notes.say(format!("{pinned} boundary pins gave nothing: {error}")),
                 Ok(solution) => {
                     (self.extended, self.tried) = (None, 0);
-                    self.solved.clear();
+                    self.solved = Embedding::default();
                     return Ok(Candidate::new(Method::VirtualBoundary, family, solution));
                 }
             }
@@ -173,35 +173,35 @@ impl Bend {
         extended: &Extended,
         weights: Weights,
         control: Control<'_>,
-    ) -> Result<(Candidate, Vec<DVec2>), SolveError> {
+    ) -> Result<(Candidate, Embedding), SolveError> {
         let start = Instant::now();
         let goes_on = weights == Weights::Again && !self.solved.is_empty();
-        let from = if goes_on { &self.solved } else { &extended.positions };
+        let from = if goes_on { &self.solved } else { &extended.embedding };
         let has_pockets = !extended.pockets.is_empty();
-        let (equations, left) = match weights {
+        let (equations, residuals) = match weights {
             Weights::Surface if !has_pockets => (barycentric(mesh, 0.0)?, None),
             Weights::Uniform => (uniform(&extended.disk), None),
-            _ => (mean_value_in_plane(&extended.disk, from), Some(left_over_in_plane(&extended.disk, from))),
+            _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
         };
-        let start_at = Start { positions: from, left: left.as_deref() };
-        let (positions, residual, stats) = extended.solve(&equations, start_at, control)?;
+        let start_at = Start { embedding: from, residuals: residuals.as_deref() };
+        let (solved, residual, stats) = extended.solve(&equations, start_at, control)?;
         let stages = VirtualBoundary {
             pinned: self.pinned,
             outline: extended.outline,
             before: from.clone(),
-            weights_of_before: left.is_some(),
+            weights_of_before: residuals.is_some(),
             hull: extended.disk.boundary_loop().to_vec(),
             pockets: extended.pockets.clone(),
-            solved: positions.clone(),
+            solved: solved.clone(),
         };
         let solution = Solution {
-            embedding: positions[..mesh.vertex_count()].to_vec(),
+            embedding: Embedding::of_mesh(mesh, &solved),
             pins: Pins::new(),
             gauge_completed: true,
             linear: Some(LinearSolve {
                 residual,
                 // All equations of the extended mesh are solved; those of the outline are prescribed.
-                equation_residual: extended.equation_residual(&equations, &positions),
+                equation_residual: extended.equation_residual(&equations, &solved),
                 replaced_pivots: stats.replaced_pivots,
                 bounded_corners: equations.bounded_corners,
                 factor_bytes: stats.factor_bytes,
@@ -209,13 +209,13 @@ impl Bend {
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() },
         };
         let candidate = Candidate::new(Method::VirtualBoundary, Family::MeanValue, solution);
-        Ok((Candidate { virtual_boundary: Some(Arc::new(stages)), ..candidate }, positions))
+        Ok((Candidate { virtual_boundary: Some(Arc::new(stages)), ..candidate }, solved))
     }
 }
 
 /// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, at distances that follow the
 /// lengths between them.
-fn on_circle(mesh: &DiskMesh, count: usize) -> Places {
+fn on_circle(mesh: &DiskMesh, count: usize) -> PinPositions {
     let boundary = mesh.boundary_loop();
     let chosen: Vec<usize> = (0..count).map(|j| j * boundary.len() / count).collect();
     let edge = |place: usize| {
@@ -229,7 +229,7 @@ fn on_circle(mesh: &DiskMesh, count: usize) -> Places {
     let lengths: Vec<f64> = lengths.into_iter().map(|length| length.max(floor)).collect();
     let widened: f64 = lengths.iter().sum();
     let mut walked = 0.0;
-    let mut places = Places::new();
+    let mut places = PinPositions::new();
     for (place, length) in chosen.into_iter().zip(lengths) {
         places.insert(boundary[place], DVec2::from_angle(walked / widened * TAU) * (total / TAU));
         walked += length;

@@ -31,7 +31,7 @@ use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
 use super::outside::outside_of;
 use super::rest::mean_edge_length;
-use super::{Control, Outside, Pins, SolveError, verdict};
+use super::{Control, Embedding, Outside, Pins, SolveError, verdict};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, TriMesh, VertexId};
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
@@ -41,7 +41,7 @@ const CROSSING: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(super) struct Matched {
     pub(super) refinement: Refinement,
-    pub(super) embedding: Vec<DVec2>,
+    pub(super) embedding: Embedding,
 }
 
 /// The mesh within its outside, as it lies at the start.
@@ -61,7 +61,7 @@ struct Surroundings {
 /// Targets that coincide, a start that is not planar, faces too fine for 64-bit numbers, or the caller's wish to stop.
 pub(super) fn matched(
     mesh: &DiskMesh,
-    start: &[DVec2],
+    start: &Embedding,
     pins: &Pins,
     control: Control<'_>,
 ) -> Result<Matched, SolveError> {
@@ -86,7 +86,7 @@ pub(super) fn matched(
             Err(_) => continue,
             Ok(places) => places,
         };
-        let embedding: Vec<DVec2> = refined.vertices.iter().map(|&v| places[v as usize]).collect();
+        let embedding: Embedding = refined.vertices.iter().map(|&v| places[v as usize]).collect();
         if verdict(refined.refinement.disk(), &embedding).planar {
             return Ok(Matched { refinement: refined.refinement, embedding });
         }
@@ -95,7 +95,7 @@ pub(super) fn matched(
 }
 
 impl Surroundings {
-    fn new(mesh: &DiskMesh, start: &[DVec2], targets: &[DVec2]) -> Result<Self, SolveError> {
+    fn new(mesh: &DiskMesh, start: &Embedding, targets: &[DVec2]) -> Result<Self, SolveError> {
         let Outside { frame, triangles } =
             outside_of(mesh, start, targets.iter().copied(), 1).ok_or(SolveError::NotPlanar)?;
         let triangles = mesh.mesh().triangles.iter().copied().chain(triangles);
@@ -160,9 +160,9 @@ mod tests {
     use crate::solver::Pin;
 
     /// A flat square of 2·n² triangles, and where its vertices lie.
-    fn square(n: u32) -> (DiskMesh, Vec<DVec2>) {
+    fn square(n: u32) -> (DiskMesh, Embedding) {
         let stride = n + 1;
-        let flat: Vec<DVec2> =
+        let flat: Embedding =
             (0..stride * stride).map(|v| DVec2::new(f64::from(v % stride), f64::from(v / stride))).collect();
         let cell = |v: u32| [[v, v + 1, v + stride + 1], [v, v + stride + 1, v + stride]];
         let triangles: Vec<[u32; 3]> = (0..n * n).flat_map(|k| cell(k / n * stride + k % n)).collect();
@@ -183,7 +183,7 @@ mod tests {
         assert!(matched.refinement.new_vertices().len() > 10);
         // With the places that the vertices have on the flat surface itself no new one is needed.
         let positions = &matched.refinement.disk().mesh().positions;
-        let embedding: Vec<DVec2> = positions.iter().map(|x| x.truncate()).collect();
+        let embedding: Embedding = positions.iter().map(|x| x.truncate()).collect();
         let bare = without_needless_vertices(&mesh, Matched { embedding, ..matched });
         assert_eq!(bare.refinement.new_vertices(), []);
         assert_eq!(bare.refinement.disk().face_count(), mesh.face_count());

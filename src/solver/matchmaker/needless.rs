@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
-use super::Matched;
 use super::triangulate::shortest_triangulation;
+use super::{Embedding, Matched};
 use crate::geom::{Orientation, orientation, segments_meet};
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
@@ -36,7 +36,7 @@ struct Removal<'a> {
     mesh: &'a DiskMesh,
     refined: &'a DiskMesh,
     new_vertices: &'a [NewVertex],
-    embedding: &'a [DVec2],
+    embedding: &'a Embedding,
     /// Triangles of each old face that has new vertices, or had.
     parts: Parts,
     /// An inner halfedge of each split old edge.
@@ -82,7 +82,7 @@ impl<'a> Removal<'a> {
     }
 
     fn place(&self, vertex: VertexId) -> DVec2 {
-        self.embedding[vertex.index()]
+        self.embedding[vertex]
     }
 
     /// Takes out a new vertex if that can be. Returns its neighbours, for which more may be possible now.
@@ -172,7 +172,7 @@ fn without(mesh: &DiskMesh, matched: &Matched, removed: &BTreeSet<VertexId>, par
     for (place, v) in left.iter().enumerate() {
         number[v.index()] = VertexId::from_index(place);
     }
-    let embedding = left.iter().map(|v| matched.embedding[v.index()]).collect();
+    let embedding = left.iter().map(|v| matched.embedding[v]).collect();
     let new_vertices = left[old..].iter().map(|v| matched.refinement.new_vertices()[v.index() - old]).collect();
     let renumbered = |t: [VertexId; 3]| t.map(|v| number[v.index()]);
     let parts = parts.into_iter().map(|(face, parts)| (face, parts.into_iter().map(renumbered).collect())).collect();

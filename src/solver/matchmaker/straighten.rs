@@ -12,7 +12,7 @@ use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::equations::Equations;
 use crate::solver::free_solve::in_vertices;
 use crate::solver::plane_weights::mean_value_in_plane;
-use crate::solver::{Control, FreeSystem, Places, SolveError};
+use crate::solver::{Control, Embedding, FreeSystem, PinPositions, SolveError};
 
 /// What the free vertices are drawn by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,9 +25,9 @@ pub(super) enum Weights {
 
 /// Places of all vertices that are not free: path vertices share their line in proportion to the lengths that the parts
 /// had, made a little more equal, so that none is too small.
-pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec<u32>]) -> Places {
+pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec<u32>]) -> PinPositions {
     let place = |v: u32| cells.places[v as usize];
-    let mut held = Places::new();
+    let mut held = PinPositions::new();
     for (line, ends) in lines.iter().zip(&graph.edges) {
         let [from, to] = ends.map(|end| graph.points[end as usize]);
         let lengths: Vec<f64> = line.windows(2).map(|pair| place(pair[0]).distance(place(pair[1]))).collect();
@@ -52,20 +52,21 @@ pub(super) fn held_places(cells: &Subdivision, graph: &TargetGraph, lines: &[Vec
 pub(super) fn straightened(
     mesh: &DiskMesh,
     cells: &Subdivision,
-    held: &Places,
+    held: &PinPositions,
     weights: Weights,
     control: Control<'_>,
-) -> Result<Vec<DVec2>, SolveError> {
-    let mut places = cells.places.clone();
-    for (v, &place) in held {
-        places[v.index()] = place;
+) -> Result<Embedding, SolveError> {
+    let start = Embedding::from(cells.places.clone());
+    let mut places = start.clone();
+    for (&v, &place) in held {
+        places[v] = place;
     }
     let system = FreeSystem::new(mesh, |v| cells.roles[v.index()] != Role::Free);
     if system.free().is_empty() {
         return Ok(places);
     }
     let (equations, kind) = match weights {
-        Weights::MeanValue => (mean_value_in_plane(mesh, &cells.places), Kind::General),
+        Weights::MeanValue => (mean_value_in_plane(mesh, &start), Kind::General),
         Weights::Uniform => {
             let coefficients = vec![1.0; mesh.halfedge_count()];
             (Equations { coefficients, bounded_corners: 0 }, Kind::Hermitian)
@@ -80,8 +81,8 @@ pub(super) fn straightened(
     let both: Vec<f64> = terms.iter().map(|z| z.x).chain(terms.iter().map(|z| z.y)).collect();
     let solved = factor.solve_many(&matrix, &both).map_err(named)?;
     let (x, y) = solved.x.split_at(terms.len());
-    for (v, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
-        places[v.index()] = DVec2::new(x, y);
+    for (&v, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
+        places[v] = DVec2::new(x, y);
     }
     Ok(places)
 }

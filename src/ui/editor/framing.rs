@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::mesh::VertexId;
+use crate::solver::Embedding;
 use crate::view::{PlaneBox, Sphere};
 
 /// Half the width of what `Request::GoTo` shows, in lengths of the element's longest edge.
@@ -26,7 +27,7 @@ pub(super) fn grown(points: &[DVec3], all: Sphere) -> Sphere {
 }
 
 /// A box around a few points of the embedding with some of it around.
-pub(super) fn grown_box(embedding: &[DVec2], vertices: &[VertexId], all: PlaneBox) -> PlaneBox {
+pub(super) fn grown_box(embedding: &Embedding, vertices: &[VertexId], all: PlaneBox) -> PlaneBox {
     let points: Vec<DVec2> = vertices.iter().filter_map(|v| embedding.get(v.index()).copied()).collect();
     let tight = PlaneBox::around(&points);
     let reach = (tight.max - tight.min).max_element();
@@ -45,7 +46,7 @@ mod tests {
         let near = grown(&[DVec3::X], all);
         assert!(near.center == DVec3::X && near.radius < 0.2 * all.radius, "{near:?}");
         let whole = PlaneBox { min: DVec2::ZERO, max: DVec2::splat(3.0) };
-        let part = grown_box(&[DVec2::ONE], &[VertexId::new(0)], whole);
+        let part = grown_box(&vec![DVec2::ONE].into(), &[VertexId::new(0)], whole);
         assert!(part.center() == DVec2::ONE && part.extent() < 0.2 * whole.extent(), "{part:?}");
     }
 

@@ -18,11 +18,19 @@ pub struct Host {
     title: String,
     /// Since when there is work in the background.
     busy_since: Option<Instant>,
+    is_quitting: bool,
 }
 
 impl Host {
     pub(super) fn new(context: &egui::Context) -> Self {
-        Self { context: context.clone(), has_gpu: false, theme_wanted: None, title: String::new(), busy_since: None }
+        Self {
+            context: context.clone(),
+            has_gpu: false,
+            theme_wanted: None,
+            title: String::new(),
+            busy_since: None,
+            is_quitting: false,
+        }
     }
 
     /// The window's context.
@@ -68,6 +76,15 @@ impl Host {
             self.context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.title = title;
         }
+    }
+
+    /// Whether the person asked to quit.
+    pub fn is_quitting(&self) -> bool {
+        self.is_quitting
+    }
+
+    pub(in crate::ui) fn quit(&mut self) {
+        self.is_quitting = true;
     }
 
     /// Takes in whether there is work in the background. Call once per frame.

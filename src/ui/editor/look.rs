@@ -21,6 +21,8 @@ pub struct Look {
     pub wireframe: bool,
     /// Whether insets magnify a defect and a pair.
     pub magnifier: bool,
+    /// Whether vertices glide from step to step; off for those whom motion bothers.
+    pub glides: bool,
     /// How strongly the picture shows behind the embedding, 0 to 1.
     pub opacity: f32,
     /// How the picture's pixels show.
@@ -36,6 +38,7 @@ impl Default for Look {
             shading: Shading::default(),
             wireframe: false,
             magnifier: true,
+            glides: true,
             opacity: OPACITY,
             sampling: Sampling::Smooth,
             picture: None,

@@ -2,70 +2,69 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `mod.rs` | the editor: its parts, and what it does in each frame |
 //! | `request.rs`, `requests.rs` | what a person asks of the window, and what it does |
 //! | `purpose.rs` | files that are asked for |
-//! | `scene.rs`, `scenes.rs` | what the panes draw, and the jobs that prepare it |
-//! | `preview.rs` | the embedding that follows a dragged pin |
-//! | `steps.rs`, `ease.rs` | moves along the timeline, and the way between two steps |
-//! | `views.rs`, `framing.rs` | what the cameras look at |
-//! | `project_view.rs` | how the window looks, for the project file |
+//! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
+//! | `plane/` | the embedding's pane: place, camera, what it draws |
+//! | `scene.rs` | what the panes draw and pick in |
 //! | `selection.rs` | what is selected, and what is under the pointer |
 //! | `tools.rs` | the tool in hand, and what it has begun |
 //! | `look.rs` | how faces show: shading, wireframe, picture, colours |
-//! | `picture.rs` | where the picture lies in the plane |
 //! | `layout.rs` | what of the window is open |
 //! | `opened.rs` | what the window keeps of the open document |
+//! | `files.rs` | dialogs, unsaved work, size in files |
 //! | `host.rs` | egui's context and the graphics card |
+//! | `steps.rs` | moves along the timeline |
+//! | `views.rs`, `framing.rs` | what the cameras look at |
+//! | `project_view.rs` | how the window looks, for the project file |
 //! | `nudge.rs` | pins moved by arrow keys |
 //! | `defect.rs` | one thing wrong with an embedding |
 
 mod defect;
-mod ease;
+mod files;
 mod framing;
 mod host;
 mod layout;
 mod look;
+mod mesh_view;
 pub(super) mod nudge;
 mod opened;
-mod picture;
-mod preview;
+mod plane;
 mod project_view;
 pub(super) mod purpose;
 mod request;
 mod requests;
 pub(super) mod scene;
-mod scenes;
 mod selection;
 mod steps;
 mod tools;
 mod views;
 
 pub use defect::Defect;
-pub use ease::Ease;
+pub use files::Files;
 pub use host::Host;
 pub use layout::Layout;
 pub use look::Look;
+pub use mesh_view::MeshView;
 pub use nudge::Nudge;
 pub use opened::Opened;
+pub use plane::{HullScene, PlaneView, Stage};
 pub use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
 pub use scene::{Element, MeshScene, Paint, PaintKey, PlaneScene};
 pub use selection::{Pointer, Selection};
 pub use tools::ToolState;
 
-use eframe::egui;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use glam::DVec2;
+use eframe::egui;
 
-use crate::session::{Busy, Job, OutputFit, RecentFiles, Session};
-use crate::ui::panels::dialogs::Dialogs;
-use crate::ui::panels::exports::PaneShot;
-use crate::ui::panes::compare::Ghost;
-use crate::ui::{HullView, TimelineView, Unsaved};
-use crate::view::{OrbitCamera, PlaneCamera};
-use preview::PreviewScene;
+use crate::session::{Busy, RecentFiles, Session, Wake};
+use crate::ui::TimelineView;
+use plane::Surroundings;
+use views::picture_box;
 
 /// How often the session is asked whether a copy for recovery is due.
 const COPY_INTERVAL: Duration = Duration::from_secs(5);
@@ -74,6 +73,10 @@ const COPY_INTERVAL: Duration = Duration::from_secs(5);
 pub struct Editor {
     /// The document and the work on it.
     pub session: Session,
+    /// The mesh's pane.
+    pub mesh: MeshView,
+    /// The embedding's pane.
+    pub plane: PlaneView,
     /// What is selected.
     pub selection: Selection,
     /// What is under the pointer.
@@ -88,40 +91,10 @@ pub struct Editor {
     pub opened: Opened,
     /// What shows the window.
     pub host: Host,
-    /// Hull and pockets of the virtual boundary.
-    pub hull: HullView,
-    /// The way between steps.
-    pub ease: Ease,
-    /// Camera of the mesh's pane.
-    pub orbit: Option<OrbitCamera>,
-    /// Camera of the embedding's pane.
-    pub plane_camera: Option<PlaneCamera>,
-    /// Size of the mesh's pane, points.
-    pub mesh_pane_size: DVec2,
-    /// Size of the embedding's pane, points.
-    pub plane_pane_size: DVec2,
-    /// Where the panes of mesh and embedding lie, points; `None` where one does not show.
-    pub pane_rects: [Option<egui::Rect>; 2],
-    /// The question about unsaved work.
-    pub unsaved: Unsaved,
+    /// Files that are asked for, or about to be written.
+    pub files: Files,
     /// The timeline under the panes.
     pub timeline: TimelineView,
-    /// Size of coordinates in files.
-    pub fit: OutputFit,
-    /// File dialogs.
-    pub dialogs: Dialogs,
-    /// Whether the person asked to quit.
-    pub quit: bool,
-    /// The mesh as given.
-    pub(super) mesh_scene: Option<Arc<MeshScene>>,
-    mesh_scene_job: Option<Job<(), MeshScene>>,
-    pub(super) plane_scene: Option<Arc<PlaneScene>>,
-    plane_scene_job: Option<(u64, Job<(), PlaneScene>)>,
-    pub(super) preview: Option<PreviewScene>,
-    pub(super) shot: Option<PaneShot>,
-    /// The plane's camera that it was saved with, until there is an embedding to look at.
-    plane_camera_wanted: Option<Vec<f64>>,
-    pub(super) ghost: Option<Ghost>,
 }
 
 impl std::fmt::Debug for Editor {
@@ -134,8 +107,11 @@ impl Editor {
     /// An empty window. `context` is woken when the background has news.
     pub fn new(context: &egui::Context, recent: RecentFiles) -> Self {
         let waker = context.clone();
+        let wake: Wake = Arc::new(move || waker.request_repaint());
         Self {
-            session: Session::new(Arc::new(move || waker.request_repaint()), recent),
+            mesh: MeshView::new(&wake),
+            plane: PlaneView::new(&wake),
+            session: Session::new(wake, recent),
             selection: Selection::default(),
             pointer: Pointer::default(),
             tools: ToolState::default(),
@@ -143,37 +119,14 @@ impl Editor {
             layout: Layout::default(),
             opened: Opened::default(),
             host: Host::new(context),
-            hull: HullView::default(),
-            ease: Ease::default(),
-            orbit: None,
-            plane_camera: None,
-            mesh_pane_size: DVec2::new(400.0, 400.0),
-            plane_pane_size: DVec2::new(400.0, 400.0),
-            pane_rects: [None; 2],
-            unsaved: Unsaved::default(),
+            files: Files::default(),
             timeline: TimelineView::default(),
-            fit: OutputFit::default(),
-            dialogs: Dialogs::default(),
-            quit: false,
-            mesh_scene: None,
-            mesh_scene_job: None,
-            plane_scene: None,
-            plane_scene_job: None,
-            preview: None,
-            shot: None,
-            plane_camera_wanted: None,
-            ghost: None,
         }
     }
 
     /// The mesh as drawn: that of the embedding on the screen, where there is one.
     pub fn mesh_scene(&self) -> Option<&Arc<MeshScene>> {
-        self.drawn_plane().map(|plane| &plane.mesh).or(self.mesh_scene.as_ref())
-    }
-
-    /// The embedding as drawn.
-    pub fn plane_scene(&self) -> Option<&Arc<PlaneScene>> {
-        self.plane_scene.as_ref()
+        self.plane.drawn().map(|plane| &plane.mesh).or(self.mesh.scene())
     }
 
     /// What goes on in the background, once it has taken long enough to be worth a word.
@@ -197,27 +150,63 @@ impl Editor {
         self.session.poll();
         self.go_on_after_saving();
         self.go_on_playing();
-        self.poll_mesh_scene();
-        self.poll_plane_scene();
+        if self.mesh.poll(&self.session) {
+            self.begin_with_mesh();
+        }
+        let (plane, around) = self.plane_in_surroundings();
+        if let Some(scene) = plane.refresh(around) {
+            self.selection.keep_below(scene.mesh.mesh().vertex_count());
+        }
         self.look.refresh_picture(self.session.document());
-        self.refresh_preview();
         self.poll_shot();
-        self.go_on_easing();
-        self.poll_hull_scene();
-        self.refresh_ghost();
-        self.refresh_paint();
+        if let Some(mesh) = self.mesh.scene() {
+            let base = self.plane.moved_from(&self.session).map(AsRef::as_ref);
+            self.look.refresh_paint(mesh, self.plane.scene().map(AsRef::as_ref), base);
+        }
         self.host.note_work(self.session.busy().is_some(), Instant::now());
-        let scenes_pending = self.mesh_scene_job.is_some() || self.plane_scene_job.is_some() || self.is_making_hull();
-        if self.session.busy().is_some() || scenes_pending || self.dialogs.is_open() {
+        let scenes_pending = self.mesh.is_making_scene() || self.plane.is_making_scene();
+        if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
             self.host.context().request_repaint_after(Duration::from_millis(100));
         }
         if self.session.has_unsaved_work() {
             // Copies for recovery are made while nobody moves the mouse as well.
             self.host.context().request_repaint_after(COPY_INTERVAL);
         }
-        if let Some(choice) = self.dialogs.poll() {
+        if let Some(choice) = self.files.dialogs.poll() {
             self.take_choice(choice);
         }
+    }
+
+    /// The embedding's pane, with what it is told of the rest of the window.
+    fn plane_in_surroundings(&mut self) -> (&mut PlaneView, Surroundings<'_>) {
+        let around = Surroundings {
+            session: &self.session,
+            host: &self.host,
+            mesh: self.mesh.scene(),
+            glides: self.look.glides,
+            is_dragging: self.tools.dragged().is_some(),
+        };
+        (&mut self.plane, around)
+    }
+
+    /// Takes in where the embedding's pane lies.
+    pub(super) fn lay_out_plane(&mut self, rect: egui::Rect) {
+        let (plane, around) = self.plane_in_surroundings();
+        plane.set_rect(rect, around);
+    }
+
+    /// Begins anew with a mesh that has just come on the screen.
+    fn begin_with_mesh(&mut self) {
+        self.plane.forget();
+        self.look.forget_paint();
+        if self.opened.put_on_screen(&self.session) {
+            self.selection.clear();
+            self.put_on_view();
+        }
+        self.pointer.set_vertex(None);
+        self.selection.set_defect(None);
+        self.tools.end_drag();
+        self.tools.set_pair(None);
     }
 
     /// How many selected vertices are pins of the user's.

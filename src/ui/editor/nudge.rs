@@ -67,7 +67,7 @@ impl Editor {
         let frame = document.frame();
         let step = match &document.picture {
             Some(picture) => 1.0 / f64::from(picture.pixels.height),
-            None => self.plane_scene.as_ref().map_or(1.0, |scene| scene.arrays.bounds().extent()) / PARTS,
+            None => self.plane.scene().map_or(1.0, |scene| scene.arrays.bounds().extent()) / PARTS,
         };
         // The frame has no offset: it takes differences to differences.
         let by = frame.uv_from_plane(pixels * step);

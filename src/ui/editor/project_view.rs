@@ -30,7 +30,7 @@ impl Editor {
         ProjectView {
             mesh_shading: shading.clone(),
             plane_shading: shading,
-            mesh_camera: self.orbit.as_ref().and_then(orbit_numbers),
+            mesh_camera: self.mesh.camera().as_ref().and_then(orbit_numbers),
             plane_camera: self.plane_camera_numbers(),
             selection: self.selection.vertices().iter().map(|vertex| vertex.number()).collect(),
             tool,
@@ -63,28 +63,23 @@ impl Editor {
         if let Some((tool, _)) = TOOLS.into_iter().find(|(_, name)| view.tool.as_deref() == Some(*name)) {
             self.handle(Request::SetTool(tool));
         }
-        let orbit = view.mesh_camera.zip(self.orbit).and_then(|(numbers, start)| orbit_of(&numbers, start));
-        self.orbit = orbit.or(self.orbit);
-        self.plane_camera_wanted = view.plane_camera;
+        let orbit = view.mesh_camera.zip(self.mesh.camera()).and_then(|(numbers, start)| orbit_of(&numbers, start));
+        if let Some(orbit) = orbit {
+            self.mesh.set_camera(orbit);
+        }
+        self.plane.set_saved_camera(view.plane_camera);
         let count = self.session.model().map_or(0, |model| model.mesh().vertex_count());
         let there = view.selection.into_iter().map(VertexId::new).filter(|vertex| vertex.index() < count);
         self.selection.select(there);
     }
 
-    /// Puts on the plane's camera of what was opened. Call once its embedding is framed.
-    pub(super) fn put_on_plane_camera(&mut self) {
-        let wanted = self.plane_camera_wanted.take().zip(self.plane_camera);
-        let camera = wanted.and_then(|(numbers, start)| plane_of(&numbers, start, self.plane_pane_size));
-        self.plane_camera = camera.or(self.plane_camera);
-    }
-
     /// The plane's camera; none where the window chose it by itself, as it will again.
     fn plane_camera_numbers(&self) -> Option<Vec<f64>> {
-        if self.plane_camera_wanted.is_some() {
-            return self.plane_camera_wanted.clone();
+        if let Some(saved) = self.plane.saved_camera() {
+            return Some(saved.clone());
         }
-        let camera = self.plane_camera.filter(|_| !self.is_framed())?;
-        let (center, height) = (camera.center(), camera.visible(self.plane_pane_size).size().y);
+        let camera = self.plane.camera().filter(|_| !self.plane.is_framed())?;
+        let (center, height) = (camera.center(), camera.visible(self.plane.area().size()).size().y);
         finite(vec![center.x, center.y, height])
     }
 }
@@ -132,7 +127,7 @@ fn turned(mut camera: OrbitCamera, wanted: DVec2) -> OrbitCamera {
 }
 
 /// The camera that such numbers are of, with the limits of another one.
-fn plane_of(numbers: &[f64], mut camera: PlaneCamera, pane_size: DVec2) -> Option<PlaneCamera> {
+pub(super) fn plane_of(numbers: &[f64], mut camera: PlaneCamera, pane_size: DVec2) -> Option<PlaneCamera> {
     let &[x, y, height]: &[f64; 3] = numbers.try_into().ok()?;
     if !(numbers.iter().all(|number| number.is_finite()) && height > 0.0) {
         return None;

@@ -22,10 +22,10 @@ impl Editor {
             Request::SetTool(tool) => self.tools.take_up(tool),
             Request::SetShading(shading) => self.look.shading = shading,
             Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
-            Request::ToggleEase => self.ease.wanted = !self.ease.wanted,
+            Request::ToggleEase => self.look.glides = !self.look.glides,
             Request::ToggleMagnifier => self.look.magnifier = !self.look.magnifier,
-            Request::ToggleHull => self.toggle_hull(),
-            Request::SetStage(stage) => self.hull.stage = stage,
+            Request::ToggleHull => self.plane.toggle_hull(),
+            Request::SetStage(stage) => self.plane.set_stage(stage),
             Request::ShowTab(tab) => self.layout.show_tab(tab),
             Request::TogglePanels => self.layout.toggle_panels(),
             Request::Frame => self.frame(),
@@ -56,7 +56,7 @@ impl Editor {
             Request::AskGoTo => self.layout.go_to = Some(String::new()),
             Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
             Request::SetTheme(theme) => self.host.want_theme(theme),
-            Request::SetFit(fit) => self.fit = fit,
+            Request::SetFit(fit) => self.files.fit = fit,
             Request::Quit => self.wish(Wish::Quit),
         }
     }
@@ -70,7 +70,7 @@ impl Editor {
             }
             _ => self.suggested_name(purpose),
         };
-        self.dialogs.ask(self.host.context(), purpose, suggestion);
+        self.files.dialogs.ask(self.host.context(), purpose, suggestion);
     }
 
     /// Opens, saves or exports as a dialog was answered.
@@ -89,10 +89,10 @@ impl Editor {
                 self.act(Action::SaveProject(path));
             }
             Purpose::PanePicture(pane) => self.shoot_pane(pane, path),
-            Purpose::Save => self.save(path, OutputKind::Obj, self.fit),
+            Purpose::Save => self.save(path, OutputKind::Obj, self.files.fit),
             Purpose::Drawing(fit) => self.save(path, OutputKind::Svg, fit),
-            Purpose::Overview => self.save(path, OutputKind::Png, self.fit),
-            Purpose::Report => self.save(path, OutputKind::Json, self.fit),
+            Purpose::Overview => self.save(path, OutputKind::Png, self.files.fit),
+            Purpose::Report => self.save(path, OutputKind::Json, self.files.fit),
         }
     }
 
@@ -140,7 +140,7 @@ impl Editor {
     }
 
     fn escape(&mut self) {
-        if self.close_question() || self.dialogs.close() || self.layout.close_window() {
+        if self.close_question() || self.files.dialogs.close() || self.layout.close_window() {
         } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
         } else if self.pointer.end_box() {

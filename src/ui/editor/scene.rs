@@ -2,13 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
-use crate::solver::{FaceDistortion, Step};
+use crate::solver::{Embedding, FaceDistortion, Step};
 use crate::ui::Shading;
-use crate::ui::panes::compare::{face_moves, places_in};
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
 
 /// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
@@ -93,7 +90,7 @@ pub struct PlaneScene {
     /// Picks vertices.
     pub picker: Arc<PlanePicker>,
     /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
-    positions: Option<Vec<DVec2>>,
+    positions: Option<Embedding>,
     part: Part,
 }
 
@@ -125,7 +122,7 @@ impl PlaneScene {
 
     /// The same mesh with other points than the outcome's embedding: at a stage on the way to it, or with its outside.
     /// Points beyond the mesh's are drawn with, and not picked.
-    pub(in crate::ui) fn of_part(&self, part: Part, positions: Vec<DVec2>) -> Self {
+    pub(in crate::ui) fn of_part(&self, part: Part, positions: Embedding) -> Self {
         let mesh = self.mesh.mesh();
         Self {
             mesh: Arc::clone(&self.mesh),
@@ -140,7 +137,7 @@ impl PlaneScene {
 
     /// The vertices of `mesh`, this one's or the one as given, on their way to where they will lie. Picks them where they
     /// are in this scene.
-    pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Vec<DVec2>) -> Self {
+    pub(super) fn with_positions(&self, mesh: &Arc<MeshScene>, positions: Embedding) -> Self {
         let picker = if Arc::ptr_eq(mesh, &self.mesh) {
             Arc::clone(&self.picker)
         } else {
@@ -158,8 +155,8 @@ impl PlaneScene {
     }
 
     /// Where vertices lie.
-    pub fn positions(&self) -> &[DVec2] {
-        self.positions.as_deref().unwrap_or(&self.outcome.step.solution.embedding)
+    pub fn positions(&self) -> &Embedding {
+        self.positions.as_ref().unwrap_or(&self.outcome.step.solution.embedding)
     }
 
     /// Whether this is a stage on the way to the result.
@@ -234,7 +231,7 @@ impl Paint {
             (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
             (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),
             (Shading::Move, Some(base)) => {
-                let before = places_in(&base.step, &outcome.step);
+                let before = embedding_on(&base.step, &outcome.step);
                 by_values(Scale::Move, &face_moves(mesh, &before, &outcome.step.solution.embedding))
             }
         }
@@ -249,6 +246,28 @@ fn histogram(values: &[f64], range: Range) -> Vec<u32> {
         bars[bar.min(BARS - 1)] += 1;
     }
     bars
+}
+
+/// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
+fn embedding_on(base: &Step, step: &Step) -> Embedding {
+    let embedding = &base.solution.embedding;
+    let Some(refinement) = &step.refinement else { return embedding.clone() };
+    if base.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
+        return embedding.clone();
+    }
+    let mut moved = embedding[..refinement.old_vertex_count()].to_vec();
+    for new in refinement.new_vertices() {
+        let [a, b] = new.edge.map(|v| embedding[v.index()]);
+        moved.push(a.lerp(b, new.at));
+    }
+    moved.into()
+}
+
+/// How far each face has moved between two embeddings: the mean of its corners.
+fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64> {
+    let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
+    let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
+    mesh.triangles.iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
 }
 
 /// A part of the mesh that a defect or a person names.

@@ -3,25 +3,52 @@
 use super::framing::{grown, grown_box, positions_of};
 use super::scene::vertices_of;
 use crate::mesh::VertexId;
+use crate::render::PictureLayer;
+use crate::session::Document;
 use crate::ui::Editor;
+use crate::view::PlaneBox;
+
+/// Where a document's picture lies in the plane.
+pub(super) fn picture_box(document: &Document) -> PlaneBox {
+    let [min, max] = document.frame().corners();
+    PlaneBox { min, max }
+}
 
 impl Editor {
     pub(in crate::ui) fn frame(&mut self) {
-        let (Some(scene), Some(mut orbit)) = (self.mesh_scene(), self.orbit) else { return };
-        let positions = &scene.mesh().positions;
+        let Some(scene) = self.mesh_scene() else { return };
         let selected: Vec<VertexId> = self.selection.vertices().iter().copied().collect();
+        let whole = scene.sphere;
         let ball =
-            if selected.is_empty() { scene.sphere } else { grown(&positions_of(positions, &selected), scene.sphere) };
-        orbit.frame(ball, self.mesh_pane_size);
-        self.orbit = Some(orbit);
-        let Some(plane) = self.drawn_plane().cloned() else { return };
+            if selected.is_empty() { whole } else { grown(&positions_of(&scene.mesh().positions, &selected), whole) };
+        self.mesh.frame(ball);
+        let Some(plane) = self.plane.drawn().cloned() else { return };
         let bounds = self.with_picture(plane.arrays.bounds());
-        let Some(camera) = &mut self.plane_camera else { return };
         let wanted = if selected.is_empty() { bounds } else { grown_box(plane.positions(), &selected, bounds) };
-        camera.frame(wanted, self.plane_pane_size);
-        if let Some(camera) = self.plane_camera.filter(|_| selected.is_empty() && plane.is_plain_result()) {
-            self.set_framed(camera);
+        self.plane.frame(wanted);
+        if let Some(camera) = self.plane.camera().filter(|_| selected.is_empty() && plane.is_plain_result()) {
+            self.plane.set_framed(camera);
         }
+    }
+
+    /// Whether the document has a picture.
+    pub fn has_picture(&self) -> bool {
+        self.session.document().picture.is_some()
+    }
+
+    /// Where the picture lies in the plane; without one, the unit square of texture coordinates.
+    pub(in crate::ui) fn picture_box(&self) -> PlaneBox {
+        picture_box(self.session.document())
+    }
+
+    /// All that there is in the plane: the embedding, and the picture where there is one.
+    pub(in crate::ui) fn with_picture(&self, embedding: PlaneBox) -> PlaneBox {
+        if self.has_picture() { embedding.union(self.picture_box()) } else { embedding }
+    }
+
+    /// The picture as panes draw it.
+    pub(in crate::ui) fn picture_layer(&self) -> Option<PictureLayer> {
+        self.look.picture_layer(self.picture_box())
     }
 
     pub(super) fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {

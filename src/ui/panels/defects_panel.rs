@@ -42,7 +42,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     }
     let rows = [
         (theme.flipped, "flipped faces", verdict.flipped_faces.len()),
-        (theme.crossing, "boundary crossings", verdict.boundary_crossings.len() + verdict.unlisted_crossings),
+        (theme.crossing, "boundary crossings", verdict.crossing_count()),
         (theme.overwound, "overwound vertices", verdict.overwound_vertices.len()),
     ];
     for (colour, words, count) in rows {

@@ -3,11 +3,12 @@
 //! The system's dialog runs off the UI thread, so that the window lives on while it is open.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
 
-use crate::session::{Job, Poll};
+use crate::session::{Background, Failure, Wake};
 use crate::ui::editor::purpose::{DialogForm, Purpose};
 
 /// A dialog that answers faster than this was not seen by a person: the system has none.
@@ -25,17 +26,16 @@ pub struct Choice {
 /// The dialog that is open, if one is.
 #[derive(Debug, Default)]
 pub struct Dialogs {
-    native: Option<Native>,
+    native: Option<Background<Asked, Option<PathBuf>>>,
     browser: Option<Browser>,
     /// Set once the system has shown that it has no dialog of its own.
     native_missing: bool,
 }
 
-#[derive(Debug)]
-struct Native {
+/// What the system's dialog was asked for, and when.
+struct Asked {
     purpose: Purpose,
     suggestion: PathBuf,
-    job: Job<(), Option<PathBuf>>,
     since: Instant,
 }
 
@@ -61,27 +61,23 @@ impl Dialogs {
         }
         let dialog = native_dialog(purpose, &suggestion);
         let waker = context.clone();
-        let work = move |_: &_| pollster::block_on(dialog);
-        match Job::spawn("file dialog", move || waker.request_repaint(), work) {
-            Ok(job) => self.native = Some(Native { purpose, suggestion, job, since: Instant::now() }),
-            Err(_) => self.browser = Some(Browser::new(purpose, &suggestion)),
-        }
+        let wake: Wake = Arc::new(move || waker.request_repaint());
+        let native = self.native.insert(Background::new("file dialog", &wake));
+        native.start(Asked { purpose, suggestion, since: Instant::now() }, |_| pollster::block_on(dialog));
     }
 
     /// The file chosen in the system's dialog, once.
     pub fn poll(&mut self) -> Option<Choice> {
-        let native = self.native.as_ref()?;
-        let answer = match native.job.poll() {
-            Poll::Running => return None,
-            Poll::Done(answer) => answer,
-            Poll::Lost => None,
-        };
-        let native = self.native.take()?;
-        if answer.is_none() && native.since.elapsed() < TOO_QUICK && cfg!(target_os = "linux") {
+        let (asked, answer) = self.native.as_mut()?.poll()?;
+        self.native = None;
+        let no_thread = matches!(answer, Err(Failure::NoThread(_)));
+        let answer = answer.ok().flatten();
+        let is_unseen = answer.is_none() && asked.since.elapsed() < TOO_QUICK && cfg!(target_os = "linux");
+        if is_unseen || no_thread {
             self.native_missing = true;
-            self.browser = Some(Browser::new(native.purpose, &native.suggestion));
+            self.browser = Some(Browser::new(asked.purpose, &asked.suggestion));
         }
-        Some(Choice { purpose: native.purpose, path: answer? })
+        Some(Choice { purpose: asked.purpose, path: answer? })
     }
 
     /// Shows the dialog inside the window, where one is open. Gives the file chosen.

@@ -34,7 +34,7 @@ fn equation_of(
     let disk = step.mesh(editor.session.model()?.disk()?);
     let timeline = editor.session.timeline();
     let before = step.index.checked_sub(1).and_then(|index| timeline.outcome(index));
-    let before = before.map(|before| before.step.solution.embedding.as_slice());
+    let before = before.map(|before| &before.step.solution.embedding);
     (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, (step, before), vertex))
 }
 
@@ -116,16 +116,14 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
 
 fn numbers(ui: &mut egui::Ui, equation: &VertexEquation) {
     pairs(ui, "equation in sum", [16.0, 4.0], |ui| {
-        let mut row = |name: &str, value: String, tip: &str| {
-            number(ui, name, value).on_hover_text(tip);
-        };
-        row("Sum of k", compact(equation.weight_sum), "What the offset is divided by");
+        number(ui, "Sum of k", compact(equation.weight_sum)).on_hover_text("What the offset is divided by");
         let of_terms = "What the equation leaves in this step, relative to the sizes of its terms";
-        row("Residual", format!("{:.1e}", equation.residual), of_terms);
-        row("Barycentre", pair(equation.barycentre), "Of the neighbours, with their shares: u, v");
+        number(ui, "Residual", format!("{:.1e}", equation.residual)).on_hover_text(of_terms);
+        number(ui, "Barycentre", pair(equation.barycentre)).on_hover_text("Of the neighbours, with their shares: u, v");
         if let Some(offset) = equation.offset_vector {
-            row("Offset", pair(offset), "From the barycentre to where eq. 3 wants the vertex: u, v");
-            row("Its length", short(offset.length()), "In units of the plane");
+            let tip = "From the barycentre to where eq. 3 wants the vertex: u, v";
+            number(ui, "Offset", pair(offset)).on_hover_text(tip);
+            number(ui, "Its length", short(offset.length())).on_hover_text("In units of the plane");
         }
     });
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
 
 use eframe::egui;
-use egui::{Align2, Rect};
+use egui::{Align2, Pos2, Rect};
 
 use crate::geom::Picture;
 use crate::session::OutputFit;
@@ -50,40 +50,36 @@ pub(super) fn exports_window(context: &egui::Context, editor: &mut Editor, reque
 impl Editor {
     /// Asks for a picture of the window, to cut a pane out of.
     pub(in crate::ui) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
-        let rect = self.pane_rects[usize::from(pane == Pane::Plane)];
-        let Some(part) = rect else { return };
+        let area = if pane == Pane::Plane { self.plane.area() } else { self.mesh.area() };
+        let Some(part) = area.rect() else { return };
         let (sender, answer) = sync_channel(1);
         let wake = self.host.waker();
         self.host.context().request_screenshot(move |image| {
             sender.send(image).ok();
             wake();
         });
-        self.shot = Some(PaneShot { path, part, answer });
+        self.files.shot = Some(PaneShot { path, part, answer });
     }
 
     /// Takes in the picture of the window, and has the pane's part of it written. Call once per frame.
     pub(in crate::ui) fn poll_shot(&mut self) {
-        let Some(shot) = &self.shot else { return };
+        let Some(shot) = &self.files.shot else { return };
         let Ok(image) = shot.answer.try_recv() else { return };
         let scale = self.host.context().pixels_per_point();
         let part = cut(&image, shot.part * scale);
-        if let Some(shot) = self.shot.take() {
+        if let Some(shot) = self.files.shot.take() {
             self.session.save_picture(shot.path, part);
         }
     }
 }
 
 /// A part of a picture of the window, in pixels.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pixels of a window, clamped to it")]
 fn cut(image: &egui::ColorImage, part: Rect) -> Picture {
-    let [width, height] = image.size;
-    let within = |value: f32, limit: usize| (value.round().max(0.0) as usize).min(limit);
-    let (left, right) = (within(part.left(), width), within(part.right(), width));
-    let (top, bottom) = (within(part.top(), height), within(part.bottom(), height));
-    let row = |y: usize| &image.pixels[y * width + left..y * width + right.max(left)];
-    let pixels = (top..bottom).flat_map(row).flat_map(egui::Color32::to_srgba_unmultiplied).collect();
-    let count = |from: usize, to: usize| u32::try_from(to.saturating_sub(from)).unwrap_or(0);
-    Picture { width: count(left, right), height: count(top, bottom), pixels }
+    let whole = Rect::from_min_size(Pos2::ZERO, egui::vec2(image.width() as f32, image.height() as f32));
+    let within = |corner: Pos2| corner.round().clamp(whole.min, whole.max);
+    let part = image.region(&Rect::from_min_max(within(part.min), within(part.max)), None);
+    let [width, height] = part.size.map(|count| u32::try_from(count).unwrap_or(0));
+    Picture { width, height, pixels: part.pixels.iter().flat_map(egui::Color32::to_srgba_unmultiplied).collect() }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use eframe::egui;
 use egui::{Align2, Key};
 
+use crate::ui::controls::pairs;
 use crate::ui::editor::scene::vertices_of;
 use crate::ui::keys::{BINDINGS, Binding, MOUSE};
 use crate::ui::{Editor, Element, Request};
@@ -19,7 +20,7 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
         super::exports::exports_window(context, editor, requests);
     }
     super::unsaved::question(context, editor, requests);
-    if let Some(choice) = editor.dialogs.show(context) {
+    if let Some(choice) = editor.files.dialogs.show(context) {
         editor.take_choice(choice);
     }
 }
@@ -37,15 +38,12 @@ fn keys_window(context: &egui::Context, editor: &mut Editor) {
         .default_pos(context.content_rect().center())
         .show(context, |ui| {
             egui::ScrollArea::vertical().auto_shrink(false).max_height(height).show(ui, |ui| {
-                egui::Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
-                    for binding in bindings {
-                        ui.monospace(context.format_shortcut(&binding.shortcut));
-                        ui.label(binding.about);
-                        ui.end_row();
-                    }
-                    for (gesture, about) in MOUSE {
-                        ui.monospace(*gesture);
-                        ui.label(*about);
+                let keys = bindings.iter().map(|key| (context.format_shortcut(&key.shortcut), key.about));
+                let gestures = MOUSE.iter().map(|&(gesture, about)| (gesture.to_owned(), about));
+                pairs(ui, "keys", [24.0, 4.0], |ui| {
+                    for (input, about) in keys.chain(gestures) {
+                        ui.monospace(input);
+                        ui.label(about);
                         ui.end_row();
                     }
                 });

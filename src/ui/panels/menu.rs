@@ -135,8 +135,8 @@ fn file_menu(menu: &mut Menu<'_>) {
     });
     menu.part("Size in files", |menu| {
         let (unit, true_size) = (OutputFit::Unit, OutputFit::True);
-        menu.choice(editor.fit == unit, "Fit into the unit square", Request::SetFit(unit));
-        menu.choice(editor.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
+        menu.choice(editor.files.fit == unit, "Fit into the unit square", Request::SetFit(unit));
+        menu.choice(editor.files.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
         menu.separator();
         menu.ui.weak("With pins, coordinates stay as they are.");
     });
@@ -175,9 +175,9 @@ fn view_menu(menu: &mut Menu<'_>) {
     });
     menu.choice(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
     menu.choice(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
-    menu.choice(editor.hull.shown, "Hull and pockets", Request::ToggleHull);
+    menu.choice(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
     menu.choice(editor.look.magnifier, "Magnifier", Request::ToggleMagnifier);
-    menu.choice(editor.ease.wanted, "Glide from step to step", Request::ToggleEase);
+    menu.choice(editor.look.glides, "Glide from step to step", Request::ToggleEase);
     menu.choice(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
     menu.choice(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
     menu.separator();
@@ -223,19 +223,13 @@ fn solve_menu(menu: &mut Menu<'_>) {
 fn title(editor: &Editor) -> String {
     let Some(model) = editor.session.model() else { return "Freebound".to_owned() };
     let mesh = model.mesh();
-    let mark = if editor.session.has_unsaved_work() { "• " } else { "" };
-    format!("{mark}{} · {} v · {} f", editor.document_name(), grouped(mesh.vertex_count()), grouped(mesh.face_count()))
+    let counts = [mesh.vertex_count(), mesh.face_count()].map(grouped);
+    format!("{} · {} v · {} f", editor.marked_name(), counts[0], counts[1])
 }
 
 /// A count with its thousands set apart by spaces.
 pub(super) fn grouped(count: usize) -> String {
     let digits = count.to_string();
-    let mut words = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            words.push(' ');
-        }
-        words.push(digit);
-    }
-    words
+    let groups = digits.as_bytes().rchunks(3).rev();
+    groups.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ")
 }

@@ -5,8 +5,7 @@ use egui::RichText;
 
 use crate::geom::VAxis;
 use crate::session::Action;
-use crate::ui::controls::Control;
-use crate::ui::panes::constrain::axis_words;
+use crate::ui::controls::{Control, Offer};
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Purpose, Request};
 
@@ -27,11 +26,11 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let has_disk = editor.has_disk();
-        let open = ui.add_enabled(has_disk, egui::Button::new("Open picture…").small());
-        open.on_hover_text("A PNG or JPEG file to map on the mesh").asks(Request::Ask(Purpose::OpenPicture), requests);
-        let remove = ui.add_enabled(document.picture.is_some(), egui::Button::new("Remove").small());
-        remove.on_hover_text("Go without a picture").asks(Action::RemovePicture, requests);
+        let open = Request::Ask(Purpose::OpenPicture);
+        let open = Offer::new("Open picture…", "A PNG or JPEG file to map on the mesh", open);
+        open.when(editor.has_disk()).show(ui, requests);
+        let remove = Offer::new("Remove", "Go without a picture", Action::RemovePicture);
+        remove.when(document.picture.is_some()).show(ui, requests);
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -56,5 +55,13 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
         if slider.changed() {
             requests.push(Request::SetOpacity(percent / 100.0));
         }
+    }
+}
+
+/// Where v = 0 is, in words.
+const fn axis_words(v_axis: VAxis) -> &'static str {
+    match v_axis {
+        VAxis::Up => "v up",
+        VAxis::Down => "v down",
     }
 }

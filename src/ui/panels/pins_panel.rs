@@ -8,9 +8,9 @@ use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::{Hold, Pin};
-use crate::ui::controls::{Control, counted, remark};
+use crate::ui::controls::{Control, Offer, counted, remark};
 use crate::ui::panes::pin_drag::conflict_words;
-use crate::ui::panes::pins::{self, Emphasis, PinKind};
+use crate::ui::panes::pins::{Emphasis, PinKind};
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Purpose, Request, Tool, keys_of};
 
@@ -67,7 +67,7 @@ struct Row {
 
 fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
-    let speed = editor.plane_scene().map_or(0.01, |plane| plane.arrays.bounds().extent() / 500.0);
+    let speed = editor.plane.scene().map_or(0.01, |plane| plane.arrays.bounds().extent() / 500.0);
     let height = (ui.available_height() - BELOW).max(80.0);
     egui::ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
         ui.spacing_mut().button_padding.x = 4.0;
@@ -127,7 +127,7 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId) {
 fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, requests: &mut Vec<Request>) {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
-    pins::mark(ui.painter(), rect.center(), theme_of(ui), (PinKind::User(held), emphasis));
+    PinKind::User(held).mark(ui.painter(), rect.center(), theme_of(ui), emphasis);
     let words = match target.hold {
         Hold::Weighted(_) => "weighted",
         Hold::Fixed => "fixed",
@@ -211,7 +211,7 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(format!("{} selected:", selected.len()));
-        ui.small_button("Hard").on_hover_text("Meet them exactly").asks(Request::SetHold(Hold::Hard), requests);
+        Offer::new("Hard", "Meet them exactly", Request::SetHold(Hold::Hard)).show(ui, requests);
         let pins = &editor.session.document().targets;
         let weights = selected.iter().filter_map(|vertex| match pins.get(vertex)?.hold {
             Hold::Weighted(weight) => Some(weight),
@@ -219,11 +219,11 @@ fn together(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         });
         let weight = weights.max_by(f64::total_cmp);
         let hold = Hold::Weighted(weight.unwrap_or(Pin::DEFAULT_WEIGHT));
-        ui.small_button("Weighted").on_hover_text("Let them pull with a weight").asks(Request::SetHold(hold), requests);
+        Offer::new("Weighted", "Let them pull with a weight", Request::SetHold(hold)).show(ui, requests);
         if let Some(weight) = weight {
             weight_field(ui, "Weight of the selected pins", weight, &selected, requests);
         }
-        ui.small_button("Free").on_hover_text("Free the selected pins").asks(Request::UnpinSelected, requests);
+        Offer::new("Free", "Free the selected pins", Request::UnpinSelected).show(ui, requests);
     });
 }
 
@@ -266,19 +266,20 @@ fn errors(ui: &mut egui::Ui, editor: &Editor) {
 /// What concerns all pins.
 fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let count = editor.session.document().targets.len();
-    let has_disk = editor.has_disk();
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let buttons: [(bool, &str, &str, Request); 5] = [
-            (count > 0, "Mirror", "Mirror all targets left to right", Action::MirrorTargets.into()),
-            (count > 1, "Fit", "Turn, scale and move all targets together, to fit the mesh", Action::FitTargets.into()),
-            (has_disk, "Import…", "Take over the constraints of a file", Request::Ask(Purpose::ImportConstraints)),
-            (count > 0, "Export…", "Write the pins as a constraint file", Request::Ask(Purpose::ExportConstraints)),
-            (count > 0, "Free all", "Free all pins; undo brings them back", Action::UnpinAll.into()),
+        let offers = [
+            Offer::new("Mirror", "Mirror all targets left to right", Action::MirrorTargets).when(count > 0),
+            Offer::new("Fit", "Turn, scale and move all targets together, to fit the mesh", Action::FitTargets)
+                .when(count > 1),
+            Offer::new("Import…", "Take over the constraints of a file", Request::Ask(Purpose::ImportConstraints))
+                .when(editor.has_disk()),
+            Offer::new("Export…", "Write the pins as a constraint file", Request::Ask(Purpose::ExportConstraints))
+                .when(count > 0),
+            Offer::new("Free all", "Free all pins; undo brings them back", Action::UnpinAll).when(count > 0),
         ];
-        for (enabled, words, tip, request) in buttons {
-            let button = ui.add_enabled(enabled, egui::Button::new(words).small());
-            button.on_hover_text(tip).asks(request, requests);
+        for offer in offers {
+            offer.show(ui, requests);
         }
     });
 }

@@ -2,10 +2,7 @@
 
 use eframe::egui;
 
-use super::defects_panel;
-use super::method_panel;
-use super::pins_panel;
-use super::vertex_panel;
+use super::{defects_panel, method_panel, pins_panel, vertex_panel};
 use crate::ui::{Editor, Request, Tab};
 
 /// Shows the tabs and the open panel.

@@ -49,10 +49,15 @@ impl Editor {
         self.session.project_name().unwrap_or_else(|| "Freebound".to_owned())
     }
 
+    /// The same, with a mark where work is not saved.
+    pub(super) fn marked_name(&self) -> String {
+        format!("{}{}", if self.session.has_unsaved_work() { "• " } else { "" }, self.document_name())
+    }
+
     /// Does what would lose the open document: at once where nothing is lost, else once the person has answered.
     pub(in crate::ui) fn wish(&mut self, wish: Wish) {
         if self.session.has_unsaved_work() {
-            self.unsaved.asked = Some(wish);
+            self.files.unsaved.asked = Some(wish);
         } else {
             self.grant(wish);
         }
@@ -60,19 +65,19 @@ impl Editor {
 
     fn grant(&mut self, wish: Wish) {
         match wish {
-            Wish::Quit => self.quit = true,
+            Wish::Quit => self.host.quit(),
             Wish::Do(action) => self.session.handle(action),
         }
     }
 
     /// Takes the answer.
     pub(in crate::ui) fn answer(&mut self, answer: Answer) {
-        let Some(wish) = self.unsaved.asked.take() else { return };
+        let Some(wish) = self.files.unsaved.asked.take() else { return };
         match answer {
             Answer::Cancel => {}
             Answer::DontSave => self.grant(wish),
             Answer::Save => {
-                self.unsaved.after_saving = Some(wish);
+                self.files.unsaved.after_saving = Some(wish);
                 self.save_project();
             }
         }
@@ -92,10 +97,11 @@ impl Editor {
     /// Goes on with what waited for the project to be saved. Where it was not saved, that is given up. Call once per
     /// frame.
     pub(in crate::ui) fn go_on_after_saving(&mut self) {
-        if self.unsaved.after_saving.is_none() || self.dialogs.is_open() || self.session.is_saving_project() {
+        if self.files.unsaved.after_saving.is_none() || self.files.dialogs.is_open() || self.session.is_saving_project()
+        {
             return;
         }
-        let wish = self.unsaved.after_saving.take();
+        let wish = self.files.unsaved.after_saving.take();
         if let Some(wish) = wish.filter(|_| !self.session.has_unsaved_work()) {
             self.grant(wish);
         }
@@ -103,14 +109,14 @@ impl Editor {
 
     /// Takes the question away. Returns whether it was asked.
     pub(in crate::ui) fn close_question(&mut self) -> bool {
-        self.unsaved.asked.take().is_some()
+        self.files.unsaved.asked.take().is_some()
     }
 }
 
 /// Keeps a window open that somebody closes while work is not saved.
 pub(in crate::ui) fn hold_window(context: &egui::Context, editor: &mut Editor) {
     let is_closing = context.input(|input| input.viewport().close_requested());
-    if is_closing && !editor.quit && editor.session.has_unsaved_work() {
+    if is_closing && !editor.host.is_quitting() && editor.session.has_unsaved_work() {
         context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
         editor.wish(Wish::Quit);
     }
@@ -118,7 +124,7 @@ pub(in crate::ui) fn hold_window(context: &egui::Context, editor: &mut Editor) {
 
 /// Shows the question where it is asked.
 pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests: &mut Vec<Request>) {
-    let Some(wish) = &editor.unsaved.asked else { return };
+    let Some(wish) = &editor.files.unsaved.asked else { return };
     let name = editor.document_name();
     egui::Modal::new(egui::Id::unique("unsaved work")).show(context, |ui| {
         ui.set_width(340.0);
@@ -141,9 +147,8 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
 
 /// Gives the window its title: the document's name, with a mark where work is not saved.
 pub(in crate::ui) fn title_of_window(editor: &mut Editor) {
-    let mark = if editor.session.has_unsaved_work() { "• " } else { "" };
     let title = match editor.session.model() {
-        Some(_) => format!("{mark}{} – Freebound", editor.document_name()),
+        Some(_) => format!("{} – Freebound", editor.marked_name()),
         None => "Freebound".to_owned(),
     };
     editor.host.set_title(title);

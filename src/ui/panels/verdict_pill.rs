@@ -3,9 +3,9 @@
 use eframe::egui;
 use egui::{RichText, Role};
 
-use crate::session::{Action, Busy, Surface};
+use crate::session::{Action, Busy, Preview, Status, Surface};
 use crate::solver::{Phase, Step, Verdict};
-use crate::ui::controls::{Control, counted};
+use crate::ui::controls::{Control, Offer, counted};
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Request, Tab};
@@ -32,7 +32,7 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(pill) = &pill
         && show_pill(ui, pill).clicked()
     {
-        let unmet = editor.unmet_shown();
+        let unmet = editor.session.outcome().map(|outcome| outcome.step.unmet()).unwrap_or_default();
         requests.push(match editor.has_defects() {
             true => Request::StepDefect(1),
             false if unmet.is_empty() => Request::ShowTab(Tab::Defects),
@@ -40,7 +40,7 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
         });
     }
     let Some(busy) = busy else { return };
-    ui.small_button("Stop").on_hover_text("Stop the work in the background").asks(Action::Cancel, requests);
+    Offer::new("Stop", "Stop the work in the background", Action::Cancel).show(ui, requests);
     if pill.is_none() {
         ui.label(RichText::new(busy_words(busy)).color(theme_of(ui).weak_text));
     }
@@ -71,22 +71,18 @@ fn pill(editor: &Editor) -> Option<Pill> {
         let words = counted(diagnosis.faults.len(), "fault", "faults");
         return Some(Pill::new(Sign::Bad, words, "The bars over the mesh say what is wrong and what to do"));
     }
-    if session.is_preview() || session.preview().is_some() {
-        let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
-        return Some(Pill::new(Sign::Warning, preview_words(editor), tip));
-    }
-    let more_to_come = session.is_running() && session.timeline().records().len() <= 1;
-    let is_at_work = session.busy().is_some() || session.is_following();
-    if more_to_come || (is_at_work && !session.is_current()) {
-        let words = if session.outcome().is_some() && !more_to_come { "following…" } else { "solving…" };
-        return Some(Pill::new(Sign::Working, words, "The solve is on its way"));
-    }
-    Some(match session.outcome().filter(|_| session.is_current()) {
-        Some(outcome) => of_step(&outcome.step),
-        None => {
+    Some(match session.status() {
+        Status::Preview(preview) => {
+            let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
+            Pill::new(Sign::Warning, preview_words(preview), tip)
+        }
+        Status::Solving => Pill::new(Sign::Working, "solving…", "The solve is on its way"),
+        Status::Following => Pill::new(Sign::Working, "following…", "The solve is on its way"),
+        Status::Stale => {
             let tip = "The embedding does not belong to these settings and pins: press Solve";
             Pill::new(Sign::Warning, "not solved", tip)
         }
+        Status::Held | Status::Current => of_step(&session.outcome()?.step),
     })
 }
 
@@ -110,8 +106,8 @@ fn of_step(step: &Step) -> Pill {
 }
 
 /// What follows a drag, and what is known of it.
-fn preview_words(editor: &Editor) -> String {
-    let known = match editor.session.preview().map(crate::session::Preview::verdict) {
+fn preview_words(preview: Option<&Preview>) -> String {
+    let known = match preview.map(Preview::verdict) {
         None => return "preview, not repaired".to_owned(),
         Some(None) => "checking…".to_owned(),
         Some(Some(verdict)) if verdict.planar => "planar".to_owned(),
@@ -124,7 +120,7 @@ fn preview_words(editor: &Editor) -> String {
 fn short_verdict(verdict: &Verdict) -> String {
     let counts = [
         (verdict.flipped_faces.len(), ["flipped"; 2]),
-        (verdict.boundary_crossings.len() + verdict.unlisted_crossings, ["crossing", "crossings"]),
+        (verdict.crossing_count(), ["crossing", "crossings"]),
         (verdict.overwound_vertices.len(), ["overwound"; 2]),
     ];
     let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, [one, many])| counted(*count, one, many));
@@ -160,7 +156,6 @@ mod tests {
     use crate::examples::Example;
     use crate::mesh::VertexId;
     use crate::session::RecentFiles;
-    use crate::ui::theme::LIGHT;
 
     /// Takes in what the background has done until a condition holds.
     fn wait(editor: &mut Editor, is_there: impl Fn(&Editor) -> bool) {

@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use eframe::egui;
-use glam::DVec2;
 
 use super::equation_table;
 use super::status::short;
 use crate::mesh::{DiskMesh, NewVertex, VertexId};
 use crate::session::Action;
+use crate::solver::Embedding;
 use crate::ui::controls::{Control, number, pairs};
 use crate::ui::{Editor, Request};
 
@@ -33,28 +33,25 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(new) = scene.new_vertex(vertex) {
         ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }
-    let embedding = editor.session.outcome().map(|outcome| outcome.step.solution.embedding.as_slice());
+    let embedding = editor.session.outcome().map(|outcome| &outcome.step.solution.embedding);
     pairs(ui, "vertex", [16.0, 4.0], |ui| {
-        let mut row = |name: &str, value: String| {
-            number(ui, name, value);
-        };
         for (axis, value) in ["x", "y", "z"].iter().zip(position.to_array()) {
-            row(axis, short(value));
+            number(ui, axis, short(value));
         }
         if let Some(z) = embedding.and_then(|embedding| embedding.get(vertex.index())) {
             let frame = editor.session.outcome().map(|outcome| outcome.problem.frame).unwrap_or_default();
             let uv = frame.uv_from_plane(*z);
-            row("u", short(uv.x));
-            row("v", short(uv.y));
+            number(ui, "u", short(uv.x));
+            number(ui, "v", short(uv.y));
         }
         if let Some(disk) = scene.disk() {
             let valence = disk.outgoing(vertex).count();
-            row("Valence", valence.to_string());
+            number(ui, "Valence", valence.to_string());
             let place = disk.boundary_place(vertex);
-            row("Lies", place.map_or_else(|| "inside".to_owned(), |at| format!("on the boundary ({at})")));
-            row("Angles on the mesh", turns(angle_sum_on_mesh(disk, vertex)));
+            number(ui, "Lies", place.map_or_else(|| "inside".to_owned(), |at| format!("on the boundary ({at})")));
+            number(ui, "Angles on the mesh", turns(angle_sum_on_mesh(disk, vertex)));
             if let Some(embedding) = embedding {
-                row("Angles in the plane", turns(angle_sum_in_plane(disk, embedding, vertex)));
+                number(ui, "Angles in the plane", turns(angle_sum_in_plane(disk, embedding, vertex)));
             }
         }
     });
@@ -86,8 +83,8 @@ fn angle_sum_on_mesh(disk: &DiskMesh, vertex: VertexId) -> f64 {
     corners(disk, vertex).map(|[a, b]| at(a).angle_between(at(b))).sum()
 }
 
-fn angle_sum_in_plane(disk: &DiskMesh, embedding: &[DVec2], vertex: VertexId) -> f64 {
-    let at = |v: VertexId| embedding[v.index()] - embedding[vertex.index()];
+fn angle_sum_in_plane(disk: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> f64 {
+    let at = |v: VertexId| embedding[v] - embedding[vertex];
     corners(disk, vertex).map(|[a, b]| at(a).angle_to(at(b)).abs()).sum()
 }
 

@@ -5,9 +5,7 @@ use eframe::egui;
 use egui::{Painter, Pos2, Stroke};
 use glam::DVec2;
 
-use super::pane;
 use super::pins;
-use crate::geom::VAxis;
 use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
@@ -99,7 +97,7 @@ impl Editor {
     fn target_at(&self, place: DVec2, modifiers: egui::Modifiers) -> DVec2 {
         let document = self.session.document();
         let target = document.frame().uv_from_plane(place);
-        let (Some(picture), Some(camera)) = (&document.picture, &self.plane_camera) else { return target };
+        let (Some(picture), Some(camera)) = (&document.picture, self.plane.camera()) else { return target };
         let pixels = DVec2::new(picture.pixels.width.into(), picture.pixels.height.into());
         let is_large = camera.points_per_unit() / pixels.y > SNAP_FROM;
         if is_large && !modifiers.alt { snapped(target, pixels) } else { target }
@@ -154,19 +152,6 @@ impl Editor {
         self.session.document().frame().plane_from_uv(target)
     }
 
-    /// Where a vertex of the mesh's pane is on the screen.
-    fn on_mesh(&self, vertex: VertexId) -> Option<Pos2> {
-        let position = *self.mesh_scene()?.mesh().positions.get(vertex.index())?;
-        let rect = self.pane_rects[0]?;
-        Some(pane::on_screen(rect, self.orbit?.pane_from_world(position, pane::size_of(rect))?))
-    }
-
-    /// Where a place of the plane is on the screen.
-    fn in_embedding_pane(&self, place: DVec2) -> Option<Pos2> {
-        let rect = self.pane_rects[1]?;
-        Some(pane::on_screen(rect, self.plane_camera?.pane_from_embedding(place, pane::size_of(rect))))
-    }
-
     /// The target of the pair that is being placed, in the plane: taken already, or under the pointer.
     pub(super) fn target_of_pair(&self) -> Option<DVec2> {
         match (self.tools.pair(), self.tools.intent()) {
@@ -203,7 +188,7 @@ pub(in crate::ui) fn preview(painter: &Painter, ui: &egui::Ui, editor: &Editor, 
     let theme = theme_of(ui);
     let Some(target) = editor.target_of_pair() else { return };
     let place =
-        |vertex: VertexId| editor.drawn_plane().and_then(|plane| plane.positions().get(vertex.index()).copied());
+        |vertex: VertexId| editor.plane.drawn().and_then(|plane| plane.positions().get(vertex.index()).copied());
     if let Some(from) = editor.vertex_of_pair().and_then(place) {
         painter.line_segment([spot(from), spot(target)], Stroke::new(1.5, theme.constraint.gamma_multiply(0.75)));
     }
@@ -212,14 +197,15 @@ pub(in crate::ui) fn preview(painter: &Painter, ui: &egui::Ui, editor: &Editor, 
 
 /// The line across both panes, from the vertex on the mesh to its place.
 pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
-    let [Some(mesh), Some(plane)] = editor.pane_rects else { return };
+    let (Some(mesh), Some(plane)) = (editor.mesh.area().rect(), editor.plane.area().rect()) else { return };
     if editor.tools.tool() != Tool::Constrain || editor.tools.pair().is_none() {
         return;
     }
     let theme = theme_of(ui);
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|_| editor.pointer.pane().is_some());
-    let vertex = editor.vertex_of_pair().and_then(|vertex| editor.on_mesh(vertex));
-    let target = editor.target_of_pair().and_then(|target| editor.in_embedding_pane(target));
+    let position = |vertex: VertexId| editor.mesh_scene()?.mesh().positions.get(vertex.index()).copied();
+    let vertex = editor.vertex_of_pair().and_then(position).and_then(|position| editor.mesh.spot(position));
+    let target = editor.target_of_pair().and_then(|target| editor.plane.spot(target));
     let ends = match editor.tools.pair() {
         Some(Half::Vertex(_)) => vertex.zip(target.or(pointer)),
         _ => vertex.or(pointer).zip(target),
@@ -227,14 +213,6 @@ pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
     let Some((from, to)) = ends.filter(|(from, to)| mesh.contains(*from) && plane.contains(*to)) else { return };
     let stroke = Stroke::new(1.0, theme.constraint.gamma_multiply(0.6));
     ui.painter().with_clip_rect(mesh.union(plane)).add(egui::Shape::dashed_line(&[from, to], stroke, 6.0, 4.0));
-}
-
-/// Where v = 0 is, in words.
-pub(in crate::ui) const fn axis_words(v_axis: VAxis) -> &'static str {
-    match v_axis {
-        VAxis::Up => "v up",
-        VAxis::Down => "v down",
-    }
 }
 
 #[cfg(test)]

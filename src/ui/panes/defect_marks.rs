@@ -15,7 +15,7 @@ const MARKS_SHOWN: usize = 500;
 
 /// Ends of the two boundary edges of each crossing that is marked.
 pub(in crate::ui) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2]; 2]> {
-    let (Some(verdict), Some(disk)) = (editor.shown_verdict(), scene.disk()) else { return Vec::new() };
+    let (Some(verdict), Some(disk)) = (editor.plane.verdict(), scene.disk()) else { return Vec::new() };
     let pairs = verdict.boundary_crossings.iter().take(MARKS_SHOWN);
     pairs.map(|edges| edges.map(|edge| disk.ends(edge))).collect()
 }
@@ -32,12 +32,12 @@ pub(super) fn plane_marks(
     ui: &egui::Ui,
     clip: egui::Rect,
     editor: &Editor,
-    (mesh, plane): (&MeshScene, &PlaneScene),
+    plane: &PlaneScene,
     spot: &dyn Fn(DVec2) -> Pos2,
 ) {
     let (painter, theme) = (&ui.painter_at(clip), theme_of(ui));
     let at = |vertex: VertexId| plane.positions().get(vertex.index()).copied().unwrap_or(DVec2::NAN);
-    for pair in crossings(editor, mesh) {
+    for pair in crossings(editor, &plane.mesh) {
         let [first, second] = pair.map(|edge| edge.map(at));
         for edge in [first, second] {
             painter.line_segment(edge.map(spot), Stroke::new(3.0, theme.crossing));
@@ -51,7 +51,7 @@ pub(super) fn plane_marks(
 
 /// The overwound vertices that are marked.
 pub(in crate::ui) fn overwound(editor: &Editor) -> Vec<VertexId> {
-    let all = editor.shown_verdict().map(|verdict| &verdict.overwound_vertices);
+    let all = editor.plane.verdict().map(|verdict| &verdict.overwound_vertices);
     all.map(|all| all.iter().copied().take(MARKS_SHOWN).collect()).unwrap_or_default()
 }
 

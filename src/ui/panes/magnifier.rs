@@ -7,11 +7,9 @@ use eframe::egui;
 use egui::{Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2, WidgetInfo};
 use glam::DVec2;
 
-use super::defect_marks;
-use super::mesh_pane;
-use super::pane;
+use super::{defect_marks, mesh_pane, pane};
 use crate::render::{self, PaneId, PlaneFrame, Shading};
-use crate::ui::editor::scene::{MeshScene, PlaneScene, vertices_of};
+use crate::ui::editor::scene::{PlaneScene, vertices_of};
 use crate::ui::theme::{Theme, theme_of};
 use crate::ui::{Defect, Editor, Element, Request, keys_of};
 use crate::view::{PlaneBox, PlaneCamera};
@@ -47,7 +45,7 @@ pub(in crate::ui) struct Magnifier {
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
     pub(in crate::ui) fn over(editor: &Editor, pane: Rect, scene: &PlaneScene) -> Option<Self> {
-        if !editor.look.magnifier || scene.is_stage() || editor.preview_plane().is_some() {
+        if !editor.look.magnifier || scene.is_stage() || editor.plane.shows_preview() {
             return None;
         }
         let verdict = &scene.outcome.step.verdict;
@@ -59,7 +57,7 @@ impl Magnifier {
         }
         let shown = neighbourhood(scene, defect)?;
         let camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
-        let around = editor.plane_camera?;
+        let around = editor.plane.camera()?;
         let extent = pane::size_of(pane);
         let corners = [shown.min, shown.max].map(|z| pane::on_screen(pane, around.pane_from_embedding(z, extent)));
         let looks_at = Rect::from_two_pos(corners[0], corners[1]);
@@ -73,7 +71,7 @@ impl Magnifier {
         &self,
         ui: &mut egui::Ui,
         editor: &Editor,
-        (mesh, plane): (&MeshScene, &PlaneScene),
+        plane: &PlaneScene,
         requests: &mut Vec<Request>,
     ) {
         let theme = theme_of(ui);
@@ -89,15 +87,11 @@ impl Magnifier {
         }
         let picture = Rect::from_min_max(self.rect.min + Vec2::new(0.0, TITLE), self.rect.max);
         if editor.host.has_gpu() {
-            ui.painter().add(render::plane_pane(
-                PaneId("magnifier"),
-                picture,
-                self.frame(editor, (mesh, plane), theme),
-            ));
+            ui.painter().add(render::plane_pane(PaneId("magnifier"), picture, self.frame(editor, plane, theme)));
         }
         let size = pane::size_of(picture);
         let spot = |z: DVec2| pane::on_screen(picture, self.camera.pane_from_embedding(z, size));
-        defect_marks::plane_marks(ui, picture, editor, (mesh, plane), &spot);
+        defect_marks::plane_marks(ui, picture, editor, plane, &spot);
         painter.rect_stroke(self.rect, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
         self.click(ui, requests);
     }
@@ -129,14 +123,14 @@ impl Magnifier {
         painter.rect_stroke(frame.expand(1.0), 1.0, Stroke::new(1.25, theme.text), StrokeKind::Middle);
     }
 
-    fn frame(&self, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene), theme: &Theme) -> PlaneFrame {
+    fn frame(&self, editor: &Editor, plane: &PlaneScene, theme: &Theme) -> PlaneFrame {
         PlaneFrame {
-            mesh: Arc::clone(&mesh.arrays),
+            mesh: Arc::clone(&plane.mesh.arrays),
             plane: Some(Arc::clone(&plane.arrays)),
             paint: editor.look.paint().map(|paint| Arc::clone(&paint.faces)),
             fills: Vec::new(),
-            lines: vec![mesh_pane::boundary_line(mesh, theme)],
-            ghost: editor.ghost.as_ref().map(|ghost| ghost.layer(theme)),
+            lines: vec![mesh_pane::boundary_line(&plane.mesh, theme)],
+            ghost: editor.plane.ghost_layer(theme),
             picture: None,
             outlined: editor.picture_box(),
             style: render::Style { shading: Shading::Plain, wire_in_points: 1.0, ..mesh_pane::style(editor) },

@@ -25,11 +25,10 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     super::bars::bars(ui, editor, Pane::Mesh, requests);
     pane::message_bars(ui, editor, Place::Mesh, requests);
     let (rect, response) = pane::surface(ui, "3D view of the mesh");
-    editor.mesh_pane_size = pane::size_of(rect);
-    editor.pane_rects[0] = Some(rect);
+    editor.mesh.area_mut().set_rect(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
-    let (Some(scene), Some(mut camera)) = (editor.mesh_scene().map(Arc::clone), editor.orbit) else {
+    let (Some(scene), Some(mut camera)) = (editor.mesh_scene().map(Arc::clone), editor.mesh.camera()) else {
         let lines: &[&str] = if editor.session.busy().is_some() {
             &["Opening…"]
         } else {
@@ -38,12 +37,12 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         return pane::empty_state(ui, rect, lines);
     };
     navigate(ui, rect, &response, &scene, &mut camera);
-    if editor.orbit != Some(camera) {
-        editor.orbit = Some(camera);
+    if editor.mesh.camera() != Some(camera) {
+        editor.mesh.set_camera(camera);
         ui.ctx().request_repaint();
     }
     if let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(rect, at)) {
-        let pick = scene.picker.nearest_vertex(&camera, editor.mesh_pane_size, pointer, Visibility::Visible);
+        let pick = scene.picker.nearest_vertex(&camera, editor.mesh.area().size(), pointer, Visibility::Visible);
         editor.pointer.over_mesh(pick.map(|pick| pick.vertex));
         editor.aim(ui, Pane::Mesh, None);
     }
@@ -88,7 +87,7 @@ fn navigate(ui: &egui::Ui, rect: Rect, response: &Response, scene: &MeshScene, c
 
 /// Clicks and boxes.
 fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, scene: &MeshScene, requests: &mut Vec<Request>) {
-    let Some(camera) = editor.orbit else { return };
+    let Some(camera) = editor.mesh.camera() else { return };
     let rect = response.rect;
     if let Some(chosen) = super::boxes::drag_box(ui, response, editor, Pane::Mesh) {
         let size = pane::size_of(rect);
@@ -133,12 +132,12 @@ pub(super) fn cursor(editor: &Editor) -> CursorIcon {
 }
 
 pub(in crate::ui) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, theme: &Theme) -> MeshFrame {
-    let plane = editor.result_plane().map(|plane| Arc::clone(&plane.arrays));
+    let plane = editor.plane.result().map(|plane| Arc::clone(&plane.arrays));
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         lines: vec![boundary_line(scene, theme)],
         picture: editor.picture_layer(),
-        paint: editor.preview_paint().or(editor.look.paint().map(|paint| &paint.faces)).map(Arc::clone),
+        paint: editor.plane.preview_paint().or(editor.look.paint().map(|paint| &paint.faces)).map(Arc::clone),
         style: style(editor),
         palette: theme.palette,
         camera,
@@ -158,11 +157,11 @@ pub(in crate::ui) fn style(editor: &Editor) -> Style {
         Shading::Picture if editor.has_picture() => render::Shading::Picture,
         Shading::Checker | Shading::Picture => render::Shading::Checker,
         // What was measured belongs to another embedding than the one that follows a drag.
-        _ if editor.preview_plane().is_some() => render::Shading::Plain,
-        Shading::Move if editor.moved_from().is_none() => render::Shading::Plain,
+        _ if editor.plane.shows_preview() => render::Shading::Plain,
+        Shading::Move if editor.plane.moved_from(&editor.session).is_none() => render::Shading::Plain,
         Shading::Angle | Shading::Area | Shading::Stretch | Shading::Move => render::Shading::Paint,
     };
-    let extent = editor.plane_scene().map_or(1.0, |plane| plane.arrays.bounds().extent());
+    let extent = editor.plane.scene().map_or(1.0, |plane| plane.arrays.bounds().extent());
     Style {
         shading,
         wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 },
@@ -224,7 +223,7 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
             }
             let is_strong = editor.selection.contains(pin.vertex);
             let emphasis = if is_strong { Emphasis::Strong } else { Emphasis::Plain };
-            pins::mark(&painter, at, theme, (pin.kind, emphasis));
+            pin.kind.mark(&painter, at, theme, emphasis);
         }
     }
     for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
@@ -237,7 +236,7 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: 
         match editor.tools.tool() {
             _ if editor.is_new_vertex(vertex) => {}
             Tool::Select => {}
-            Tool::Fix => pins::mark(&painter, at, theme, (PinKind::Gauge, Emphasis::Plain)),
+            Tool::Fix => PinKind::Gauge.mark(&painter, at, theme, Emphasis::Plain),
             Tool::Constrain => pins::ghost(&painter, at, theme),
         }
     }

@@ -7,10 +7,9 @@
 //! | `plane_pane.rs` | the embedding |
 //! | `bars.rs` | questions over a pane: recovered work, inward faces, mirrored targets |
 //! | `boxes.rs` | selection with a box |
-//! | `compare.rs` | two steps compared: outline, movement of each face |
+//! | `compare.rs` | words about two steps that are compared |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
 //! | `defect_marks.rs` | marks of defects |
-//! | `hull.rs` | hull and pockets of the virtual boundary |
 //! | `magnifier.rs` | the inset that magnifies a defect |
 //! | `pair_magnifier.rs` | the inset that magnifies one half of a pair |
 //! | `pin_drag.rs` | a pin dragged with the pointer |
@@ -21,7 +20,6 @@ mod boxes;
 pub(super) mod compare;
 pub(super) mod constrain;
 mod defect_marks;
-mod hull;
 mod magnifier;
 pub(super) mod mesh_pane;
 mod pair_magnifier;
@@ -31,6 +29,5 @@ pub(super) mod pins;
 pub(super) mod plane_pane;
 
 pub use constrain::{Half, Intent};
-pub use hull::{HullScene, HullView, Stage};
 pub use pin_drag::PinDrag;
 pub use pins::{PinKind, PinShown};

@@ -4,10 +4,9 @@ use eframe::egui;
 use egui::{Align2, FontId, Rect, Role, Sense, Stroke, StrokeKind, Vec2, WidgetInfo};
 use glam::DVec2;
 
-use super::mesh_pane;
-use super::pane;
 use super::pins::{self, Emphasis};
 use super::plane_pane;
+use super::{mesh_pane, pane};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId};
 use crate::ui::Editor;
@@ -67,7 +66,7 @@ fn place_in(pane: Rect, looks_at: egui::Pos2) -> Option<Rect> {
 /// The inset over the mesh's pane.
 pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene) {
     let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.look.magnifier) else { return };
-    let (Some(around), Some(&position)) = (editor.orbit, scene.mesh().positions.get(vertex.index())) else {
+    let (Some(around), Some(&position)) = (editor.mesh.camera(), scene.mesh().positions.get(vertex.index())) else {
         return;
     };
     let Some(at) = around.pane_from_world(position, pane::size_of(rect)).map(|at| pane::on_screen(rect, at)) else {
@@ -90,13 +89,13 @@ pub(super) fn over_mesh(ui: &mut egui::Ui, rect: Rect, editor: &Editor, scene: &
     }
     let painter = ui.painter_at(inset);
     pane::halo(&painter, inset.center(), theme.selection, 7.0);
-    close(ui, inset, theme, (&format!("Magnifier: {vertex} on the mesh"), enlarges));
+    close(ui, inset, &format!("Magnifier: {vertex} on the mesh"), enlarges);
 }
 
 /// The inset over the embedding's pane.
-pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, plane): (&MeshScene, &PlaneScene)) {
+pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene) {
     let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
-    let Some(around) = editor.plane_camera else { return };
+    let Some(around) = editor.plane.camera() else { return };
     let at = pane::on_screen(rect, around.pane_from_embedding(target, pane::size_of(rect)));
     let Some(inset) = place_in(rect, at) else { return };
     let half = DVec2::splat(PART / 2.0 * editor.with_picture(plane.arrays.bounds()).extent());
@@ -109,7 +108,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
     let theme = theme_of(ui);
     frame_of(ui, inset, theme);
     if editor.host.has_gpu() {
-        let mut frame = plane_pane::frame(editor, (mesh, plane), camera, theme);
+        let mut frame = plane_pane::frame(editor, plane, camera, theme);
         frame.ghost = None;
         ui.painter().add(render::plane_pane(PaneId("pair in plane"), inset, frame));
     }
@@ -118,7 +117,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
     for pin in editor.pins_shown() {
         let is_seen = inset.expand(12.0).contains(spot(pin.target));
         if is_seen {
-            pins::mark(&painter, spot(pin.target), theme, (pin.kind, Emphasis::Plain));
+            pin.kind.mark(&painter, spot(pin.target), theme, Emphasis::Plain);
         }
     }
     if editor.tools.pair().is_some() {
@@ -130,7 +129,7 @@ pub(super) fn over_plane(ui: &mut egui::Ui, rect: Rect, editor: &Editor, (mesh, 
         Some(vertex) => format!("Magnifier: the target of {vertex}"),
         None => "Magnifier: the target".to_owned(),
     };
-    close(ui, inset, theme, (&words, enlarges));
+    close(ui, inset, &words, enlarges);
 }
 
 fn frame_of(ui: &egui::Ui, inset: Rect, theme: &Theme) {
@@ -138,7 +137,8 @@ fn frame_of(ui: &egui::Ui, inset: Rect, theme: &Theme) {
 }
 
 /// Edge, name and how much larger: what both insets end with.
-fn close(ui: &egui::Ui, inset: Rect, theme: &Theme, (name, enlarges): (&str, f64)) {
+fn close(ui: &egui::Ui, inset: Rect, name: &str, enlarges: f64) {
+    let theme = theme_of(ui);
     let painter = ui.painter_at(inset.expand(1.0));
     painter.rect_stroke(inset, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
     let corner = inset.left_top() + Vec2::new(7.0, 5.0);

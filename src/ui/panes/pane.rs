@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, Vec2};
 use glam::DVec2;
 
 use crate::session::{Action, Message, Place, Severity};
-use crate::ui::controls::{Control, list, sentence, tip_with_keys};
+use crate::ui::controls::{Control, Offer, list, sentence, tip_with_keys};
 use crate::ui::editor::scene::Legend;
 use crate::ui::icons::{self, Sign};
 use crate::ui::theme::theme_of;
@@ -25,6 +25,43 @@ pub(in crate::ui) fn on_screen(rect: Rect, point: DVec2) -> Pos2 {
 /// The pane's size as the camera takes it.
 pub(in crate::ui) fn size_of(rect: Rect) -> DVec2 {
     DVec2::new(rect.width().into(), rect.height().into())
+}
+
+/// Where a pane lies in the window.
+#[derive(Clone, Copy, Debug)]
+pub struct PaneArea {
+    /// None where the pane does not show.
+    rect: Option<Rect>,
+    size: DVec2,
+}
+
+impl Default for PaneArea {
+    fn default() -> Self {
+        Self { rect: None, size: DVec2::splat(400.0) }
+    }
+}
+
+impl PaneArea {
+    /// Where the pane lies, points; `None` where it does not show.
+    pub(in crate::ui) fn rect(&self) -> Option<Rect> {
+        self.rect
+    }
+
+    /// Its size when it showed last, points.
+    pub fn size(&self) -> DVec2 {
+        self.size
+    }
+
+    /// Takes in that the pane does not show, or not yet in this frame.
+    pub(in crate::ui) fn hide(&mut self) {
+        self.rect = None;
+    }
+
+    /// Takes in where the pane lies. Returns whether its size has changed.
+    pub(in crate::ui) fn set_rect(&mut self, rect: Rect) -> bool {
+        self.rect = Some(rect);
+        std::mem::replace(&mut self.size, size_of(rect)) != self.size
+    }
 }
 
 /// Title, shading and the button for full size.
@@ -59,7 +96,7 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
 
 fn hull_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
-    let switch = ui.selectable_label(editor.hull.shown, "Hull").on_hover_text(tip);
+    let switch = ui.selectable_label(editor.plane.hull_shown(), "Hull").on_hover_text(tip);
     switch.asks(Request::ToggleHull, requests);
 }
 
@@ -126,8 +163,7 @@ pub(in crate::ui) fn bar(ui: &mut egui::Ui, sign: Sign, add: impl FnOnce(&mut eg
 
 fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
     if !message.vertices.is_empty() {
-        let go = ui.small_button("Go to").on_hover_text("Show it in the mesh");
-        go.asks(Request::GoTo(message.vertices.clone()), requests);
+        Offer::new("Go to", "Show it in the mesh", Request::GoTo(message.vertices.clone())).show(ui, requests);
     }
     if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
         ui.ctx().copy_text(message.text.clone());

@@ -97,7 +97,7 @@ pub(super) fn pins_ui(
             Some(conflict) => response.on_hover_text(conflict_words(conflict)),
             None => response,
         };
-        pins::mark(&ui.painter_at(rect), at, theme, (pin.kind, emphasis));
+        pin.kind.mark(&ui.painter_at(rect), at, theme, emphasis);
         // A mark that leaves the click to the pane leaves it what is said of it, too.
         if editor.tools.pair().is_none() && (response.hovered() || response.dragged()) {
             ui.ctx().set_cursor_icon(if response.dragged() { CursorIcon::Grabbing } else { CursorIcon::Grab });

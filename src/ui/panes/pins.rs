@@ -47,6 +47,25 @@ impl PinKind {
             Self::User(Hold::Hard | Hold::Weighted(_)) => format!("Constraint {vertex}"),
         }
     }
+
+    /// Draws the mark: a square for one that was fixed, hollow for the solver's own; a diamond for a constraint, hollow and
+    /// as large as its weight for one that pulls.
+    pub(in crate::ui) fn mark(self, painter: &Painter, at: Pos2, theme: &Theme, emphasis: Emphasis) {
+        let more = if emphasis == Emphasis::Strong { STRONG } else { 0.0 };
+        match self {
+            Self::Gauge => hollow_square(painter, at, theme, SQUARE + more),
+            Self::User(Hold::Fixed) => {
+                let square = Rect::from_center_size(at, Vec2::splat(SQUARE + more));
+                painter.rect_filled(square, 1.0, theme.pin);
+                painter.rect_stroke(square, 1.0, Stroke::new(1.0, Color32::WHITE), egui::StrokeKind::Outside);
+            }
+            Self::User(Hold::Hard) => {
+                let edge = Stroke::new(1.0, Color32::WHITE);
+                painter.add(Shape::convex_polygon(diamond(at, DIAMOND + more), theme.constraint, edge));
+            }
+            Self::User(Hold::Weighted(weight)) => hollow_diamond(painter, at, theme, half_height(weight) + more),
+        }
+    }
 }
 
 /// A pin with its target in the plane.
@@ -67,7 +86,7 @@ impl Editor {
         let uses_pins = document.settings.method.uses_pins();
         // Marks show what the solver does: a treatment may weigh what was asked for exactly.
         let users = if uses_pins { document.settings.held(&document.pins()) } else { BTreeMap::new() };
-        let gauge = self.plane_scene.as_ref().filter(|scene| {
+        let gauge = self.plane.scene().filter(|scene| {
             scene.outcome.step.solution.gauge_completed
                 && scene.outcome.problem.settings.method.uses_pins()
                 && users.len() < 2
@@ -85,8 +104,8 @@ impl Editor {
 
     /// The exact pins that are not on their targets in the planar embedding on the screen, ascending.
     pub fn unmet_shown(&self) -> Vec<VertexId> {
-        let outcome = self.plane_scene.as_ref().map(|scene| &scene.outcome);
-        let planar = outcome.filter(|outcome| outcome.step.verdict.planar && self.preview_plane().is_none());
+        let outcome = self.plane.scene().map(|scene| &scene.outcome);
+        let planar = outcome.filter(|outcome| outcome.step.verdict.planar && !self.plane.shows_preview());
         planar.map(|outcome| outcome.step.unmet()).unwrap_or_default()
     }
 
@@ -104,25 +123,6 @@ pub(in crate::ui) enum Emphasis {
     Plain,
     /// Selected, or under the pointer.
     Strong,
-}
-
-/// A pin's mark: a square for one that was fixed, hollow for the solver's own; a diamond for a constraint, hollow and
-/// as large as its weight for one that pulls.
-pub(in crate::ui) fn mark(painter: &Painter, at: Pos2, theme: &Theme, (kind, emphasis): (PinKind, Emphasis)) {
-    let more = if emphasis == Emphasis::Strong { STRONG } else { 0.0 };
-    match kind {
-        PinKind::Gauge => hollow_square(painter, at, theme, SQUARE + more),
-        PinKind::User(Hold::Fixed) => {
-            let square = Rect::from_center_size(at, Vec2::splat(SQUARE + more));
-            painter.rect_filled(square, 1.0, theme.pin);
-            painter.rect_stroke(square, 1.0, Stroke::new(1.0, Color32::WHITE), egui::StrokeKind::Outside);
-        }
-        PinKind::User(Hold::Hard) => {
-            let edge = Stroke::new(1.0, Color32::WHITE);
-            painter.add(Shape::convex_polygon(diamond(at, DIAMOND + more), theme.constraint, edge));
-        }
-        PinKind::User(Hold::Weighted(weight)) => hollow_diamond(painter, at, theme, half_height(weight) + more),
-    }
 }
 
 /// A ring around a pin's vertex that is not on its target.

@@ -1,4 +1,10 @@
 //! The strip under the panes: buttons, the steps in a row, and their numbers as curves.
+//!
+//! | file | what |
+//! |---|---|
+//! | `buttons.rs` | through the steps that there are, on to new ones, and where a run comes to rest |
+//! | `chips.rs` | the steps in a row |
+//! | `curves.rs` | their numbers as curves |
 
 mod buttons;
 pub(super) mod chips;

@@ -3,14 +3,14 @@
 
 use std::sync::Arc;
 
-use super::scene::PlaneScene;
-use crate::solver::Verdict;
-use crate::ui::Editor;
+use super::{PlaneView, Surroundings};
+use crate::solver::{Embedding, Verdict};
+use crate::ui::editor::scene::PlaneScene;
 use crate::view::FacePaint;
 
 /// The embedding that follows a drag, ready to be drawn.
 #[derive(Debug)]
-pub(in crate::ui) struct PreviewScene {
+pub(super) struct PreviewScene {
     /// The mesh, and the session's count of moves.
     key: (u64, u64),
     scene: Arc<PlaneScene>,
@@ -19,47 +19,48 @@ pub(in crate::ui) struct PreviewScene {
     verdict: Option<Arc<Verdict>>,
 }
 
-impl Editor {
-    /// What follows the pin that is dragged.
-    pub(in crate::ui) fn preview_plane(&self) -> Option<&Arc<PlaneScene>> {
-        self.preview.as_ref().map(|preview| &preview.scene)
+impl PreviewScene {
+    pub(super) fn scene(&self) -> &Arc<PlaneScene> {
+        &self.scene
     }
 
-    /// The faces' flags on it.
+    /// The verdict on this very embedding, once it is there.
+    pub(super) fn verdict(&self) -> Option<&Verdict> {
+        self.verdict.as_deref()
+    }
+}
+
+impl PlaneView {
+    /// Whether the pane shows what follows a dragged pin.
+    pub(in crate::ui) fn shows_preview(&self) -> bool {
+        self.preview.is_some()
+    }
+
+    /// The faces' flags on what follows a dragged pin.
     pub(in crate::ui) fn preview_paint(&self) -> Option<&Arc<FacePaint>> {
         self.preview.as_ref().map(|preview| &preview.faces)
     }
 
-    /// The verdict on what is on the screen, where there is one.
-    pub(in crate::ui) fn shown_verdict(&self) -> Option<&Verdict> {
-        match &self.preview {
-            Some(preview) => preview.verdict.as_deref(),
-            None => self.plane_scene.as_ref().map(|scene| &scene.outcome.step.verdict),
-        }
-    }
-
     /// Makes what is drawn where the session's preview has moved on. Call once per frame.
-    pub(super) fn refresh_preview(&mut self) {
-        let (Some(preview), Some(base), Some(mesh)) = (self.session.preview(), &self.plane_scene, &self.mesh_scene)
-        else {
-            self.preview = None;
+    pub(super) fn refresh_preview(&mut self, around: Surroundings) {
+        let before = self.preview.take();
+        let (Some(preview), Some(base), Some(mesh)) = (around.session.preview(), &self.scene, around.mesh) else {
             return;
         };
         // What follows the pointer is of the mesh as given, whatever the step on the screen is of.
         let triangles = mesh.mesh();
         if preview.embedding.len() != triangles.vertex_count() {
-            self.preview = None;
             return;
         }
         let key = (mesh.model_revision, preview.revision);
         let verdict = preview.verdict().cloned();
-        let before = self.preview.take().filter(|before| before.key.0 == key.0);
+        let before = before.filter(|before| before.key.0 == key.0);
         let scene = match &before {
             Some(before) if before.key == key => Arc::clone(&before.scene),
             Some(before) if before.scene.outcome_revision == base.outcome_revision => {
-                Arc::new(before.scene.with_positions(mesh, preview.embedding.to_vec()))
+                Arc::new(before.scene.with_positions(mesh, Embedding::clone(&preview.embedding)))
             }
-            _ => Arc::new(base.with_positions(mesh, preview.embedding.to_vec())),
+            _ => Arc::new(base.with_positions(mesh, Embedding::clone(&preview.embedding))),
         };
         let same_faces = |before: &&PreviewScene| match (&before.verdict, &verdict) {
             (None, None) => true,

@@ -1,0 +1,115 @@
+//! An embedding: the paper's word for planar positions of all vertices.
+
+use std::ops::{Deref, DerefMut, Index, IndexMut};
+use std::slice::SliceIndex;
+
+use glam::DVec2;
+
+use crate::mesh::{DiskMesh, FaceId, VertexId};
+
+/// Planar positions of all vertices of a mesh, in the order of its vertices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Embedding(Vec<DVec2>);
+
+impl Embedding {
+    /// Positions of a face's corners.
+    pub fn corners(&self, mesh: &DiskMesh, face: FaceId) -> [DVec2; 3] {
+        mesh.face(face).map(|v| self[v])
+    }
+
+    /// Positions of the boundary loop's vertices.
+    pub fn boundary(&self, mesh: &DiskMesh) -> Vec<DVec2> {
+        mesh.boundary_loop().iter().map(|&v| self[v]).collect()
+    }
+
+    /// The first of some points, which are the vertices of a mesh: those after them are virtual.
+    pub fn of_mesh(mesh: &DiskMesh, points: &[DVec2]) -> Self {
+        Self(points[..mesh.vertex_count()].to_vec())
+    }
+
+    /// The list of positions.
+    pub fn into_inner(self) -> Vec<DVec2> {
+        self.0
+    }
+}
+
+impl From<Vec<DVec2>> for Embedding {
+    fn from(positions: Vec<DVec2>) -> Self {
+        Self(positions)
+    }
+}
+
+impl FromIterator<DVec2> for Embedding {
+    fn from_iter<I: IntoIterator<Item = DVec2>>(positions: I) -> Self {
+        Self(positions.into_iter().collect())
+    }
+}
+
+impl Deref for Embedding {
+    type Target = [DVec2];
+
+    fn deref(&self) -> &[DVec2] {
+        &self.0
+    }
+}
+
+impl DerefMut for Embedding {
+    fn deref_mut(&mut self) -> &mut [DVec2] {
+        &mut self.0
+    }
+}
+
+impl Index<VertexId> for Embedding {
+    type Output = DVec2;
+
+    fn index(&self, vertex: VertexId) -> &DVec2 {
+        &self.0[vertex.index()]
+    }
+}
+
+/// As maps and lists of vertices hand them out.
+impl Index<&VertexId> for Embedding {
+    type Output = DVec2;
+
+    fn index(&self, vertex: &VertexId) -> &DVec2 {
+        &self.0[vertex.index()]
+    }
+}
+
+impl IndexMut<VertexId> for Embedding {
+    fn index_mut(&mut self, vertex: VertexId) -> &mut DVec2 {
+        &mut self.0[vertex.index()]
+    }
+}
+
+impl<I: SliceIndex<[DVec2]>> Index<I> for Embedding {
+    type Output = I::Output;
+
+    fn index(&self, index: I) -> &I::Output {
+        &self.0[index]
+    }
+}
+
+impl<I: SliceIndex<[DVec2]>> IndexMut<I> for Embedding {
+    fn index_mut(&mut self, index: I) -> &mut I::Output {
+        &mut self.0[index]
+    }
+}
+
+impl<'a> IntoIterator for &'a Embedding {
+    type Item = &'a DVec2;
+    type IntoIter = std::slice::Iter<'a, DVec2>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a mut Embedding {
+    type Item = &'a mut DVec2;
+    type IntoIter = std::slice::IterMut<'a, DVec2>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter_mut()
+    }
+}

@@ -1,0 +1,100 @@
+//! The mesh's pane as the window has it: where it lies, its camera, and the scene of the mesh as given.
+
+use std::sync::Arc;
+
+use eframe::egui;
+use glam::DVec3;
+
+use super::scene::MeshScene;
+use crate::session::{Background, Session, Wake};
+use crate::ui::panes::pane::{self, PaneArea};
+use crate::view::{OrbitCamera, Sphere, UpAxis};
+
+/// The mesh's pane as the window has it.
+#[derive(Debug)]
+pub struct MeshView {
+    area: PaneArea,
+    camera: Option<OrbitCamera>,
+    scene: Option<Arc<MeshScene>>,
+    /// The scene that is being made, by the mesh's revision.
+    job: Background<u64, MeshScene>,
+}
+
+impl MeshView {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self { area: PaneArea::default(), camera: None, scene: None, job: Background::new("mesh scene", wake) }
+    }
+
+    /// Where the pane lies.
+    pub fn area(&self) -> &PaneArea {
+        &self.area
+    }
+
+    pub(in crate::ui) fn area_mut(&mut self) -> &mut PaneArea {
+        &mut self.area
+    }
+
+    /// The camera, once there is a mesh.
+    pub fn camera(&self) -> Option<OrbitCamera> {
+        self.camera
+    }
+
+    /// The camera, to be moved.
+    pub fn camera_mut(&mut self) -> Option<&mut OrbitCamera> {
+        self.camera.as_mut()
+    }
+
+    pub(in crate::ui) fn set_camera(&mut self, camera: OrbitCamera) {
+        self.camera = Some(camera);
+    }
+
+    /// Where a point of space is in the window.
+    pub(in crate::ui) fn spot(&self, position: DVec3) -> Option<egui::Pos2> {
+        let rect = self.area.rect()?;
+        Some(pane::on_screen(rect, self.camera?.pane_from_world(position, pane::size_of(rect))?))
+    }
+
+    /// The mesh as given.
+    pub(super) fn scene(&self) -> Option<&Arc<MeshScene>> {
+        self.scene.as_ref()
+    }
+
+    /// Whether a scene is being made.
+    pub(super) fn is_making_scene(&self) -> bool {
+        self.job.is_busy()
+    }
+
+    /// Shows a ball in full size.
+    pub(super) fn frame(&mut self, ball: Sphere) {
+        if let Some(camera) = &mut self.camera {
+            camera.frame(ball, self.area.size());
+        }
+    }
+
+    /// Takes in a scene that was made, and has another one made where the session has another mesh. Returns whether
+    /// there is a new scene.
+    pub(super) fn poll(&mut self, session: &Session) -> bool {
+        let made = self.job.poll().and_then(|(_, scene)| scene.ok());
+        let is_new = made.is_some();
+        if let Some(scene) = made {
+            self.take(scene);
+        }
+        if self.job.is_busy() {
+            return is_new;
+        }
+        let revision = session.model_revision();
+        let shown = self.scene.as_ref().map(|scene| scene.model_revision);
+        if let Some(model) = session.model().filter(|_| shown != Some(revision)) {
+            let model = Arc::clone(model);
+            self.job.start(revision, move |_| MeshScene::new(model, revision));
+        }
+        is_new
+    }
+
+    /// Shows another mesh, or the same one turned around, from its outside.
+    fn take(&mut self, scene: MeshScene) {
+        self.camera = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal()));
+        self.frame(scene.sphere);
+        self.scene = Some(Arc::new(scene));
+    }
+}

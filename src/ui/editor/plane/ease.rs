@@ -1,0 +1,136 @@
+//! The way from one step to the next, shown: vertices glide to their new places when another step of a run is put on the
+//! screen. Connectivity never changes, so only positions are interpolated. Both panes draw from the same arrays.
+//!
+//! Where nobody has moved the camera since the window framed the embedding, it goes along with an embedding that would
+//! leave the pane, or become small in it. A pin that is dragged has the plane stand still under it.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::{PlaneView, Surroundings};
+use crate::solver::Embedding;
+use crate::ui::editor::scene::PlaneScene;
+use crate::view::PlaneCamera;
+
+/// How long the way takes, seconds.
+const SECONDS: f64 = 0.25;
+
+/// What making the arrays of one frame may take. Where it takes longer, 60 frames a second are out of reach, and the mesh
+/// is shown without a way between its steps.
+const BUDGET: Duration = Duration::from_millis(6);
+
+/// An embedding that could be shown so many times as large is small in its pane.
+const SMALL: f64 = 2.0;
+
+/// The way between two steps, while it is shown.
+#[derive(Debug, Default)]
+pub(super) struct Ease {
+    under_way: Option<Way>,
+    /// The mesh that is too large, by its revision.
+    too_large: Option<u64>,
+}
+
+/// A way under way.
+#[derive(Debug)]
+struct Way {
+    from: Embedding,
+    /// Seconds of the window's clock.
+    began: f64,
+    /// What is drawn in this frame.
+    drawn: Arc<PlaneScene>,
+    /// From where and to where the camera goes.
+    cameras: Option<[PlaneCamera; 2]>,
+}
+
+impl Ease {
+    /// Vertices on their way, as drawn in this frame.
+    pub(super) fn drawn(&self) -> Option<&Arc<PlaneScene>> {
+        self.under_way.as_ref().map(|way| &way.drawn)
+    }
+
+    /// Ends the way where it is.
+    pub(super) fn stop(&mut self) {
+        self.under_way = None;
+    }
+}
+
+impl PlaneView {
+    /// Whether vertices are on their way.
+    pub fn is_easing(&self) -> bool {
+        self.ease.under_way.is_some()
+    }
+
+    /// Puts another step on the screen: from where vertices are drawn now, if it is one of the same run.
+    pub(super) fn take(&mut self, target: Arc<PlaneScene>, around: Surroundings) {
+        let before = self.result().cloned();
+        self.scene = Some(Arc::clone(&target));
+        self.ease.under_way = None;
+        let Some(before) = before else { return };
+        let (from, to) = (&before.outcome, &target.outcome);
+        let is_other_step = before.outcome_revision != target.outcome_revision;
+        let is_same_run = from.problem.settings == to.problem.settings
+            && from.problem.targets == to.problem.targets
+            && from.step.index != to.step.index;
+        let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
+        let is_too_large = self.ease.too_large == Some(target.mesh.model_revision);
+        let cameras = self.camera_along(&target, around);
+        if around.glides && is_other_step && is_same_run && is_same_mesh && !is_too_large {
+            let from = before.positions().clone();
+            self.ease.under_way = Some(Way { from, began: around.host.now(), drawn: target, cameras });
+        } else if let Some([_, goal]) = cameras.filter(|_| is_other_step && from.problem.targets == to.problem.targets)
+        {
+            self.set_framed(goal);
+        }
+    }
+
+    /// The camera now, and the one that shows all of an embedding: where that is wanted.
+    fn camera_along(&self, target: &PlaneScene, around: Surroundings) -> Option<[PlaneCamera; 2]> {
+        let stays = self.hull.is_shown() || around.is_dragging;
+        let now = self.camera.filter(|_| self.is_framed() && !stays)?;
+        let bounds = around.framed_box(target.arrays.bounds());
+        let mut goal = now;
+        goal.frame(bounds, self.area.size());
+        let is_small = goal.points_per_unit() > SMALL * now.points_per_unit();
+        (!self.shows(now, bounds) || is_small).then_some([now, goal])
+    }
+
+    /// Moves vertices on. Call once per frame.
+    pub(super) fn go_on_easing(&mut self, around: Surroundings) {
+        let Some(way) = &mut self.ease.under_way else { return };
+        let share = (around.host.now() - way.began) / SECONDS;
+        let Some(target) = &self.scene else {
+            self.ease.under_way = None;
+            return;
+        };
+        if !around.glides || !(0.0..1.0).contains(&share) {
+            self.finish_ease();
+            return;
+        }
+        let start = Instant::now();
+        // Slow at both ends.
+        let eased = share * share * (3.0 - 2.0 * share);
+        let positions = way.from.iter().zip(target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect();
+        way.drawn = Arc::new(target.with_positions(&target.mesh, positions));
+        if way.cameras.is_some() && self.camera != self.framed {
+            // Somebody has taken the camera.
+            way.cameras = None;
+        }
+        if let Some([from, to]) = &way.cameras {
+            let camera = from.toward(to, eased);
+            (self.camera, self.framed) = (Some(camera), Some(camera));
+        }
+        if start.elapsed() > BUDGET {
+            self.ease.too_large = Some(target.mesh.model_revision);
+            self.finish_ease();
+        }
+        around.host.context().request_repaint();
+    }
+
+    /// Puts everything where it was going.
+    fn finish_ease(&mut self) {
+        let way = self.ease.under_way.take();
+        if let Some([_, goal]) = way.and_then(|way| way.cameras).filter(|_| self.is_framed()) {
+            self.set_framed(goal);
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! Hull and pockets: each stage of the virtual boundary in the embedding's pane (paper §5).
+//!
+//! ```text
+//! before    the embedding before, in its hull
+//! pockets   the outside triangulated up to the hull
+//! solved    mesh and outside embedded together, the hull where it was
+//! peeled    the outside taken away: the step's result
+//! ```
+//!
+//! The result of a step is moved by a similarity after the solve. All stages are shown moved by the same one, so that
+//! the hull and what is solved stay at their places on the screen.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::PlaneView;
+
+use crate::geom::{Orientation, Similarity, convex_hull, orientation};
+use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::render::{FillLayer, LineLayer};
+use crate::session::{Background, Wake};
+use crate::solver::{Embedding, Outline, Outside, VirtualBoundary};
+use crate::ui::editor::scene::{Part, PlaneScene};
+use crate::ui::theme::Theme;
+use crate::view::{EdgeList, FaceList, FacePaint, PlaneCamera};
+
+/// A stage of the virtual boundary.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stage {
+    /// The embedding before, in its hull.
+    Before,
+    /// The outside triangulated.
+    #[default]
+    Pockets,
+    /// Mesh and outside as solved together.
+    Solved,
+    /// The result.
+    Peeled,
+}
+
+impl Stage {
+    /// All stages in their order.
+    pub const ALL: [Self; 4] = [Self::Before, Self::Pockets, Self::Solved, Self::Peeled];
+
+    /// Its name.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Before => "Before",
+            Self::Pockets => "Pockets",
+            Self::Solved => "Solved",
+            Self::Peeled => "Peeled",
+        }
+    }
+
+    /// What it shows.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Before => "The embedding before, in its hull",
+            Self::Pockets => "The outside triangulated up to the hull",
+            Self::Solved => "Mesh and outside embedded together, the hull where it was",
+            Self::Peeled => "The outside taken away: the result",
+        }
+    }
+}
+
+/// Hull and pockets as the window has them.
+#[derive(Debug)]
+pub(super) struct HullView {
+    /// Whether they show.
+    shown: bool,
+    /// The stage that is chosen.
+    stage: Stage,
+    scene: Option<HullScene>,
+    /// The stage that is being made, with the outcome's revision.
+    job: Background<(u64, Stage), HullScene>,
+    /// The camera from before they showed, and the one that frames them.
+    cameras: Option<[PlaneCamera; 2]>,
+}
+
+/// A stage, ready to be drawn.
+#[derive(Debug)]
+pub struct HullScene {
+    /// The outcome's revision and the stage.
+    key: (u64, Stage),
+    /// The mesh at this stage, or with its outside; none where it is the result alone.
+    plane: Option<Arc<PlaneScene>>,
+    /// The faces' colours, where they are not the result's.
+    paint: Option<Arc<FacePaint>>,
+    hull: Arc<EdgeList>,
+    pocket_edges: Arc<EdgeList>,
+    pockets: Arc<FaceList>,
+    /// What it shows, in numbers.
+    pub caption: String,
+    /// Whether the step has stages at all.
+    pub has_stages: bool,
+}
+
+impl HullScene {
+    fn new(disk: &DiskMesh, result: &PlaneScene, stage: Stage) -> Self {
+        let step = &result.outcome.step;
+        let scene = match (&step.outside, &step.virtual_boundary) {
+            (Some(outside), _) => Self::of_outside(result, outside),
+            (None, Some(stages)) => Self::of_stage(disk, result, stage, stages),
+            (None, None) => Self::of_free_boundary(disk, &step.solution.embedding),
+        };
+        Self { key: (result.outcome_revision, stage), ..scene }
+    }
+
+    /// A hull without pockets, with the mesh as in the result.
+    fn of_hull(corners: &[VertexId], caption: String) -> Self {
+        Self {
+            key: (0, Stage::default()),
+            plane: None,
+            paint: None,
+            hull: Arc::new(EdgeList::closed_loop(corners)),
+            pocket_edges: Arc::new(EdgeList::new(Vec::new())),
+            pockets: Arc::new(FaceList::new(Vec::new())),
+            caption,
+            has_stages: false,
+        }
+    }
+
+    fn with_pockets(self, triangles: &[[VertexId; 3]]) -> Self {
+        let pocket_edges = Arc::new(EdgeList::new(sides_of(triangles)));
+        Self { pocket_edges, pockets: Arc::new(FaceList::new(triangles.to_vec())), ..self }
+    }
+
+    fn of_stage(disk: &DiskMesh, result: &PlaneScene, stage: Stage, stages: &VirtualBoundary) -> Self {
+        let hull: &[VertexId] = if stage == Stage::Peeled { &[] } else { &stages.hull };
+        let scene = Self { has_stages: true, ..Self::of_hull(hull, caption(stage, stages)) };
+        let positions = match stage {
+            Stage::Before | Stage::Pockets => &stages.before,
+            Stage::Solved => &stages.solved,
+            Stage::Peeled => return scene,
+        };
+        let moved = moved_along(positions, disk, [&stages.solved, &result.outcome.step.solution.embedding]);
+        let plane = Some(Arc::new(result.of_part(Part::Stage, moved)));
+        let paint = Some(Arc::new(FacePaint::plain(disk.face_count(), &flipped_faces(disk, positions))));
+        let scene = Self { plane, paint, ..scene };
+        if stage == Stage::Before { scene } else { scene.with_pockets(&stages.pockets) }
+    }
+
+    /// A step that was made with the outside triangulated up to a frame: the result within it.
+    fn of_outside(result: &PlaneScene, outside: &Outside) -> Self {
+        let embedding = result.positions();
+        let around: Vec<VertexId> =
+            (0..outside.frame.len()).map(|k| VertexId::from_index(embedding.len() + k)).collect();
+        let points = embedding.iter().chain(&outside.frame).copied().collect();
+        let caption = format!(
+            "{} triangles around the mesh, up to a frame: while none turns over, the boundary stays simple",
+            outside.triangles.len()
+        );
+        let plane = Some(Arc::new(result.of_part(Part::WithOutside, points)));
+        Self { plane, ..Self::of_hull(&around, caption).with_pockets(&outside.triangles) }
+    }
+
+    /// A step that bent no boundary still has a hull.
+    fn of_free_boundary(disk: &DiskMesh, embedding: &Embedding) -> Self {
+        let boundary = disk.boundary_loop();
+        let points = embedding.boundary(disk);
+        let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
+        Self::of_hull(&corners, "This step has no virtual boundary; the line is the hull of the free one".to_owned())
+    }
+
+    /// Faces of the mesh that are turned over at a stage before the result.
+    pub fn flipped_count(&self) -> usize {
+        self.paint.as_ref().map_or(0, |paint| paint.flipped().len())
+    }
+
+    /// The mesh at this stage, or with its outside; none where it is the result alone.
+    pub(super) fn plane(&self) -> Option<&Arc<PlaneScene>> {
+        self.plane.as_ref()
+    }
+
+    /// The faces' colours at a stage before the result, whose distortion says nothing there.
+    pub(in crate::ui) fn paint(&self) -> Option<&Arc<FacePaint>> {
+        self.paint.as_ref()
+    }
+
+    /// The faces beside the mesh.
+    pub(in crate::ui) fn fills(&self, theme: &Theme) -> Vec<FillLayer> {
+        vec![FillLayer { faces: Arc::clone(&self.pockets), colour: theme.pocket_fill }]
+    }
+
+    /// Edges of the pockets, and the hull over them.
+    pub(in crate::ui) fn lines(&self, theme: &Theme) -> [LineLayer; 2] {
+        let line = |edges: &Arc<EdgeList>, colour, width_in_points| LineLayer {
+            edges: Arc::clone(edges),
+            colour,
+            width_in_points,
+        };
+        [line(&self.pocket_edges, theme.pocket, 0.75), line(&self.hull, theme.hull, 2.0)]
+    }
+}
+
+fn caption(stage: Stage, stages: &VirtualBoundary) -> String {
+    let outline = match stages.outline {
+        Outline::Hull => "hull",
+        Outline::Frame => "frame",
+    };
+    match stage {
+        Stage::Before if stages.pinned > 2 => {
+            format!("{} boundary vertices on a circle, {outline} of {} corners", stages.pinned, stages.hull.len())
+        }
+        Stage::Before => format!("The step before, {outline} of {} corners", stages.hull.len()),
+        Stage::Pockets => format!("{} triangles up to the {outline}", stages.pockets.len()),
+        Stage::Solved => format!("Mesh and outside together, {outline} fixed"),
+        Stage::Peeled => "The outside taken away: the result".to_owned(),
+    }
+}
+
+/// Each side of the faces once.
+fn sides_of(faces: &[[VertexId; 3]]) -> Vec<[VertexId; 2]> {
+    let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut sides: Vec<[VertexId; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    sides.sort_unstable();
+    sides.dedup();
+    sides
+}
+
+fn flipped_faces(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceId> {
+    let is_flipped = |&face: &FaceId| {
+        let [a, b, c] = embedding.corners(disk, face);
+        orientation(a, b, c) != Some(Orientation::CounterClockwise)
+    };
+    disk.faces().filter(is_flipped).collect()
+}
+
+/// An embedding moved as the boundary is from one embedding to another that differs from it by a similarity; where there is
+/// none, it stays.
+fn moved_along(embedding: &Embedding, disk: &DiskMesh, [before, after]: [&Embedding; 2]) -> Embedding {
+    let pair = |v: &VertexId| [before[v], after[v]];
+    let pairs: Vec<[DVec2; 2]> = disk.boundary_loop().iter().map(pair).collect();
+    match Similarity::fitting(&pairs) {
+        Some(similarity) => embedding.iter().map(|&z| similarity.apply(z)).collect(),
+        None => embedding.clone(),
+    }
+}
+
+impl HullView {
+    pub(super) fn new(wake: &Wake) -> Self {
+        let (stage, job) = (Stage::default(), Background::new("hull", wake));
+        Self { shown: false, stage, scene: None, job, cameras: None }
+    }
+
+    /// Whether hull and pockets are wanted.
+    pub(super) fn is_shown(&self) -> bool {
+        self.shown
+    }
+
+    /// Whether a stage is being made.
+    pub(super) fn is_making_scene(&self) -> bool {
+        self.job.is_busy()
+    }
+}
+
+impl PlaneView {
+    /// Whether hull and pockets are wanted.
+    pub fn hull_shown(&self) -> bool {
+        self.hull.shown
+    }
+
+    /// The stage of the virtual boundary that is chosen.
+    pub fn stage(&self) -> Stage {
+        self.hull.stage
+    }
+
+    pub(in crate::ui::editor) fn set_stage(&mut self, stage: Stage) {
+        self.hull.stage = stage;
+    }
+
+    /// Hull and pockets of the shown step, where they are wanted and made, and nothing follows a drag in its place.
+    pub fn hull_scene(&self) -> Option<&HullScene> {
+        let revision = self.scene.as_ref()?.outcome_revision;
+        let is_wanted = self.hull.shown && self.preview.is_none();
+        self.hull.scene.as_ref().filter(|scene| is_wanted && scene.key.0 == revision)
+    }
+
+    /// Whether hull and pockets are drawn as they were asked for.
+    pub fn hull_is_drawn(&self) -> bool {
+        let shown = self.hull_scene().map(|scene| scene.key.1);
+        !self.hull.shown || self.scene.is_none() || self.preview.is_some() || shown == Some(self.hull.stage)
+    }
+
+    /// Makes the chosen stage in the background where it is not there yet.
+    pub(super) fn poll_hull(&mut self) {
+        if let Some((_, Ok(scene))) = self.hull.job.poll() {
+            self.hull.scene = Some(scene);
+            self.frame_hull();
+        }
+        if self.hull.job.is_busy() {
+            return;
+        }
+        if !self.hull.shown {
+            self.hull.scene = None;
+            return;
+        }
+        let Some(plane) = &self.scene else { return };
+        let key = (plane.outcome_revision, self.hull.stage);
+        let is_made = self.hull.scene.as_ref().is_some_and(|scene| scene.key == key);
+        let Some(disk) = plane.mesh.model.disk().filter(|_| !is_made) else { return };
+        let (disk, plane) = (Arc::clone(disk), Arc::clone(plane));
+        self.hull.job.start(key, move |_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1));
+    }
+
+    /// Shows or hides hull and pockets. The camera comes back where nobody has moved it since.
+    pub(in crate::ui::editor) fn toggle_hull(&mut self) {
+        self.hull.shown = !self.hull.shown;
+        if let Some([before, framing]) = self.hull.cameras.take()
+            && self.camera == Some(framing)
+        {
+            self.camera = Some(before);
+        }
+    }
+
+    /// Shows all of the hull, once it is there for the first time.
+    fn frame_hull(&mut self) {
+        let (Some(plane), Some(before)) = (self.drawn(), self.camera) else { return };
+        let bounds = plane.arrays.bounds();
+        if self.hull.cameras.is_none() && !self.shows(before, bounds) && !plane.is_plain_result() {
+            let mut framing = before;
+            framing.frame(bounds, self.area.size());
+            (self.camera, self.hull.cameras) = (Some(framing), Some([before, framing]));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::examples::Example;
+
+    #[test]
+    fn a_similarity_is_found_again() {
+        let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
+        let before: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+        let turn = DVec2::new(-0.3, 2.0);
+        let after: Embedding = before.iter().map(|&z| turn.rotate(z) + DVec2::new(5.0, -1.0)).collect();
+        let moved = moved_along(&before, &disk, [&before, &after]);
+        assert!(moved.iter().zip(&after).all(|(a, b)| a.distance(*b) < 1e-12));
+    }
+
+    #[test]
+    fn an_embedding_at_one_point_stays_where_it_is() {
+        let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
+        let before = Embedding::from(vec![DVec2::ONE; disk.vertex_count()]);
+        assert_eq!(moved_along(&before, &disk, [&before, &before]), before);
+    }
+}

@@ -1,0 +1,249 @@
+//! The embedding's pane as the window has it: where it lies, its camera, and what it draws.
+//!
+//! | file | what |
+//! |---|---|
+//! | `mod.rs` | camera, and the scene of the step on the screen |
+//! | `ease.rs` | the way between two steps |
+//! | `preview.rs` | the embedding that follows a dragged pin |
+//! | `hull.rs` | hull and pockets of the virtual boundary |
+//! | `ghost.rs` | the outline of the compared step |
+
+mod ease;
+mod ghost;
+mod hull;
+mod preview;
+
+use std::sync::Arc;
+
+pub use hull::{HullScene, Stage};
+
+use eframe::egui;
+use glam::DVec2;
+
+use super::host::Host;
+use super::picture_box;
+use super::project_view::plane_of;
+use super::scene::{MeshScene, PlaneScene};
+use crate::session::{Background, Session, Wake};
+use crate::solver::Verdict;
+use crate::ui::panes::pane::{self, PaneArea};
+use crate::view::{PlaneBox, PlaneCamera};
+use ease::Ease;
+use ghost::Ghost;
+use hull::HullView;
+use preview::PreviewScene;
+
+/// The embedding's pane as the window has it.
+#[derive(Debug)]
+pub struct PlaneView {
+    area: PaneArea,
+    camera: Option<PlaneCamera>,
+    /// The camera as the window chose it by itself.
+    framed: Option<PlaneCamera>,
+    /// The camera that the document was saved with, until there is an embedding to look at.
+    saved: Option<Vec<f64>>,
+    scene: Option<Arc<PlaneScene>>,
+    /// The scene that is being made, by the step's revision.
+    job: Background<u64, PlaneScene>,
+    ease: Ease,
+    preview: Option<PreviewScene>,
+    hull: HullView,
+    ghost: Option<Ghost>,
+}
+
+/// What the pane is told of the rest of the window in each frame.
+#[derive(Clone, Copy)]
+pub(super) struct Surroundings<'a> {
+    pub(super) session: &'a Session,
+    pub(super) host: &'a Host,
+    /// The mesh as given.
+    pub(super) mesh: Option<&'a Arc<MeshScene>>,
+    /// Whether vertices glide from step to step.
+    pub(super) glides: bool,
+    /// Whether a pin is dragged.
+    pub(super) is_dragging: bool,
+}
+
+impl Surroundings<'_> {
+    /// What the window shows of the plane by itself: the picture where there is one, so that it stays where it is while
+    /// the embedding changes; else the embedding.
+    fn framed_box(&self, embedding: PlaneBox) -> PlaneBox {
+        let document = self.session.document();
+        if document.picture.is_some() { picture_box(document) } else { embedding }
+    }
+}
+
+impl PlaneView {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self {
+            area: PaneArea::default(),
+            camera: None,
+            framed: None,
+            saved: None,
+            scene: None,
+            job: Background::new("plane scene", wake),
+            ease: Ease::default(),
+            preview: None,
+            hull: HullView::new(wake),
+            ghost: None,
+        }
+    }
+
+    /// Where the pane lies.
+    pub fn area(&self) -> &PaneArea {
+        &self.area
+    }
+
+    pub(in crate::ui) fn area_mut(&mut self) -> &mut PaneArea {
+        &mut self.area
+    }
+
+    /// The camera, once there is an embedding.
+    pub fn camera(&self) -> Option<PlaneCamera> {
+        self.camera
+    }
+
+    /// The camera, to be moved.
+    pub fn camera_mut(&mut self) -> Option<&mut PlaneCamera> {
+        self.camera.as_mut()
+    }
+
+    /// Takes a camera that a person chose.
+    pub fn set_camera(&mut self, camera: PlaneCamera) {
+        self.camera = Some(camera);
+    }
+
+    /// Takes a camera that the window chose by itself.
+    pub(super) fn set_framed(&mut self, camera: PlaneCamera) {
+        (self.camera, self.framed) = (Some(camera), Some(camera));
+    }
+
+    /// Whether nobody has moved the camera since the window chose it.
+    pub(super) fn is_framed(&self) -> bool {
+        self.camera.is_some() && self.camera == self.framed
+    }
+
+    /// Whether a camera shows all of a box.
+    fn shows(&self, camera: PlaneCamera, bounds: PlaneBox) -> bool {
+        let seen = camera.visible(self.area.size());
+        seen.min.cmple(bounds.min).all() && seen.max.cmpge(bounds.max).all()
+    }
+
+    /// Where a place of the plane is in the window.
+    pub(in crate::ui) fn spot(&self, place: DVec2) -> Option<egui::Pos2> {
+        let rect = self.area.rect()?;
+        Some(pane::on_screen(rect, self.camera?.pane_from_embedding(place, pane::size_of(rect))))
+    }
+
+    /// Shows a box in full size.
+    pub(super) fn frame(&mut self, bounds: PlaneBox) {
+        if let Some(camera) = &mut self.camera {
+            camera.frame(bounds, self.area.size());
+        }
+    }
+
+    /// The camera that the document was saved with, while there is no embedding to look at.
+    pub(super) fn saved_camera(&self) -> Option<&Vec<f64>> {
+        self.saved.as_ref()
+    }
+
+    pub(super) fn set_saved_camera(&mut self, numbers: Option<Vec<f64>>) {
+        self.saved = numbers;
+    }
+
+    /// The embedding of the step on the screen.
+    pub fn scene(&self) -> Option<&Arc<PlaneScene>> {
+        self.scene.as_ref()
+    }
+
+    /// The embedding on the screen, or where vertices are on their way to it.
+    pub fn result(&self) -> Option<&Arc<PlaneScene>> {
+        let preview = self.preview.as_ref().map(PreviewScene::scene);
+        preview.or(self.ease.drawn()).or(self.scene.as_ref())
+    }
+
+    /// What the pane draws and picks in: the shown step's embedding, or a stage on the way to it.
+    pub fn drawn(&self) -> Option<&Arc<PlaneScene>> {
+        self.hull_scene().and_then(HullScene::plane).or(self.result())
+    }
+
+    /// The verdict on what is drawn, where there is one.
+    pub(in crate::ui) fn verdict(&self) -> Option<&Verdict> {
+        match &self.preview {
+            Some(preview) => preview.verdict(),
+            None => self.scene.as_ref().map(|scene| &scene.outcome.step.verdict),
+        }
+    }
+}
+
+impl PlaneView {
+    /// Forgets the embedding of a mesh that is gone.
+    pub(super) fn forget(&mut self) {
+        (self.camera, self.scene, self.preview) = (None, None, None);
+        self.job.cancel();
+        self.ease.stop();
+    }
+
+    /// Whether a scene is being made.
+    pub(super) fn is_making_scene(&self) -> bool {
+        self.job.is_busy() || self.hull.is_making_scene()
+    }
+
+    /// Takes in what was made in the background, and has made what is missing. Returns a new scene. Call once per frame.
+    pub(super) fn refresh(&mut self, around: Surroundings) -> Option<Arc<PlaneScene>> {
+        let new = self.poll_scene(around);
+        self.refresh_preview(around);
+        self.go_on_easing(around);
+        self.poll_hull();
+        self.refresh_ghost(around.session);
+        new
+    }
+
+    fn poll_scene(&mut self, around: Surroundings) -> Option<Arc<PlaneScene>> {
+        let new = self.job.poll().and_then(|(_, scene)| scene.ok()).map(Arc::new);
+        if let Some(scene) = &new {
+            if self.camera.is_none() {
+                self.look_at_first(scene, around);
+            }
+            self.take(Arc::clone(scene), around);
+        }
+        if self.job.is_busy() {
+            return new;
+        }
+        let Surroundings { session, mesh, .. } = around;
+        let revision = session.outcome_revision();
+        let is_shown = self.scene.as_ref().is_some_and(|scene| scene.outcome_revision == revision);
+        let given = mesh.filter(|mesh| mesh.model_revision == session.model_revision() && !is_shown);
+        if let Some((given, outcome)) = given.zip(session.outcome()) {
+            let (given, outcome) = (Arc::clone(given), Arc::clone(outcome));
+            let before = self.scene.as_ref().map(|scene| Arc::clone(&scene.mesh));
+            self.job.start(revision, move |_| {
+                let mesh = MeshScene::of_step(&given, before, &outcome.step);
+                PlaneScene::new(mesh, outcome, revision)
+            });
+        }
+        new
+    }
+
+    /// Shows all of the first embedding, or what the document was saved with.
+    fn look_at_first(&mut self, scene: &PlaneScene, around: Surroundings) {
+        let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds()), self.area.size());
+        self.set_framed(camera);
+        if let Some(saved) = self.saved.take().and_then(|numbers| plane_of(&numbers, camera, self.area.size())) {
+            self.camera = Some(saved);
+        }
+    }
+
+    /// Takes another size of the pane, and keeps the whole embedding in it where nobody chose another camera.
+    pub(super) fn set_rect(&mut self, rect: egui::Rect, around: Surroundings) {
+        if !self.area.set_rect(rect) {
+            return;
+        }
+        let plane = self.drawn().filter(|_| self.is_framed());
+        let bounds = plane.map(|plane| around.framed_box(plane.arrays.bounds()));
+        if let (Some(bounds), Some(mut camera)) = (bounds, self.camera) {
+            camera.frame(bounds, self.area.size());
+            self.set_framed(camera);
+        }
+    }
+}

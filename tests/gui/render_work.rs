@@ -1,0 +1,92 @@
+//! What a frame sends to the graphics card, and how often a pane is drawn.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use eframe::egui;
+use eframe::egui_wgpu::RendererOptions;
+use egui_kittest::Harness;
+use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
+use freebound::mesh::FaceId;
+use freebound::render::{MeshFrame, PaneId, Shading, Style, install, mesh_pane, plane_pane, stats};
+use freebound::view::PlaneBox;
+use glam::DVec2;
+
+use crate::render::{PANE, RECT, WINDOW, Window, camera_in_front, mesh_frame, plane_frame};
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn an_unchanged_frame_sends_and_draws_nothing() {
+    let frame = mesh_frame();
+    let mut window = Window::new(move || mesh_pane(PANE, RECT, frame.clone()));
+    let first = window.picture();
+    let after_first = stats(&window.state).expect("installed");
+    assert!(after_first.uploads >= 2, "positions and normals: {after_first:?}");
+    let second = window.picture();
+    assert_eq!(stats(&window.state), Some(after_first));
+    assert_eq!(first, second, "and shows the same");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn an_inset_of_the_same_embedding_sends_nothing() {
+    let is_shown = Arc::new(AtomicBool::new(false));
+    let (frame, shown) = (plane_frame(DVec2::new(-0.5, 0.5), &[FaceId::new(2)]), Arc::clone(&is_shown));
+    let mut inset = frame.clone();
+    inset.camera.frame(PlaneBox { min: DVec2::splat(-0.2), max: DVec2::splat(0.2) }, DVec2::splat(60.0));
+    inset.style = Style { shading: Shading::Plain, wire_in_points: 1.0, ..inset.style };
+    let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+    install(&state);
+    let mut harness = Harness::builder()
+        .with_size(egui::Vec2::splat(WINDOW))
+        .renderer(WgpuTestRenderer::from_render_state(state.clone()))
+        .build_ui(move |ui| {
+            ui.painter().add(plane_pane(PANE, RECT, frame.clone()));
+            if shown.load(std::sync::atomic::Ordering::Relaxed) {
+                let corner = egui::Rect::from_min_size(egui::pos2(110.0, 120.0), egui::Vec2::splat(60.0));
+                ui.painter().add(plane_pane(PaneId("inset"), corner, inset.clone()));
+            }
+        });
+    let mut stats_of_frame = || {
+        harness.step();
+        harness.render().expect("the driver draws");
+        stats(&state).expect("installed")
+    };
+    let alone = stats_of_frame();
+    is_shown.store(true, std::sync::atomic::Ordering::Relaxed);
+    let with_inset = stats_of_frame();
+    assert_eq!(with_inset.uploads, alone.uploads, "both draw from the same buffers");
+    assert_eq!(with_inset.drawn_panes, alone.drawn_panes + 1);
+    assert_eq!(stats_of_frame(), with_inset, "an unchanged frame draws nothing");
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
+fn a_moved_camera_draws_with_one_call_and_sends_no_buffer() {
+    let camera = Arc::new(std::sync::Mutex::new(camera_in_front()));
+    let (shared, frame) = (Arc::clone(&camera), mesh_frame());
+    let mut window = Window::new(move || {
+        let camera = *shared.lock().expect("one thread");
+        mesh_pane(PANE, RECT, MeshFrame { camera, ..frame.clone() })
+    });
+    window.picture();
+    let before = stats(&window.state).expect("installed");
+    camera.lock().expect("one thread").orbit(DVec2::new(30.0, 10.0));
+    window.picture();
+    let after = stats(&window.state).expect("installed");
+    assert_eq!(after.uploads, before.uploads);
+    assert_eq!(after.drawn_panes, before.drawn_panes + 1);
+    assert_eq!(after.draw_calls, before.draw_calls + 1);
+}
+
+#[test]
+fn a_pane_without_a_graphics_card_stays_empty() {
+    let (mesh, plane) = (mesh_frame(), plane_frame(DVec2::ONE, &[]));
+    let mut harness = Harness::new_ui(move |ui| {
+        ui.painter().add(mesh_pane(PANE, RECT, mesh.clone()));
+        ui.painter().add(plane_pane(PaneId("plane"), RECT, plane.clone()));
+        ui.label("still here");
+    });
+    harness.step();
+    egui_kittest::kittest::Queryable::get_by_label(&harness, "still here");
+}
