@@ -165,7 +165,7 @@ impl Continuation {
             return Ok(None);
         };
         for weight in TIGHTENING {
-            if let Err(error) = self.loosen(mesh, (&targets, weight), control) {
+            if let Err(error) = self.loosen(mesh, weight, control) {
                 let start = std::mem::replace(&mut self.embedding, stopped_at);
                 if error == SolveError::Cancelled {
                     // As if nothing had been tried: the steps before are forgotten only when it has begun.
@@ -184,7 +184,7 @@ impl Continuation {
         let targets = self.targets();
         let settled = match self.settled.take() {
             Some(settled) => settled,
-            None => match self.surround(mesh, &self.embedding, (&targets, None))? {
+            None => match self.surround(mesh, &self.embedding, &self.pins, None)? {
                 Some(settled) => settled,
                 None => return Ok(None),
             },
@@ -194,9 +194,10 @@ impl Continuation {
             shift[v.index()] = *target - settled.points[v.index()];
         }
         let moves = settled.membrane.response(&settled.points, &shift, control)?;
-        let jumped = self.jumps && self.jump(mesh, &settled, (&targets, &moves), control)?;
+        let way = Way { targets, moves };
+        let jumped = self.jumps && self.jump(mesh, &settled, &way, control)?;
         self.jumps = false;
-        let gone = jumped || self.loosen_or_advance(mesh, &settled, (&targets, &moves), control)?;
+        let gone = jumped || self.loosen_or_advance(mesh, &settled, &way, control)?;
         if !gone {
             return Ok(None);
         }
@@ -231,39 +232,32 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         settled: &Settled,
-        (targets, moves): (&PinPositions, &[DVec2]),
+        way: &Way,
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
-        let longest = settled.membrane.longest_step(&settled.points, moves, mesh.face_count());
+        let longest = settled.membrane.longest_step(&settled.points, &way.moves, mesh.face_count());
         let weight = LOOSE_WEIGHTS.get(self.loosened).filter(|_| longest < NARROW && !self.is_loose);
         self.is_loose = match weight {
-            Some(&weight) => self.loosen(mesh, (targets, weight), control)?,
+            Some(&weight) => self.loosen(mesh, weight, control)?,
             None => false,
         };
         self.loosened += usize::from(weight.is_some());
-        Ok(self.is_loose || self.advance(mesh, settled, (targets, moves, longest), control)?)
+        Ok(self.is_loose || self.advance(mesh, settled, way, control)?)
     }
 
     /// Lowers the energy with springs in the place of exact pins. Returns whether that is planar.
-    fn loosen(
-        &mut self,
-        mesh: &DiskMesh,
-        (targets, weight): (&PinPositions, f64),
-        control: Control<'_>,
-    ) -> Result<bool, SolveError> {
+    fn loosen(&mut self, mesh: &DiskMesh, weight: f64, control: Control<'_>) -> Result<bool, SolveError> {
         let loose = self.pins.iter().map(|(&v, pin)| match pin.hold {
             Hold::Weighted(_) => (v, *pin),
             _ => (v, Pin::weighted(pin.target, weight)),
         });
-        let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied(), FRAME_POINTS) else {
+        let Some(Settled { membrane, mut points, .. }) =
+            self.surround(mesh, &self.embedding, &loose.collect(), None)?
+        else {
             return Ok(false);
         };
-        let around = (&self.embedding, &outside);
-        let (membrane, mut z) = self.rest.membrane(mesh, around, &loose.collect(), (OUTSIDE_WEIGHT, None))?;
-        let unfolded = Energy::Foldover(0.0);
-        let limits = Limits { unfolded, steps: LOOSE_STEPS, until_unfolded: false, tolerance: TOLERANCE };
-        membrane.descend(&mut z, limits, control)?;
-        let z = Embedding::of_mesh(mesh, &z);
+        membrane.descend(&mut points, downhill(LOOSE_STEPS), control)?;
+        let z = Embedding::of_mesh(mesh, &points);
         let is_planar = verdict(mesh, &z).planar;
         if is_planar {
             (self.embedding, self.settled) = (z, None);
@@ -271,18 +265,20 @@ impl Continuation {
         Ok(is_planar)
     }
 
-    /// Triangulates the outside of an embedding, and plans the energy of both. `None` where its boundary is not simple.
+    /// Triangulates the outside of an embedding, and plans the energy of both with these pins. `None` where its boundary
+    /// is not simple.
     fn surround(
         &self,
         mesh: &DiskMesh,
         embedding: &Embedding,
-        (targets, similar): (&PinPositions, Option<&Membrane>),
+        pins: &Pins,
+        similar: Option<&Membrane>,
     ) -> Result<Option<Settled>, SolveError> {
+        let targets = self.targets();
         let Some(outside) = outside_of(mesh, embedding, targets.values().copied(), FRAME_POINTS) else {
             return Ok(None);
         };
-        let how = (OUTSIDE_WEIGHT, similar);
-        let (membrane, points) = self.rest.membrane(mesh, (embedding, &outside), &self.pins, how)?;
+        let (membrane, points) = self.rest.membrane(mesh, (embedding, &outside), pins, (OUTSIDE_WEIGHT, similar))?;
         Ok(Some(Settled { membrane, points, outside: Arc::new(outside) }))
     }
 
@@ -291,15 +287,14 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        (targets, moves): (&PinPositions, &[DVec2]),
+        way: &Way,
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
-        let mut z = moved(points, moves, 1.0, targets);
-        let unfolded = Energy::Foldover(0.0);
-        let limits = Limits { unfolded, steps: UNFOLD_STEPS, until_unfolded: true, tolerance: TOLERANCE };
+        let mut z = way.from(points, 1.0);
+        let limits = Limits { until_unfolded: true, ..downhill(UNFOLD_STEPS) };
         let is_unfolded = membrane.descend(&mut z, limits, control)?.least_determinant > 0.0;
         let z = Embedding::of_mesh(mesh, &z);
-        Ok(is_unfolded && verdict(mesh, &z).planar && self.settle(mesh, z, (targets, membrane), control)?)
+        Ok(is_unfolded && verdict(mesh, &z).planar && self.settle(mesh, z, membrane, control)?)
     }
 
     /// Moves the pins as far as no face folds and the boundary stays simple. Returns whether that is any way.
@@ -307,15 +302,16 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        (targets, moves, longest): (&PinPositions, &[DVec2], f64),
+        way: &Way,
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
+        let longest = membrane.longest_step(points, &way.moves, mesh.face_count());
         let mut share = (ADVANCE_SHARE * longest).min(1.0);
         while share > SMALLEST_ADVANCE {
-            let z = moved(points, moves, share, targets);
+            let z = way.from(points, share);
             let z = Embedding::of_mesh(mesh, &z);
             if verdict(mesh, &z).planar {
-                return self.settle(mesh, z, (targets, membrane), control);
+                return self.settle(mesh, z, membrane, control);
             }
             share *= 0.5;
         }
@@ -327,14 +323,14 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         embedding: Embedding,
-        (targets, similar): (&PinPositions, &Membrane),
+        similar: &Membrane,
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
-        let Some(mut settled) = self.surround(mesh, &embedding, (targets, Some(similar)))? else { return Ok(false) };
-        let unfolded = Energy::Foldover(0.0);
-        let limits = Limits { unfolded, steps: SETTLE_STEPS, until_unfolded: false, tolerance: TOLERANCE };
+        let Some(mut settled) = self.surround(mesh, &embedding, &self.pins, Some(similar))? else {
+            return Ok(false);
+        };
         let mut z = settled.points.clone();
-        settled.membrane.descend(&mut z, limits, control)?;
+        settled.membrane.descend(&mut z, downhill(SETTLE_STEPS), control)?;
         let lower = Embedding::of_mesh(mesh, &z);
         if verdict(mesh, &lower).planar {
             self.embedding = lower;
@@ -347,13 +343,26 @@ impl Continuation {
     }
 }
 
-/// The points moved by a share of the moves; those with targets exactly onto them by all of it.
-fn moved(points: &[DVec2], moves: &[DVec2], share: f64, targets: &PinPositions) -> Vec<DVec2> {
-    let mut z: Vec<DVec2> = points.iter().zip(moves).map(|(z, by)| *z + share * *by).collect();
-    if share >= 1.0 {
-        for (v, target) in targets {
-            z[v.index()] = *target;
+/// Where pins are to go, and how all points follow to first order.
+struct Way {
+    targets: PinPositions,
+    moves: Vec<DVec2>,
+}
+
+impl Way {
+    /// The points moved by a share of the moves; those with targets exactly onto them by all of it.
+    fn from(&self, points: &[DVec2], share: f64) -> Vec<DVec2> {
+        let mut z: Vec<DVec2> = points.iter().zip(&self.moves).map(|(z, by)| *z + share * *by).collect();
+        if share >= 1.0 {
+            for (v, target) in &self.targets {
+                z[v.index()] = *target;
+            }
         }
+        z
     }
-    z
+}
+
+/// Newton steps that fold nothing.
+fn downhill(steps: usize) -> Limits {
+    Limits { unfolded: Energy::Foldover(0.0), steps, until_unfolded: false, tolerance: TOLERANCE }
 }

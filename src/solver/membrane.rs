@@ -12,12 +12,10 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 use rayon::prelude::*;
 
+use super::block_pattern::{HELD, Neighbours, number};
 use super::foldover_energy::{Element, Energy, Model};
 use super::{Control, Phase, SolveError};
 use crate::linalg::{Analysis, Factor, Kind, LinalgError};
-
-/// A point without an unknown of its own.
-const HELD: u32 = u32::MAX;
 
 /// Elements whose energies are summed by one task: the sum is the same however many threads share it.
 const CHUNK: usize = 2048;
@@ -111,24 +109,15 @@ impl Membrane {
         }
         let springs: Vec<Spring> =
             springs.into_iter().filter(|spring| unknown_of[spring.point as usize] != HELD).collect();
-        let neighbours = neighbours(&elements, &unknown_of, unknowns.len());
-        let place = |row: u32, column: u32| {
-            let (starts, list) = &neighbours;
-            let (from, to) = (starts[column as usize], starts[column as usize + 1]);
-            let at = list[from..to].binary_search(&row).expect("corners of one element are neighbours");
-            number(4 * from + 2 * at)
-        };
-        let slot = |row: u32, column: u32| if row == HELD || column == HELD { HELD } else { place(row, column) };
-        let slots = elements
-            .iter()
-            .map(|element| {
-                let unknowns = element.corners.map(|corner| unknown_of[corner as usize]);
-                unknowns.map(|row| unknowns.map(|column| slot(row, column)))
-            })
-            .collect();
-        let column_length = neighbours.0.windows(2).map(|pair| number(2 * (pair[1] - pair[0]))).collect();
-        let diagonal = (0..number(unknowns.len())).map(|unknown| place(unknown, unknown)).collect();
-        let pattern = block_pattern(&neighbours);
+        let of_corners: Vec<[u32; 3]> =
+            elements.iter().map(|element| element.corners.map(|corner| unknown_of[corner as usize])).collect();
+        let neighbours = Neighbours::new(&of_corners, unknowns.len());
+        let slot =
+            |row: u32, column: u32| if row == HELD || column == HELD { HELD } else { neighbours.slot(row, column) };
+        let slots = of_corners.iter().map(|of| of.map(|row| of.map(|column| slot(row, column)))).collect();
+        let column_length = neighbours.column_lengths();
+        let diagonal = (0..number(unknowns.len())).map(|unknown| neighbours.slot(unknown, unknown)).collect();
+        let pattern = neighbours.block_pattern();
         let analysis = match similar {
             Some(similar) => similar.analysis.of_similar(&pattern),
             None => Analysis::new(Kind::Hermitian, &pattern),
@@ -249,7 +238,8 @@ impl Membrane {
     /// Newton's direction: how far each point goes.
     fn direction(
         &self,
-        (gradient, mut hessian): (&[f64], CscMatrix<f64>),
+        gradient: &[f64],
+        mut hessian: CscMatrix<f64>,
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
         let factor = self.factor(&mut hessian, control)?;
@@ -270,7 +260,7 @@ impl Membrane {
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
         let (gradient, hessian) = self.linearise(z, Energy::Foldover(0.0), Some(shift));
-        let mut moves = self.direction((&gradient, hessian), control)?;
+        let mut moves = self.direction(&gradient, hessian, control)?;
         for (move_, shift) in moves.iter_mut().zip(shift) {
             *move_ += *shift;
         }
@@ -313,7 +303,7 @@ impl Membrane {
     ) -> Result<Option<[f64; 2]>, SolveError> {
         let before = self.energy(z, energy);
         let (gradient, hessian) = self.linearise(z, energy, None);
-        let direction = self.direction((&gradient, hessian), control)?;
+        let direction = self.direction(&gradient, hessian, control)?;
         let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
         let slope: f64 = self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum();
         let all = self.elements.len();
@@ -334,66 +324,9 @@ impl Membrane {
     }
 }
 
-fn number(count: usize) -> u32 {
-    u32::try_from(count).expect("entries fit")
-}
-
 fn of_the_system(error: LinalgError) -> SolveError {
     match error {
         LinalgError::Cancelled => SolveError::Cancelled,
         other => SolveError::Linear { reason: other.to_string() },
     }
-}
-
-/// For each unknown the unknowns that share an element with it, itself included, ascending; starts and list.
-fn neighbours(elements: &[Element], unknown_of: &[u32], count: usize) -> (Vec<usize>, Vec<u32>) {
-    let of = |element: &Element| element.corners.map(|corner| unknown_of[corner as usize]);
-    let mut starts = vec![0_usize; count + 1];
-    for unknown in elements.iter().flat_map(of).filter(|&u| u != HELD) {
-        starts[unknown as usize + 1] += 3;
-    }
-    for i in 0..count {
-        starts[i + 1] += starts[i];
-    }
-    let mut list = vec![HELD; starts[count]];
-    let mut next = starts.clone();
-    for element in elements {
-        let unknowns = of(element);
-        for column in unknowns.into_iter().filter(|&u| u != HELD) {
-            for row in unknowns {
-                list[next[column as usize]] = row;
-                next[column as usize] += 1;
-            }
-        }
-    }
-    let mut packed = Vec::with_capacity(list.len() / 2);
-    let mut packed_starts = Vec::with_capacity(count + 1);
-    packed_starts.push(0);
-    for pair in starts.windows(2) {
-        let column = &mut list[pair[0]..pair[1]];
-        column.sort_unstable();
-        let begin = packed.len();
-        for &row in column.iter().filter(|&&row| row != HELD) {
-            if packed.len() == begin || packed.last() != Some(&row) {
-                packed.push(row);
-            }
-        }
-        packed_starts.push(packed.len());
-    }
-    (packed_starts, packed)
-}
-
-/// The pattern with a 2×2 block for every pair of neighbours.
-fn block_pattern((starts, list): &(Vec<usize>, Vec<u32>)) -> SparsityPattern {
-    let count = starts.len() - 1;
-    let mut offsets = Vec::with_capacity(2 * count + 1);
-    let mut rows = Vec::with_capacity(4 * list.len());
-    offsets.push(0);
-    for pair in starts.windows(2) {
-        for _ in 0..2 {
-            rows.extend(list[pair[0]..pair[1]].iter().flat_map(|&row| [2 * row as usize, 2 * row as usize + 1]));
-            offsets.push(rows.len());
-        }
-    }
-    SparsityPattern::try_from_offsets_and_indices(2 * count, 2 * count, offsets, rows).expect("sorted and distinct")
 }

@@ -1,5 +1,6 @@
 //! The paper: weights, systems, methods, verdict and distortion. Knows no screen and no file.
 
+mod block_pattern;
 mod choice;
 mod conflicts;
 mod continuation;

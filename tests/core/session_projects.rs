@@ -301,7 +301,7 @@ fn faults_of_a_project_name_line_and_field() {
             format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"method\": \"best\"\n}}"),
             "line 4, method: invalid value: string \"best\", expected one of auto, natural",
         ),
-        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"pins\": ["), "line 4, pins[0]: EOF"),
+        (format!("{{\n\"freebound_project\": 1,\n{mesh},\n\"pins\": ["), "line 4, pins: EOF while parsing a list"),
     ];
     for (text, expected) in cases {
         let (found, remedy) = said_of(&text);

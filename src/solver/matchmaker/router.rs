@@ -97,6 +97,14 @@ struct Known {
     by: Move,
 }
 
+/// A move from one node to another.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    node: u32,
+    from: u32,
+    by: Move,
+}
+
 /// Searches ways. Nodes are crossings (twice the halfedge) and vertices (twice the vertex and one).
 #[derive(Debug)]
 pub(super) struct Router {
@@ -120,7 +128,7 @@ impl Router {
         let size = 2 * cells.halfedge_count().max(cells.vertex_count());
         self.known.resize(size, Known { run: 0, length: 0.0, from: NONE, by: Move::Along(NONE) });
         let begin = 2 * start.vertex + 1;
-        self.reach(cells, goal, (begin, begin, Move::Along(NONE)));
+        self.reach(cells, goal, Link { node: begin, from: begin, by: Move::Along(NONE) });
         while let Some(Reached { length, node, .. }) = self.heap.pop() {
             if node == 2 * goal.vertex + 1 {
                 return Some(Way { length, moves: self.moves(begin, node) });
@@ -149,13 +157,13 @@ impl Router {
                 cells.roles[head as usize] == Role::Free
             };
             if is_open {
-                self.reach(cells, goal, (2 * head + 1, node, Move::Along(h)));
+                self.reach(cells, goal, Link { node: 2 * head + 1, from: node, by: Move::Along(h) });
             }
         }
         for &corner in &sector.corners {
             let across = cells.cell(cells.next(corner)).take_while(|&h| h != cells.previous(corner));
             for h in across.filter(|&h| cells.path(h).is_none()) {
-                self.reach(cells, goal, (2 * h, node, Move::Cross(h)));
+                self.reach(cells, goal, Link { node: 2 * h, from: node, by: Move::Cross(h) });
             }
         }
     }
@@ -165,7 +173,7 @@ impl Router {
         let (node, entry) = (2 * crossed, cells.twin(crossed));
         for h in cells.cell(entry).skip(1) {
             if cells.path(h).is_none() {
-                self.reach(cells, goal, (2 * h, node, Move::Cross(h)));
+                self.reach(cells, goal, Link { node: 2 * h, from: node, by: Move::Cross(h) });
             }
             let tail = cells.tail(h);
             let is_open = if tail == goal.vertex {
@@ -175,13 +183,14 @@ impl Router {
             };
             // The ends of the entry lie on one line with it.
             if is_open && h != cells.next(entry) {
-                self.reach(cells, goal, (2 * tail + 1, node, Move::Reach(h)));
+                self.reach(cells, goal, Link { node: 2 * tail + 1, from: node, by: Move::Reach(h) });
             }
         }
     }
 
     /// Takes note of a node, reached from another.
-    fn reach(&mut self, cells: &Subdivision, goal: &Terminal, (node, from, by): (u32, u32, Move)) {
+    fn reach(&mut self, cells: &Subdivision, goal: &Terminal, link: Link) {
+        let Link { node, from, by } = link;
         let (here, there) = (position(cells, node), position(cells, from));
         let cost = if node.is_multiple_of(2) { self.crossing * (1 + cells.crowd(node / 2)) as f64 } else { 0.0 };
         let before = if node == from { 0.0 } else { self.known[from as usize].length };

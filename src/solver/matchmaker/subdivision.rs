@@ -8,7 +8,7 @@
 
 use glam::DVec2;
 
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, FaceId, VertexId};
 
 /// No path, no old edge, no face.
 pub(super) const NONE: u32 = u32::MAX;
@@ -24,19 +24,25 @@ pub(super) enum Role {
     Within(u32),
 }
 
+/// A halfedge of the subdivision.
+#[derive(Clone, Copy, Debug)]
+struct Halfedge {
+    next: u32,
+    previous: u32,
+    twin: u32,
+    tail: u32,
+    /// The old edge that it is a piece of; none for a chord.
+    old_edge: u32,
+    /// The old face that it lies in or at; none outside.
+    face: u32,
+    /// The path that runs along it.
+    path: u32,
+}
+
 /// A subdivision of the plane into cells.
 #[derive(Debug)]
 pub(super) struct Subdivision {
-    next: Vec<u32>,
-    previous: Vec<u32>,
-    twin: Vec<u32>,
-    tail: Vec<u32>,
-    /// For each halfedge the old edge that it is a piece of; none for a chord.
-    old_edge: Vec<u32>,
-    /// For each halfedge the old face that it lies in or at; none outside.
-    face: Vec<u32>,
-    /// For each halfedge the path that runs along it.
-    path: Vec<u32>,
+    halfedges: Vec<Halfedge>,
     /// For each vertex a halfedge that leaves it.
     outgoing: Vec<u32>,
     /// For each vertex what it is to the paths.
@@ -54,30 +60,32 @@ pub(super) struct Subdivision {
 impl Subdivision {
     /// The faces of a mesh as they lie in the plane, with no path.
     pub(super) fn new(mesh: &DiskMesh, places: &[DVec2]) -> Self {
-        let halfedges = || mesh.halfedges();
         let mut outgoing = vec![NONE; mesh.vertex_count()];
-        for h in halfedges() {
+        for h in mesh.halfedges() {
             outgoing[mesh.tail(h).index()] = h.number();
         }
+        let halfedge = |h| Halfedge {
+            next: mesh.next(h).number(),
+            previous: mesh.previous(h).number(),
+            twin: mesh.twin(h).number(),
+            tail: mesh.tail(h).number(),
+            old_edge: mesh.edge_of(h).number(),
+            face: mesh.face_of(h).map_or(NONE, FaceId::number),
+            path: NONE,
+        };
         Self {
-            next: halfedges().map(|h| mesh.next(h).number()).collect(),
-            previous: halfedges().map(|h| mesh.previous(h).number()).collect(),
-            twin: halfedges().map(|h| mesh.twin(h).number()).collect(),
-            tail: halfedges().map(|h| mesh.tail(h).number()).collect(),
-            old_edge: halfedges().map(|h| mesh.edge_of(h).number()).collect(),
-            face: halfedges().map(|h| mesh.face_of(h).map_or(NONE, crate::mesh::FaceId::number)).collect(),
-            path: vec![NONE; mesh.halfedge_count()],
+            halfedges: mesh.halfedges().map(halfedge).collect(),
             outgoing,
             roles: vec![Role::Free; mesh.vertex_count()],
             places: places.to_vec(),
             edge_of_point: Vec::new(),
-            ends: mesh.edges().map(|e| mesh.ends(e).map(crate::mesh::VertexId::number)).collect(),
+            ends: mesh.edges().map(|e| mesh.ends(e).map(VertexId::number)).collect(),
             points: vec![Vec::new(); mesh.edge_count()],
         }
     }
 
     pub(super) fn halfedge_count(&self) -> usize {
-        self.twin.len()
+        self.halfedges.len()
     }
 
     pub(super) fn vertex_count(&self) -> usize {
@@ -89,19 +97,19 @@ impl Subdivision {
     }
 
     pub(super) fn next(&self, h: u32) -> u32 {
-        self.next[h as usize]
+        self.halfedges[h as usize].next
     }
 
     pub(super) fn previous(&self, h: u32) -> u32 {
-        self.previous[h as usize]
+        self.halfedges[h as usize].previous
     }
 
     pub(super) fn twin(&self, h: u32) -> u32 {
-        self.twin[h as usize]
+        self.halfedges[h as usize].twin
     }
 
     pub(super) fn tail(&self, h: u32) -> u32 {
-        self.tail[h as usize]
+        self.halfedges[h as usize].tail
     }
 
     pub(super) fn head(&self, h: u32) -> u32 {
@@ -110,12 +118,12 @@ impl Subdivision {
 
     /// The old face that a halfedge lies in or at; none outside.
     pub(super) fn face(&self, h: u32) -> u32 {
-        self.face[h as usize]
+        self.halfedges[h as usize].face
     }
 
     /// The path along a halfedge.
     pub(super) fn path(&self, h: u32) -> Option<u32> {
-        let path = self.path[h as usize];
+        let path = self.halfedges[h as usize].path;
         (path != NONE).then_some(path)
     }
 
@@ -131,7 +139,7 @@ impl Subdivision {
 
     /// How many new points lie on the old edge that a halfedge is a piece of.
     pub(super) fn crowd(&self, h: u32) -> usize {
-        match self.old_edge[h as usize] {
+        match self.halfedges[h as usize].old_edge {
             NONE => 0,
             edge => self.points(edge).len(),
         }
@@ -171,35 +179,30 @@ impl Subdivision {
     /// Says that a path runs along a halfedge.
     pub(super) fn set_path(&mut self, h: u32, path: u32) {
         let twin = self.twin(h);
-        self.path[h as usize] = path;
-        self.path[twin as usize] = path;
+        self.halfedges[h as usize].path = path;
+        self.halfedges[twin as usize].path = path;
     }
 
     fn add_halfedge(&mut self, tail: u32, like: u32, old_edge: u32) -> u32 {
-        let h = number(self.twin.len());
-        self.next.push(NONE);
-        self.previous.push(NONE);
-        self.twin.push(NONE);
-        self.tail.push(tail);
-        self.old_edge.push(old_edge);
-        self.face.push(self.face[like as usize]);
-        self.path.push(self.path[like as usize]);
+        let h = number(self.halfedge_count());
+        let like = self.halfedges[like as usize];
+        self.halfedges.push(Halfedge { next: NONE, previous: NONE, twin: NONE, tail, old_edge, ..like });
         h
     }
 
     fn join(&mut self, first: u32, second: u32) {
-        self.next[first as usize] = second;
-        self.previous[second as usize] = first;
+        self.halfedges[first as usize].next = second;
+        self.halfedges[second as usize].previous = first;
     }
 
     fn pair(&mut self, one: u32, other: u32) {
-        self.twin[one as usize] = other;
-        self.twin[other as usize] = one;
+        self.halfedges[one as usize].twin = other;
+        self.halfedges[other as usize].twin = one;
     }
 
     /// Splits a piece of an old edge by a new point. The halfedge keeps its tail, and so does its twin.
     pub(super) fn split_edge(&mut self, h: u32, role: Role) -> u32 {
-        let (twin, old_edge) = (self.twin(h), self.old_edge[h as usize]);
+        let (twin, old_edge) = (self.twin(h), self.halfedges[h as usize].old_edge);
         let point = self.add_point(h, old_edge, role);
         let (ahead, back) = (self.add_halfedge(point, h, old_edge), self.add_halfedge(point, twin, old_edge));
         for (piece, rest) in [(h, ahead), (twin, back)] {
@@ -242,8 +245,8 @@ impl Subdivision {
     pub(super) fn split_cell(&mut self, from: u32, to: u32) -> u32 {
         let (chord, back) =
             (self.add_halfedge(self.tail(from), from, NONE), self.add_halfedge(self.tail(to), from, NONE));
-        self.path[chord as usize] = NONE;
-        self.path[back as usize] = NONE;
+        self.halfedges[chord as usize].path = NONE;
+        self.halfedges[back as usize].path = NONE;
         let (before_from, before_to) = (self.previous(from), self.previous(to));
         self.join(before_from, chord);
         self.join(chord, to);
