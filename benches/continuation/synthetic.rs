@@ -62,7 +62,7 @@ impl Cap {
         let mut run = Ladder::new(Settings::default(), Pins::new());
         run.finish(&mesh, Control::unattended(), |step| last = Some(step)).map_err(|error| error.to_string())?;
         let step = last.filter(|step| step.verdict.planar).ok_or("no planar embedding without constraints")?;
-        Ok(Self { mesh, embedding: step.solution.embedding })
+        Ok(Self { mesh, embedding: step.candidate.solution.embedding })
     }
 
     /// Pins on so many different vertices.

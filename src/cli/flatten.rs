@@ -127,11 +127,14 @@ impl HeadlessJob<'_> {
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;
         loop {
-            let step = match (run.step(mesh, control), last) {
-                (Ok(step), _) => step,
+            let step = match (run.step(mesh, control), last.take()) {
+                (Ok(step), before) => {
+                    last = before;
+                    step
+                }
                 // Where a rung fails, the steps before it are written.
-                (Err(error), Some(last)) if error != SolveError::Cancelled => {
-                    return Ok(Solved { outcome: placed(last), records, ending: Err(error) });
+                (Err(error), Some(before)) if error != SolveError::Cancelled => {
+                    return Ok(Solved { outcome: placed(before), records, ending: Err(error) });
                 }
                 (Err(error), _) => return Err(error.into()),
             };
@@ -144,7 +147,9 @@ impl HeadlessJob<'_> {
             if let Some(ending) = run.ending() {
                 return Ok(Solved { outcome: placed(step), records, ending: Ok(ending) });
             }
-            last = Some(step);
+            if !step.is_of_planar_start() {
+                last = Some(step);
+            }
         }
     }
 }

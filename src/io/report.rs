@@ -225,7 +225,7 @@ impl StepReport {
 
     /// The numbers of a step.
     pub fn of(step: &Step) -> Self {
-        let Step { solution, verdict, .. } = step;
+        let (solution, verdict) = (&step.solution, &step.verdict);
         let counts = solution.linear.unwrap_or_default();
         Self {
             rung: step.rung,

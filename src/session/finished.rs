@@ -213,7 +213,7 @@ mod tests {
     fn a_hard_constraint_that_the_solver_misses_is_reported_though_the_file_has_its_numbers() {
         let mut outcome = first_step();
         assert_eq!(reported(&outcome), Some(0.0));
-        outcome.step.solution.embedding[40] += DVec2::new(0.25, 0.0);
+        outcome.step.candidate.solution.embedding[40] += DVec2::new(0.25, 0.0);
         let error = reported(&outcome).expect("there are hard pins");
         assert!((error - 0.125).abs() < 1e-12, "{error}");
     }

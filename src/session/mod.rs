@@ -14,8 +14,7 @@
 //! | `document`      | part: what the user edits; one edit                                        |
 //! | `history`       | part: undo and redo                                                        |
 //! | `open_mesh`     | part: the open mesh, its faces one way around or the other                 |
-//! | `solving`       | part: a run, its timeline, and where it comes to rest                      |
-//! | `courier`       | the background's end of a run                                              |
+//! | `solving/`      | part: a run, its timeline, and where it comes to rest                      |
 //! | `timeline`      | the steps of a run                                                         |
 //! | `stop`          | where a run comes to rest                                                  |
 //! | `outcome`       | a step with its proof; the problem that it solves                          |
@@ -34,7 +33,6 @@
 
 mod action;
 mod background;
-mod courier;
 mod document;
 mod drag;
 mod edits;

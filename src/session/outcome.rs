@@ -6,8 +6,8 @@ use crate::geom::{PictureFrame, VAxis};
 use crate::io::{Target, Targets, pins_in_plane};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Distortion, Embedding, GaugeSize, Pins, Settings, Step, Verdict, are_held_alike, distortion, to_unit_box,
-    to_unit_square, to_unit_square_by_power_of_two, verdict,
+    Candidate, Distortion, Embedding, GaugeSize, Pins, Settings, Step, Verdict, are_held_alike, distortion,
+    to_unit_box, to_unit_square, to_unit_square_by_power_of_two, verdict,
 };
 
 /// What to do with the size of an embedding that the user's pins do not fix.
@@ -99,7 +99,8 @@ impl Outcome {
     /// Bytes of memory that it takes. The factors of a linear solve are kept once, for the next solve, and a mesh with
     /// new vertices once for all steps on it: both are left out.
     pub fn bytes(&self) -> usize {
-        let Step { solution, verdict, virtual_boundary, outside, .. } = &self.step;
+        let Step { candidate, verdict, .. } = &self.step;
+        let Candidate { solution, virtual_boundary, outside, .. } = candidate;
         let pin_count = self.problem.targets.len() + solution.pins.len();
         let stages = virtual_boundary.as_ref().map_or(0, |stages| {
             size_of_val(&*stages.before)

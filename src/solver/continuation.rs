@@ -25,7 +25,9 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::Rest;
-use super::{Control, Embedding, Hold, Outside, Pin, PinPositions, Pins, Progress, SolveError, verdict};
+use super::{
+    Candidate, Control, Embedding, Hold, Method, Outside, Pin, PinPositions, Pins, Progress, SolveError, verdict,
+};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -89,13 +91,6 @@ struct Settled {
     outside: Arc<Outside>,
 }
 
-/// A state on the way, accepted by the verdict.
-pub(super) struct Accepted {
-    pub(super) embedding: Embedding,
-    pub(super) progress: Progress,
-    pub(super) outside: Arc<Outside>,
-}
-
 impl std::fmt::Debug for Continuation {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Continuation").field("way_left", &self.way_left).finish_non_exhaustive()
@@ -154,7 +149,7 @@ impl Continuation {
 
     /// Goes on as far as can be at once; where it is stuck, once again from the beginning with springs that are tightened
     /// step by step, which find other ways around each other. `None` where nothing goes any more.
-    pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Accepted>, SolveError> {
+    pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Candidate>, SolveError> {
         match self.go_on(mesh, control) {
             Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
             Ok(None) | Err(_) if self.start.is_some() => self.begin_again(mesh, control),
@@ -162,7 +157,7 @@ impl Continuation {
         }
     }
 
-    fn begin_again(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Accepted>, SolveError> {
+    fn begin_again(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Candidate>, SolveError> {
         let Some(start) = self.start.take() else { return Ok(None) };
         let targets = self.targets();
         let stopped_at = std::mem::replace(&mut self.embedding, start);
@@ -182,10 +177,10 @@ impl Continuation {
         (self.settled, self.is_loose) = (None, true);
         self.way_left.clear();
         let progress = self.progress(mesh);
-        Ok(Some(Accepted { embedding: self.embedding.clone(), progress, outside: Arc::new(outside) }))
+        Ok(Some(self.candidate(progress, Arc::new(outside))))
     }
 
-    fn go_on(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Accepted>, SolveError> {
+    fn go_on(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Candidate>, SolveError> {
         let targets = self.targets();
         let settled = match self.settled.take() {
             Some(settled) => settled,
@@ -212,7 +207,13 @@ impl Continuation {
         }
         self.way_left.push(progress.distance_left);
         let outside = self.settled.as_ref().map_or(settled.outside, |settled| Arc::clone(&settled.outside));
-        Ok((!self.is_stuck()).then(|| Accepted { embedding: self.embedding.clone(), progress, outside }))
+        Ok((!self.is_stuck()).then(|| self.candidate(progress, outside)))
+    }
+
+    /// The present embedding, accepted by the verdict.
+    fn candidate(&self, progress: Progress, outside: Arc<Outside>) -> Candidate {
+        let candidate = Candidate::one_to_one(Method::Continuation, self.embedding.clone(), &self.pins);
+        Candidate { progress: Some(progress), outside: Some(outside), ..candidate }
     }
 
     /// Whether there is no sense in going on.

@@ -1,4 +1,4 @@
-//! The mean-value iteration: solve again with weights from the embedding at hand (paper §4).
+//! The mean-value iteration: solve again with weights from the latest embedding (paper §4).
 //!
 //! `x_{k+1} = A(x_k)⁻¹ b`, where A(x) holds the mean-value equations of the planar geometry x, angles unsigned. The
 //! pins stay what they are. A planar embedding is a fixed point; a fixed point with turning number 1 that meets *all*
@@ -73,8 +73,8 @@ impl Iteration {
         let start = Instant::now();
         let pins = held_in(embedding, &self.pins);
         let is_pulled = |(v, pin): (&VertexId, &Pin)| embedding[v] != pin.target;
-        let left = residuals_in_plane(mesh, embedding);
-        if left.iter().all(|left| *left == Complex::ZERO) && !pins.iter().any(is_pulled) {
+        let residuals = residuals_in_plane(mesh, embedding);
+        if residuals.iter().all(|residual| *residual == Complex::ZERO) && !pins.iter().any(is_pulled) {
             return Ok(unmoved(embedding, pins, start.elapsed().as_secs_f64()));
         }
         let equations = natural_in_plane(mesh, embedding);
@@ -85,7 +85,7 @@ impl Iteration {
         let solve = FreeSolve::new(site, (equations, unit), ready, &mut seconds, control)?;
         control.enter(Phase::Solve)?;
         let start = Instant::now();
-        let (embedding, residual) = solve.solve_from(site, (embedding, &left), &targets_of(&pins))?;
+        let (embedding, residual) = solve.solve_from(site, (embedding, &residuals), &targets_of(&pins))?;
         let stats = solve.stats();
         let equation_residual = solve.equation_residual(mesh, &embedding);
         seconds.solve = start.elapsed().as_secs_f64();
@@ -124,7 +124,7 @@ fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
     pins.iter().map(|(&v, pin)| (v, held(pin, v))).collect()
 }
 
-/// The answer to an embedding that leaves nothing of its equations and that no pin pulls: itself.
+/// The answer to an embedding that meets its equations and that no pin pulls: itself.
 fn unmoved(embedding: &Embedding, pins: Pins, seconds: f64) -> Solution {
     Solution {
         embedding: embedding.clone(),

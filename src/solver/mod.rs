@@ -3,7 +3,6 @@
 mod block_pattern;
 mod choice;
 mod conflicts;
-mod constrained_run;
 mod continuation;
 mod control;
 mod convex;
@@ -15,6 +14,7 @@ mod family;
 mod foldover_energy;
 mod free_solve;
 mod iterate;
+mod ladder;
 mod least_squares;
 mod left_kernel;
 mod matchmaker;
@@ -26,18 +26,14 @@ pub mod plane_weights;
 mod prepared;
 mod relaxing;
 mod rest;
-mod run;
 mod scale;
 mod settings;
 mod shape_preserving;
 mod solution;
-mod stall;
-mod step;
 mod system;
 mod verdict;
 mod vertex_equation;
 mod virtual_boundary;
-mod virtual_boundary_run;
 pub mod weights;
 
 pub use choice::{Choice, Words};
@@ -49,6 +45,7 @@ pub use embedding::Embedding;
 pub use error::SolveError;
 pub use family::Family;
 pub use iterate::Iteration;
+pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, diameter, largest_move};
 pub use method::{BoundaryShape, Method};
 pub use outside::Outside;
 pub use pins::{
@@ -56,12 +53,10 @@ pub use pins::{
     hard_pins,
 };
 pub use prepared::{Prepared, flatten};
-pub use run::{Ending, Ladder};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
-pub use step::{Progress, Step, diameter, largest_move};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, verdict};
 pub use vertex_equation::{EquationTerm, NoEquation, VertexEquation, WeightSource, equation_of_step};

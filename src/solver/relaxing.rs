@@ -10,7 +10,7 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::Rest;
-use super::{Control, Embedding, Outside, Pins, Progress, SolveError, verdict};
+use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, SolveError, verdict};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -39,14 +39,6 @@ pub(super) struct Relaxing {
     has_converged: bool,
 }
 
-/// A round's embedding.
-#[derive(Debug)]
-pub(super) struct Relaxed {
-    pub(super) embedding: Embedding,
-    pub(super) progress: Progress,
-    pub(super) outside: Arc<Outside>,
-}
-
 impl std::fmt::Debug for Relaxing {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Relaxing").field("has_converged", &self.has_converged).finish_non_exhaustive()
@@ -67,7 +59,7 @@ impl Relaxing {
     }
 
     /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
-    pub(super) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Relaxed, SolveError> {
+    pub(super) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
         let outside =
             outside_of(mesh, &self.embedding, std::iter::empty(), FRAME_POINTS).ok_or(SolveError::NotPlanar)?;
         match self.descend(mesh, &outside, control) {
@@ -76,7 +68,8 @@ impl Relaxing {
             // Where rounding leaves no direction, it is as low as it gets.
             Err(_) => self.has_converged = true,
         }
-        Ok(Relaxed { embedding: self.embedding.clone(), progress: self.progress, outside: Arc::new(outside) })
+        let candidate = Candidate::one_to_one(Method::Relax, self.embedding.clone(), &self.pins);
+        Ok(Candidate { progress: Some(self.progress), outside: Some(Arc::new(outside)), ..candidate })
     }
 
     /// Goes down the energy of mesh and outside, to what is planar there.

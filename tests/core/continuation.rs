@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Ending, Family, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step};
+use freebound::solver::{Control, Ending, Family, Kept, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step};
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -150,6 +150,24 @@ fn a_step_that_is_cancelled_anywhere_leaves_the_way_as_it_was() {
     }
     assert!(steps.iter().all(|step| step.verdict.planar) && steps.last().unwrap().unmet().is_empty());
     assert!(whole.last().unwrap().unmet().is_empty());
+}
+
+#[test]
+fn the_planar_start_is_among_the_steps_and_serves_other_targets_on_the_mesh() {
+    let (mesh, pins) = swirl();
+    let (steps, _) = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap();
+    let fitted = steps.iter().position(|step| step.planar_start.is_some()).unwrap();
+    assert!(fitted > 0 && steps[fitted].rung == Method::Continuation);
+    assert!(steps[..fitted].iter().all(|step| step.is_of_planar_start() && step.unmet().len() == pins.len()));
+    assert!(steps[fitted - 1].verdict.planar, "no end, as the constraints are not met");
+    assert!(steps[0].note.as_ref().is_some_and(|note| note.contains("without the constraints")));
+    let kept = Kept { planar_start: steps[fitted].planar_start.clone(), prepared: None };
+    let mut run = Ladder::new(one_to_one(Method::Continuation), pins).with_kept(&kept);
+    let mut shorter: Vec<Step> = Vec::new();
+    run.finish(&mesh, Control::unattended(), |step| shorter.push(step)).unwrap();
+    assert_eq!(shorter.len(), steps.len() - fitted);
+    let is_same = |(a, b): (&Step, &Step)| a.solution.embedding == b.solution.embedding;
+    assert!(shorter.iter().zip(&steps[fitted..]).all(is_same));
 }
 
 #[test]

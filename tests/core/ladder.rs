@@ -202,7 +202,7 @@ fn the_same_run_gives_the_same_bits() {
     let mesh = disk(Example::Cube.mesh());
     let settings = Settings::new(Method::Auto, Family::MeanValue);
     let bits = || -> Vec<Embedding> {
-        steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.solution.embedding).collect()
+        steps_of(&mesh, settings, &Pins::new()).into_iter().map(|step| step.candidate.solution.embedding).collect()
     };
     assert_eq!(bits(), bits());
 }

@@ -73,7 +73,7 @@ fn permuted_pins(mesh: &DiskMesh, count: usize, random: &mut Random) -> Pins {
     let mut last = None;
     let mut run = Ladder::new(Settings::default(), Pins::new());
     run.finish(mesh, Control::unattended(), |step| last = Some(step)).unwrap();
-    let flat = last.unwrap().solution.embedding;
+    let flat = last.unwrap().candidate.solution.embedding;
     let pinned = vertices(mesh, count, random);
     let mut others: Vec<DVec2> = pinned.iter().map(|v| flat[v.index()]).collect();
     // One cycle through all of them (Sattolo 1986): none stays.

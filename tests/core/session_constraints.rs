@@ -112,6 +112,17 @@ fn relaxing_lowers_the_energy_and_keeps_the_constraints() {
 }
 
 #[test]
+fn a_planar_start_is_kept_when_targets_are_edited() {
+    let mut session = with_grid();
+    settled(&mut session, Action::SetSettings(Settings::new(Method::Continuation, Family::Conformal)));
+    place(&mut session, &twist()[..5]);
+    settle(&mut session);
+    assert_eq!(session.timeline().records()[0].rung, Method::Continuation, "one without pins had made the start");
+    settled(&mut session, Action::TurnFaces);
+    assert_eq!(session.timeline().records()[0].rung, Method::Natural, "that of other faces does not serve");
+}
+
+#[test]
 fn what_is_not_planar_is_not_relaxed() {
     let mut session = with_grid();
     settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
@@ -203,8 +214,8 @@ fn an_outcome_with_new_vertices_is_measured_and_proved_on_its_own_mesh() {
     let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(&disk, Control::unattended()).expect("a square can be solved");
     let [a, b] = [0, 3].map(|v: usize| step.solution.embedding[v]);
-    step.solution.embedding = step.solution.embedding.iter().copied().chain([a.midpoint(b)]).collect();
-    step.refinement = Some(refinement);
+    step.candidate.solution.embedding = step.solution.embedding.iter().copied().chain([a.midpoint(b)]).collect();
+    step.candidate.refinement = Some(refinement);
     let outcome = Outcome::new(&disk, Problem { settings: *run.settings(), ..Problem::default() }, step);
     assert_eq!((outcome.new_vertex_count(), outcome.distortion.faces.len()), (1, 4));
     for fit in [OutputFit::Unit, OutputFit::True] {

@@ -214,7 +214,8 @@ impl Fuzz {
         let (Some(outcome), Some(model)) = (self.session.outcome(), self.session.model()) else { return };
         let disk = model.disk().expect("only a disk is solved");
         assert!(outcome.step.solution.embedding.iter().all(|z| z.is_finite()));
-        if !self.session.is_current() || !outcome.problem.settings.method.uses_pins() {
+        let is_on_its_way = outcome.step.is_of_planar_start();
+        if !self.session.is_current() || !outcome.problem.settings.method.uses_pins() || is_on_its_way {
             return;
         }
         let (coordinates, ..) = outcome.output(disk, OutputFit::Unit);

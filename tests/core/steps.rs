@@ -228,7 +228,7 @@ fn outcome_with(mesh: &DiskMesh, places: Embedding) -> Outcome {
     let mut run = Ladder::new(Settings::new(Method::Natural, Family::Conformal), Pins::new());
     let mut step = run.step(mesh, Control::unattended()).expect("a fan is flat");
     step.verdict = verdict(mesh, &places);
-    step.solution.embedding = places;
+    step.candidate.solution.embedding = places;
     Outcome::new(mesh, Problem { settings: *run.settings(), ..Problem::default() }, step)
 }
 

@@ -29,7 +29,7 @@ fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
 /// A linear step with another embedding in the place of its own.
 fn step_with(mesh: &DiskMesh, family: Family, embedding: Embedding) -> Step {
     let mut step = steps_of(mesh, Settings::new(Method::Natural, family)).swap_remove(0);
-    step.solution.embedding = embedding;
+    step.candidate.solution.embedding = embedding;
     step
 }
 
@@ -92,7 +92,8 @@ fn each_equation_of_an_iteration_is_a_row_of_its_system() {
     let mesh = disk(Example::Cube.mesh());
     let (before, after) = (at_random(mesh.vertex_count(), 2), at_random(mesh.vertex_count(), 3));
     let all = natural_in_plane(&mesh, &before);
-    let step = Step { rung: Method::Iterate, ..step_with(&mesh, Family::Conformal, after.clone()) };
+    let mut step = step_with(&mesh, Family::Conformal, after.clone());
+    step.candidate.rung = Method::Iterate;
     for vertex in mesh.vertices() {
         let (found, source) = equation_of_step(&mesh, (&step, Some(&before)), vertex).unwrap();
         assert_eq!(source, WeightSource::StepBefore);
@@ -219,7 +220,7 @@ fn what_has_no_equation_says_why() {
         assert!(reason(convex, family, inside).unwrap().0.residual < SOLVED, "{family}");
     }
     let mut step = steps_of(&mesh, Settings::default()).pop().unwrap();
-    step.rung = Method::Iterate;
+    step.candidate.rung = Method::Iterate;
     let missing = equation_of_step(&mesh, (&step, None), inside);
     assert_eq!(missing, Err(NoEquation::StepBeforeMissing));
 }

@@ -207,7 +207,7 @@ fn a_weight_means_the_same_at_every_size_of_the_mesh() {
             let last = |mesh: &DiskMesh| {
                 let mut run = freebound::solver::Ladder::new(settings, pins.clone());
                 let mut found = Embedding::default();
-                run.finish(mesh, Control::unattended(), |step| found = step.solution.embedding).unwrap();
+                run.finish(mesh, Control::unattended(), |step| found = step.candidate.solution.embedding).unwrap();
                 found
             };
             let error = apart(&last(&small), &last(&large));

@@ -63,13 +63,17 @@ fn the_pill_names_the_rung_that_the_picture_comes_from() {
 #[test]
 fn a_planar_step_with_constraints_not_met_says_so_and_marks_them() {
     let mut window = window();
-    let at_first = StopConditions { at_step: Some(0), ..StopConditions::default() };
-    window.editor_mut().session.handle(Action::SetStop(at_first));
+    let at_step = |index| Action::SetStop(StopConditions { at_step: Some(index), ..StopConditions::default() });
+    window.editor_mut().session.handle(at_step(0));
     let settings = Settings::new(Method::Continuation, Family::Conformal);
     window.editor_mut().session.handle(Action::SetSettings(settings));
     place(&mut window, &TWIST);
+    assert_eq!(window.outcome().step.unmet().len(), TWIST.len(), "without the constraints first");
+    window.editor_mut().session.handle(at_step(1));
+    window.editor_mut().session.handle(Action::Run);
+    window.settle();
     let unmet = window.outcome().step.unmet();
-    assert!(step_count(&window) == 1 && !unmet.is_empty(), "the planar start");
+    assert!(step_count(&window) == 2 && !unmet.is_empty(), "the planar start");
     assert_eq!(window.verdict(), format!("Planar, constraints not met: {} · continuation", unmet.len()));
     window.click("Pins 8");
     assert_eq!(window.words().iter().filter(|words| *words == "not met").count(), unmet.len());

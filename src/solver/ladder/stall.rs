@@ -1,6 +1,6 @@
-//! When an iteration has come to a standstill.
+//! When an iteration gets no better.
 
-use super::step::{Step, diameter};
+use super::{Step, diameter};
 
 /// Steps without an improvement after which an iteration that hardly moves has stalled.
 const PATIENCE: usize = 5;
@@ -11,10 +11,10 @@ const LONG_PATIENCE: usize = 12;
 /// A move of every vertex below this share of the embedding's diameter is hardly any.
 const STILL: f64 = 1e-3;
 
-/// A step that leaves more than this part of the defects makes for a slow iteration.
+/// An iteration is slow where a step has more than this part of the fewest defects before.
 const SLOW: f64 = 0.9;
 
-/// Watches the steps of a run for improvement.
+/// Watches steps for improvement.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Stall {
     best: Option<usize>,

@@ -1,11 +1,12 @@
-//! One step of a run: an embedding with its verdict and its numbers.
+//! One step of a ladder: an embedding with its verdict and its numbers.
 
-use std::sync::Arc;
+use std::ops::Deref;
 
 use glam::DVec2;
 
-use super::{Embedding, Family, Method, Outside, Prepared, Solution, Verdict, VirtualBoundary};
-use crate::mesh::{DiskMesh, Refinement, VertexId};
+use super::Candidate;
+use crate::mesh::VertexId;
+use crate::solver::{Embedding, Method, Pin, Pins, Verdict};
 
 /// Where a one-to-one embedding stands on its way: the numbers of continuation and relaxing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,53 +19,43 @@ pub struct Progress {
     pub distance_left: f64,
 }
 
-/// An embedding, what made it, and how good it is.
+/// A candidate, proved: how good it is. What the candidate says, its step says too.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// The rung of the ladder, as the method that it is by itself: natural, iterate, virtual boundary, or the linear
-    /// method that was asked for.
-    pub rung: Method,
-    /// The family of its weights, where its method has a choice.
-    pub family: Family,
-    /// Place in the run, from 0.
+    /// The embedding, and what made it.
+    pub candidate: Candidate,
+    /// Place in the ladder, from 0.
     pub index: usize,
-    /// The embedding and the numbers of its solve.
-    pub solution: Solution,
     /// The exact verdict on it.
     pub verdict: Verdict,
     /// Largest move of a vertex since the step before, in the plane; none for the first.
     pub max_move: Option<f64>,
     /// Seconds that the verdict took.
     pub verify_seconds: f64,
-    /// Boundary vertices that were bent to a convex polygon to make the boundary simple (paper §5, k); none where it is
-    /// free, or was convex by the method.
-    pub bent_vertices: usize,
-    /// The stages of §5, where the step has any.
-    pub virtual_boundary: Option<Arc<VirtualBoundary>>,
-    /// What else there is to say: why the rung before gave nothing, or what had to be repaired.
-    pub note: Option<String>,
-    /// Equations and factors of a linear solve, for other targets of the same pins.
-    pub prepared: Option<Arc<Prepared>>,
-    /// The mesh with new vertices that the embedding is of; none where it is of the mesh as given.
-    pub refinement: Option<Arc<Refinement>>,
-    /// How far a continuation or relaxing has come.
-    pub progress: Option<Progress>,
-    /// The outside that the step was made with, where there was one.
-    pub outside: Option<Arc<Outside>>,
+    /// Pins that have no part in it: all constraints, where it is on the way to a planar start without them.
+    pub set_aside: Pins,
+}
+
+impl Deref for Step {
+    type Target = Candidate;
+
+    fn deref(&self) -> &Candidate {
+        &self.candidate
+    }
 }
 
 impl Step {
-    /// The mesh that the embedding is of: `mesh` as given, or its refinement.
-    pub fn mesh<'a>(&'a self, mesh: &'a DiskMesh) -> &'a DiskMesh {
-        self.refinement.as_ref().map_or(mesh, |refinement| refinement.disk())
-    }
-
     /// Vertices that are to be met exactly and are not, by number.
     pub fn unmet(&self) -> Vec<VertexId> {
-        let Solution { embedding, pins, .. } = &self.solution;
+        let pins = if self.is_of_planar_start() { &self.set_aside } else { &self.solution.pins };
         let is_unmet =
-            |(vertex, pin): &(&VertexId, &super::Pin)| pin.hold.is_exact() && embedding[*vertex] != pin.target;
+            |(vertex, pin): &(&VertexId, &Pin)| pin.hold.is_exact() && self.solution.embedding[*vertex] != pin.target;
         pins.iter().filter(is_unmet).map(|(&vertex, _)| vertex).collect()
+    }
+
+    /// Whether it is on the way to a planar start, in which the constraints have no part.
+    pub fn is_of_planar_start(&self) -> bool {
+        !self.set_aside.is_empty()
     }
 
     /// Whether the boundary is simple and runs counter-clockwise.

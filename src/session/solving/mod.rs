@@ -10,43 +10,28 @@
 //!
 //! Another problem begins another run. Its first step begins another timeline; until it is there the old one stays on
 //! the screen. Nothing here knows the session: one could have several of these, each with a mesh of its own.
+//!
+//! | file | what |
+//! |---|---|
+//! | `running.rs` | what is to be solved; a run in the background, and at rest |
+//! | `courier.rs` | the background's end of a run: takes steps, hands them over |
+//! | `incoming.rs` | takes in steps, and a run that has come to rest |
+
+mod courier;
+mod incoming;
+mod running;
 
 use std::sync::Arc;
-use std::sync::mpsc::Receiver;
 
-use super::courier::{Courier, Delivery, Shared};
+use self::courier::Courier;
+pub(super) use self::running::{Next, Task};
+use self::running::{Resting, Running};
 use super::stop::Goal;
-use super::{Background, Message, Messages, Outcome, Place, Problem, Stop, StopConditions, Timeline, Wake};
-use crate::mesh::DiskMesh;
-use crate::solver::{Ending, Ladder, Phase, Prepared, SolveError};
+use super::{Background, Messages, Outcome, Place, Problem, Stop, StopConditions, Timeline, Wake};
+use crate::solver::{Ending, Kept, Ladder, Phase, Prepared};
 
 /// The most rounds of relaxing that are asked for at once.
 const RELAX_ROUNDS: usize = 20;
-
-/// What is to be solved, and on which mesh.
-#[derive(Clone, Debug)]
-pub(super) struct Task {
-    pub(super) mesh: Arc<DiskMesh>,
-    pub(super) problem: Problem,
-}
-
-/// What a poll found that concerns others.
-#[derive(Debug, Default)]
-pub(super) struct News {
-    /// Whether a run's first step has come in.
-    pub(super) has_begun: bool,
-    /// What is to be done now, with the problem as it is by then.
-    pub(super) next: Option<Next>,
-}
-
-/// How solving goes on by itself.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Next {
-    /// The problem is to be solved anew.
-    Anew,
-    /// The run is to be taken on.
-    On(Goal),
-}
 
 /// A run, its steps, and where it comes to rest.
 pub(super) struct Solving {
@@ -57,8 +42,8 @@ pub(super) struct Solving {
     /// What the run says after the newest step.
     ending: Option<Ending>,
     stop: StopConditions,
-    /// Kept from solves that succeeded, for problems where only targets differ.
-    prepared: Option<Arc<Prepared>>,
+    /// What runs on the mesh have computed, for further ones.
+    kept: Kept,
     /// The run that takes steps in the background.
     running: Option<Running>,
     /// The run that waits to be taken on.
@@ -67,40 +52,6 @@ pub(super) struct Solving {
     is_outdated: bool,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
     message: Option<u64>,
-}
-
-/// A run with the steps that it takes in the background.
-struct Running {
-    /// Gives the run back when it comes to rest.
-    job: Background<(), (Ladder, Result<(), SolveError>)>,
-    deliveries: Receiver<Delivery>,
-    shared: Arc<Shared>,
-    problem: Problem,
-    /// Whether a step has come in.
-    has_delivered: bool,
-    /// Once it was asked to pause: how far to go on after that; no step further, unless it was asked for.
-    paused: Option<Goal>,
-}
-
-/// A run at rest.
-struct Resting {
-    problem: Problem,
-    run: Ladder,
-}
-
-impl Running {
-    /// Asks for another goal, after a pause where one was asked for.
-    fn set_goal(&mut self, change: impl FnOnce(Goal) -> Goal) {
-        match &mut self.paused {
-            Some(after) => *after = change(*after),
-            None => self.shared.change_goal(change),
-        }
-    }
-
-    /// Whether another problem only needs the first step again, with other targets of the same pins.
-    fn is_followed_by(&self, problem: &Problem) -> bool {
-        self.paused.is_none() && !self.has_delivered && self.problem.differs_in_targets_alone(problem)
-    }
 }
 
 /// What is asked.
@@ -113,7 +64,7 @@ impl Solving {
             outcome_revision: 0,
             ending: None,
             stop: StopConditions::default(),
-            prepared: None,
+            kept: Kept::default(),
             running: None,
             resting: None,
             is_outdated: false,
@@ -153,7 +104,7 @@ impl Solving {
 
     /// Kept from solves that succeeded, for problems where only targets differ.
     pub(super) fn prepared(&self) -> Option<&Arc<Prepared>> {
-        self.prepared.as_ref()
+        self.kept.prepared.as_ref()
     }
 
     /// Whether a run takes steps.
@@ -206,7 +157,7 @@ impl Solving {
             running.set_goal(|_| goal);
             return;
         }
-        let run = Ladder::new(task.problem.settings, task.problem.pins()).with_prepared(self.prepared.clone());
+        let run = Ladder::new(task.problem.settings, task.problem.pins()).with_kept(&self.kept);
         self.spawn(task, run, goal);
     }
 
@@ -305,13 +256,13 @@ impl Solving {
     /// Drops all that was solved: it belongs to another mesh, or to other faces.
     pub(super) fn forget(&mut self) {
         self.give_up_all();
-        (self.timeline, self.ending, self.prepared) = (Timeline::default(), None, None);
+        (self.timeline, self.ending, self.kept) = (Timeline::default(), None, Kept::default());
         self.outcome_revision += 1;
     }
 
     /// Keeps what a solve can begin with where only targets differ.
     pub(super) fn keep_prepared(&mut self, prepared: Arc<Prepared>) {
-        self.prepared = Some(prepared);
+        self.kept.prepared = Some(prepared);
     }
 
     /// Puts a step on the screen.
@@ -324,90 +275,5 @@ impl Solving {
     /// Compares the step on the screen with another one, or with none.
     pub(super) fn compare(&mut self, index: Option<usize>) {
         self.timeline.compare(index);
-    }
-
-    /// Takes in what the background has finished.
-    pub(super) fn poll(&mut self, messages: &mut Messages) -> News {
-        let mut news = News::default();
-        let Some(running) = &mut self.running else { return news };
-        // Looked at before the deliveries: those of a job that has ended are then all there.
-        let end = running.job.poll();
-        let deliveries: Vec<Delivery> = running.deliveries.try_iter().collect();
-        let has_news = !deliveries.is_empty();
-        running.has_delivered |= has_news;
-        for delivery in deliveries {
-            news.has_begun |= self.take_step(delivery, messages);
-        }
-        if has_news && self.is_outdated {
-            self.give_up();
-            news.next = Some(Next::Anew);
-            return news;
-        }
-        match end {
-            None => {}
-            Some((_, Err(failure))) => {
-                self.running = None;
-                messages.fail_background(Place::Embedding, "solving", &failure);
-            }
-            Some((_, Ok((run, result)))) => news.next = self.take_back(run, result, messages),
-        }
-        news
-    }
-
-    /// Takes in a step. The first one begins a timeline: returns whether it is that.
-    fn take_step(&mut self, Delivery { outcome, ending }: Delivery, messages: &mut Messages) -> bool {
-        self.forget_message(messages);
-        let is_first = outcome.step.index == 0;
-        if is_first {
-            // What was written no longer shows what is on the screen.
-            messages.forget_notes();
-            self.prepared.clone_from(&outcome.step.prepared);
-            self.timeline = Timeline::default();
-        }
-        self.ending = ending;
-        if self.timeline.push(outcome) {
-            self.outcome_revision += 1;
-        }
-        is_first
-    }
-
-    /// Takes back a run that has come to rest. Returns how solving goes on, where the goal has changed meanwhile.
-    fn take_back(&mut self, run: Ladder, result: Result<(), SolveError>, messages: &mut Messages) -> Option<Next> {
-        let Running { problem, paused, shared, .. } = self.running.take()?;
-        let has_new_vertices = problem.settings.new_vertices;
-        self.resting = Some(Resting { problem, run });
-        let goal = match result {
-            Ok(()) | Err(SolveError::Cancelled) if paused.is_some() => paused.filter(|goal| *goal != Goal::Steps(0)),
-            Ok(()) => Some(shared.goal()).filter(|goal| {
-                let ending = self.ending;
-                self.newest().is_some_and(|newest| !goal.is_reached(newest, ending))
-            }),
-            Err(SolveError::Cancelled) => None,
-            Err(error) => {
-                self.tell(&error, has_new_vertices, messages);
-                None
-            }
-        };
-        if std::mem::take(&mut self.is_outdated) { Some(Next::Anew) } else { goal.map(Next::On) }
-    }
-
-    /// Says what went wrong; where constraints cannot be met, which.
-    fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
-        self.forget_message(messages);
-        let mut message = Message::error(Place::Embedding, error.to_string());
-        if *error == SolveError::Unmet {
-            self.ending = Some(Ending::Unmet);
-            let remedy = if has_new_vertices { "move these pins" } else { "allow new vertices, or move these pins" };
-            let unmet = self.newest().map(|newest| newest.step.unmet()).unwrap_or_default();
-            message = message.with_remedy(remedy).with_vertices(unmet);
-        }
-        self.message = Some(messages.say(message));
-    }
-
-    /// Takes away what a solve before said.
-    fn forget_message(&mut self, messages: &mut Messages) {
-        if let Some(stale) = self.message.take() {
-            messages.dismiss(stale);
-        }
     }
 }

@@ -4,9 +4,9 @@ use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::stop::Goal;
-use super::{Outcome, Problem, Wake};
 use crate::mesh::DiskMesh;
+use crate::session::stop::Goal;
+use crate::session::{Outcome, Problem, Wake};
 use crate::solver::{Control, Ending, Ladder, Phase, SolveError};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.

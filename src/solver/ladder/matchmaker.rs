@@ -1,0 +1,100 @@
+//! Rung 5: new vertices, of which those are taken out again that a relaxed embedding does not need.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::rung::{Failure, Footing, Latest, Rung};
+use super::task::Task;
+use super::{Candidate, Ending, Step};
+use crate::mesh::DiskMesh;
+use crate::solver::matchmaker::{Matched, matched, without_needless_vertices};
+use crate::solver::relaxing::Relaxing;
+use crate::solver::{Control, Method, Pins, SolveError};
+
+/// Rounds of relaxing before new vertices are looked at again, and how often they are at most.
+const ROUNDS_BEFORE_REMOVAL: usize = 10;
+const REMOVALS: usize = 4;
+
+/// Another look at the new vertices is worthwhile where the last one took out so great a part of them.
+const WORTHWHILE: f64 = 0.05;
+
+/// Rounds of relaxing that follow: paths were made straight.
+const ROUNDS_AFTER_MATCHMAKER: usize = 30;
+
+#[derive(Debug)]
+pub(super) struct Match {
+    task: Arc<Task>,
+    stage: Stage,
+}
+
+#[derive(Debug)]
+enum Stage {
+    Begin,
+    /// The constraints are met with new vertices, some of which may be needless once the embedding has relaxed.
+    Refined {
+        found: Box<Matched>,
+        looks_left: usize,
+    },
+    /// There is no further step.
+    End,
+}
+
+impl Match {
+    pub(super) fn new(task: Arc<Task>) -> Self {
+        Self { task, stage: Stage::Begin }
+    }
+}
+
+impl Rung for Match {
+    fn step(&mut self, Footing { mesh, latest }: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
+        let (began, held) = (Instant::now(), self.task.held());
+        let (found, looks_left) = match &self.stage {
+            Stage::Begin => {
+                let start = latest.ok_or(SolveError::NotPlanar)?.onward();
+                (without_needless_vertices(mesh, matched(mesh, start, &held, control)?), REMOVALS)
+            }
+            Stage::Refined { found: before, looks_left } => {
+                let found = without_needless_vertices(mesh, relaxed(before, &held, control)?);
+                let count = before.refinement.new_vertices().len();
+                let taken_out = count - found.refinement.new_vertices().len();
+                let is_worthwhile = taken_out as f64 > WORTHWHILE * count as f64;
+                (found, if is_worthwhile { looks_left - 1 } else { 0 })
+            }
+            Stage::End => return Err(SolveError::Unmet.into()),
+        };
+        let candidate = Candidate::one_to_one(Method::Matchmaker, found.embedding.clone(), &held).since(began);
+        let refinement = Some(Arc::new(found.refinement.clone()));
+        self.stage = if looks_left > 0 { Stage::Refined { found: Box::new(found), looks_left } } else { Stage::End };
+        Ok(Candidate { refinement, ..candidate })
+    }
+
+    fn has_more(&self, _: Option<&Latest>) -> bool {
+        !matches!(self.stage, Stage::End)
+    }
+
+    fn improves(&self) -> bool {
+        matches!(self.stage, Stage::Refined { .. })
+    }
+
+    fn relax_rounds_after(&self, _: &Step) -> usize {
+        ROUNDS_AFTER_MATCHMAKER
+    }
+
+    fn ending(&self) -> Ending {
+        Ending::Unmet
+    }
+}
+
+/// The same with its embedding relaxed.
+fn relaxed(found: &Matched, pins: &Pins, control: Control<'_>) -> Result<Matched, SolveError> {
+    let disk: &DiskMesh = found.refinement.disk();
+    let mut relaxing = Relaxing::new(disk, found.embedding.clone(), pins);
+    let mut embedding = found.embedding.clone();
+    for _ in 0..ROUNDS_BEFORE_REMOVAL {
+        embedding = relaxing.round(disk, control)?.solution.embedding;
+        if relaxing.has_converged() {
+            break;
+        }
+    }
+    Ok(Matched { refinement: found.refinement.clone(), embedding })
+}

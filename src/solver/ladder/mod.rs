@@ -1,0 +1,279 @@
+//! The ladder: the steps of a method, one after another; for `auto` one rung after another until the embedding is planar.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod.rs` | [`Ladder`]: walks the plan, proves each candidate, remembers the latest step |
+//! | `plan.rs` | the plan of every method: which rung follows which |
+//! | `rung.rs` | what a rung is: from the latest step to a candidate, or to a reason why there is none |
+//! | `task.rs` | what is asked for: settings and pins |
+//! | `candidate.rs` | [`Candidate`]: what a rung gives, before it is proved |
+//! | `step.rs` | [`Step`]: a candidate with its verdict |
+//! | `natural.rs` | rung 1: one linear solve |
+//! | `iterate.rs`, `stall.rs` | rung 2: mean-value iterations, and when they get no better |
+//! | `again.rs` | rung 1 once more, with the default weights and pins |
+//! | `virtual_boundary.rs` | rung 3: the boundary made simple, and the outside embedded with the mesh |
+//! | `fit.rs` | a planar start without the constraints, moved to where it fits them best |
+//! | `continuation.rs` | rung 4: one-to-one on the way to the constraints |
+//! | `matchmaker.rs` | rung 5: new vertices |
+//! | `relax.rs` | what follows: lower distortion |
+//!
+//! A ladder is asked for one step at a time, so that it can be watched, paused and taken on by hand. A step that is
+//! cancelled leaves the ladder as it was.
+
+mod again;
+mod candidate;
+mod continuation;
+mod fit;
+mod iterate;
+mod matchmaker;
+mod natural;
+mod plan;
+mod relax;
+mod rung;
+mod stall;
+mod step;
+mod task;
+mod virtual_boundary;
+
+use std::sync::Arc;
+use std::time::Instant;
+
+pub use self::candidate::Candidate;
+pub use self::plan::{Kept, PlanarStart};
+pub use self::step::{Progress, Step, diameter, largest_move};
+
+use self::plan::{Aim, Plan};
+use self::rung::{Failure, Footing, Latest, Notes};
+use self::task::Task;
+use super::{Control, Embedding, Method, Phase, Pins, Settings, SolveError, fixed_pins, gauge_pins, verdict};
+use crate::mesh::DiskMesh;
+
+/// Why a ladder has come to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The embedding is proved planar.
+    Planar,
+    /// The method has no further step.
+    Done,
+    /// The iteration gets no better and hardly moves.
+    Stalled,
+    /// The iteration has taken as many steps as it may.
+    Limit,
+    /// The embedding is planar, but constraints could not be met without new vertices: [`Step::unmet`] names them.
+    Unmet,
+}
+
+/// A method under way on one mesh with one set of pins.
+#[derive(Debug)]
+pub struct Ladder {
+    task: Arc<Task>,
+    plan: Plan,
+    step_count: usize,
+    latest: Option<Latest>,
+    ending: Option<Ending>,
+    /// What there is to say about the next step: why others gave nothing.
+    notes: Notes,
+}
+
+impl Ladder {
+    /// A ladder that has not begun. `pins` are the user's.
+    pub fn new(settings: Settings, pins: Pins) -> Self {
+        let task = Arc::new(Task::new(settings, pins));
+        let plan = Plan::new(&task, &Kept::default());
+        Self { task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
+    }
+
+    /// The same with what earlier ladders on the mesh have computed, used where it serves.
+    #[must_use]
+    pub fn with_kept(self, kept: &Kept) -> Self {
+        Self { plan: Plan::new(&self.task, kept), ..self }
+    }
+
+    /// The same, going on from a step of another ladder's on the same mesh, which counts as this one's first.
+    #[must_use]
+    pub fn after(mut self, step: &Step) -> Self {
+        self.take_in(step);
+        self
+    }
+
+    /// What was asked for.
+    pub fn settings(&self) -> &Settings {
+        &self.task.settings
+    }
+
+    /// The user's pins.
+    pub fn pins(&self) -> &Pins {
+        &self.task.pins
+    }
+
+    /// How many steps it has taken.
+    pub fn step_count(&self) -> usize {
+        self.step_count
+    }
+
+    /// Why the method has come to its end, if it has. [`Ladder::step`] goes on all the same.
+    pub fn ending(&self) -> Option<Ending> {
+        self.ending
+    }
+
+    /// Takes all steps of the method, and hands each over as it is there.
+    ///
+    /// # Errors
+    ///
+    /// As [`Ladder::step`]; steps handed over before are good.
+    pub fn finish(
+        &mut self,
+        mesh: &DiskMesh,
+        control: Control<'_>,
+        mut take: impl FnMut(Step),
+    ) -> Result<Ending, SolveError> {
+        loop {
+            if let Some(ending) = self.ending {
+                return Ok(ending);
+            }
+            take(self.step(mesh, control)?);
+        }
+    }
+
+    /// Takes the method's next step; where the method has ended, one more mean-value iteration, or, after rungs 4 and 5, a
+    /// round of relaxing.
+    ///
+    /// # Errors
+    ///
+    /// Pins that cannot be, a family that does not go with the method, a system that cannot be solved, or the caller's
+    /// wish to stop. In a ladder only the last rung's errors are errors.
+    pub fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
+        if self.step_count == 0 {
+            self.task.check(mesh)?;
+        }
+        let candidate = match self.ending {
+            None => self.climb(mesh, control),
+            // Where no way led to the constraints, none does now.
+            Some(Ending::Unmet) => Err(SolveError::Unmet),
+            Some(_) => {
+                let from = Footing { mesh, latest: self.latest.as_ref() };
+                self.plan.part_mut().by_hand().step(from, control).map_err(|failure| failure.error)
+            }
+        };
+        if matches!(candidate, Err(SolveError::Unmet)) {
+            self.ending = Some(Ending::Unmet);
+        }
+        let step = self.proved(candidate?, mesh, control);
+        self.take_in(&step);
+        Ok(step)
+    }
+
+    /// Lets rounds of relaxing follow: each lowers the distortion of a planar embedding, which keeps its exact pins and
+    /// stays one-to-one.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotPlanar`] where there is no planar embedding to begin with.
+    pub fn relax(&mut self, rounds: usize) -> Result<(), SolveError> {
+        if !self.latest.as_ref().is_some_and(|latest| latest.is_planar) {
+            return Err(SolveError::NotPlanar);
+        }
+        self.plan.part_mut().relax.begin(rounds);
+        self.ending = (rounds == 0).then_some(Ending::Planar);
+        Ok(())
+    }
+
+    /// The next candidate by the plan. A rung that gives nothing leads on to the next flight.
+    fn climb(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
+        loop {
+            let latest = self.latest.as_ref().filter(|_| !self.plan.part().begins_anew());
+            if self.plan.part().begins_anew() {
+                self.notes.say("without the constraints, for a planar start".to_owned());
+            }
+            let Some(place) = self.plan.part().next(latest) else {
+                self.enter_next_part()?;
+                continue;
+            };
+            let Failure { error, way_on } =
+                match self.plan.part_mut().enter(place).step(Footing { mesh, latest }, control) {
+                    Ok(candidate) => return Ok(candidate),
+                    Err(failure) => failure,
+                };
+            let Some(way_on) = way_on else { return Err(error) };
+            if !self.plan.part_mut().leave_flight(place) {
+                if !self.plan.has_next_part() {
+                    return Err(error);
+                }
+                self.enter_next_part()?;
+            }
+            self.notes.extend(way_on.note);
+            if let Some(latest) = &mut self.latest {
+                latest.onward = way_on.embedding;
+            }
+        }
+    }
+
+    /// Goes on to the next part of the plan: from the planar start to the constraints only where it is planar.
+    fn enter_next_part(&mut self) -> Result<(), SolveError> {
+        let Some(latest) = self.latest.as_mut().filter(|_| self.plan.has_next_part()) else {
+            return Err(SolveError::LadderExhausted);
+        };
+        if self.plan.part().aim == Aim::PlanarStart && !latest.is_planar {
+            return Err(SolveError::LadderExhausted);
+        }
+        latest.is_solved = false;
+        self.plan.enter_next_part();
+        Ok(())
+    }
+
+    /// A candidate with its verdict. What is solved is handed over, even where the caller has meanwhile asked to stop:
+    /// the ladder has moved on.
+    fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Step {
+        control.enter(Phase::Verify).ok();
+        let start = Instant::now();
+        let verdict = verdict(candidate.mesh(mesh), &candidate.solution.embedding);
+        let verify_seconds = start.elapsed().as_secs_f64();
+        // New vertices have no position before, or another one's.
+        let old = mesh.vertex_count();
+        let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
+        let max_move = self.latest.as_ref().map(moved);
+        self.notes.extend(candidate.note.take());
+        candidate.note = self.notes.take();
+        let set_aside = match self.plan.part().aim {
+            Aim::Constraints => Pins::new(),
+            Aim::PlanarStart => {
+                candidate.prepared = None;
+                self.task.held()
+            }
+        };
+        Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside }
+    }
+
+    /// Remembers a step and decides whether the method has ended.
+    fn take_in(&mut self, step: &Step) {
+        self.step_count += 1;
+        let part = self.plan.part_mut();
+        // A mirror image is one-to-one, but not what the ladder is for.
+        let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
+        let is_met = part.aim == Aim::PlanarStart || step.unmet().is_empty();
+        self.latest = Some(Latest {
+            embedding: step.solution.embedding.clone(),
+            onward: None,
+            pins: step.solution.pins.clone(),
+            has_simple_boundary: step.has_simple_boundary(),
+            is_planar: step.verdict.planar,
+            is_solved: step.verdict.planar && is_upright && is_met,
+            refinement: step.refinement.clone(),
+        });
+        part.look_at(step);
+        self.ending = self.ending_now();
+    }
+
+    fn ending_now(&self) -> Option<Ending> {
+        let (part, latest) = (self.plan.part(), self.latest.as_ref());
+        if part.next(latest).is_some() || self.plan.leads_on(latest) {
+            return None;
+        }
+        Some(if latest.is_some_and(|latest| latest.is_solved) { Ending::Planar } else { part.ending() })
+    }
+}
+
+/// The default gauge pins where they lie in an embedding.
+fn gauge_in(mesh: &DiskMesh, embedding: &Embedding) -> Pins {
+    fixed_pins(gauge_pins(mesh).into_keys().map(|v| (v, embedding[v])))
+}

@@ -1,0 +1,262 @@
+//! The plan: which rung follows which, chosen once from method and pins.
+//!
+//! A plan has parts, a part has flights, a flight has rungs. After a rung's last step the next one of its flight
+//! follows; a rung that gives nothing, or that does not apply where the ladder comes to it, leads to the next flight.
+//! A part is left where it is solved, and relaxed; or where its flights are at their end.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, VirtualBoundary};
+use super::relax::Relax;
+use super::rung::{Latest, Rung};
+use super::task::Task;
+use super::{Ending, Step};
+use super::{again, continuation, fit, iterate, matchmaker, natural, virtual_boundary};
+use crate::solver::{Embedding, GaugeSize, Method, Prepared};
+
+/// The rungs of a part, flight by flight.
+type Flights = &'static [&'static [Kind]];
+
+/// Until planar.
+const LADDER: Flights = &[&[Natural, Iterate], &[Again, Iterate], &[VirtualBoundary]];
+/// Until planar, stalled or at the limit.
+const ITERATED: Flights = &[&[Natural, Iterate]];
+/// Until planar.
+const BENT: Flights = &[&[Natural], &[VirtualBoundary]];
+/// One linear solve.
+const LINEAR: Flights = &[&[Natural]];
+/// From a planar start until the constraints are met, or stuck.
+const CONTINUED: Flights = &[&[Fit, Continuation]];
+/// From a planar start until the constraints are met, with new vertices.
+const MATCHED: Flights = &[&[Fit, Matchmaker]];
+/// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
+const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
+
+/// Every rung but relaxing, which follows all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    Natural,
+    Iterate,
+    Again,
+    VirtualBoundary,
+    Fit,
+    Continuation,
+    Matchmaker,
+}
+
+impl Kind {
+    fn rung(self, task: &Arc<Task>, kept: &Kept) -> Box<dyn Rung> {
+        let task = Arc::clone(task);
+        match self {
+            Natural => Box::new(natural::Natural::new(task, kept.prepared.clone())),
+            Iterate => Box::new(iterate::Iterate::new(task)),
+            Again => Box::new(again::Again::new(task)),
+            VirtualBoundary => Box::new(virtual_boundary::Bend::new(task)),
+            Fit => Box::new(fit::Fit::new(task, kept.planar_start.clone())),
+            Continuation => Box::new(continuation::Continue::new(task)),
+            Matchmaker => Box::new(matchmaker::Match::new(task)),
+        }
+    }
+}
+
+/// What ladders on a mesh have computed, for further ones on it.
+#[derive(Clone, Debug, Default)]
+pub struct Kept {
+    /// Equations and factors of a linear solve.
+    pub prepared: Option<Arc<Prepared>>,
+    /// The planar start of the constrained rungs.
+    pub planar_start: Option<Arc<PlanarStart>>,
+}
+
+/// A planar embedding without constraints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanarStart {
+    /// The size that it was computed at.
+    pub(super) size: GaugeSize,
+    /// One position per vertex, in the plane.
+    pub(super) embedding: Embedding,
+}
+
+/// What a part of a plan is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Aim {
+    /// What was asked for: planar, the constraints met.
+    Constraints,
+    /// A planar embedding without the constraints, for the next part to begin with.
+    PlanarStart,
+}
+
+/// What is still to be done: the part under way first.
+#[derive(Debug)]
+pub(super) struct Plan {
+    parts: VecDeque<Part>,
+}
+
+impl Plan {
+    pub(super) fn new(task: &Arc<Task>, kept: &Kept) -> Self {
+        let planar_start = kept.planar_start.clone().filter(|start| start.size == task.settings.size);
+        let kept = Kept { planar_start, ..kept.clone() };
+        let part = |flights| Part::new(task, Aim::Constraints, flights, &kept);
+        let start = || match kept.planar_start {
+            Some(_) => None,
+            None => Some(Part::new(&Arc::new(task.without_constraints()), Aim::PlanarStart, LADDER, &kept)),
+        };
+        let from_start = |flights| start().into_iter().chain([part(flights)]);
+        let parts = match task.settings.method {
+            Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
+            Method::Auto => {
+                let flights = if task.adds_vertices() { CONTINUED_OR_MATCHED } else { CONTINUED };
+                [part(ITERATED)].into_iter().chain(from_start(flights)).collect()
+            }
+            Method::Continuation | Method::Relax => from_start(CONTINUED).collect(),
+            Method::Matchmaker => from_start(MATCHED).collect(),
+            Method::Iterate => [part(ITERATED)].into(),
+            Method::VirtualBoundary => [part(BENT)].into(),
+            Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
+        };
+        Self { parts }
+    }
+
+    /// The part under way.
+    pub(super) fn part(&self) -> &Part {
+        &self.parts[0]
+    }
+
+    pub(super) fn part_mut(&mut self) -> &mut Part {
+        &mut self.parts[0]
+    }
+
+    pub(super) fn has_next_part(&self) -> bool {
+        self.parts.len() > 1
+    }
+
+    pub(super) fn enter_next_part(&mut self) {
+        self.parts.pop_front();
+    }
+
+    /// Whether the next part follows the one under way, where that has no further step.
+    pub(super) fn leads_on(&self, latest: Option<&Latest>) -> bool {
+        let is_end = self.part().aim == Aim::Constraints && latest.is_some_and(|latest| latest.is_solved);
+        self.has_next_part() && !is_end
+    }
+}
+
+/// A rung, by its flight and its place in the flight.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct At {
+    flight: usize,
+    rung: usize,
+}
+
+/// What takes the next step of a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Rung(At),
+    /// What follows the rungs where they have solved it.
+    Relax,
+}
+
+/// Rungs with one aim.
+#[derive(Debug)]
+pub(super) struct Part {
+    pub(super) aim: Aim,
+    pub(super) task: Arc<Task>,
+    pub(super) relax: Relax,
+    flights: Flights,
+    rungs: BTreeMap<Kind, Box<dyn Rung>>,
+    /// Where the ladder stands, and whether it has taken a step there.
+    at: At,
+    has_stepped: bool,
+    /// Whether the part has taken any step.
+    has_begun: bool,
+}
+
+impl Part {
+    fn new(task: &Arc<Task>, aim: Aim, flights: Flights, kept: &Kept) -> Self {
+        // The latest step of any part can be iterated on by hand, or relaxed where it is one-to-one.
+        let kinds = flights.iter().copied().flatten().chain(&[Iterate]);
+        let rungs = kinds.map(|&kind| (kind, kind.rung(task, kept))).collect();
+        let (at, has_stepped, has_begun) = (At::default(), false, false);
+        let relax = Relax::new(Arc::clone(task));
+        Self { aim, task: Arc::clone(task), relax, flights, rungs, at, has_stepped, has_begun }
+    }
+
+    fn kind(&self, at: At) -> Kind {
+        self.flights[at.flight][at.rung]
+    }
+
+    fn rung(&self, at: At) -> &dyn Rung {
+        &*self.rungs[&self.kind(at)]
+    }
+
+    /// Whether it is about to begin, and not from the latest step.
+    pub(super) fn begins_anew(&self) -> bool {
+        self.aim == Aim::PlanarStart && !self.has_begun
+    }
+
+    /// What takes the next step; none where the part is at its end.
+    pub(super) fn next(&self, latest: Option<&Latest>) -> Option<Place> {
+        if latest.is_some_and(|latest| latest.is_solved) {
+            let improves = self.rung(self.at).improves().then_some(Place::Rung(self.at));
+            return improves.or_else(|| self.relax.has_more(latest).then_some(Place::Relax));
+        }
+        let (mut at, mut has_stepped) = (self.at, self.has_stepped);
+        while let Some(flight) = self.flights.get(at.flight) {
+            if self.rung(at).has_more(latest) {
+                return Some(Place::Rung(at));
+            }
+            let follows = has_stepped && at.rung + 1 < flight.len();
+            at = if follows { At { rung: at.rung + 1, ..at } } else { At { flight: at.flight + 1, rung: 0 } };
+            has_stepped = false;
+        }
+        None
+    }
+
+    /// Goes to what takes the next step.
+    pub(super) fn enter(&mut self, place: Place) -> &mut dyn Rung {
+        let Place::Rung(at) = place else { return &mut self.relax };
+        if at != self.at {
+            (self.at, self.has_stepped) = (at, false);
+        }
+        self.rung_of(self.kind(at))
+    }
+
+    /// What goes on from the latest step, whether or not the part is at its end.
+    pub(super) fn by_hand(&mut self) -> &mut dyn Rung {
+        if self.kind(At::default()) == Fit { &mut self.relax } else { self.rung_of(Iterate) }
+    }
+
+    fn rung_of(&mut self, kind: Kind) -> &mut dyn Rung {
+        &mut **self.rungs.get_mut(&kind).expect("a part has all rungs of its flights")
+    }
+
+    /// Goes on to the next flight. Returns whether there is one.
+    pub(super) fn leave_flight(&mut self, place: Place) -> bool {
+        let has_next = place != Place::Relax && self.at.flight + 1 < self.flights.len();
+        if has_next {
+            (self.at, self.has_stepped) = (At { flight: self.at.flight + 1, rung: 0 }, false);
+        }
+        has_next
+    }
+
+    /// Takes in a step: one of its own, or the first where a ladder goes on from another's.
+    pub(super) fn look_at(&mut self, step: &Step) {
+        (self.has_stepped, self.has_begun) = (true, true);
+        for rung in self.rungs.values_mut() {
+            rung.look_at(step);
+        }
+        if step.rung == Method::Relax {
+            self.relax.look_at(step);
+        } else {
+            let own = || self.rung(self.at).relax_rounds_after(step);
+            self.relax.begin(self.task.settings.relax_rounds.unwrap_or_else(own));
+        }
+    }
+
+    /// Why the ladder ends where this was its last part, and it is not solved.
+    pub(super) fn ending(&self) -> Ending {
+        let last = self.flights.iter().copied().flatten().last().expect("a part has rungs");
+        self.rungs[last].ending()
+    }
+}

@@ -1,0 +1,124 @@
+//! What a rung is: from the latest step to a candidate, or to a reason why there is none.
+
+use std::sync::Arc;
+
+use super::{Candidate, Ending, Step};
+use crate::mesh::{DiskMesh, Refinement};
+use crate::solver::{Control, Embedding, Pins, SolveError};
+
+/// A way to one embedding after another.
+pub(super) trait Rung: std::fmt::Debug + Send {
+    /// The next candidate. A step that is cancelled leaves the rung as it was.
+    fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure>;
+
+    /// Whether it has another step, on the way to what is asked for.
+    fn has_more(&self, latest: Option<&Latest>) -> bool;
+
+    /// Whether another step makes better what is solved already.
+    fn improves(&self) -> bool {
+        false
+    }
+
+    /// Takes in a step, its own or one of another rung of the same part.
+    fn look_at(&mut self, _step: &Step) {}
+
+    /// Rounds of relaxing that follow a step of its own, where nobody says how many.
+    fn relax_rounds_after(&self, _step: &Step) -> usize {
+        0
+    }
+
+    /// Why the ladder ends where this was its last rung.
+    fn ending(&self) -> Ending {
+        Ending::Done
+    }
+}
+
+/// What a step goes on from.
+#[derive(Clone, Copy)]
+pub(super) struct Footing<'a> {
+    /// The mesh as given.
+    pub(super) mesh: &'a DiskMesh,
+    /// The latest step of the same part of the plan; of the part before, where that leads here.
+    pub(super) latest: Option<&'a Latest>,
+}
+
+/// What is remembered of the latest step.
+#[derive(Debug)]
+pub(super) struct Latest {
+    pub(super) embedding: Embedding,
+    /// What the next rung goes on from, where it is not this step.
+    pub(super) onward: Option<Embedding>,
+    /// The pins in force.
+    pub(super) pins: Pins,
+    pub(super) has_simple_boundary: bool,
+    /// Whether it is proved planar.
+    pub(super) is_planar: bool,
+    /// Whether it is all that its part of the plan is for.
+    pub(super) is_solved: bool,
+    /// The mesh with new vertices that it is of.
+    pub(super) refinement: Option<Arc<Refinement>>,
+}
+
+impl Latest {
+    /// The embedding to go on from.
+    pub(super) fn onward(&self) -> &Embedding {
+        self.onward.as_ref().unwrap_or(&self.embedding)
+    }
+}
+
+/// Why a rung gave no candidate.
+#[derive(Debug)]
+pub(super) struct Failure {
+    pub(super) error: SolveError,
+    /// How the ladder goes on all the same, where it has further flights.
+    pub(super) way_on: Option<WayOn>,
+}
+
+/// What a rung that gave nothing hands on.
+#[derive(Debug, Default)]
+pub(super) struct WayOn {
+    /// What there is to say about it.
+    pub(super) note: Option<String>,
+    /// What the next rung goes on from, where it is not the latest step.
+    pub(super) embedding: Option<Embedding>,
+}
+
+impl From<SolveError> for Failure {
+    fn from(error: SolveError) -> Self {
+        Self { error, way_on: None }
+    }
+}
+
+impl Failure {
+    /// A failure that other rungs may make good.
+    pub(super) fn of(what: &str, error: SolveError) -> Self {
+        if error == SolveError::Cancelled {
+            return error.into();
+        }
+        let note = Some(format!("{what} gave nothing: {error}"));
+        Self { error, way_on: Some(WayOn { note, embedding: None }) }
+    }
+}
+
+/// What there is to say about the next step, each thing once.
+#[derive(Debug, Default)]
+pub(super) struct Notes(Vec<String>);
+
+impl Notes {
+    /// Adds a note.
+    pub(super) fn say(&mut self, note: String) {
+        if !self.0.contains(&note) {
+            self.0.push(note);
+        }
+    }
+
+    /// Adds a note, where there is one.
+    pub(super) fn extend(&mut self, note: Option<String>) {
+        note.into_iter().for_each(|note| self.say(note));
+    }
+
+    /// All of them as one line.
+    pub(super) fn take(&mut self) -> Option<String> {
+        (!self.0.is_empty()).then(|| std::mem::take(&mut self.0).join("; "))
+    }
+}
