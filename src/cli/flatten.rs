@@ -11,7 +11,7 @@ use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, pri
 use super::{Failure, Status};
 use crate::io::{OutputKind, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
-use crate::session::{Document, Finished, Model, Outcome, OutputFit, PictureFile, Surface};
+use crate::session::{Document, Finished, Given, Model, Outcome, OutputFit, PictureFile, Surface};
 use crate::solver::{Choice as _, Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
@@ -86,7 +86,7 @@ impl HeadlessJob<'_> {
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
         let mut solved = self.solve(mesh, folder.as_mut(), progress)?;
         let records = std::mem::take(&mut solved.records);
-        let mut finished = Finished::new((model, mesh), &solved.outcome, records, self.fit, read_seconds)
+        let mut finished = Finished::new(Given { model, disk: mesh, read_seconds }, &solved.outcome, records, self.fit)
             .with_picture(self.document.picture.clone())
             .with_svg_fit(self.svg_fit);
         progress.enter("writing");

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::opened::{Opened, Origin};
 use super::saving::Saved;
 use super::stop::Goal;
-use super::{Finished, History, Message, Place, SaveRequest, Session, Surface};
+use super::{Finished, Given, History, Message, Place, SaveRequest, Session, Surface};
 use crate::geom::Picture;
 use crate::io::{write_atomically, write_constraints, write_durably};
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
@@ -60,7 +60,9 @@ impl Session {
         let picture = self.document.picture.clone();
         self.files.write(move || {
             let disk = model.disk().expect("only a disk has an outcome");
-            let finished = Finished::new((&model, disk), &outcome, records, request.fit, 0.0).with_picture(picture);
+            let finished =
+                Finished::new(Given { model: &model, disk, read_seconds: 0.0 }, &outcome, records, request.fit)
+                    .with_picture(picture);
             finished.write(request.kind, &request.path)?;
             Ok(Saved::Output(request.path, finished.verdict().clone()))
         });

@@ -26,6 +26,17 @@ pub struct SaveRequest {
     pub fit: OutputFit,
 }
 
+/// A mesh as it was opened.
+#[derive(Clone, Copy, Debug)]
+pub struct Given<'a> {
+    /// With its name and path.
+    pub model: &'a Model,
+    /// The mesh itself.
+    pub disk: &'a DiskMesh,
+    /// What opening it took, for the report.
+    pub read_seconds: f64,
+}
+
 /// Coordinates ready to be written, proved as they are.
 #[derive(Debug)]
 pub struct Finished<'a> {
@@ -44,15 +55,12 @@ pub struct Finished<'a> {
 }
 
 impl<'a> Finished<'a> {
-    /// Takes the embedding to its final size, and proves and measures it there. `given` is the mesh as it was opened.
-    ///
-    /// `read_seconds` is what opening the mesh took, for the report.
+    /// Takes the embedding to its final size, and proves and measures it there.
     pub fn new(
-        (model, given): (&'a Model, &'a DiskMesh),
+        Given { model, disk: given, read_seconds }: Given<'a>,
         outcome: &'a Outcome,
         steps: Vec<StepReport>,
         fit: OutputFit,
-        read_seconds: f64,
     ) -> Self {
         let start = Instant::now();
         let (coordinates, placement, of_coordinates) = outcome.output(given, fit);
@@ -205,7 +213,8 @@ mod tests {
     fn reported(outcome: &Outcome) -> Option<f64> {
         let model = Model::example(Example::Dome);
         let mesh = model.disk().expect("a dome is a disk");
-        let finished = Finished::new((&model, mesh), outcome, Vec::new(), OutputFit::Unit, 0.0);
+        let finished =
+            Finished::new(Given { model: &model, disk: mesh, read_seconds: 0.0 }, outcome, Vec::new(), OutputFit::Unit);
         finished.report.pins.and_then(|pins| pins.max_hard_error)
     }
 

@@ -62,7 +62,7 @@ pub use action::Action;
 pub use background::{Background, Failure, Wake};
 pub use document::{Command, Document};
 pub use drag::Preview;
-pub use finished::{Finished, SaveRequest};
+pub use finished::{Finished, Given, SaveRequest};
 pub use history::History;
 pub use job::{Job, JobContext, Poll};
 use messages::Messages;

@@ -12,10 +12,9 @@
 //! The mesh lies in an outside that is triangulated up to a frame (see the module `outside`), so that the boundary
 //! keeps its distance from itself. Every step is accepted by the exact verdict alone.
 //!
-//! A prototype unfolded jumps that were halved until they could be. Measured on the nine constrained sets of real meshes,
-//! with Newton's method, three of them stall however short the jump, and three more are not there after 40 s: where
-//! triangles are thin, a soft barrier unfolds one by folding others. To go on along the response behind the exact barrier
-//! arrives on all nine.
+//! Jumps that are halved until they unfold, with Newton's method, stall on three of the nine constrained sets of real
+//! meshes and take over 40 s on three more: where triangles are thin, a soft barrier unfolds one by folding others. The
+//! response behind the exact barrier arrives on all nine.
 
 use std::sync::Arc;
 
@@ -24,7 +23,8 @@ use glam::DVec2;
 use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
-use super::rest::Rest;
+use super::rest::{Rest, Surrounded};
+use super::way::Way;
 use super::{
     Candidate, Control, Embedding, Hold, Method, Outside, Pin, PinPositions, Pins, Progress, SolveError, verdict,
 };
@@ -66,6 +66,7 @@ const TIGHTENING: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 const CRUSHED: f64 = 10.0;
 
 /// A one-to-one embedding on its way.
+#[derive(Debug)]
 pub(super) struct Continuation {
     rest: Rest,
     pins: Pins,
@@ -85,16 +86,11 @@ pub(super) struct Continuation {
     sound: (Embedding, f64),
 }
 
+#[derive(Debug)]
 struct Settled {
     membrane: Membrane,
     points: Vec<DVec2>,
     outside: Arc<Outside>,
-}
-
-impl std::fmt::Debug for Continuation {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Continuation").field("way_left", &self.way_left).finish_non_exhaustive()
-    }
 }
 
 impl Continuation {
@@ -278,7 +274,12 @@ impl Continuation {
         let Some(outside) = outside_of(mesh, embedding, targets.values().copied(), FRAME_POINTS) else {
             return Ok(None);
         };
-        let (membrane, points) = self.rest.membrane(mesh, (embedding, &outside), pins, (OUTSIDE_WEIGHT, similar))?;
+        let (membrane, points) = self.rest.membrane(
+            mesh,
+            Surrounded { embedding, outside: &outside, weight: OUTSIDE_WEIGHT },
+            pins,
+            similar,
+        )?;
         Ok(Some(Settled { membrane, points, outside: Arc::new(outside) }))
     }
 
@@ -340,25 +341,6 @@ impl Continuation {
         }
         self.settled = Some(settled);
         Ok(true)
-    }
-}
-
-/// Where pins are to go, and how all points follow to first order.
-struct Way {
-    targets: PinPositions,
-    moves: Vec<DVec2>,
-}
-
-impl Way {
-    /// The points moved by a share of the moves; those with targets exactly onto them by all of it.
-    fn from(&self, points: &[DVec2], share: f64) -> Vec<DVec2> {
-        let mut z: Vec<DVec2> = points.iter().zip(&self.moves).map(|(z, by)| *z + share * *by).collect();
-        if share >= 1.0 {
-            for (v, target) in &self.targets {
-                z[v.index()] = *target;
-            }
-        }
-        z
     }
 }
 

@@ -39,6 +39,23 @@ pub(super) struct Site<'a> {
     pub(super) system: &'a FreeSystem,
 }
 
+/// What a system is made of.
+pub(super) struct Setup<'a> {
+    pub(super) equations: Equations<Complex<f64>>,
+    /// What the rows are to be multiplied by so that they are those of a geometry whose edges have length 1 on average.
+    pub(super) unit: f64,
+    pub(super) analysis: &'a Analysis,
+    pub(super) layout: &'a Layout,
+}
+
+/// An embedding that a solve moves from.
+#[derive(Clone, Copy)]
+pub(super) struct Start<'a> {
+    pub(super) embedding: &'a Embedding,
+    /// The residual of every vertex's equation there.
+    pub(super) residuals: &'a [Complex<f64>],
+}
+
 /// How pins enter a system.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
@@ -92,15 +109,14 @@ impl Layout {
 }
 
 impl FreeSolve {
-    /// Factors the matrix of `equations`; adds the time that took to `seconds`. `unit` is what the rows are to be
-    /// multiplied by so that they are those of a geometry whose edges have length 1 on average.
+    /// Factors the matrix of the equations; adds the time that took to `seconds`.
     pub(super) fn new(
         site: Site<'_>,
-        (equations, unit): (Equations<Complex<f64>>, f64),
-        (analysis, layout): (&Analysis, &Layout),
+        setup: Setup<'_>,
         seconds: &mut PhaseSeconds,
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
+        let Setup { equations, unit, analysis, layout } = setup;
         let named = |error| in_vertices(error, site.system.free());
         let start = Instant::now();
         let matrix = site.system.negated_matrix(site.mesh, &equations);
@@ -123,37 +139,37 @@ impl FreeSolve {
         for (&vertex, target) in targets {
             start[vertex] = *target;
         }
-        let (embedding, residual) =
-            self.move_from(site, (&start, &self.left_over(site.mesh, &start)), targets, Begin::Nothing)?;
+        let start = Start { embedding: &start, residuals: &self.residuals(site.mesh, &start) };
+        let (embedding, residual) = self.move_from(site, start, targets, Begin::Nothing)?;
         if self.least_squares.is_some() && residual > GRADIENT_LIMIT {
             return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
         }
         Ok((embedding, residual))
     }
 
-    /// The same, found as a move from an embedding that has the exact pins on their targets; the second is what it leaves of
-    /// every vertex's equation. Where it nearly solves the equations the move is small, and so is its rounding.
+    /// The same, found as a move from an embedding that has the exact pins on their targets. Where that nearly solves the
+    /// equations the move is small, and so is its rounding.
     pub(super) fn solve_from(
         &self,
         site: Site<'_>,
-        at: (&Embedding, &[Complex<f64>]),
+        start: Start<'_>,
         targets: &PinPositions,
     ) -> Result<(Embedding, f64), SolveError> {
-        self.move_from(site, at, targets, Begin::Near)
+        self.move_from(site, start, targets, Begin::Near)
     }
 
-    /// Solves for the move from `start` that takes up what is left there.
+    /// Solves for the move from `start` that takes up the residuals there.
     fn move_from(
         &self,
         site: Site<'_>,
-        (start, left): (&Embedding, &[Complex<f64>]),
+        Start { embedding: start, residuals }: Start<'_>,
         targets: &PinPositions,
         begin: Begin,
     ) -> Result<(Embedding, f64), SolveError> {
         let named = |error: LinalgError| in_vertices(error, site.system.free());
         let mut embedding = start.clone();
         let Some(least_squares) = &self.least_squares else {
-            let terms: Vec<_> = site.system.free().iter().map(|v| left[v.index()]).collect();
+            let terms: Vec<_> = site.system.free().iter().map(|v| residuals[v.index()]).collect();
             let solved = match begin {
                 Begin::Nothing => self.factor.solve(&self.matrix, &terms),
                 Begin::Near => self.factor.solve_correction(&self.matrix, &terms),
@@ -170,25 +186,26 @@ impl FreeSolve {
             Complex::new(way.x, way.y)
         };
         let ways: Vec<_> = least_squares.springs().iter().map(way).collect();
-        let moves = least_squares.moves(site, &factored, (left, &ways)).map_err(named)?;
+        let moves = least_squares.moves(site, &factored, residuals, &ways).map_err(named)?;
         // Adding nothing would still make a zero of a negative zero.
         for (z, by) in embedding.iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO) {
             *z += DVec2::new(by.re, by.im);
         }
-        let residual = self.gradient_residual(site, &embedding, (least_squares.springs(), targets));
+        let residual = self.gradient_residual(site, &embedding, least_squares.springs(), targets);
         Ok((embedding, residual))
     }
 
-    /// The conditions for a minimum: what is left must be orthogonal to every move. ‖Aᴴ A z + W² (z − t)‖ over the
+    /// The conditions for a minimum: the residuals must be orthogonal to every move. ‖Aᴴ A z + W² (z − t)‖ over the
     /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² (|z| + |t|)‖, the sizes of the terms that should cancel.
     fn gradient_residual(
         &self,
         site: Site<'_>,
         embedding: &Embedding,
-        (springs, targets): (&[Spring], &PinPositions),
+        springs: &[Spring],
+        targets: &PinPositions,
     ) -> f64 {
         let mesh = site.mesh;
-        let mut left = self.left_over(mesh, embedding);
+        let mut left = self.residuals(mesh, embedding);
         let mut bounds = vec![0.0; mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
             let along = embedding[mesh.head(h)].distance(embedding[mesh.tail(h)]);
@@ -223,8 +240,8 @@ impl FreeSolve {
         if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
     }
 
-    /// What all equations leave.
-    fn left_over(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
+    /// The residuals of all equations.
+    fn residuals(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
         let at = |v: usize| self.equations.residual_of(mesh, embedding, VertexId::from_index(v));
         (0..mesh.vertex_count()).into_par_iter().map(at).collect()
     }
@@ -235,7 +252,7 @@ impl FreeSolve {
             targets.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
         let rhs = site.system.pinned_terms(site.mesh, &self.equations, &targets);
         let whole: f64 = rhs.iter().map(Complex::norm_sqr).sum();
-        let left = self.left_over(site.mesh, embedding);
+        let left = self.residuals(site.mesh, embedding);
         let left: f64 = site.system.free().iter().map(|v| left[v.index()].norm_sqr()).sum();
         if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
     }

@@ -9,7 +9,7 @@ use std::time::Instant;
 use glam::DVec2;
 use num_complex::Complex;
 
-use super::free_solve::{FreeSolve, Layout, Site};
+use super::free_solve::{FreeSolve, Layout, Setup, Site, Start};
 use super::left_kernel::gauge_or_farthest;
 use super::pins::targets_of;
 use super::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};
@@ -81,11 +81,12 @@ impl Iteration {
         let unit = mean_edge_length_in_plane(mesh, embedding);
         let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
         let site = Site { mesh, system: &self.system };
-        let ready = (&self.analysis, &self.layout);
-        let solve = FreeSolve::new(site, (equations, unit), ready, &mut seconds, control)?;
+        let setup = Setup { equations, unit, analysis: &self.analysis, layout: &self.layout };
+        let solve = FreeSolve::new(site, setup, &mut seconds, control)?;
         control.enter(Phase::Solve)?;
         let start = Instant::now();
-        let (embedding, residual) = solve.solve_from(site, (embedding, &residuals), &targets_of(&pins))?;
+        let (embedding, residual) =
+            solve.solve_from(site, Start { embedding, residuals: &residuals }, &targets_of(&pins))?;
         let stats = solve.stats();
         let equation_residual = solve.equation_residual(mesh, &embedding);
         seconds.solve = start.elapsed().as_secs_f64();

@@ -132,21 +132,22 @@ impl LeastSquares {
         Ok(Self { rest, rows, from_movers, dense })
     }
 
-    /// The moves of all vertices that leave least of the equations, of which `left` is left before. `ways` are those
+    /// The moves of all vertices that make the equations' residuals least, which are `residuals` before. `ways` are those
     /// from the weighted pins to their targets.
     pub(super) fn moves(
         &self,
         site: Site<'_>,
         factored: &Factored<'_>,
-        (left, ways): (&[C64], &[C64]),
+        residuals: &[C64],
+        ways: &[C64],
     ) -> Result<Vec<C64>, LinalgError> {
         let free = site.system.free();
-        let mut terms: Vec<C64> = free.iter().map(|v| left[v.index()]).collect();
+        let mut terms: Vec<C64> = free.iter().map(|v| residuals[v.index()]).collect();
         let still = factored.factor.solve_correction(factored.matrix, &terms)?.x;
         let (k, g) = (self.rows.len(), self.rest.left_out.len());
         let mut rhs = DVector::zeros(k + self.rest.movers.len());
         for (i, row) in self.rows.iter().enumerate() {
-            rhs[i] = along(row, &still) + if i < g { left[self.rest.left_out[i].index()] } else { -ways[i - g] };
+            rhs[i] = along(row, &still) + if i < g { residuals[self.rest.left_out[i].index()] } else { -ways[i - g] };
         }
         let answer = self.dense.solve(&rhs).ok_or(LinalgError::Singular { row: 0 })?;
         let mut forces = vec![C64::ZERO; free.len()];

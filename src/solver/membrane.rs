@@ -62,6 +62,12 @@ pub(super) struct Membrane {
     analysis: Analysis,
 }
 
+impl std::fmt::Debug for Membrane {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Membrane of {} elements", self.elements.len())
+    }
+}
+
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
@@ -162,16 +168,15 @@ impl Membrane {
         for (block, slots) in self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS)) {
             let model = |element: &Element| element.model(Self::corners(element, z), energy);
             let models: Vec<Model> = block.par_iter().with_min_len(CHUNK / 8).map(model).collect();
-            for ((element, slots), model) in block.iter().zip(slots).zip(&models) {
-                let mut of_element = model.gradient;
+            for ((element, slots), mut model) in block.iter().zip(slots).zip(models) {
                 if let Some(shift) = shift {
                     let [a, b, c] = Self::corners(element, shift);
                     let by = [a.x, a.y, b.x, b.y, c.x, c.y];
-                    for (g, row) in of_element.iter_mut().zip(&model.hessian) {
+                    for (g, row) in model.gradient.iter_mut().zip(&model.hessian) {
                         *g += row.iter().zip(by).map(|(h, by)| h * by).sum::<f64>();
                     }
                 }
-                self.add(element, slots, (&of_element, &model.hessian), (&mut gradient, &mut values));
+                self.add(element, slots, &model, (&mut gradient, &mut values));
             }
         }
         for Spring { point, target, stiffness } in &self.springs {
@@ -192,7 +197,7 @@ impl Membrane {
         &self,
         element: &Element,
         slots: &[[u32; 3]; 3],
-        (of_element, hessian): (&[f64; 6], &[[f64; 6]; 6]),
+        Model { gradient: of_element, hessian }: &Model,
         (gradient, values): (&mut [f64], &mut [f64]),
     ) {
         let unknowns = element.corners.map(|corner| self.unknown_of[corner as usize]);

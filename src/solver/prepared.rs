@@ -12,7 +12,7 @@ use num_complex::Complex;
 use super::convex::convex_boundary;
 use super::equations::mean_edge_length;
 use super::equations::{self, Equations};
-use super::free_solve::{FreeSolve, Layout, Site, in_vertices};
+use super::free_solve::{FreeSolve, Layout, Setup, Site, in_vertices};
 use super::left_kernel::gauge_or_farthest;
 use super::pins::{PinPositions, Pins, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of};
 use super::scale::complete_gauge;
@@ -121,7 +121,12 @@ impl Prepared {
                 let site = Site { mesh, system: &system };
                 let analysis = analyze(&system, is_hermitian, &mut seconds, control)?;
                 let unit = mean_edge_length(mesh).powf(1.0 - power);
-                let free = FreeSolve::new(site, (equations, unit), (&analysis, &layout), &mut seconds, control)?;
+                let free = FreeSolve::new(
+                    site,
+                    Setup { equations, unit, analysis: &analysis, layout: &layout },
+                    &mut seconds,
+                    control,
+                )?;
                 (system, Values::Free(Box::new(free)))
             }
         };
@@ -177,7 +182,7 @@ impl Prepared {
             Values::Prescribed(prescribed) => prescribed.solve(site, &targets)?,
         };
         let in_force = if self.own_places.is_some() {
-            complete_gauge(mesh, &mut embedding, (&held, self.settings.size));
+            complete_gauge(mesh, &mut embedding, &held, self.settings.size);
             fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))
         } else {
             held

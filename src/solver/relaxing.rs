@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
-use super::rest::Rest;
+use super::rest::{Rest, Surrounded};
 use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, SolveError, verdict};
 use crate::mesh::DiskMesh;
 
@@ -28,6 +28,7 @@ const TOLERANCE: f64 = 1e-3;
 const STEEP: f64 = 1e-3;
 
 /// A planar embedding that relaxes.
+#[derive(Debug)]
 pub(super) struct Relaxing {
     rest: Rest,
     pins: Pins,
@@ -37,12 +38,6 @@ pub(super) struct Relaxing {
     /// That of the round before, whose order of elimination is kept.
     membrane: Option<Membrane>,
     has_converged: bool,
-}
-
-impl std::fmt::Debug for Relaxing {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Relaxing").field("has_converged", &self.has_converged).finish_non_exhaustive()
-    }
 }
 
 impl Relaxing {
@@ -74,8 +69,8 @@ impl Relaxing {
 
     /// Goes down the energy of mesh and outside, to what is planar there.
     fn descend(&mut self, mesh: &DiskMesh, outside: &Outside, control: Control<'_>) -> Result<(), SolveError> {
-        let how = (OUTSIDE_WEIGHT, self.membrane.as_ref());
-        let (membrane, mut z) = self.rest.membrane(mesh, (&self.embedding, outside), &self.pins, how)?;
+        let surrounded = Surrounded { embedding: &self.embedding, outside, weight: OUTSIDE_WEIGHT };
+        let (membrane, mut z) = self.rest.membrane(mesh, surrounded, &self.pins, self.membrane.as_ref())?;
         let is_steep = self.progress.least_determinant < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };

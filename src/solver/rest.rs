@@ -21,6 +21,15 @@ pub(super) struct Rest {
     area: f64,
 }
 
+/// An embedding with its outside.
+#[derive(Clone, Copy)]
+pub(super) struct Surrounded<'a> {
+    pub(super) embedding: &'a Embedding,
+    pub(super) outside: &'a Outside,
+    /// How much the outside weighs, where the mesh weighs 1.
+    pub(super) weight: f64,
+}
+
 impl Rest {
     /// Lays every face into the plane.
     pub(super) fn new(mesh: &DiskMesh) -> Self {
@@ -43,13 +52,13 @@ impl Rest {
     }
 
     /// Mesh and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
-    /// frame last. The mesh weighs 1, the outside `weight`. `similar` is one made before for the same mesh and pins.
+    /// frame last. `similar` is one made before for the same mesh and pins.
     pub(super) fn membrane(
         &self,
         mesh: &DiskMesh,
-        (embedding, outside): (&Embedding, &Outside),
+        Surrounded { embedding, outside, weight }: Surrounded<'_>,
         pins: &Pins,
-        (weight, similar): (f64, Option<&Membrane>),
+        similar: Option<&Membrane>,
     ) -> Result<(Membrane, Vec<DVec2>), SolveError> {
         let mut points = embedding.to_vec();
         points.extend(&outside.frame);

@@ -36,7 +36,7 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
 
 /// Brings an embedding to its place where fewer than two pins fix it: at the size asked for; with its first pin, if
 /// there is one, on its target to the last bit.
-pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, (pins, size): (&Pins, GaugeSize)) {
+pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins, size: GaugeSize) {
     match size {
         GaugeSize::TrueArea => to_true_area(mesh, embedding),
         GaugeSize::Within { low, high } => to_middle_of(low, high, embedding),
@@ -52,11 +52,11 @@ pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, (pins, 
 
 /// Moves an embedding by the similarity that takes up to two pins to their targets; without any, to true area. The
 /// pins then lie on their targets to the last bit. Returns whether there is such a similarity.
-pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut Embedding, (pins, size): (&Pins, GaugeSize)) -> bool {
+pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins, size: GaugeSize) -> bool {
     let mut iter = pins.iter();
     let (Some((first, Pin { target: a, .. })), Some((second, Pin { target: b, .. }))) = (iter.next(), iter.next())
     else {
-        complete_gauge(mesh, embedding, (pins, size));
+        complete_gauge(mesh, embedding, pins, size);
         return true;
     };
     let origin = embedding[first];

@@ -104,7 +104,8 @@ impl NoEquation {
 /// Why there is none.
 pub fn equation_of_step(
     mesh: &DiskMesh,
-    (step, before): (&Step, Option<&Embedding>),
+    step: &Step,
+    before: Option<&Embedding>,
     vertex: VertexId,
 ) -> Result<(VertexEquation, WeightSource), NoEquation> {
     let embedding = &step.solution.embedding;

@@ -7,7 +7,7 @@ use freebound::examples::Example;
 use freebound::geom::{Picture, PictureFrame, VAxis};
 use freebound::io::{OutputKind, hard_targets, material_picture, read_mesh, read_picture};
 use freebound::mesh::DiskMesh;
-use freebound::session::{Finished, Model, Outcome, OutputFit, PictureFile, Problem};
+use freebound::session::{Finished, Given, Model, Outcome, OutputFit, PictureFile, Problem};
 use freebound::solver::{Control, Ladder, Pins, Settings};
 use glam::DVec2;
 
@@ -156,7 +156,8 @@ fn a_picture_of_no_file_is_not_written_over_files_of_others() {
     let step = Ladder::new(Settings::default(), Pins::new()).step(mesh, Control::unattended()).unwrap();
     let outcome = Outcome::new(mesh, Problem::default(), step);
     let picture = PictureFile { name: "four".into(), path: None, stamp: None, pixels: quarters(4, 2).into() };
-    let finished = Finished::new((&model, mesh), &outcome, Vec::new(), OutputFit::Unit, 0.0);
+    let finished =
+        Finished::new(Given { model: &model, disk: mesh, read_seconds: 0.0 }, &outcome, Vec::new(), OutputFit::Unit);
     let finished = finished.with_picture(Some(picture.into()));
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
@@ -200,7 +201,8 @@ fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
     let problem = Problem { frame, targets: uv, ..Problem::default() };
     let step = Ladder::new(problem.settings, problem.pins()).step(mesh, Control::unattended()).unwrap();
     let outcome = Outcome::new(mesh, problem, step);
-    let finished = Finished::new((&model, mesh), &outcome, Vec::new(), OutputFit::Unit, 0.0);
+    let finished =
+        Finished::new(Given { model: &model, disk: mesh, read_seconds: 0.0 }, &outcome, Vec::new(), OutputFit::Unit);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.obj");
     finished.write(OutputKind::Obj, &path).unwrap();

@@ -6,7 +6,7 @@ use std::fs;
 use freebound::examples::Example;
 use freebound::io::read_mesh;
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::session::{Finished, Model, Outcome, OutputFit, Problem};
+use freebound::session::{Finished, Given, Model, Outcome, OutputFit, Problem};
 use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;
@@ -239,7 +239,8 @@ fn finish(mesh: &TriMesh, places: Embedding) -> (bool, String, bool) {
     let model = Model::read(&path).expect("it was written just now");
     let outcome = outcome_with(&disk, places);
     let was_planar = outcome.step.verdict.planar;
-    let finished = Finished::new((&model, &disk), &outcome, Vec::new(), OutputFit::Unit, 0.0);
+    let finished =
+        Finished::new(Given { model: &model, disk: &disk, read_seconds: 0.0 }, &outcome, Vec::new(), OutputFit::Unit);
     let placement = finished.report.placement.expect("there are coordinates").to_owned();
     (was_planar, placement, finished.verdict().planar)
 }

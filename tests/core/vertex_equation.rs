@@ -34,7 +34,7 @@ fn step_with(mesh: &DiskMesh, family: Family, embedding: Embedding) -> Step {
 }
 
 fn equation(mesh: &DiskMesh, step: &Step, vertex: VertexId) -> VertexEquation {
-    equation_of_step(mesh, (step, None), vertex).unwrap().0
+    equation_of_step(mesh, step, None, vertex).unwrap().0
 }
 
 /// PinPositions that satisfy nothing.
@@ -95,7 +95,7 @@ fn each_equation_of_an_iteration_is_a_row_of_its_system() {
     let mut step = step_with(&mesh, Family::Conformal, after.clone());
     step.candidate.rung = Method::Iterate;
     for vertex in mesh.vertices() {
-        let (found, source) = equation_of_step(&mesh, (&step, Some(&before)), vertex).unwrap();
+        let (found, source) = equation_of_step(&mesh, &step, Some(&before), vertex).unwrap();
         assert_eq!(source, WeightSource::StepBefore);
         assert_is_row(&mesh, &found, &all, &after, vertex);
     }
@@ -158,7 +158,7 @@ fn a_linear_solve_and_an_iteration_satisfy_theirs_but_at_pins() {
     let mut before: Option<&Embedding> = None;
     for step in &steps {
         for vertex in mesh.vertices().filter(|v| !step.solution.pins.contains_key(v)) {
-            let (found, _) = equation_of_step(&mesh, (step, before), vertex).unwrap();
+            let (found, _) = equation_of_step(&mesh, step, before, vertex).unwrap();
             assert!(found.residual < SOLVED, "step {} at {vertex}: {}", step.index, found.residual);
         }
         before = Some(&step.solution.embedding);
@@ -170,7 +170,7 @@ fn assert_virtual_boundary_is_solved(mesh: &DiskMesh, step: &Step) {
     let stages = step.virtual_boundary.as_ref().unwrap();
     let mut closed = 0;
     for vertex in mesh.vertices() {
-        let found = equation_of_step(mesh, (step, None), vertex);
+        let found = equation_of_step(mesh, step, None, vertex);
         if stages.hull.contains(&vertex) {
             assert_eq!(found, Err(NoEquation::Prescribed));
             continue;
@@ -197,7 +197,7 @@ fn virtual_vertices_are_neighbours_too() {
     let steps = steps_of(&mesh, Settings::new(Method::VirtualBoundary, Family::Conformal));
     let step = steps.iter().find(|step| step.virtual_boundary.is_some()).unwrap();
     let first_virtual = VertexId::from_index(mesh.vertex_count());
-    let of_vertex = |&v: &VertexId| equation_of_step(&mesh, (step, None), v).unwrap().0;
+    let of_vertex = |&v: &VertexId| equation_of_step(&mesh, step, None, v).unwrap().0;
     let has_virtual = |equation: VertexEquation| equation.terms.iter().any(|term| term.neighbour >= first_virtual);
     assert!(mesh.boundary_loop().iter().map(of_vertex).any(has_virtual));
     assert_virtual_boundary_is_solved(&mesh, step);
@@ -211,7 +211,7 @@ fn what_has_no_equation_says_why() {
     let reason = |method, family, vertex| {
         let settings = Settings::new(method, family);
         let step = steps_of(&mesh, settings).pop().unwrap();
-        equation_of_step(&mesh, (&step, None), vertex)
+        equation_of_step(&mesh, &step, None, vertex)
     };
     let convex = Method::Convex(BoundaryShape::Circle);
     assert_eq!(reason(convex, Family::MeanValue, boundary), Err(NoEquation::Prescribed));
@@ -221,6 +221,6 @@ fn what_has_no_equation_says_why() {
     }
     let mut step = steps_of(&mesh, Settings::default()).pop().unwrap();
     step.candidate.rung = Method::Iterate;
-    let missing = equation_of_step(&mesh, (&step, None), inside);
+    let missing = equation_of_step(&mesh, &step, None, inside);
     assert_eq!(missing, Err(NoEquation::StepBeforeMissing));
 }

@@ -48,7 +48,7 @@ fn the_table_has_each_neighbour_with_shares_that_sum_to_one() {
     let neighbours: Vec<String> = disk.outgoing(ON_BOUNDARY).map(|h| disk.head(h).to_string()).collect();
     assert_eq!(links(&window), neighbours);
     let outcome = window.outcome();
-    let (equation, _) = equation_of_step(&disk, (&outcome.step, None), ON_BOUNDARY).expect("linear");
+    let (equation, _) = equation_of_step(&disk, &outcome.step, None, ON_BOUNDARY).expect("linear");
     for term in &equation.terms {
         assert!(window.shows(&format!("{:.3}", term.share)), "{} in {:?}", term.share, window.words());
     }
@@ -79,7 +79,7 @@ fn the_offset_is_an_arrow_from_the_barycentre_to_the_vertex() {
     let mut window = window(ON_BOUNDARY);
     let outcome = window.outcome();
     let disk = window.editor().session.model().and_then(|model| model.disk()).cloned().expect("a disk");
-    let (equation, _) = equation_of_step(&disk, (&outcome.step, None), ON_BOUNDARY).expect("linear");
+    let (equation, _) = equation_of_step(&disk, &outcome.step, None, ON_BOUNDARY).expect("linear");
     let barycentre = window.place_in_plane(equation.barycentre);
     let vertex = window.place_in_plane(window.embedding()[ON_BOUNDARY.index()]);
     assert!(barycentre.distance(vertex) > 5.0, "to be seen");

@@ -56,7 +56,7 @@ impl Iterate {
             solution.seconds.analyze = iteration.analyze_seconds();
         }
         if self.task.has_open_gauge() {
-            complete_gauge(mesh, &mut solution.embedding, (asked, settings.size));
+            complete_gauge(mesh, &mut solution.embedding, asked, settings.size);
             solution.gauge_completed = true;
             for (vertex, pin) in &mut solution.pins {
                 pin.target = solution.embedding[vertex];

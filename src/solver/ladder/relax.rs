@@ -50,7 +50,7 @@ impl Relax {
     fn place(&self, mesh: &DiskMesh, candidate: &mut Candidate) {
         let solution = &mut candidate.solution;
         let before = solution.embedding.clone();
-        complete_gauge(mesh, &mut solution.embedding, (&self.task.pins, self.task.settings.size));
+        complete_gauge(mesh, &mut solution.embedding, &self.task.pins, self.task.settings.size);
         solution.pins = gauge_in(mesh, &solution.embedding);
         let pairs: Vec<[DVec2; 2]> = before.iter().zip(&solution.embedding).map(|(a, b)| [*a, *b]).collect();
         if let (Some(similarity), Some(outside)) = (Similarity::fitting(&pairs), &candidate.outside) {

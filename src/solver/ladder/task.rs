@@ -70,7 +70,7 @@ impl Task {
 
     /// Moves an embedding to where up to two pins want it.
     pub(super) fn fit(&self, mesh: &DiskMesh, solution: &mut Solution, notes: &mut Notes) {
-        let is_fitted = fit_gauge(mesh, &mut solution.embedding, (&self.pins, self.settings.size));
+        let is_fitted = fit_gauge(mesh, &mut solution.embedding, &self.pins, self.settings.size);
         if !is_fitted {
             notes.say("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
         }

@@ -35,7 +35,7 @@ fn equation_of(
     let timeline = editor.session.timeline();
     let before = step.index.checked_sub(1).and_then(|index| timeline.outcome(index));
     let before = before.map(|before| &before.step.solution.embedding);
-    (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, (step, before), vertex))
+    (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, step, before, vertex))
 }
 
 /// Shows the equation in the panel.

@@ -11,18 +11,25 @@ use crate::session::{Outcome, Session};
 use crate::ui::theme::Theme;
 use crate::view::{EdgeList, PlaneArrays};
 
+/// What an outline belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct GhostKey {
+    outcome_revision: u64,
+    /// The compared step.
+    step: usize,
+}
+
 /// The boundary of the compared step, ready to be drawn over the one on the screen.
 #[derive(Debug)]
 pub(super) struct Ghost {
-    /// The outcome on the screen by its revision, and the compared step.
-    key: (u64, usize),
+    key: GhostKey,
     /// The boundary's vertices only, in the unit space of the outcome on the screen.
     arrays: Arc<PlaneArrays>,
     edges: Arc<EdgeList>,
 }
 
 impl Ghost {
-    fn new(key: (u64, usize), boundary: &[DVec2], shown: &PlaneArrays) -> Self {
+    fn new(key: GhostKey, boundary: &[DVec2], shown: &PlaneArrays) -> Self {
         let vertices: Vec<VertexId> = (0..boundary.len()).map(VertexId::from_index).collect();
         Self {
             key,
@@ -42,7 +49,7 @@ impl PlaneView {
 
     /// The step whose outline shows.
     pub fn ghost_step(&self) -> Option<usize> {
-        self.ghost.as_ref().map(|ghost| ghost.key.1)
+        self.ghost.as_ref().map(|ghost| ghost.key.step)
     }
 
     /// The step that moves are measured from: the compared one, or else the one before, as far as it is kept.
@@ -59,7 +66,7 @@ impl PlaneView {
             self.ghost = None;
             return;
         };
-        let key = (plane.outcome_revision, step);
+        let key = GhostKey { outcome_revision: plane.outcome_revision, step };
         if self.ghost.as_ref().is_some_and(|ghost| ghost.key == key) {
             return;
         }
