@@ -88,6 +88,7 @@ fn continuation_turns_the_inside_while_the_boundary_stays_and_needs_no_new_verti
     let (steps, ending) = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap();
     assert_eq!(ending, Ending::Planar);
     assert!(steps.iter().all(|step| step.verdict.planar && step.refinement.is_none()));
+    let steps: Vec<Step> = steps.into_iter().filter(|step| !step.is_of_planar_start()).collect();
     let left: Vec<f64> = steps.iter().map(|step| step.progress.unwrap().distance_left).collect();
     assert!(left[0] > 0.0 && left.last() == Some(&0.0) && left.is_sorted_by(|a, b| a >= b), "{left:?}");
     assert!(steps.iter().all(|step| step.progress.unwrap().least_determinant > 0.0));
@@ -158,7 +159,7 @@ fn the_planar_start_is_among_the_steps_and_serves_other_targets_on_the_mesh() {
     let (steps, _) = steps_of(&mesh, one_to_one(Method::Continuation), &pins).unwrap();
     let fitted = steps.iter().position(|step| step.planar_start.is_some()).unwrap();
     assert!(fitted > 0 && steps[fitted].rung == Method::Continuation);
-    assert!(steps[..fitted].iter().all(|step| step.is_of_planar_start() && step.unmet().len() == pins.len()));
+    assert!(steps[..fitted].iter().all(|step| step.is_of_planar_start() && !step.unmet().is_empty()));
     assert!(steps[fitted - 1].verdict.planar, "no end, as the constraints are not met");
     assert!(steps[0].note.as_ref().is_some_and(|note| note.contains("without the constraints")));
     let kept = Kept { planar_start: steps[fitted].planar_start.clone(), prepared: None };

@@ -11,10 +11,13 @@ use crate::shapes::{finger, irregular_cube};
 /// Area may change by rounding alone.
 const SAME_AREA: f64 = 1e-12;
 
-/// The step that makes the new vertices: the one after the planar start.
+/// The step that makes the new vertices: the one after the planar start was moved to the constraints.
 fn matched(mesh: &DiskMesh, pins: &Pins) -> Result<Step, SolveError> {
     let mut run = Ladder::new(Settings::new(Method::Matchmaker, Family::default()), pins.clone());
-    let start = run.step(mesh, Control::unattended())?;
+    let mut start = run.step(mesh, Control::unattended())?;
+    while start.is_of_planar_start() {
+        start = run.step(mesh, Control::unattended())?;
+    }
     assert!(start.verdict.planar && start.refinement.is_none());
     let step = run.step(mesh, Control::unattended())?;
     assert_eq!(step.rung, Method::Matchmaker);

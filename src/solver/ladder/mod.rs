@@ -210,13 +210,14 @@ impl Ladder {
 
     /// Goes on to the next part of the plan: from the planar start to the constraints only where it is planar.
     fn enter_next_part(&mut self) -> Result<(), SolveError> {
-        let Some(latest) = self.latest.as_mut().filter(|_| self.plan.has_next_part()) else {
-            return Err(SolveError::LadderExhausted);
-        };
-        if self.plan.part().aim == Aim::PlanarStart && !latest.is_planar {
+        let has_start = || self.latest.as_ref().is_some_and(|latest| latest.is_planar);
+        if !self.plan.has_next_part() || (self.plan.part().aim == Aim::PlanarStart && !has_start()) {
             return Err(SolveError::LadderExhausted);
         }
-        latest.is_solved = false;
+        // A part may have given no step at all.
+        if let Some(latest) = &mut self.latest {
+            latest.is_solved = false;
+        }
         self.plan.enter_next_part();
         Ok(())
     }
