@@ -56,10 +56,11 @@ impl StepsFolder {
         };
         write().map_err(|source| WriteError { path: self.target.join(&name), source })?;
         let (heads, cells): (Vec<_>, Vec<_>) = StepReport::of(step).row().into_iter().unzip();
+        let of_table = |error: csv::Error| WriteError { path: self.target.join(TABLE), source: error.into() };
         if self.names.is_empty() {
-            self.table.write_record(heads).expect("memory takes all");
+            self.table.write_record(heads).map_err(of_table)?;
         }
-        self.table.write_record(cells).expect("memory takes all");
+        self.table.write_record(cells).map_err(of_table)?;
         self.names.push(name);
         Ok(())
     }

@@ -5,7 +5,7 @@
 //!
 //! | file            | what it holds                                                              |
 //! |-----------------|----------------------------------------------------------------------------|
-//! | `session`       | the session: its parts, `handle`, `poll`                                   |
+//! | `state`         | the session: its parts, `handle`, `poll`                                   |
 //! | `action`        | what a person can ask for                                                  |
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
@@ -51,8 +51,8 @@ mod recent;
 mod recovery;
 mod runs;
 mod saving;
-mod session;
 mod solving;
+mod state;
 mod status;
 mod stop;
 mod target_checks;
@@ -71,7 +71,7 @@ pub use model::{Model, PictureFile, Surface};
 pub use outcome::{Outcome, OutputFit, Placement, Problem};
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
-pub use session::Session;
+pub use state::Session;
 pub use status::{Busy, Status};
 pub use stop::{Stop, StopConditions};
 pub use timeline::{Standing, TIMELINE_BUDGET, Timeline};

@@ -263,7 +263,7 @@ fn no_similarity_fits_the_landmarks() {
 fn the_portrait_shows_skin_eyes_and_background_where_they_belong() {
     let picture = Example::Face.picture().expect("the face has one");
     assert_eq!([picture.width, picture.height], [PORTRAIT_SIZE; 2]);
-    assert_eq!(picture.pixels.len() as u32, 4 * PORTRAIT_SIZE * PORTRAIT_SIZE);
+    assert_eq!(u32::try_from(picture.pixels.len()).unwrap(), 4 * PORTRAIT_SIZE * PORTRAIT_SIZE);
     let row = |v: f64| {
         (0..PORTRAIT_SIZE).find(|&y| f64::from(y + 1) >= (1.0 - v) * f64::from(PORTRAIT_SIZE)).expect("inside")
     };

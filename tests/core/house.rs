@@ -155,7 +155,7 @@ fn no_parameter_is_a_tuple_of_unlike_things() {
 
 #[test]
 fn offences_are_found_in_every_form() {
-    let fields: String = (0..13).map(|i| format!("    /// One.\n    pub f{i}: usize,\n")).collect();
+    let fields = (0..13).map(|i| format!("    /// One.\n    pub f{i}: usize,\n")).collect::<Vec<_>>().concat();
     assert_eq!(crowded_structs(&format!("pub struct Crowd<'a> {{\n{fields}}}\n")), ["Crowd<'a> has 13 fields"]);
     assert!(crowded_structs(&format!("#[derive(Serialize)]\n/// Wire.\nstruct Wire {{\n{fields}}}\n")).is_empty());
     for text in [

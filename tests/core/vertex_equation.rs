@@ -37,7 +37,7 @@ fn equation(mesh: &DiskMesh, step: &Step, vertex: VertexId) -> VertexEquation {
     equation_of_step(mesh, step, None, vertex).unwrap().0
 }
 
-/// PinPositions that satisfy nothing.
+/// Positions that satisfy nothing.
 fn at_random(count: usize, seed: u64) -> Embedding {
     let mut random = Random(seed);
     (0..count).map(|_| DVec2::new(random.unit(), random.unit())).collect()

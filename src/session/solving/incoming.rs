@@ -29,11 +29,11 @@ impl Solving {
         }
         match end {
             None => {}
-            Some((_, Err(failure))) => {
+            Some(((), Err(failure))) => {
                 self.running = None;
                 messages.fail_background(Place::Embedding, "solving", &failure);
             }
-            Some((_, Ok((run, result)))) => news.next = self.take_back(run, result, messages),
+            Some(((), Ok((run, result)))) => news.next = self.take_back(run, result, messages),
         }
         news
     }

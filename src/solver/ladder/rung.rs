@@ -114,7 +114,9 @@ impl Notes {
 
     /// Adds a note, where there is one.
     pub(super) fn extend(&mut self, note: Option<String>) {
-        note.into_iter().for_each(|note| self.say(note));
+        if let Some(note) = note {
+            self.say(note);
+        }
     }
 
     /// All of them as one line.
