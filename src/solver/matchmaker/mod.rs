@@ -9,6 +9,15 @@
 //! Sources: I. Eckstein, V. Surazhsky, C. Gotsman, "Texture mapping with hard constraints", 2001; V. Kraevoy,
 //! A. Sheffer, C. Gotsman, "Matchmaker: constructing constrained texture maps", 2003. Theirs route on the edges of the
 //! mesh; here ways lead through the faces too, so that new vertices are on old edges only.
+//!
+//! | file | what |
+//! |---|---|
+//! | `target_graph.rs` | what the paths are to match: a triangulation of targets and frame |
+//! | `paths.rs` | the paths on the mesh, one after another |
+//! | `router.rs` | the shortest way between two ends that crosses no path |
+//! | `subdivision.rs`, `triangulate.rs` | faces cut into cells by paths; cells cut into triangles |
+//! | `straighten.rs` | the embedding in which every path is straight |
+//! | `needless.rs` | new vertices that are not needed, taken out again |
 
 mod needless;
 mod paths;
