@@ -22,7 +22,7 @@ pub(crate) struct Outcome {
     pub(crate) solved: Option<(f64, Step)>,
     /// The last step.
     pub(crate) last: Option<Step>,
-    /// How many steps there were.
+    /// How many steps there were, those on the way to a planar start aside.
     pub(crate) steps: usize,
     /// Seconds in all.
     pub(crate) seconds: f64,
@@ -39,7 +39,7 @@ impl Outcome {
         let ending = within(LIMIT, &cancel, || {
             let mut run = Ladder::new(settings, pins.clone());
             let take = |step: Step| {
-                found.steps += 1;
+                found.steps += usize::from(!step.is_of_planar_start());
                 if SHOWS_STEPS.load(Ordering::Relaxed) {
                     show(&step);
                 }
