@@ -1,7 +1,7 @@
 //! The state of the work on the screen, in one word, and the questions that it is made of.
 
 use super::{Preview, Session};
-use crate::solver::{Phase, Verdict};
+use crate::solver::Phase;
 
 /// What goes on in the background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,15 +48,6 @@ impl Session {
             Status::Held
         } else {
             Status::Current
-        }
-    }
-
-    /// The verdict on what the screen shows: on the preview, where there is one, as soon as it is proved; otherwise on
-    /// the step.
-    pub fn verdict_shown(&self) -> Option<&Verdict> {
-        match self.preview() {
-            Some(preview) => preview.verdict().map(AsRef::as_ref),
-            None => self.outcome().map(|outcome| &outcome.step.verdict),
         }
     }
 
