@@ -1,13 +1,13 @@
 //! What can be typed. `freebound --help` is made from this.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
-use crate::io::Target;
+use crate::io::{OutputKind, Target};
 use crate::mesh::VertexId;
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
@@ -114,6 +114,13 @@ pub struct FlattenArguments {
 }
 
 impl FlattenArguments {
+    /// The files to write, apart from the report.
+    pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
+        let paths =
+            [(OutputKind::Obj, &self.output), (OutputKind::Svg, &self.svg), (OutputKind::Png, &self.png)].into_iter();
+        paths.filter_map(|(kind, path)| Some((kind, path.as_deref()?))).collect()
+    }
+
     /// The solver's settings.
     pub fn settings(&self) -> Settings {
         let method = match (self.method, self.boundary) {

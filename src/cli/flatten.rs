@@ -44,14 +44,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
             document,
             fit,
             svg_fit: arguments.svg_scale.map_or(fit, output_fit),
-            outputs: [
-                (OutputKind::Obj, arguments.output.as_deref()),
-                (OutputKind::Svg, arguments.svg.as_deref()),
-                (OutputKind::Png, arguments.png.as_deref()),
-            ]
-            .into_iter()
-            .filter_map(|(kind, path)| Some((kind, path?)))
-            .collect(),
+            outputs: arguments.outputs(),
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
         };

@@ -7,7 +7,7 @@
 //! | `constraints` | constraint files: a pinned vertex a line                                   |
 //! | `project`     | project files: what a person has made of a mesh (JSON)                     |
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
-//! | `output`      | a finished flattening written as a file of any kind                        |
+//! | `output`      | the table of formats; a finished flattening written in any of them         |
 //! | `report`      | report of a run (JSON), and a step as a row of a table                     |
 //! | `svg`         | an embedding or a step as a drawing                                        |
 //! | `steps`       | the steps of a run as a folder of drawings and a table                     |
@@ -37,7 +37,7 @@ pub use obj::{
     TextureError, TextureMesh, material_picture, read_mesh, read_mesh_with, read_obj, read_obj_with, refined_obj,
     write_obj,
 };
-pub use output::{Output, OutputKind, ProvedEmbedding, TexturePicture};
+pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding, TexturePicture};
 pub use picture::{PictureError, decode_picture, read_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,

@@ -19,7 +19,7 @@ const PICTURE_SIZE: u32 = 900;
 /// Fields of the checker across the layout.
 const CHECKER_FIELDS: f64 = 40.0;
 
-/// Kinds of files that can be written.
+/// Kinds of files that can be written; [`format`](Self::format) says what is known of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputKind {
     /// The mesh with its embedding as texture coordinates.
@@ -32,24 +32,68 @@ pub enum OutputKind {
     Json,
 }
 
-impl OutputKind {
-    /// All kinds.
-    pub const ALL: [Self; 4] = [Self::Obj, Self::Svg, Self::Png, Self::Json];
-
-    /// The kind that a file name's extension asks for.
-    pub fn of(path: &Path) -> Option<Self> {
-        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
-        Self::ALL.into_iter().find(|kind| kind.extension() == extension)
-    }
-
+/// What the command line and the window know of a kind of file.
+#[derive(Debug)]
+pub struct Format {
+    /// What files of this kind are called.
+    pub name: &'static str,
     /// Extension of the file name.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Obj => "obj",
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Json => "json",
-        }
+    pub extension: &'static str,
+    /// End of a suggested file name.
+    pub ending: &'static str,
+    /// What a dialog asks for, its verb first.
+    pub title: &'static str,
+    write: fn(&Output<'_>, &Path) -> Result<(), WriteError>,
+}
+
+/// The formats, in the order of [`OutputKind`].
+static FORMATS: [Format; 4] = [
+    Format {
+        name: "OBJ mesh",
+        extension: "obj",
+        ending: "-flat.obj",
+        title: "Save the mesh with texture coordinates",
+        write: |output, path| {
+            let refined = output.refinement.map(|refinement| refined_obj(output.source, refinement));
+            let mesh = refined.as_ref().unwrap_or(output.source);
+            match output.picture {
+                Some(picture) => picture.write_beside(path, mesh, output.coordinates),
+                None => write_atomically(path, |out| write_obj(out, mesh, output.coordinates)),
+            }
+        },
+    },
+    Format {
+        name: "SVG drawing",
+        extension: "svg",
+        ending: "-flat.svg",
+        title: "Export a drawing of the layout",
+        write: |output, path| {
+            write_atomically(path, |out| write_svg(out, output.proved(output.coordinates), output.svg_page))
+        },
+    },
+    Format {
+        name: "PNG picture",
+        extension: "png",
+        ending: "-flat.png",
+        title: "Export a picture of mesh and layout",
+        write: |output, path| write_atomically(path, |out| output.picture().write_png(out).map_err(io::Error::other)),
+    },
+    Format {
+        name: "JSON report",
+        extension: "json",
+        ending: "-report.json",
+        title: "Export the report",
+        write: |output, path| output.report.write(path),
+    },
+];
+
+/// The extensions of all formats, for a message.
+pub const EXTENSIONS: &str = ".svg, .png, .json or .obj";
+
+impl OutputKind {
+    /// Its row in the table of formats.
+    pub fn format(self) -> &'static Format {
+        &FORMATS[self as usize]
     }
 }
 
@@ -137,22 +181,6 @@ impl Output<'_> {
     ///
     /// Where the file cannot be written; the error names it.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
-        match kind {
-            OutputKind::Obj => self.write_obj(path),
-            OutputKind::Svg => {
-                write_atomically(path, |out| write_svg(out, self.proved(self.coordinates), self.svg_page))
-            }
-            OutputKind::Png => write_atomically(path, |out| self.picture().write_png(out).map_err(io::Error::other)),
-            OutputKind::Json => self.report.write(path),
-        }
-    }
-
-    fn write_obj(&self, path: &Path) -> Result<(), WriteError> {
-        let refined = self.refinement.map(|refinement| refined_obj(self.source, refinement));
-        let mesh = refined.as_ref().unwrap_or(self.source);
-        match self.picture {
-            Some(picture) => picture.write_beside(path, mesh, self.coordinates),
-            None => write_atomically(path, |out| write_obj(out, mesh, self.coordinates)),
-        }
+        (kind.format().write)(self, path)
     }
 }

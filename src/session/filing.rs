@@ -7,7 +7,7 @@ use super::saving::Saved;
 use super::stop::Goal;
 use super::{Finished, Given, History, Message, Place, SaveRequest, Session, Surface};
 use crate::geom::Picture;
-use crate::io::{write_atomically, write_constraints, write_durably};
+use crate::io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
 
 impl Session {
@@ -100,7 +100,7 @@ impl Session {
     /// Says that a name does not tell what kind of file to write.
     pub(super) fn refuse_name(&mut self, path: &Path) {
         let text = format!("{} does not say what to write", path.display());
-        self.messages.fail(Place::Embedding, text, Some("end the name in .svg, .png, .json or .obj"));
+        self.messages.fail(Place::Embedding, text, Some(&format!("end the name in {EXTENSIONS}")));
     }
 
     fn fail_to_save(&mut self, text: &str, remedy: Option<&str>) {

@@ -1,7 +1,9 @@
 //! What files are asked for, and what such files are called.
 
 use std::path::Path;
+use std::slice;
 
+use crate::io::OutputKind;
 use crate::session::OutputFit;
 use crate::ui::Pane;
 
@@ -18,16 +20,10 @@ pub enum Purpose {
     ExportConstraints,
     /// Where to save the project.
     SaveProject,
-    /// Where to save the mesh with texture coordinates.
-    Save,
-    /// Where to write a drawing of the layout, of this size.
-    Drawing(OutputFit),
-    /// Where to write mesh and layout side by side.
-    Overview,
+    /// Where to write the flattening in a format, at a size of its own or at that of the editor.
+    Export(OutputKind, Option<OutputFit>),
     /// Where to write what a pane shows.
     PanePicture(Pane),
-    /// Where to write the report.
-    Report,
 }
 
 /// Files of one type.
@@ -43,10 +39,7 @@ const OPENED: FileType = FileType { name: "Meshes and projects", extensions: &["
 const PICTURES: FileType = FileType { name: "Pictures", extensions: &["png", "jpg", "jpeg"] };
 const CONSTRAINTS: FileType = FileType { name: "Constraints", extensions: &["txt"] };
 const PROJECT: FileType = FileType { name: "Freebound project", extensions: &["freebound"] };
-const OBJ: FileType = FileType { name: "OBJ mesh", extensions: &["obj"] };
-const SVG: FileType = FileType { name: "SVG drawing", extensions: &["svg"] };
 const PNG: FileType = FileType { name: "PNG picture", extensions: &["png"] };
-const JSON: FileType = FileType { name: "JSON report", extensions: &["json"] };
 
 impl FileType {
     /// Whether a name ends as those of such files do.
@@ -58,9 +51,8 @@ impl FileType {
 
 /// The dialog of a purpose.
 pub(in crate::ui) struct DialogForm {
+    /// Its first word is that of the button.
     pub(in crate::ui) title: &'static str,
-    /// What its button says.
-    pub(in crate::ui) button: &'static str,
     pub(in crate::ui) files: FileType,
     /// The end of a suggested name.
     pub(in crate::ui) ending: &'static str,
@@ -68,21 +60,22 @@ pub(in crate::ui) struct DialogForm {
 
 impl Purpose {
     /// The dialog that asks for the file.
-    pub(in crate::ui) const fn form(self) -> DialogForm {
-        let (title, button, files, ending) = match self {
-            Self::Open => ("Open a mesh or a project", "Open", OPENED, ""),
-            Self::OpenPicture => ("Open a picture", "Open", PICTURES, ""),
-            Self::ImportConstraints => ("Import constraints", "Import", CONSTRAINTS, ""),
-            Self::ExportConstraints => ("Export the constraints", "Export", CONSTRAINTS, "-constraints.txt"),
-            Self::SaveProject => ("Save the project", "Save", PROJECT, ".freebound"),
-            Self::Save => ("Save the mesh with texture coordinates", "Save", OBJ, "-flat.obj"),
-            Self::Drawing(_) => ("Export a drawing of the layout", "Export", SVG, "-flat.svg"),
-            Self::Overview => ("Export a picture of mesh and layout", "Export", PNG, "-flat.png"),
-            Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", "Export", PNG, "-mesh.png"),
-            Self::PanePicture(Pane::Plane) => ("Export a picture of the pane", "Export", PNG, "-embedding.png"),
-            Self::Report => ("Export the report", "Export", JSON, "-report.json"),
+    pub(in crate::ui) fn form(self) -> DialogForm {
+        let (title, files, ending) = match self {
+            Self::Open => ("Open a mesh or a project", OPENED, ""),
+            Self::OpenPicture => ("Open a picture", PICTURES, ""),
+            Self::ImportConstraints => ("Import constraints", CONSTRAINTS, ""),
+            Self::ExportConstraints => ("Export the constraints", CONSTRAINTS, "-constraints.txt"),
+            Self::SaveProject => ("Save the project", PROJECT, ".freebound"),
+            Self::Export(kind, _) => {
+                let format = kind.format();
+                let files = FileType { name: format.name, extensions: slice::from_ref(&format.extension) };
+                (format.title, files, format.ending)
+            }
+            Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", PNG, "-mesh.png"),
+            Self::PanePicture(Pane::Plane) => ("Export a picture of the pane", PNG, "-embedding.png"),
         };
-        DialogForm { title, button, files, ending }
+        DialogForm { title, files, ending }
     }
 
     /// Whether a file is asked for that is there already.
@@ -92,7 +85,7 @@ impl Purpose {
 
     /// Whether a name will do: what is written has the extension that says so.
     pub(in crate::ui) fn takes(self, path: &Path) -> bool {
-        let is_free = self.is_reading() || matches!(self, Self::Save | Self::ExportConstraints);
+        let is_free = self.is_reading() || matches!(self, Self::Export(OutputKind::Obj, _) | Self::ExportConstraints);
         is_free || self.form().files.fits(path)
     }
 }

@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::io::OutputKind;
 use crate::mesh::VertexId;
-use crate::session::{Action, OutputFit, SaveRequest};
+use crate::session::{Action, SaveRequest};
 use crate::solver::Hold;
 use crate::ui::panels::dialogs::Choice;
 use crate::ui::panels::unsaved::Wish;
@@ -89,15 +88,11 @@ impl Editor {
                 self.act(Action::SaveProject(path));
             }
             Purpose::PanePicture(pane) => self.shoot_pane(pane, path),
-            Purpose::Save => self.save(path, OutputKind::Obj, self.files.fit),
-            Purpose::Drawing(fit) => self.save(path, OutputKind::Svg, fit),
-            Purpose::Overview => self.save(path, OutputKind::Png, self.files.fit),
-            Purpose::Report => self.save(path, OutputKind::Json, self.files.fit),
+            Purpose::Export(kind, fit) => {
+                let fit = fit.unwrap_or(self.files.fit);
+                self.act(Action::Save(SaveRequest { path, kind, fit }));
+            }
         }
-    }
-
-    fn save(&mut self, path: PathBuf, kind: OutputKind, fit: OutputFit) {
-        self.act(Action::Save(SaveRequest { path, kind, fit }));
     }
 
     /// What a file that was dropped on the window asks for, by its name.

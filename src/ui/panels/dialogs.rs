@@ -269,7 +269,7 @@ impl Browser {
     fn buttons(&mut self, ui: &mut egui::Ui, is_entered: bool) {
         let path = self.path();
         let exists = !self.purpose.is_reading() && path.as_ref().is_some_and(|path| path.is_file());
-        let words = if exists { "Replace" } else { self.purpose.form().button };
+        let words = if exists { "Replace" } else { self.purpose.form().title.split(' ').next().unwrap_or_default() };
         let is_clicked = ui.add_enabled(path.is_some(), egui::Button::new(words)).clicked();
         match path.filter(|_| is_clicked || (is_entered && !exists)) {
             Some(path) if path.is_dir() => self.enter(path),

@@ -8,19 +8,32 @@ use eframe::egui;
 use egui::{Align2, Pos2, Rect};
 
 use crate::geom::Picture;
+use crate::io::OutputKind;
 use crate::session::OutputFit;
 use crate::ui::controls::Control;
 use crate::ui::{Editor, Pane, Purpose, Request};
 
 /// Everything that can be exported: what it is, and what it is good for.
 pub(super) const EXPORTS: [(Purpose, &str, &str); 7] = [
-    (Purpose::Save, "Mesh with texture coordinates…", "OBJ, with its material and the picture where there is one"),
-    (Purpose::Drawing(OutputFit::Unit), "Layout in the unit square…", "SVG, as texture coordinates lie"),
-    (Purpose::Drawing(OutputFit::True), "Layout at true scale…", "SVG in the mesh's own units, to cut out"),
+    (
+        Purpose::Export(OutputKind::Obj, None),
+        "Mesh with texture coordinates…",
+        "OBJ, with its material and the picture where there is one",
+    ),
+    (
+        Purpose::Export(OutputKind::Svg, Some(OutputFit::Unit)),
+        "Layout in the unit square…",
+        "SVG, as texture coordinates lie",
+    ),
+    (
+        Purpose::Export(OutputKind::Svg, Some(OutputFit::True)),
+        "Layout at true scale…",
+        "SVG in the mesh's own units, to cut out",
+    ),
     (Purpose::PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as the pane shows"),
     (Purpose::PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as the pane shows"),
-    (Purpose::Overview, "Mesh and layout side by side…", "PNG, drawn anew"),
-    (Purpose::Report, "Report…", "JSON: method, steps, verdict, distortion"),
+    (Purpose::Export(OutputKind::Png, None), "Mesh and layout side by side…", "PNG, drawn anew"),
+    (Purpose::Export(OutputKind::Json, None), "Report…", "JSON: method, steps, verdict, distortion"),
 ];
 
 /// A picture of the window that was asked for.
