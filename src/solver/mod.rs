@@ -6,7 +6,7 @@
 //! | `pins`, `conflicts`, `scale` | pins and gauge; pins that contradict each other; size and place of what is not pinned |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
-//! | `system`, `prepared`, `free_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
+//! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
 //! | `iterate` | one mean-value iteration (paper §4) |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
@@ -26,6 +26,7 @@ mod embedding;
 pub mod equations;
 mod error;
 mod family;
+mod fixed_solve;
 pub mod foldover_energy;
 mod free_solve;
 mod iterate;

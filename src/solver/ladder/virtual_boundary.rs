@@ -22,8 +22,8 @@ use crate::mesh::DiskMesh;
 use crate::solver::equations::{barycentric, uniform};
 use crate::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use crate::solver::{
-    Control, Embedding, Extended, Family, Growth, LinearSolve, Method, PhaseSeconds, PinPositions, Pins, Settings,
-    Solution, SolveError, Start, Treatment, VirtualBoundary, fixed_pins, flatten,
+    Control, Embedding, Extended, Family, Growth, Method, PhaseSeconds, PinPositions, Pins, Settings, Solution,
+    SolveError, Start, Treatment, VirtualBoundary, fixed_pins, flatten,
 };
 
 /// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,
@@ -184,7 +184,7 @@ impl Bend {
             _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
         };
         let start_at = Start { embedding: from, residuals: residuals.as_deref() };
-        let (solved, residual, stats) = extended.solve(&equations, start_at, control)?;
+        let (solved, linear) = extended.solve(equations, start_at, control)?;
         let stages = VirtualBoundary {
             pinned: self.pinned,
             outline: extended.outline,
@@ -198,14 +198,7 @@ impl Bend {
             embedding: Embedding::of_mesh(mesh, &solved),
             pins: Pins::new(),
             gauge_completed: true,
-            linear: Some(LinearSolve {
-                residual,
-                // All equations of the extended mesh are solved; those of the outline are prescribed.
-                equation_residual: extended.equation_residual(&equations, &solved),
-                replaced_pivots: stats.replaced_pivots,
-                bounded_corners: equations.bounded_corners,
-                factor_bytes: stats.factor_bytes,
-            }),
+            linear: Some(linear),
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() },
         };
         let candidate = Candidate::new(Method::VirtualBoundary, Family::MeanValue, solution);
