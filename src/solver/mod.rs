@@ -10,7 +10,7 @@
 //! | `iterate` | one mean-value iteration (paper §4) |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
-//! | `continuation`, `way`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
+//! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/` | a plan of rungs over all of these, each step proved |
 //! | `verdict`, `distortion`, `vertex_equation` | what is said of an embedding |
 //! | `control`, `error` | progress and cancelling; why no embedding was produced |
@@ -50,7 +50,6 @@ mod system;
 mod verdict;
 mod vertex_equation;
 mod virtual_boundary;
-mod way;
 pub mod weights;
 
 pub use choice::{Choice, Words};
