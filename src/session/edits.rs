@@ -7,9 +7,9 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::errands::{Errand, Purpose};
-use super::{Command, Document, PictureFile, Place, Session};
+use super::{Command, Document, Place, Session};
 use crate::geom::{PictureFrame, Similarity};
-use crate::io::{Constraints, Target, Targets};
+use crate::io::{Constraints, PictureFile, Target, Targets};
 use crate::mesh::VertexId;
 use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, flatten};
 

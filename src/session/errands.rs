@@ -2,8 +2,8 @@
 //! to fit the targets to. Each becomes one edit when it comes back.
 
 use super::edits::Flat;
-use super::{Background, Messages, Model, PictureFile, Place, Wake};
-use crate::io::{Constraints, ConstraintsError, PictureError};
+use super::{Background, Messages, Model, Place, Wake};
+use crate::io::{Constraints, ConstraintsError, PictureError, PictureFile};
 
 /// What an errand brings back.
 pub(super) enum Errand {

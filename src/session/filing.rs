@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::opened::{Opened, Origin};
 use super::saving::Saved;
 use super::stop::Goal;
-use super::{Finished, Given, History, Message, Place, SaveRequest, Session, Surface};
+use super::{History, Message, Place, SaveRequest, Session, Surface};
 use crate::geom::Picture;
 use crate::io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
@@ -59,12 +59,10 @@ impl Session {
         let records = self.timeline().records()[..=outcome.step.index].to_vec();
         let picture = self.document.picture.clone();
         self.files.write(move || {
-            let disk = model.disk().expect("only a disk has an outcome");
-            let finished =
-                Finished::new(Given { model: &model, disk, read_seconds: 0.0 }, &outcome, records, request.fit)
-                    .with_picture(picture);
-            finished.write(request.kind, &request.path)?;
-            Ok(Saved::Output(request.path, finished.verdict().clone()))
+            let mut output = outcome.finished(&model, records, request.fit);
+            output.picture = picture.as_deref();
+            output.write(request.kind, &request.path)?;
+            Ok(Saved::Output(request.path, output.verdict))
         });
     }
 

@@ -59,27 +59,3 @@ impl RecentFiles {
         write_atomically(store, |out| serde_json::to_writer(out, &self.paths).map_err(Into::into)).ok();
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_list_survives_a_restart_newest_first() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = folder.path().join("deep").join("recent.json");
-        let mut recent = RecentFiles::load(store.clone());
-        for name in ["/a.obj", "/b.obj", "/a.obj"] {
-            recent.remember(Path::new(name));
-        }
-        assert_eq!(RecentFiles::load(store).paths(), [PathBuf::from("/a.obj"), PathBuf::from("/b.obj")]);
-    }
-
-    #[test]
-    fn a_broken_list_is_an_empty_one() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = folder.path().join("recent.json");
-        std::fs::write(&store, "{").unwrap();
-        assert!(RecentFiles::load(store).paths().is_empty());
-    }
-}

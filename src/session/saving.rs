@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::path::PathBuf;
 
-use super::{Background, Document, Messages, Model, PictureFile, Place, Wake};
-use crate::io::{PathStyle, ProjectFile, ProjectSource, WriteError};
+use super::{Background, Document, Messages, Model, Place, Wake};
+use crate::io::{PathStyle, PictureFile, ProjectFile, ProjectSource, WriteError};
 use crate::solver::Verdict;
 
 /// A file that was written.
