@@ -86,7 +86,7 @@ impl<K, T> Background<K, T> {
     /// Asks the work to stop at its next check. Its outcome still arrives.
     pub fn interrupt(&self) {
         for job in &self.jobs {
-            job.cancel.raise();
+            job.cancel.0.store(true, Ordering::Relaxed);
         }
     }
 
@@ -140,15 +140,9 @@ impl<K, T> Job<K, T> {
 /// The flag that asks work to stop. It is raised where nobody waits for the outcome any more.
 struct CancelOnDrop(Arc<AtomicBool>);
 
-impl CancelOnDrop {
-    fn raise(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-}
-
 impl Drop for CancelOnDrop {
     fn drop(&mut self) {
-        self.raise();
+        self.0.store(true, Ordering::Relaxed);
     }
 }
 

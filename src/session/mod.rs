@@ -9,7 +9,7 @@
 //! | `action`        | what a person can ask for                                                  |
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
-//! | `runs`          | how the document is solved, in a drag and otherwise                        |
+//! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
 //! | `document`      | part: what the user edits; one edit                                        |
 //! | `history`       | part: undo and redo                                                        |
@@ -24,7 +24,7 @@
 //! | `files`         | part: what is open and saved, read and written                             |
 //! | `opened`        | what opening brings                                                        |
 //! | `model`         | a mesh as it was opened                                                    |
-//! | `saving`        | files on their way to the disk                                             |
+//! | `saving`        | projects on their way to the disk                                          |
 //! | `finished`      | a result ready to be written                                               |
 //! | `recovery`      | copies for recovery                                                        |
 //! | `recent`        | the files opened last                                                      |

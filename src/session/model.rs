@@ -29,8 +29,9 @@ pub struct Model {
     pub source: Arc<ObjMesh>,
     /// Its triangles and what is known of them.
     pub surface: Surface,
-    /// Whether its faces seem to point inward: found once, for it takes a look at all of them.
-    pub(super) points_inward: bool,
+    /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
+    /// is too flat to tell. Found once, for it takes a look at all faces.
+    pub faces_point_inward: bool,
 }
 
 /// Triangles, with the diagnosis' word on them.
@@ -40,19 +41,6 @@ pub enum Surface {
     Disk(Arc<DiskMesh>),
     /// It has faults.
     Faulty(Arc<TriMesh>, Arc<Diagnosis>),
-}
-
-impl Surface {
-    fn of(source: &ObjMesh) -> Self {
-        match DiskMesh::try_from(source.polygons.triangulate()) {
-            Ok(disk) => Self::Disk(Arc::new(disk)),
-            Err(diagnosis) => Self::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
-        }
-    }
-
-    fn points_inward(&self) -> bool {
-        matches!(self, Self::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME)
-    }
 }
 
 impl Model {
@@ -85,35 +73,29 @@ impl Model {
     }
 
     fn new(name: String, path: Option<PathBuf>, source: ObjMesh) -> Self {
-        let surface = Surface::of(&source);
-        let points_inward = surface.points_inward();
+        let surface = match DiskMesh::try_from(source.polygons.triangulate()) {
+            Ok(disk) => Surface::Disk(Arc::new(disk)),
+            Err(diagnosis) => Surface::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
+        };
+        let faces_point_inward = matches!(&surface, Surface::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME);
         let source = Arc::new(source);
-        Self { name, path, stamp: None, example: None, faces_turned: false, source, surface, points_inward }
+        Self { name, path, stamp: None, example: None, faces_turned: false, source, surface, faces_point_inward }
     }
 
     /// The same mesh with its faces turned around: positions and vertices stay, and so does the order of the polygons.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
-        let source = self.source.turned();
-        let surface = Surface::of(&source);
-        let points_inward = surface.points_inward();
-        Self { faces_turned: !self.faces_turned, source: Arc::new(source), surface, points_inward, ..self.clone() }
-    }
-
-    /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
-    /// is too flat to tell.
-    pub fn faces_point_inward(&self) -> bool {
-        self.points_inward
+        Self {
+            stamp: self.stamp.clone(),
+            example: self.example,
+            faces_turned: !self.faces_turned,
+            ..Self::new(self.name.clone(), self.path.clone(), self.source.turned())
+        }
     }
 
     /// Where it came from, in words.
     pub fn path_words(&self) -> String {
         self.path.as_ref().map_or_else(|| format!("built-in: {}", self.name), |path| path.display().to_string())
-    }
-
-    /// Whether it is a built-in mesh.
-    pub fn is_example(&self) -> bool {
-        self.path.is_none()
     }
 
     /// The triangles.

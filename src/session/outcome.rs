@@ -99,11 +99,6 @@ impl Outcome {
         self.step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len())
     }
 
-    /// Whether the picture is proved one-to-one, but exact pins are not on their targets yet.
-    pub fn is_planar_but_unmet(&self) -> bool {
-        self.step.verdict.planar && !self.step.unmet().is_empty()
-    }
-
     /// The texture coordinates that go into a file, where they lie, and the verdict on them, which is that on the mesh
     /// of the step. The user's pins keep their places, exact ones that are met to the last bit; without any, `fit`
     /// decides the size. `mesh` is the mesh as given.
@@ -168,11 +163,6 @@ impl Outcome {
             let error = if is_met { 0.0 } else { frame.uv_from_plane(z).distance(target.uv) };
             (vertex, target, error)
         })
-    }
-
-    /// Largest distance of a pinned vertex from its target.
-    pub fn pin_error(&self) -> f64 {
-        self.pin_errors().map(|(.., error)| error).fold(0.0, f64::max)
     }
 
     /// The targets of the user's pins, where the method takes any.

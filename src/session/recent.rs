@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::recovery::system_folder;
 use crate::io::write_atomically;
 
 /// How many are remembered.
@@ -24,11 +25,7 @@ impl RecentFiles {
 
     /// Where the list is kept on this system, `None` where it has no place for settings.
     pub fn default_store() -> Option<PathBuf> {
-        let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-        let folder = variable("XDG_CONFIG_HOME")
-            .or_else(|| variable("APPDATA"))
-            .or_else(|| variable("HOME").map(|home| home.join(".config")))?;
-        Some(folder.join("freebound").join("recent.json"))
+        Some(system_folder(["XDG_CONFIG_HOME", "APPDATA"], ".config")?.join("recent.json"))
     }
 
     /// The files, newest first.
