@@ -17,7 +17,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Orientation, orientation};
+use super::{Bounds, Orientation, orientation};
 
 /// The greatest number of pairs that [`Crossings::pairs`] lists: what a person or a program can still use, in less
 /// than a megabyte. All are counted.
@@ -62,7 +62,7 @@ pub fn crossings(polygon: &[DVec2]) -> Crossings {
 /// Whether two closed segments have a point in common. Segments of length zero are points; a segment with an end
 /// that is not finite meets nothing.
 pub fn segments_meet(first: [DVec2; 2], second: [DVec2; 2]) -> bool {
-    Bounds::around(first).meets(Bounds::around(second)) && straddles(first, second) && straddles(second, first)
+    box_around(first).meets(box_around(second)) && straddles(first, second) && straddles(second, first)
 }
 
 /// Whether the ends of a segment do not lie strictly on the same side of a line.
@@ -82,31 +82,9 @@ fn folds_back(a: DVec2, shared: DVec2, b: DVec2) -> bool {
     same_way(a.x, shared.x, b.x) || same_way(a.y, shared.y, b.y)
 }
 
-/// A closed box with sides along the axes; nothing meets an empty one.
-#[derive(Clone, Copy)]
-struct Bounds {
-    low: DVec2,
-    high: DVec2,
-}
-
-impl Bounds {
-    const EMPTY: Self = Self { low: DVec2::INFINITY, high: DVec2::NEG_INFINITY };
-
-    /// The box around a segment, empty where an end is not finite.
-    fn around([a, b]: [DVec2; 2]) -> Self {
-        if a.is_finite() && b.is_finite() { Self { low: a.min(b), high: a.max(b) } } else { Self::EMPTY }
-    }
-
-    fn union(self, other: Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
-    }
-
-    fn meets(self, other: Self) -> bool {
-        self.low.x <= other.high.x
-            && other.low.x <= self.high.x
-            && self.low.y <= other.high.y
-            && other.low.y <= self.high.y
-    }
+/// The box around a segment, empty where an end is not finite.
+fn box_around([a, b]: [DVec2; 2]) -> Bounds {
+    if a.is_finite() && b.is_finite() { Bounds::of([a, b]) } else { Bounds::EMPTY }
 }
 
 /// Boxes over ranges of edges. Node 1 is the root, node k has the children 2k and 2k + 1; the leaves, one an edge,
@@ -123,7 +101,7 @@ impl<'a> BoxTree<'a> {
         let leaf_count = polygon.len().next_power_of_two();
         let mut tree = Self { polygon, boxes: vec![Bounds::EMPTY; 2 * leaf_count], leaf_count };
         for edge in 0..polygon.len() {
-            tree.boxes[leaf_count + edge] = Bounds::around(tree.segment(edge));
+            tree.boxes[leaf_count + edge] = box_around(tree.segment(edge));
         }
         for node in (1..leaf_count).rev() {
             tree.boxes[node] = tree.boxes[2 * node].union(tree.boxes[2 * node + 1]);
@@ -169,92 +147,5 @@ impl<'a> BoxTree<'a> {
         } else {
             straddles([a, b], [c, d]) && straddles([c, d], [a, b])
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn points(corners: &[[i32; 2]]) -> Vec<DVec2> {
-        corners.iter().map(|&[x, y]| DVec2::new(f64::from(x), f64::from(y))).collect()
-    }
-
-    #[test]
-    fn a_convex_polygon_has_none() {
-        assert_eq!(crossings(&points(&[[0, 0], [4, 0], [4, 3], [2, 5], [0, 3]])), Crossings::default());
-    }
-
-    #[test]
-    fn corners_in_the_middle_of_a_side_are_no_crossings() {
-        assert_eq!(crossings(&points(&[[0, 0], [1, 0], [2, 0], [2, 2], [0, 2], [0, 1]])), Crossings::default());
-    }
-
-    #[test]
-    fn a_bow_tie_has_one() {
-        assert_eq!(crossings(&points(&[[0, 0], [2, 2], [2, 0], [0, 2]])).pairs, [[0, 2]]);
-    }
-
-    #[test]
-    fn a_corner_that_touches_an_edge_crosses_it_with_both_its_edges() {
-        let touching = points(&[[0, 0], [6, 0], [6, 4], [3, 0], [0, 4]]);
-        assert_eq!(crossings(&touching).pairs, [[0, 2], [0, 3]]);
-    }
-
-    #[test]
-    fn two_corners_in_one_place_cross_with_all_their_edges() {
-        let pinched = points(&[[0, 0], [2, 2], [4, 0], [4, 4], [2, 2], [0, 4]]);
-        assert_eq!(crossings(&pinched).pairs, [[0, 3], [0, 4], [1, 3], [1, 4]]);
-    }
-
-    #[test]
-    fn edges_that_overlap_cross() {
-        let overlapping = points(&[[0, 0], [4, 0], [4, 2], [6, 2], [6, 0], [3, 0], [3, -2], [0, -2]]);
-        assert!(crossings(&overlapping).pairs.contains(&[0, 4]));
-    }
-
-    #[test]
-    fn an_edge_that_folds_back_crosses_its_neighbour() {
-        assert_eq!(crossings(&points(&[[0, 0], [4, 0], [2, 0], [2, 3]])).pairs, [[0, 1], [0, 2]]);
-        // The same with the spike at the first corner.
-        assert_eq!(crossings(&points(&[[4, 0], [2, 0], [2, 3], [0, 0]])).pairs, [[0, 3], [1, 3]]);
-    }
-
-    #[test]
-    fn an_edge_of_length_zero_lets_its_neighbours_meet() {
-        assert_eq!(crossings(&points(&[[0, 0], [4, 0], [4, 0], [0, 4]])).pairs, [[0, 2]]);
-        assert_eq!(crossings(&points(&[[0, 0], [4, 0], [4, 0]])).pairs, [[0, 2]]);
-    }
-
-    #[test]
-    fn corners_that_are_not_finite_take_no_part() {
-        let mut bow_tie = points(&[[0, 0], [2, 2], [2, 0], [0, 2]]);
-        bow_tie[3].x = f64::NAN;
-        assert_eq!(crossings(&bow_tie), Crossings::default());
-    }
-
-    #[test]
-    fn beyond_the_limit_crossings_are_counted_but_not_listed() {
-        // A comb laid over another: 400 teeth across 400 teeth, 4 · 400² pairs at least.
-        let teeth = 400;
-        let mut corners = Vec::new();
-        for tooth in 0..teeth {
-            corners.extend([[2 * tooth, -1], [2 * tooth, 2 * teeth], [2 * tooth + 1, 2 * teeth], [2 * tooth + 1, -1]]);
-        }
-        corners.push([2 * teeth, -1]);
-        for tooth in 0..teeth {
-            corners.extend([[2 * teeth, 2 * tooth], [-1, 2 * tooth], [-1, 2 * tooth + 1], [2 * teeth, 2 * tooth + 1]]);
-        }
-        let found = crossings(&points(&corners));
-        assert!(found.count >= 4 * 400 * 400, "{}", found.count);
-        assert_eq!(found.pairs.len(), CROSSINGS_LISTED);
-        assert!(found.pairs.is_sorted());
-    }
-
-    #[test]
-    fn fewer_than_three_corners_are_no_trouble() {
-        assert_eq!(crossings(&[]), Crossings::default());
-        assert_eq!(crossings(&points(&[[1, 1]])), Crossings::default());
-        assert_eq!(crossings(&points(&[[0, 0], [1, 1]])).pairs, [[0, 1]]);
     }
 }

@@ -30,24 +30,3 @@ pub fn delaunay_triangles(points: &[DVec2]) -> Option<Vec<[u32; 3]>> {
     triangles.sort_unstable();
     Some(triangles)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_square_with_a_point_in_it_has_four_triangles_around_that_point() {
-        let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.4, 1e-300]].map(DVec2::from);
-        assert_eq!(delaunay_triangles(&points[..4]).map(|triangles| triangles.len()), Some(2));
-        let inside = [points[0], points[1], points[2], points[3], DVec2::new(0.4, 0.5)];
-        assert_eq!(delaunay_triangles(&inside), Some(vec![[0, 1, 4], [0, 4, 3], [1, 2, 4], [2, 3, 4]]));
-        // A coordinate that is all but zero counts as zero: the point then lies on the lower side.
-        assert_eq!(delaunay_triangles(&points).map(|triangles| triangles.len()), Some(3));
-    }
-
-    #[test]
-    fn points_that_coincide_are_refused() {
-        assert_eq!(delaunay_triangles(&[DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::X]), None);
-        assert_eq!(delaunay_triangles(&[DVec2::ZERO, DVec2::X, DVec2::NAN]), None);
-    }
-}

@@ -60,20 +60,3 @@ impl PictureFrame {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_picture_stands_upright_whichever_way_v_runs() {
-        let uv = DVec2::new(0.25, 0.125);
-        for (v_axis, height) in [(VAxis::Up, 0.125), (VAxis::Down, 0.875)] {
-            let frame = PictureFrame { aspect: 2.0, v_axis };
-            let [low, high] = frame.corners();
-            let place = frame.plane_from_uv(uv);
-            assert_eq!((place - low) / (high - low), DVec2::new(0.25, height), "{v_axis:?}");
-            assert_eq!(frame.uv_from_plane(place), uv);
-        }
-    }
-}

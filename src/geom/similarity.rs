@@ -38,23 +38,3 @@ impl Similarity {
         (sum / pairs.len() as f64).sqrt()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_best_similarity_gives_an_exact_one_back() {
-        let points = [DVec2::new(0.0, 0.0), DVec2::new(2.0, 1.0), DVec2::new(-1.0, 3.0)];
-        let moved = |z: DVec2| DVec2::new(0.3, -0.4).rotate(z) + DVec2::new(5.0, 6.0);
-        let found = Similarity::fitting(&points.map(|z| [z, moved(z)])).expect("there is one");
-        for z in points {
-            assert!(found.apply(z).distance(moved(z)) < 1e-14);
-        }
-    }
-
-    #[test]
-    fn no_similarity_spreads_what_lies_in_one_place() {
-        assert!(Similarity::fitting(&[[DVec2::ONE, DVec2::ZERO], [DVec2::ONE, DVec2::X]]).is_none());
-    }
-}

@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 
 use super::{PinPositions, Pins};
-use crate::geom::{Orientation, orientation, segments_meet};
+use crate::geom::{Bounds, Orientation, orientation, segments_meet};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 
 /// The greatest number of conflicts of each kind that are listed: more than anybody mends by hand.
@@ -118,14 +118,12 @@ fn turned_faces(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
 struct PinnedEdge {
     ends: [VertexId; 2],
     segment: [DVec2; 2],
-    low: DVec2,
-    high: DVec2,
+    bounds: Bounds,
 }
 
 impl PinnedEdge {
     fn new(ends: [VertexId; 2], segment: [DVec2; 2]) -> Self {
-        let [a, b] = segment;
-        Self { ends, segment, low: a.min(b), high: a.max(b) }
+        Self { ends, segment, bounds: Bounds::of(segment) }
     }
 
     /// Whether two edges have more in common than a shared end.
@@ -151,12 +149,11 @@ fn crossing_edges(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
         Some(PinnedEdge::new(ends, [*targets.get(&ends[0])?, *targets.get(&ends[1])?]))
     };
     let mut edges: Vec<PinnedEdge> = pinned.into_iter().filter_map(edge).collect();
-    edges.sort_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.ends.cmp(&b.ends)));
+    edges.sort_by(|a, b| a.bounds.low.x.total_cmp(&b.bounds.low.x).then(a.ends.cmp(&b.ends)));
     let mut found = Vec::new();
     for (i, first) in edges.iter().enumerate() {
-        for second in edges[i + 1..].iter().take_while(|second| second.low.x <= first.high.x) {
-            let boxes_meet = second.low.y <= first.high.y && first.low.y <= second.high.y;
-            if boxes_meet && first.conflicts_with(second) {
+        for second in edges[i + 1..].iter().take_while(|second| second.bounds.low.x <= first.bounds.high.x) {
+            if first.bounds.meets(second.bounds) && first.conflicts_with(second) {
                 found.push([first.ends.min(second.ends), first.ends.max(second.ends)]);
             }
             if found.len() == CONFLICTS_LISTED {
@@ -173,11 +170,10 @@ fn listed(mut pairs: Vec<[[VertexId; 2]; 2]>) -> Vec<Conflict> {
 }
 
 fn near_targets(targets: &PinPositions) -> Vec<Conflict> {
-    let low = targets.values().copied().fold(DVec2::INFINITY, DVec2::min);
-    let high = targets.values().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-    let extent = (high - low).max_element();
+    let bounds = Bounds::of(targets.values().copied());
+    let extent = bounds.size().max_element();
     // In parts of the extent, so that nothing underflows.
-    let relative = |target: DVec2| if extent > 0.0 { (target - low) / extent } else { DVec2::ZERO };
+    let relative = |target: DVec2| if extent > 0.0 { (target - bounds.low) / extent } else { DVec2::ZERO };
     let cell_of = |place: DVec2| (place / TOO_NEAR).floor().as_i64vec2();
     let mut cells: BTreeMap<[i64; 2], Vec<(VertexId, DVec2)>> = BTreeMap::new();
     let mut found = Vec::new();

@@ -5,6 +5,7 @@ use std::slice::SliceIndex;
 
 use glam::DVec2;
 
+use crate::geom::Bounds;
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 
 /// Planar positions of all vertices of a mesh, in the order of its vertices.
@@ -20,6 +21,11 @@ impl Embedding {
     /// Positions of the boundary loop's vertices.
     pub fn boundary(&self, mesh: &DiskMesh) -> Vec<DVec2> {
         mesh.boundary_loop().iter().map(|&v| self[v]).collect()
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.iter().copied())
     }
 
     /// The first of some points, which are the vertices of a mesh: those after them are virtual.

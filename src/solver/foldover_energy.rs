@@ -25,9 +25,9 @@ use glam::DVec2;
 
 /// A triangle with the shape that it is to have.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Element {
+pub struct Element {
     /// Its corners, as numbers of points.
-    pub(super) corners: [u32; 3],
+    pub corners: [u32; 3],
     /// Gradients of the three hat functions on the shape at rest.
     gradients: [DVec2; 3],
     /// Factor of its energy.
@@ -36,11 +36,11 @@ pub(super) struct Element {
 
 /// A second-order model of an element's energy: coordinates x and y of each corner in turn.
 #[derive(Clone, Debug)]
-pub(super) struct Model {
+pub struct Model {
     /// Gradient.
-    pub(super) gradient: [f64; 6],
+    pub gradient: [f64; 6],
     /// Hessian, made positive semidefinite; symmetric.
-    pub(super) hessian: [[f64; 6]; 6],
+    pub hessian: [[f64; 6]; 6],
 }
 
 /// f by p and q, with its derivatives.
@@ -62,7 +62,7 @@ fn inverse_chi(d: f64, epsilon: f64) -> (f64, f64) {
 
 /// What a triangle's energy is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Energy {
+pub enum Energy {
     /// f with this ε.
     Foldover(f64),
     /// ½ (tr(JᵀJ) + tr(J⁻ᵀJ⁻¹)), the symmetric Dirichlet energy: a barrier too, and dearer where a triangle is small.
@@ -71,7 +71,7 @@ pub(super) enum Energy {
 
 impl Energy {
     /// Whether it is infinite where a triangle is folded.
-    pub(super) fn is_barrier(self) -> bool {
+    pub fn is_barrier(self) -> bool {
         matches!(self, Self::SymmetricDirichlet | Self::Foldover(0.0))
     }
 
@@ -113,7 +113,7 @@ fn foldover_terms(s: f64, d: f64, epsilon: f64) -> Terms {
 impl Element {
     /// A triangle that is at rest in the shape `[a, b, c]`, counter-clockwise. One that is thinner than `thinnest`, height
     /// to longest side, is measured as if it were so thick.
-    pub(super) fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], (weight, thinnest): (f64, f64)) -> Self {
+    pub fn new(corners: [u32; 3], [a, b, c]: [DVec2; 3], (weight, thinnest): (f64, f64)) -> Self {
         let longest = [b - a, c - b, a - c].iter().map(|side| side.length_squared()).fold(0.0, f64::max);
         let double_area = (b - a).perp_dot(c - a).max(thinnest * longest);
         let gradients = [c - b, a - c, b - a].map(|side| side.perp() / double_area);
@@ -131,19 +131,19 @@ impl Element {
     }
 
     /// The determinant of its map.
-    pub(super) fn determinant(&self, z: [DVec2; 3]) -> f64 {
+    pub fn determinant(&self, z: [DVec2; 3]) -> f64 {
         let [g, h] = [self.gradients[1], self.gradients[2]];
         (z[1] - z[0]).perp_dot(z[2] - z[0]) * g.perp_dot(h)
     }
 
     /// Its energy, times its weight.
-    pub(super) fn energy(&self, z: [DVec2; 3], energy: Energy) -> f64 {
+    pub fn energy(&self, z: [DVec2; 3], energy: Energy) -> f64 {
         let (alpha, beta) = self.derivatives(z);
         self.weight * energy.value(alpha.length_squared() + beta.length_squared(), self.determinant(z))
     }
 
     /// Gradient and Hessian of its energy, the Hessian made positive semidefinite.
-    pub(super) fn model(&self, z: [DVec2; 3], energy: Energy) -> Model {
+    pub fn model(&self, z: [DVec2; 3], energy: Energy) -> Model {
         let (alpha, beta) = self.derivatives(z);
         let (p, q) = (alpha.length_squared(), beta.length_squared());
         // The determinant, which p − q equals but for rounding: folded or not is decided by it alone.
@@ -177,7 +177,7 @@ impl Element {
 
     /// The longest step along a direction that leaves the triangle unfolded, in multiples of the direction; it must be
     /// unfolded before.
-    pub(super) fn longest_step(z: [DVec2; 3], direction: [DVec2; 3]) -> f64 {
+    pub fn longest_step(z: [DVec2; 3], direction: [DVec2; 3]) -> f64 {
         let (u, v) = (z[1] - z[0], z[2] - z[0]);
         let (du, dv) = (direction[1] - direction[0], direction[2] - direction[0]);
         smallest_positive_root([u.perp_dot(v), u.perp_dot(dv) + du.perp_dot(v), du.perp_dot(dv)])
@@ -217,87 +217,4 @@ fn positive([a, b, c]: [f64; 3]) -> [[f64; 2]; 2] {
     // The projection on the eigenvector of the larger eigenvalue, which is then kept alone.
     let factor = high / (high - low);
     [[factor * (a - low), factor * b], [factor * b, factor * (c - low)]]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn element() -> Element {
-        Element::new([0, 1, 2], [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)], (0.7, 1e-6))
-    }
-
-    const PLACES: [[DVec2; 3]; 3] = [
-        [DVec2::new(0.1, 0.2), DVec2::new(1.7, -0.3), DVec2::new(0.9, 1.2)],
-        [DVec2::new(0.1, 0.2), DVec2::new(1.7, 0.3), DVec2::new(0.9, -1.2)],
-        [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(2.0, 1e-3)],
-    ];
-
-    /// Moves one coordinate.
-    fn moved(mut z: [DVec2; 3], coordinate: usize, by: f64) -> [DVec2; 3] {
-        z[coordinate / 2][coordinate % 2] += by;
-        z
-    }
-
-    const FREE: Energy = Energy::Foldover(0.0);
-
-    #[test]
-    fn a_triangle_at_rest_has_the_least_energy() {
-        let rest = [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)];
-        let turned = rest.map(|z| DVec2::from_angle(1.0).rotate(z) + DVec2::new(3.0, 4.0));
-        let element = element();
-        assert!((element.determinant(rest) - 1.0).abs() < 1e-14);
-        for energy in [FREE, Energy::SymmetricDirichlet] {
-            assert!((element.energy(rest, energy) - 2.0 * 0.7).abs() < 1e-13);
-            assert!((element.energy(turned, energy) - 2.0 * 0.7).abs() < 1e-13);
-            assert!(element.model(rest, energy).gradient.iter().all(|g| g.abs() < 1e-13));
-        }
-    }
-
-    #[test]
-    fn the_gradient_is_that_of_the_energy() {
-        let energies = [FREE, Energy::Foldover(0.3), Energy::Foldover(0.01), Energy::SymmetricDirichlet];
-        for (z, energy) in PLACES.into_iter().zip(energies).chain([(PLACES[0], energies[3])]) {
-            for (i, derivative) in element().model(z, energy).gradient.iter().enumerate() {
-                let [after, before] = [1e-6, -1e-6].map(|h| element().energy(moved(z, i, h), energy));
-                let difference = (after - before) / 2e-6;
-                assert!((difference - derivative).abs() < 1e-6 * (1.0 + derivative.abs()), "{difference} {derivative}");
-            }
-        }
-    }
-
-    #[test]
-    fn the_hessian_is_that_of_the_energy_where_it_is_convex() {
-        // Near to rest, where nothing had to be made positive.
-        let z = [DVec2::new(0.01, 0.0), DVec2::new(2.02, 0.1), DVec2::new(0.4, 1.53)];
-        for energy in [FREE, Energy::SymmetricDirichlet] {
-            let model = element().model(z, energy);
-            for i in 0..6 {
-                let [after, before] = [1e-5, -1e-5].map(|h| element().model(moved(z, i, h), energy).gradient);
-                for j in 0..6 {
-                    let difference = (after[j] - before[j]) / 2e-5;
-                    assert!((difference - model.hessian[i][j]).abs() < 1e-6, "{i} {j}: {difference}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn the_longest_step_ends_where_the_triangle_has_no_area() {
-        let z = PLACES[0];
-        for direction in PLACES {
-            let step = Element::longest_step(z, direction);
-            if step.is_finite() {
-                let end = [0, 1, 2].map(|k| z[k] + step * direction[k]);
-                assert!((end[1] - end[0]).perp_dot(end[2] - end[0]).abs() < 1e-12);
-            }
-        }
-    }
-
-    #[test]
-    fn folded_triangles_have_infinite_energy_behind_a_barrier_and_a_finite_one_without() {
-        assert!(element().energy(PLACES[1], FREE).is_infinite());
-        assert!(element().energy(PLACES[1], Energy::SymmetricDirichlet).is_infinite());
-        assert!(element().energy(PLACES[1], Energy::Foldover(1e-6)).is_finite());
-    }
 }

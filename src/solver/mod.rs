@@ -26,7 +26,7 @@ mod embedding;
 pub mod equations;
 mod error;
 mod family;
-mod foldover_energy;
+pub mod foldover_energy;
 mod free_solve;
 mod iterate;
 mod ladder;
@@ -61,7 +61,8 @@ pub use embedding::Embedding;
 pub use error::SolveError;
 pub use family::Family;
 pub use iterate::Iteration;
-pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, diameter, largest_move};
+pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, largest_move};
+pub use matchmaker::{Matched, matched, without_needless_vertices};
 pub use method::{BoundaryShape, Method};
 pub use outside::Outside;
 pub use pins::{

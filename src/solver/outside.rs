@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Embedding;
 use super::foldover_energy::Element;
-use crate::geom::outside_triangles;
+use crate::geom::{Bounds, outside_triangles};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Points on each side of a frame that vertices move within.
@@ -30,10 +30,9 @@ pub struct Outside {
 }
 
 /// The frame around points: a square with so many points on each side, one corner of it among them, counter-clockwise.
-fn frame_around(points: impl Iterator<Item = DVec2> + Clone, per_side: u32) -> Vec<DVec2> {
-    let low = points.clone().fold(DVec2::INFINITY, DVec2::min);
-    let high = points.fold(DVec2::NEG_INFINITY, DVec2::max);
-    let (centre, half) = (low.midpoint(high), 0.5 * FRAME_SIZE * (high - low).max_element());
+fn frame_around(points: impl Iterator<Item = DVec2>, per_side: u32) -> Vec<DVec2> {
+    let bounds = Bounds::of(points);
+    let (centre, half) = (bounds.middle(), 0.5 * FRAME_SIZE * bounds.size().max_element());
     let corners = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::ONE, DVec2::new(-1.0, 1.0)];
     let side = |k: usize| {
         let (from, to) = (corners[k], corners[(k + 1) % 4]);
@@ -47,7 +46,7 @@ fn frame_around(points: impl Iterator<Item = DVec2> + Clone, per_side: u32) -> V
 pub(super) fn outside_of(
     mesh: &DiskMesh,
     embedding: &Embedding,
-    further: impl Iterator<Item = DVec2> + Clone,
+    further: impl Iterator<Item = DVec2>,
     per_side: u32,
 ) -> Option<Outside> {
     let boundary = embedding.boundary(mesh);

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::equations::length_scale;
 use super::{Embedding, GaugeSize, Pin, Pins};
+use crate::geom::Bounds;
 use crate::mesh::DiskMesh;
 
 /// Scales an embedding about the origin so that its faces have the total area of the surface.
@@ -77,11 +78,10 @@ pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins,
 /// Scales an embedding uniformly into a box and moves it to the box's middle. An embedding without extent, or with one
 /// that is not finite, is left as it is.
 fn to_middle_of(low: DVec2, high: DVec2, embedding: &mut Embedding) {
-    let least = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-    let most = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-    let factor = ((high - low) / (most - least)).min_element();
+    let bounds = embedding.bounds();
+    let factor = ((high - low) / bounds.size()).min_element();
     if factor.is_finite() && factor > 0.0 {
-        let (from, to) = (least.midpoint(most), low.midpoint(high));
+        let (from, to) = (bounds.middle(), low.midpoint(high));
         for z in embedding {
             *z = to + (*z - from) * factor;
         }
@@ -95,7 +95,7 @@ fn extent_of(embedding: &Embedding) -> f64 {
 
 /// As [`to_unit_square`], but scaled by a power of two alone: the one rounding is that of the move.
 pub fn to_unit_square_by_power_of_two(embedding: &mut Embedding) {
-    let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let Bounds { low, .. } = embedding.bounds();
     for z in &mut *embedding {
         *z -= low;
     }
@@ -118,12 +118,11 @@ pub fn to_unit_box(embedding: &mut Embedding) {
 ///
 /// An embedding without extent, or with one that is not finite, is left as it is.
 pub fn to_unit_square(embedding: &mut Embedding) {
-    let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-    let high = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-    let extent = (high - low).max_element();
+    let bounds = embedding.bounds();
+    let extent = bounds.size().max_element();
     if extent.is_finite() && extent > 0.0 {
         for z in embedding {
-            *z = (*z - low) / extent;
+            *z = (*z - bounds.low) / extent;
         }
     }
 }

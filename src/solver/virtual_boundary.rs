@@ -23,7 +23,7 @@ use super::equations::Equations;
 use super::free_solve::in_vertices;
 use super::system::FreeSystem;
 use super::{Control, Embedding, Phase, SolveError};
-use crate::geom::{Orientation, orientation, outside_triangles};
+use crate::geom::{Bounds, Orientation, orientation, outside_triangles};
 use crate::linalg::{Analysis, FactorStats, Kind};
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
 
@@ -109,9 +109,8 @@ impl Extended {
     /// Extends an embedding up to a frame. `None` where its boundary is not simple.
     pub fn up_to_frame(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
         let boundary = embedding.boundary(mesh);
-        let low = boundary.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        let high = boundary.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let (centre, half) = ((low + high) / 2.0, (high - low).max_element() / 2.0);
+        let bounds = Bounds::of(boundary.iter().copied());
+        let (centre, half) = (bounds.middle(), bounds.size().max_element() / 2.0);
         let frame = FRAME.map(|corner| centre + half * corner);
         let triangles = outside_triangles(&boundary, &frame)?;
         let mut positions = embedding.to_vec();

@@ -185,3 +185,42 @@ fn turning_the_named_faces_over_mends_a_mixed_mesh() {
         assert!(diagnose(&mended).is_disk());
     }
 }
+
+/// Whether the only triangle of a mesh is said to have no area.
+fn has_zero_area(corners: [DVec3; 3]) -> bool {
+    names(&TriMesh::new(corners.to_vec(), &[[0, 1, 2]])).contains(&"zero-area")
+}
+
+/// A right triangle with legs 1 and `height`, moved by `at` and scaled.
+fn triangle(height: f64, at: f64, scale: f64) -> [DVec3; 3] {
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, height, 0.0]].map(|p| (DVec3::from(p) + at) * scale)
+}
+
+#[test]
+fn thirds_of_a_segment_are_collinear_at_every_scale() {
+    let end = DVec3::new(0.7, -1.3, 2.9);
+    for scale in [5e-324, 1e-310, 1e-200, 1e-30, 1.0, 1e30, 1e200, 1e308] {
+        let points = [DVec3::ZERO, end / 3.0, end].map(|p| p * (scale / 3.0));
+        assert!(has_zero_area(points), "{scale:e}");
+    }
+}
+
+#[test]
+fn thin_triangles_have_an_area_at_every_scale() {
+    for scale in [1e-290, 1e-200, 1e-30, 1.0, 1e30, 1e200, 1e307] {
+        assert!(!has_zero_area(triangle(1e-12, 0.0, scale)), "{scale:e}");
+    }
+}
+
+#[test]
+fn a_height_lost_in_the_rounding_of_large_coordinates_is_none() {
+    assert!(has_zero_area(triangle(2e-16, 1.0, 1.0)));
+    assert!(has_zero_area(triangle(1e-9, 1e8, 1.0)));
+    assert!(!has_zero_area(triangle(1e-6, 1e8, 1.0)));
+}
+
+#[test]
+fn coincident_corners_have_no_area() {
+    let p = DVec3::new(0.1, 0.2, 0.3);
+    assert!(has_zero_area([p, p, p * 2.0]) && has_zero_area([p, p, p]) && has_zero_area([DVec3::ZERO; 3]));
+}

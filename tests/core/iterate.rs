@@ -6,8 +6,8 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, HalfedgeId, VertexId};
 use freebound::solver::plane_weights::{natural_in_plane, residuals_in_plane};
 use freebound::solver::{
-    Control, Embedding, Family, Iteration, Ladder, Method, Pins, Settings, Step, Treatment, diameter, flatten,
-    hard_pins, largest_move, verdict,
+    Control, Embedding, Family, Iteration, Ladder, Method, Pins, Settings, Step, Treatment, flatten, hard_pins,
+    largest_move, verdict,
 };
 use glam::DVec2;
 use num_complex::Complex;
@@ -88,7 +88,7 @@ fn least_squares_agrees_with_a_dense_solution_however_many_pins_there_are() {
         let pins = at_place(&pinned, &embedding);
         let ours = step(&mesh, &embedding, &pinned, Treatment::LeastSquares);
         let dense = dense_least_squares(&mesh, &embedding, &pins);
-        let apart = largest_move(&dense, &ours) / diameter(&embedding);
+        let apart = largest_move(&dense, &ours) / embedding.bounds().diameter();
         assert!(apart <= AGAINST_DENSE, "{count} pins: {apart:.1e} apart");
     }
 }
@@ -138,7 +138,7 @@ fn a_planar_embedding_is_a_fixed_point() {
             pinned.sort_unstable();
             for treatment in [Treatment::Eliminate, Treatment::LeastSquares] {
                 let moved = step(&mesh, &first, &pinned, treatment);
-                let share = largest_move(&first, &moved) / diameter(&first);
+                let share = largest_move(&first, &moved) / first.bounds().diameter();
                 println!("{name} {treatment:?} {pinned:?}: {share:.1e}");
                 assert!(share <= FIXED_POINT, "{name}, {treatment:?}, pins {pinned:?}: moved by {share:.1e}");
             }
@@ -277,7 +277,7 @@ fn what_an_embedding_leaves_is_what_its_equations_leave() {
         let left = residuals_in_plane(&mesh, &embedding);
         let size = |v: VertexId| {
             let term = |h: HalfedgeId| equations.coefficients[h.index()].norm();
-            mesh.outgoing(v).map(term).sum::<f64>() * diameter(&embedding)
+            mesh.outgoing(v).map(term).sum::<f64>() * embedding.bounds().diameter()
         };
         for v in mesh.vertices() {
             let summed = equations.residual_of(&mesh, &embedding, v);

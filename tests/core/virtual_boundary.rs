@@ -7,8 +7,8 @@ use freebound::geom::{Orientation, orientation};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use freebound::solver::{
-    Control, Embedding, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, diameter,
-    largest_move, verdict,
+    Control, Embedding, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, largest_move,
+    verdict,
 };
 use glam::{DVec2, DVec3};
 
@@ -60,7 +60,7 @@ fn a_planar_embedding_comes_back_within_the_hull_and_within_a_frame() {
         let embedding = flat(&mesh);
         for extended in [Extended::up_to_hull(&mesh, &embedding), Extended::up_to_frame(&mesh, &embedding)] {
             let extended = extended.unwrap();
-            let moved = largest_move(&embedding, &solved(&mesh, &extended)) / diameter(&embedding);
+            let moved = largest_move(&embedding, &solved(&mesh, &extended)) / embedding.bounds().diameter();
             println!("{example:?} {:?}: {moved:.1e}", extended.outline);
             assert!(moved <= REPRODUCED, "{example:?} {:?}: {moved:.1e}", extended.outline);
         }
@@ -133,7 +133,7 @@ fn an_ear_on_the_hull_stays_a_triangle() {
     let extended = Extended::new(&mesh, &embedding).unwrap();
     assert_eq!(extended.outline, Outline::Hull);
     let result = solved(&mesh, &extended);
-    assert!(largest_move(&embedding, &result) <= REPRODUCED * diameter(&embedding));
+    assert!(largest_move(&embedding, &result) <= REPRODUCED * embedding.bounds().diameter());
     assert!(verdict(&mesh, &result).planar);
 }
 
@@ -197,7 +197,7 @@ fn what_a_flipped_embedding_leaves_is_the_same_both_ways() {
     let start = Start { embedding: &extended.embedding, residuals: Some(&left) };
     let (positions, _, _) = extended.solve(&equations, start, Control::unattended()).unwrap();
     let apart = largest_move(&solved(&mesh, &extended), &positions[..mesh.vertex_count()]);
-    assert!(apart <= 1e-10 * diameter(&embedding), "{apart:.1e}");
+    assert!(apart <= 1e-10 * embedding.bounds().diameter(), "{apart:.1e}");
 }
 
 #[test]

@@ -6,8 +6,8 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::plane_weights::natural_in_plane;
 use freebound::solver::{
-    Control, Embedding, Family, Iteration, Method, Pin, Pins, Prepared, Settings, SolveError, Treatment, diameter,
-    flatten, hard_pins, largest_move,
+    Control, Embedding, Family, Iteration, Method, Pin, Pins, Prepared, Settings, SolveError, Treatment, flatten,
+    hard_pins, largest_move,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
@@ -117,7 +117,7 @@ fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Embedding {
 }
 
 fn apart(a: &Embedding, b: &Embedding) -> f64 {
-    largest_move(a, b) / diameter(a)
+    largest_move(a, b) / a.bounds().diameter()
 }
 
 #[test]

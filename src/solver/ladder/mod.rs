@@ -40,7 +40,7 @@ use std::time::Instant;
 
 pub use self::candidate::Candidate;
 pub use self::plan::{Kept, PlanarStart};
-pub use self::step::{Progress, Step, diameter, largest_move};
+pub use self::step::{Progress, Step, largest_move};
 
 use self::plan::{Aim, Plan};
 use self::rung::{Failure, Footing, Latest, Notes};

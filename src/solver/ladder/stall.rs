@@ -1,6 +1,6 @@
 //! When an iteration gets no better.
 
-use super::{Step, diameter};
+use super::Step;
 
 /// Steps without an improvement after which an iteration that hardly moves has stalled.
 const PATIENCE: usize = 5;
@@ -34,7 +34,7 @@ impl Stall {
         } else {
             self.steps_since += 1;
         }
-        let limit = STILL * diameter(&step.solution.embedding);
+        let limit = STILL * step.solution.embedding.bounds().diameter();
         self.is_still = step.max_move.is_some_and(|moved| moved <= limit);
     }
 

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::Candidate;
 use crate::mesh::VertexId;
-use crate::solver::{Embedding, Method, Pin, Pins, Verdict};
+use crate::solver::{Method, Pin, Pins, Verdict};
 
 /// Where a one-to-one embedding stands on its way: the numbers of continuation and relaxing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,11 +77,4 @@ impl Step {
 /// The largest distance between the same vertices of two embeddings.
 pub fn largest_move(before: &[DVec2], after: &[DVec2]) -> f64 {
     before.iter().zip(after).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
-}
-
-/// The diagonal of the box around an embedding.
-pub fn diameter(embedding: &Embedding) -> f64 {
-    let low = embedding.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-    let high = embedding.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-    low.distance(high)
 }

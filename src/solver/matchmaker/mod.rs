@@ -31,7 +31,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-pub(super) use self::needless::without_needless_vertices;
+pub use self::needless::without_needless_vertices;
 use self::paths::Paths;
 use self::router::Router;
 use self::straighten::{Weights, held_places, straightened};
@@ -48,9 +48,11 @@ const CROSSING: f64 = 0.5;
 
 /// A planar embedding of a refined mesh that meets all exact pins to the last bit.
 #[derive(Clone, Debug)]
-pub(super) struct Matched {
-    pub(super) refinement: Refinement,
-    pub(super) embedding: Embedding,
+pub struct Matched {
+    /// The mesh with its new vertices.
+    pub refinement: Refinement,
+    /// An embedding of it.
+    pub embedding: Embedding,
 }
 
 /// The mesh within its outside, as it lies at the start.
@@ -68,12 +70,7 @@ struct Surroundings {
 /// # Errors
 ///
 /// Targets that coincide, a start that is not planar, faces too fine for 64-bit numbers, or the caller's wish to stop.
-pub(super) fn matched(
-    mesh: &DiskMesh,
-    start: &Embedding,
-    pins: &Pins,
-    control: Control<'_>,
-) -> Result<Matched, SolveError> {
+pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control<'_>) -> Result<Matched, SolveError> {
     let exact = || pins.iter().filter(|(_, pin)| pin.hold.is_exact());
     let targets: Vec<DVec2> = exact().map(|(_, pin)| pin.target).collect();
     let surroundings = Surroundings::new(mesh, start, &targets)?;
@@ -161,60 +158,4 @@ fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts
     let parts = of_mesh.map(|(&face, parts)| (face, parts.iter().map(|t| t.map(renumbered)).collect())).collect();
     let refinement = Refinement::new(mesh, new_vertices, &parts).expect("the parts of a disk's faces are a disk");
     Refined { refinement, vertices }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::solver::Pin;
-
-    /// A flat square of 2·n² triangles, and where its vertices lie.
-    fn square(n: u32) -> (DiskMesh, Embedding) {
-        let stride = n + 1;
-        let flat: Embedding =
-            (0..stride * stride).map(|v| DVec2::new(f64::from(v % stride), f64::from(v / stride))).collect();
-        let cell = |v: u32| [[v, v + 1, v + stride + 1], [v, v + stride + 1, v + stride]];
-        let triangles: Vec<[u32; 3]> = (0..n * n).flat_map(|k| cell(k / n * stride + k % n)).collect();
-        let positions = flat.iter().map(|z| z.extend(0.0)).collect();
-        (DiskMesh::of_topology(TriMesh::new(positions, &triangles)).unwrap(), flat)
-    }
-
-    fn pins(pairs: &[(u32, DVec2)]) -> Pins {
-        pairs.iter().map(|&(v, target)| (VertexId::new(v), Pin::hard(target))).collect()
-    }
-
-    #[test]
-    fn new_vertices_are_all_needless_where_the_map_is_flat() {
-        let (mesh, flat) = square(6);
-        // The pins of two corners and of two vertices inside change places.
-        let pins = pins(&[(0, flat[48]), (48, flat[0]), (16, flat[32]), (32, flat[16])]);
-        let matched = matched(&mesh, &flat, &pins, Control::unattended()).unwrap();
-        assert!(matched.refinement.new_vertices().len() > 10);
-        // With the places that the vertices have on the flat surface itself no new one is needed.
-        let positions = &matched.refinement.disk().mesh().positions;
-        let embedding: Embedding = positions.iter().map(|x| x.truncate()).collect();
-        let bare = without_needless_vertices(&mesh, Matched { embedding, ..matched });
-        assert_eq!(bare.refinement.new_vertices(), []);
-        assert_eq!(bare.refinement.disk().face_count(), mesh.face_count());
-        assert_eq!(bare.embedding, flat);
-    }
-
-    #[test]
-    fn new_vertices_that_are_needed_stay() {
-        let (mesh, flat) = square(4);
-        let pins = pins(&[(6, flat[18]), (18, flat[6]), (0, flat[0]), (24, flat[24])]);
-        let matched = matched(&mesh, &flat, &pins, Control::unattended()).unwrap();
-        let before = matched.refinement.new_vertices().len();
-        let bare = without_needless_vertices(&mesh, matched);
-        let after = bare.refinement.new_vertices().len();
-        assert!(0 < after && after < before, "{before} {after}");
-        assert!(verdict(bare.refinement.disk(), &bare.embedding).planar);
-    }
-
-    #[test]
-    fn targets_that_coincide_are_refused() {
-        let (mesh, flat) = square(2);
-        let pins = pins(&[(0, flat[4]), (4, flat[4])]);
-        assert_eq!(matched(&mesh, &flat, &pins, Control::unattended()).unwrap_err(), SolveError::TooFine);
-    }
 }

@@ -15,7 +15,7 @@ use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, Refinement, VertexId}
 
 /// Takes out new vertices that are not needed: those whose edges can be whole again with every face positive and the
 /// boundary simple.
-pub(in crate::solver) fn without_needless_vertices(mesh: &DiskMesh, matched: Matched) -> Matched {
+pub fn without_needless_vertices(mesh: &DiskMesh, matched: Matched) -> Matched {
     let mut removal = Removal::new(mesh, &matched);
     let old = matched.refinement.old_vertex_count();
     let mut waiting: BTreeSet<VertexId> = (old..matched.embedding.len()).map(VertexId::from_index).collect();

@@ -1,0 +1,52 @@
+//! Boxes in the plane, sides along the axes.
+
+use glam::DVec2;
+
+/// A closed box with sides along the axes; nothing meets an empty one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower left corner.
+    pub low: DVec2,
+    /// Upper right corner.
+    pub high: DVec2,
+}
+
+impl Bounds {
+    /// The box of no points.
+    pub const EMPTY: Self = Self { low: DVec2::INFINITY, high: DVec2::NEG_INFINITY };
+
+    /// The smallest box around points.
+    pub fn of(points: impl IntoIterator<Item = DVec2>) -> Self {
+        let with = |Self { low, high }: Self, z| Self { low: low.min(z), high: high.max(z) };
+        points.into_iter().fold(Self::EMPTY, with)
+    }
+
+    /// The smallest box around both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// Whether two boxes have a point in common.
+    pub fn meets(self, other: Self) -> bool {
+        self.low.x <= other.high.x
+            && other.low.x <= self.high.x
+            && self.low.y <= other.high.y
+            && other.low.y <= self.high.y
+    }
+
+    /// Width and height.
+    pub fn size(self) -> DVec2 {
+        self.high - self.low
+    }
+
+    /// The point in its middle.
+    pub fn middle(self) -> DVec2 {
+        self.low.midpoint(self.high)
+    }
+
+    /// Length of its diagonal.
+    pub fn diameter(self) -> f64 {
+        self.low.distance(self.high)
+    }
+}
