@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use glam::DVec2;
 
 use crate::io::{OutputKind, Target};
 use crate::mesh::VertexId;
+use crate::session::OutputFit;
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
@@ -89,8 +90,8 @@ pub struct FlattenArguments {
     #[arg(long, value_parser = choice::<Growth>())]
     pub growth: Option<Growth>,
     /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface.
-    #[arg(long, value_enum, default_value_t = Fit::Unit)]
-    pub fit: Fit,
+    #[arg(long, value_enum, default_value_t = OutputFit::Unit)]
+    pub fit: OutputFit,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
@@ -100,7 +101,7 @@ pub struct FlattenArguments {
     /// Size of the drawing: the unit square (the picture, where there is one) is the page, or lengths are as on the
     /// surface, a unit of the drawing for a unit of the mesh. As `--fit` without it.
     #[arg(long, value_enum, requires = "svg")]
-    pub svg_scale: Option<Fit>,
+    pub svg_scale: Option<OutputFit>,
     /// Draw the mesh and the layout side by side here (PNG).
     #[arg(long, value_name = "FILE")]
     pub png: Option<PathBuf>,
@@ -180,15 +181,6 @@ pub struct CheckArguments {
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
-}
-
-/// Size of an embedding that the user's pins do not fix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Fit {
-    /// Uniformly into the unit square
-    Unit,
-    /// The area of the surface
-    True,
 }
 
 /// Takes one of a few choices by its name, and lists them with a line on each.

@@ -4,14 +4,14 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::{Fit, FlattenArguments};
+use super::args::FlattenArguments;
 use super::constraints::gather;
 use super::progress::{Progress, interrupted, is_interrupted};
 use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, print_summary, step_words};
 use super::{Failure, Status};
-use crate::io::{OutputKind, Report, StepReport, StepsFolder};
+use crate::io::{OutputKind, PictureFile, Report, StepReport, StepsFolder};
 use crate::mesh::DiskMesh;
-use crate::session::{Document, Finished, Given, Model, Outcome, OutputFit, PictureFile, Surface};
+use crate::session::{Document, Model, Outcome, OutputFit, Surface};
 use crate::solver::{Choice as _, Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
@@ -19,14 +19,13 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let name = arguments.settings().method.name();
         return Err(Failure::Usage(format!("--method {name} takes no {option}: {why}")));
     }
-    if arguments.fit == Fit::True && (arguments.aspect.is_some() || arguments.picture.is_some()) {
+    if arguments.fit == OutputFit::True && (arguments.aspect.is_some() || arguments.picture.is_some()) {
         return Err(Failure::Usage(
             "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
         ));
     }
     set_threads(arguments.threads)?;
     let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
-    let fit = output_fit(arguments.fit);
     let progress = Progress::default();
     progress.follow(|| {
         let start = Instant::now();
@@ -42,21 +41,14 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         };
         let job = HeadlessJob {
             document,
-            fit,
-            svg_fit: arguments.svg_scale.map_or(fit, output_fit),
+            fit: arguments.fit,
+            svg_fit: arguments.svg_scale.unwrap_or(arguments.fit),
             outputs: arguments.outputs(),
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
         };
         job.run(&model, start, &progress)
     })
-}
-
-fn output_fit(fit: Fit) -> OutputFit {
-    match fit {
-        Fit::Unit => OutputFit::Unit,
-        Fit::True => OutputFit::True,
-    }
 }
 
 /// A flattening without a screen, the mesh already read.
@@ -79,9 +71,10 @@ impl HeadlessJob<'_> {
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
         let mut solved = self.solve(mesh, folder.as_mut(), progress)?;
         let records = std::mem::take(&mut solved.records);
-        let mut finished = Finished::new(Given { model, disk: mesh, read_seconds }, &solved.outcome, records, self.fit)
-            .with_picture(self.document.picture.clone())
-            .with_svg_fit(self.svg_fit);
+        let mut output = solved.outcome.finished(model, records, self.fit);
+        output.report.seconds.read = read_seconds;
+        output.picture = self.document.picture.as_deref();
+        output.svg_page = self.svg_fit.svg_page(output.svg_page.aspect());
         progress.enter("writing");
         let before_writing = Instant::now();
         go_on()?;
@@ -90,14 +83,14 @@ impl HeadlessJob<'_> {
         }
         for (kind, path) in &self.outputs {
             go_on()?;
-            finished.write(*kind, path)?;
+            output.write(*kind, path)?;
         }
-        finished.report.seconds.write = before_writing.elapsed().as_secs_f64();
-        finished.report.seconds.total = start.elapsed().as_secs_f64();
-        if deliver(&finished.report, self.report)? == StandardOutput::Free {
-            print_summary(&finished.report, &ending_words(&solved, &finished));
+        output.report.seconds.write = before_writing.elapsed().as_secs_f64();
+        output.report.seconds.total = start.elapsed().as_secs_f64();
+        if deliver(&output.report, self.report)? == StandardOutput::Free {
+            print_summary(&output.report, &ending_words(&solved, &output));
         }
-        Ok(if finished.verdict().planar && are_met(&finished.report) { Status::Fine } else { Status::FallsShort })
+        Ok(if output.verdict.planar && are_met(&output.report) { Status::Fine } else { Status::FallsShort })
     }
 
     /// Takes all steps of the method.

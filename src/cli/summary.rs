@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use super::flatten::Solved;
-use crate::io::{PinsReport, Report, WriteError};
+use crate::io::{Output, PinsReport, Placement, Report, WriteError};
 use crate::mesh::VertexId;
-use crate::session::{Finished, Placement};
 use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step};
 
 /// Most vertices or conflicts that are named; the others are only counted.
@@ -39,12 +38,12 @@ pub(super) fn step_words(step: &Step) -> String {
 }
 
 /// The verdict, and after how many steps and on which rung a run of several came to it.
-pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
-    let mut words = finished.verdict().summary();
+pub(super) fn ending_words(solved: &Solved, output: &Output) -> String {
+    let mut words = output.verdict.summary();
     let Solved { outcome, ending, .. } = solved;
     let step = &outcome.step;
     if outcome.problem.settings.method.takes_steps() {
-        let count = finished.report.steps.len();
+        let count = output.report.steps.len();
         let boundary = if step.has_convex_boundary() { ", boundary convex" } else { "" };
         let why = match ending {
             Ok(Ending::Planar | Ending::Done) => String::new(),
@@ -57,9 +56,9 @@ pub(super) fn ending_words(solved: &Solved, finished: &Finished) -> String {
         let rung = step.rung.as_rung();
         words = format!("{words} after {count} {steps} ({rung}{boundary}{why})");
     }
-    if finished.report.placement == Some(Placement::Unmoved.name()) {
+    if output.report.placement == Some(Placement::Unmoved) {
         words += "; not moved into the unit square, whose numbers would fold it";
-    } else if step.verdict.planar && !finished.verdict().planar {
+    } else if step.verdict.planar && !output.verdict.planar {
         words += "; it was planar before it was brought to this size: try --fit true";
     }
     words

@@ -37,13 +37,14 @@ pub use obj::{
     TextureError, TextureMesh, material_picture, read_mesh, read_mesh_with, read_obj, read_obj_with, refined_obj,
     write_obj,
 };
-pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding, TexturePicture};
-pub use picture::{PictureError, decode_picture, read_picture};
+pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
+pub use picture::{PictureError, PictureFile, decode_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
 pub use report::{
-    MeshReport, PinsReport, Report, Seconds, StepReport, WeightedPinReport, peak_memory_bytes, verdict_as_in_file,
+    MeshReport, PinsReport, Placement, Report, Seconds, StepReport, WeightedPinReport, peak_memory_bytes,
+    verdict_as_in_file,
 };
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;

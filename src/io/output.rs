@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::Report;
 use super::svg::{SvgPage, write_svg};
-use super::{ObjMesh, WriteError, refined_obj, write_atomically, write_obj};
+use super::{ObjMesh, PictureFile, WriteError, refined_obj, write_atomically, write_obj};
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement};
 use crate::solver::{Embedding, Verdict};
@@ -57,8 +57,8 @@ static FORMATS: [Format; 4] = [
             let refined = output.refinement.map(|refinement| refined_obj(output.source, refinement));
             let mesh = refined.as_ref().unwrap_or(output.source);
             match output.picture {
-                Some(picture) => picture.write_beside(path, mesh, output.coordinates),
-                None => write_atomically(path, |out| write_obj(out, mesh, output.coordinates)),
+                Some(picture) => picture.write_beside(path, mesh, &output.coordinates),
+                None => write_atomically(path, |out| write_obj(out, mesh, &output.coordinates)),
             }
         },
     },
@@ -68,7 +68,7 @@ static FORMATS: [Format; 4] = [
         ending: "-flat.svg",
         title: "Export a drawing of the layout",
         write: |output, path| {
-            write_atomically(path, |out| write_svg(out, output.proved(output.coordinates), output.svg_page))
+            write_atomically(path, |out| write_svg(out, output.proved(&output.coordinates), output.svg_page))
         },
     },
     Format {
@@ -119,17 +119,8 @@ impl ProvedEmbedding<'_> {
     }
 }
 
-/// The picture that texture coordinates are for.
-#[derive(Clone, Copy, Debug)]
-pub struct TexturePicture<'a> {
-    /// The file that it came from.
-    pub path: Option<&'a Path>,
-    /// Its pixels.
-    pub pixels: &'a Picture,
-}
-
-/// A flattening with everything that files say about it.
-#[derive(Clone, Copy, Debug)]
+/// A finished flattening, proved as it is written, with everything that files say about it.
+#[derive(Debug)]
 pub struct Output<'a> {
     /// The file's contents as read.
     pub source: &'a ObjMesh,
@@ -137,14 +128,14 @@ pub struct Output<'a> {
     pub mesh: &'a DiskMesh,
     /// The mesh with its new vertices, where there are any.
     pub refinement: Option<&'a Refinement>,
-    /// One texture coordinate per vertex.
-    pub coordinates: &'a Embedding,
+    /// One texture coordinate per vertex, v up.
+    pub coordinates: Embedding,
     /// The verdict on these coordinates.
-    pub verdict: &'a Verdict,
+    pub verdict: Verdict,
     /// Report of the run.
-    pub report: &'a Report,
-    /// The picture on the mesh, where there is one.
-    pub picture: Option<TexturePicture<'a>>,
+    pub report: Report,
+    /// The picture, where there is one: it goes beside an OBJ file, and on the mesh in a PNG file.
+    pub picture: Option<&'a PictureFile>,
     /// What the page of a drawing is.
     pub svg_page: SvgPage,
 }
@@ -161,7 +152,7 @@ impl Output<'_> {
         let layout: Embedding = self.coordinates.iter().map(|uv| *uv * scale).collect();
         let extent = layout.iter().fold(0.0_f64, |m, z| m.max((*z - layout[0]).abs().max_element()));
         let paint = match self.picture {
-            Some(picture) => Paint::Picture { coordinates: self.coordinates, picture: picture.pixels },
+            Some(picture) => Paint::Picture { coordinates: &self.coordinates, picture: &picture.pixels },
             None => Paint::Checker { coordinates: &layout, size: extent / CHECKER_FIELDS },
         };
         let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
@@ -171,7 +162,7 @@ impl Output<'_> {
     }
 
     fn proved<'b>(&'b self, embedding: &'b Embedding) -> ProvedEmbedding<'b> {
-        ProvedEmbedding { mesh: self.mesh, embedding, verdict: self.verdict }
+        ProvedEmbedding { mesh: self.mesh, embedding, verdict: &self.verdict }
     }
 
     /// Writes one file: aside first, then renamed, so that it is never half-written. An OBJ file with a picture comes

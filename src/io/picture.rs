@@ -2,9 +2,11 @@
 
 use std::io::{BufRead, Cursor, Seek};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use image::ImageReader;
 
+use super::FileStamp;
 use crate::geom::Picture;
 
 /// Why a file did not become a picture.
@@ -17,15 +19,36 @@ pub struct PictureError {
     pub reason: String,
 }
 
-/// Reads a PNG or JPEG file, whatever its name says.
-///
-/// # Errors
-///
-/// A file that cannot be read, or that is no such picture.
-pub fn read_picture(path: &Path) -> Result<Picture, PictureError> {
-    let failed = |reason: String| PictureError { path: path.to_owned(), reason };
-    let reader = ImageReader::open(path).map_err(|error| failed(error.to_string()))?;
-    decode(reader).map_err(failed)
+/// A picture with where it came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PictureFile {
+    /// What to call it: the file's name, or a word for the built-in one.
+    pub name: String,
+    /// The file it came from; none where it belongs to the built-in mesh.
+    pub path: Option<PathBuf>,
+    /// The state of that file when it was read, where a project is to know it again.
+    pub stamp: Option<FileStamp>,
+    /// Its pixels.
+    pub pixels: Arc<Picture>,
+}
+
+impl PictureFile {
+    /// Reads a PNG or JPEG file, whatever its name says.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, or that is no such picture.
+    pub fn read(path: &Path) -> Result<Self, PictureError> {
+        let reader = ImageReader::open(path).map_err(|error| error.to_string());
+        let pixels = reader.and_then(decode).map_err(|reason| PictureError { path: path.to_owned(), reason })?;
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+        Ok(Self { name, path: Some(path.to_owned()), stamp: FileStamp::read(path).ok(), pixels: Arc::new(pixels) })
+    }
+
+    /// Width over height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.pixels.width) / f64::from(self.pixels.height)
+    }
 }
 
 /// Decodes the bytes of a PNG or JPEG file.

@@ -10,7 +10,7 @@ use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
 use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
 
 /// Everything that is reported of a run. Field names are part of the interface.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub struct Report {
     /// Version of the program.
     pub freebound: &'static str,
@@ -28,10 +28,9 @@ pub struct Report {
     /// Whether the boundary is free, or convex: laid on a convex shape, or bent to one to make it simple.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub boundary: Option<&'static str>,
-    /// Where the coordinates lie: in the `unit` square, at `true` area, on the user's `pins`, or `unmoved` where moving
-    /// them into the unit square would have folded them.
+    /// Where the coordinates lie.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub placement: Option<&'static str>,
+    pub placement: Option<Placement>,
     /// Each step of each rung.
     pub steps: Vec<StepReport>,
     /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.
@@ -53,22 +52,7 @@ pub struct Report {
 impl Report {
     /// A report on a mesh alone.
     pub fn of_mesh(mesh: MeshReport) -> Self {
-        Self {
-            freebound: env!("CARGO_PKG_VERSION"),
-            mesh,
-            method: None,
-            family: None,
-            pins: None,
-            boundary: None,
-            placement: None,
-            steps: Vec::new(),
-            verdict: None,
-            distortion: None,
-            new_vertices: 0,
-            split_edges: Vec::new(),
-            seconds: Seconds::default(),
-            peak_memory_bytes: peak_memory_bytes(),
-        }
+        Self { freebound: env!("CARGO_PKG_VERSION"), mesh, peak_memory_bytes: peak_memory_bytes(), ..Self::default() }
     }
 
     /// Writes the report into a file.
@@ -84,8 +68,24 @@ impl Report {
     }
 }
 
+/// Where an embedding lies that is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Placement {
+    /// On the user's pins.
+    Pins,
+    /// Within the picture.
+    Picture,
+    /// In the unit square.
+    Unit,
+    /// As large as the surface.
+    True,
+    /// Scaled by a power of two and not moved, because the numbers of the unit square would fold it.
+    Unmoved,
+}
+
 /// The input mesh.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub struct MeshReport {
     /// Where it came from.
     pub path: String,

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{Outcome, PictureFile, Problem};
+use super::model::example_picture;
+use super::{Outcome, Problem};
 use crate::examples::Example;
 use crate::geom::{PictureFrame, VAxis};
-use crate::io::{Target, Targets, hard_targets, pins_in_plane};
+use crate::io::{PictureFile, Target, Targets, hard_targets, pins_in_plane};
 use crate::mesh::VertexId;
 use crate::solver::{GaugeSize, Pins, Settings};
 
@@ -32,7 +33,7 @@ impl Document {
         let landmarks = example.landmarks().into_iter();
         Self {
             targets: hard_targets(landmarks.map(|landmark| (landmark.vertex, landmark.target.into()))),
-            picture: PictureFile::of_example(example).map(Arc::new),
+            picture: example_picture(example),
             ..Self::default()
         }
     }

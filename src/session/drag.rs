@@ -16,7 +16,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::solving::Task;
-use super::{Background, Problem, Wake};
+use super::{Background, Problem, Session, Wake};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{Control, Embedding, Prepared, SolveError, Verdict, verdict};
 
@@ -42,8 +42,7 @@ impl Preview {
 }
 
 /// What is solved for once, for all moves of a drag.
-#[derive(Debug)]
-pub(super) struct Follow {
+struct Follow {
     /// The problem when it was solved.
     problem: Problem,
     /// The pins that are dragged, ascending.
@@ -54,28 +53,13 @@ pub(super) struct Follow {
 }
 
 impl Follow {
-    /// The pins that are dragged, ascending.
-    pub(super) fn dragged(&self) -> &[VertexId] {
-        &self.dragged
-    }
-
-    /// What a solve can begin with where only targets differ.
-    pub(super) fn prepared(&self) -> Arc<Prepared> {
-        Arc::clone(&self.prepared)
-    }
-
-    /// Whether a problem differs from the one solved in its targets alone.
-    pub(super) fn is_like(&self, problem: &Problem) -> bool {
-        self.problem.differs_in_targets_alone(problem)
-    }
-
     /// Whether it serves a drag of these pins in this problem: only their targets differ.
     fn serves(&self, problem: &Problem, dragged: &[VertexId]) -> bool {
         let others_stay = problem.targets.iter().all(|(vertex, target)| {
             dragged.binary_search(vertex).is_ok()
                 || self.problem.targets.get(vertex).is_some_and(|before| before.uv == target.uv)
         });
-        self.dragged == dragged && others_stay && self.is_like(problem)
+        self.dragged == dragged && others_stay && self.problem.differs_in_targets_alone(problem)
     }
 
     /// The embedding of the problem's first solve; none where the dragged pins did not all go the same way.
@@ -114,7 +98,6 @@ pub(super) struct Drag {
 }
 
 impl Drag {
-    /// Nothing is dragged.
     pub(super) fn new(wake: &Wake) -> Self {
         Self {
             preview: None,
@@ -123,11 +106,6 @@ impl Drag {
             following: Background::new("follow", wake),
             proving: Background::new("verdict", wake),
         }
-    }
-
-    /// What the screen shows while pins are dragged.
-    pub(super) fn preview(&self) -> Option<&Preview> {
-        self.preview.as_ref()
     }
 
     /// Whether a column, or the verdict on a preview, is being computed.
@@ -177,29 +155,6 @@ impl Drag {
         true
     }
 
-    /// A column that has been solved for. Where the solve failed, the run at the end of the drag says why.
-    pub(super) fn poll_column(&mut self) -> Option<Follow> {
-        let (_, follow) = self.following.poll()?;
-        follow.ok()?.ok()
-    }
-
-    /// Keeps a column for the moves to come.
-    pub(super) fn keep(&mut self, follow: Follow) {
-        self.follow = Some(follow);
-    }
-
-    /// Takes in the verdict on a preview, and proves the next one.
-    pub(super) fn poll_verdict(&mut self, mesh: Option<&Arc<DiskMesh>>) {
-        let Some((revision, verdict)) = self.proving.poll() else { return };
-        if let Some(preview) = &mut self.preview {
-            let found = verdict.ok().map(|verdict| (revision, Arc::new(verdict)));
-            preview.checked = found.or(preview.checked.take());
-        }
-        if let Some(mesh) = mesh {
-            self.prove(mesh);
-        }
-    }
-
     /// Proves the newest preview in the background, one at a time.
     fn prove(&mut self, mesh: &Arc<DiskMesh>) {
         let Some(preview) = self.preview.as_ref().filter(|preview| preview.verdict().is_none()) else { return };
@@ -225,5 +180,48 @@ impl Drag {
         self.end_preview();
         self.follow = None;
         self.following.cancel();
+    }
+}
+
+impl Session {
+    /// What the screen shows while pins are dragged.
+    pub fn preview(&self) -> Option<&Preview> {
+        self.drag.preview.as_ref()
+    }
+
+    /// Lets the embedding follow pins that were moved.
+    pub(super) fn follow(&mut self, dragged: Vec<VertexId>) {
+        // Where the mesh is to be turned around, a solve follows by itself.
+        if let Some(task) = self.task() {
+            self.drag.follow(task, dragged, self.solving.prepared());
+        }
+    }
+
+    /// Takes in what a drag has waited for.
+    pub(super) fn poll_drag(&mut self) {
+        // Where the solve for a column failed, the run at the end of the drag says why.
+        if let Some((_, Ok(Ok(follow)))) = self.drag.following.poll() {
+            self.take_column(follow);
+        }
+        let Some((revision, verdict)) = self.drag.proving.poll() else { return };
+        if let Some(preview) = &mut self.drag.preview {
+            let found = verdict.ok().map(|verdict| (revision, Arc::new(verdict)));
+            preview.checked = found.or(preview.checked.take());
+        }
+        if let Some(mesh) = self.disk().cloned() {
+            self.drag.prove(&mesh);
+        }
+    }
+
+    fn take_column(&mut self, follow: Follow) {
+        if !follow.problem.differs_in_targets_alone(&self.document.problem()) {
+            return;
+        }
+        self.solving.keep_prepared(Arc::clone(&follow.prepared));
+        let dragged = follow.dragged.clone();
+        self.drag.follow = Some(follow);
+        if self.history.is_in_gesture() && !self.is_running() && !self.is_current() {
+            self.follow(dragged);
+        }
     }
 }

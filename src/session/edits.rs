@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::errands::{Errand, Purpose};
-use super::{Command, Document, PictureFile, Place, Session};
+use super::errands::Errand;
+use super::{Command, Document, Session};
 use crate::geom::{PictureFrame, Similarity};
-use crate::io::{Constraints, Target, Targets};
+use crate::io::{Constraints, PictureFile, Target, Targets};
 use crate::mesh::VertexId;
 use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, flatten};
 
@@ -21,6 +21,9 @@ pub(super) struct Flat {
     faces_turned: bool,
     embedding: Result<Embedding, SolveError>,
 }
+
+/// The errand that turns the faces around.
+const TURNING: &str = "turning the faces";
 
 /// Edits.
 impl Session {
@@ -57,7 +60,7 @@ impl Session {
             return true;
         }
         let text = "a convex boundary takes no pins: every boundary vertex has its place";
-        self.messages.fail(Place::Embedding, text, Some("choose another method to pin vertices"));
+        self.complain(text, Some("choose another method to pin vertices"));
         false
     }
 }
@@ -71,7 +74,7 @@ impl Session {
         let preview = self.preview().map(|preview| (self.document.frame(), &*preview.embedding));
         let (frame, shown) = preview.unwrap_or((outcome.problem.frame, &outcome.step.solution.embedding));
         // New vertices belong to one embedding alone: they cannot be pinned.
-        let count = self.mesh.vertex_count();
+        let count = self.vertex_count();
         let fresh = vertices.iter().filter(|v| v.index() < count && !self.document.targets.contains_key(v));
         let fixed = |z: DVec2| Target::fixed(frame.uv_from_plane(z));
         let target = |vertex: &VertexId| shown.get(vertex.index()).copied().map(fixed);
@@ -81,9 +84,8 @@ impl Session {
 
     /// Pins a vertex, or places its pin anew.
     pub(super) fn place(&mut self, vertex: VertexId, target: Target) {
-        let is_valid = vertex.index() < self.mesh.vertex_count()
-            && target.uv.is_finite()
-            && target.hold.invalid_weight().is_none();
+        let is_valid =
+            vertex.index() < self.vertex_count() && target.uv.is_finite() && target.hold.invalid_weight().is_none();
         if is_valid && self.takes_pins() {
             self.edit(vec![Command::SetPin { vertex, target: Some(target) }]);
         }
@@ -167,18 +169,18 @@ impl Session {
     pub(super) fn fit_targets(&mut self) {
         if self.document.targets.len() < 2 {
             let text = "one target can be anywhere: fitting needs two pins or more";
-            return self.messages.fail(Place::Embedding, text, Some("place another constraint"));
+            return self.complain(text, Some("place another constraint"));
         }
         let model = self.model();
         let Some((disk, faces_turned)) = model.and_then(|model| Some((model.disk()?.clone(), model.faces_turned)))
         else {
-            return self.messages.fail(Place::Embedding, "a mesh with faults has nothing to fit to", None);
+            return self.complain("a mesh with faults has nothing to fit to", None);
         };
         let frame = self.document.frame();
         let [low, high] = frame.corners();
         let size = GaugeSize::Within { low, high };
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
-        self.errands.send(Purpose::Fit, move |cancel| {
+        self.errands.send("fitting the targets", move |cancel| {
             let solution = flatten(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
             Errand::Flat(Flat { frame, faces_turned, embedding: solution.map(|solution| solution.embedding) })
         });
@@ -188,13 +190,11 @@ impl Session {
     fn take_flat(&mut self, flat: &Flat) {
         let embedding = match &flat.embedding {
             Ok(embedding) => embedding,
-            Err(error) => {
-                return self.messages.fail(Place::Embedding, format!("there is nothing to fit to: {error}"), None);
-            }
+            Err(error) => return self.complain(format!("there is nothing to fit to: {error}"), None),
         };
         if flat.frame != self.document.frame() || flat.faces_turned != self.document.faces_turned {
             let text = "picture or faces changed while the targets were being fitted";
-            return self.messages.fail(Place::Embedding, text, Some("fit them again"));
+            return self.complain(text, Some("fit them again"));
         }
         let pairs: Vec<[DVec2; 2]> =
             (self.document.pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex]]).collect();
@@ -204,7 +204,7 @@ impl Session {
         });
         match fitted.filter(|targets| targets.iter().all(|target| target.is_finite())) {
             Some(targets) => self.move_targets(&targets),
-            None => self.messages.fail(Place::Embedding, "no turn and no size fits these targets", None),
+            None => self.complain("no turn and no size fits these targets", None),
         }
     }
 
@@ -225,18 +225,18 @@ impl Session {
     /// Reads a picture.
     pub(super) fn open_picture(&mut self, path: PathBuf) {
         if self.model().is_none() {
-            return self.messages.fail(Place::Embedding, "a picture needs a mesh: open one first", None);
+            return self.complain("a picture needs a mesh: open one first", None);
         }
-        self.errands.send(Purpose::Picture, move |_| Errand::Picture(PictureFile::read(&path)));
+        self.errands.send("reading the picture", move |_| Errand::Picture(PictureFile::read(&path)));
     }
 
     /// Reads constraints.
     pub(super) fn import_constraints(&mut self, path: PathBuf) {
         if self.model().is_none() {
-            return self.messages.fail(Place::Embedding, "constraints need a mesh: open one first", None);
+            return self.complain("constraints need a mesh: open one first", None);
         }
-        let count = self.mesh.vertex_count();
-        self.errands.send(Purpose::Constraints, move |_| Errand::Constraints(Constraints::read(&path, count)));
+        let count = self.vertex_count();
+        self.errands.send("reading the constraints", move |_| Errand::Constraints(Constraints::read(&path, count)));
     }
 
     /// Takes in the errands that came back.
@@ -244,14 +244,12 @@ impl Session {
         while let Some(errand) = self.errands.poll(self.history.is_in_gesture(), &mut self.messages) {
             match errand {
                 Errand::Picture(Ok(picture)) => self.edit(vec![Command::SetPicture(Some(Arc::new(picture)))]),
-                Errand::Picture(Err(error)) => {
-                    self.messages.fail(Place::Embedding, error.to_string(), Some("choose a PNG or JPEG file"));
-                }
+                Errand::Picture(Err(error)) => self.complain(error.to_string(), Some("choose a PNG or JPEG file")),
                 Errand::Constraints(Ok(constraints)) => self.take_constraints(constraints.targets),
-                Errand::Constraints(Err(error)) => self.messages.fail(Place::Embedding, error.to_string(), None),
+                Errand::Constraints(Err(error)) => self.complain(error.to_string(), None),
                 Errand::Flat(flat) => self.take_flat(&flat),
                 Errand::Turned(model) => {
-                    self.mesh.take_other_side(Arc::new(*model));
+                    self.mesh.take_other_side(*model);
                     if !self.has_faces_as_wanted() {
                         self.solve();
                     }
@@ -262,7 +260,7 @@ impl Session {
 
     fn take_constraints(&mut self, targets: Targets) {
         if targets.is_empty() {
-            return self.messages.fail(Place::Embedding, "the file has no constraints", None);
+            return self.complain("the file has no constraints", None);
         }
         if self.takes_pins() {
             let known = &self.document.targets;
@@ -270,11 +268,6 @@ impl Session {
             let commands = fresh.map(|(vertex, target)| Command::SetPin { vertex, target: Some(target) }).collect();
             self.edit(commands);
         }
-    }
-
-    /// Whether the mesh has its faces as the document wants them.
-    pub(super) fn has_faces_as_wanted(&self) -> bool {
-        self.mesh.has_faces(self.document.faces_turned)
     }
 
     /// Brings the mesh's faces to where the document wants them. Where that takes time, a solve follows by itself.
@@ -290,9 +283,9 @@ impl Session {
             return true;
         }
         if let Some(model) = self.model().cloned()
-            && !self.errands.is_under_way(Purpose::Turn)
+            && !self.errands.is_under_way(TURNING)
         {
-            self.errands.send(Purpose::Turn, move |_| Errand::Turned(Box::new(model.turned())));
+            self.errands.send(TURNING, move |_| Errand::Turned(Box::new(model.turned())));
         }
         false
     }

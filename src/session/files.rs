@@ -1,14 +1,14 @@
 //! Files of the session: what is open and what is saved of it, what is being read, what is being written.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
-use super::saving::{OutputSaves, ProjectSaves, Request, Saved, picture_source, source_of};
-use super::{Background, Document, Messages, Model, Place, RecentFiles, Recoverable, Wake};
+use super::saving::{ProjectSaves, Request, picture_source, source_of};
+use super::{Background, Document, Messages, Model, Place, RecentFiles, Session, Wake};
 use crate::examples::Example;
-use crate::io::{ProjectFile, ProjectSource, ProjectView, WriteError};
+use crate::io::{ProjectFile, ProjectSource, ProjectView, RecoveryNote, WriteError};
 
 /// How long the end of a session waits for files that a person asked for, which may be large.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -35,76 +35,38 @@ pub(super) struct Files {
     table: OnTable,
     /// What is being opened, by the file that is to be remembered once it is open.
     loading: Background<Option<PathBuf>, Result<Opened, OpenError>>,
-    outputs: OutputSaves,
+    /// Results being written, each with what to say when that is done.
+    outputs: Background<(), Result<String, WriteError>>,
     projects: ProjectSaves,
-    autosave: Autosave,
-    recent: RecentFiles,
+    pub(super) autosave: Autosave,
+    pub(super) recent: RecentFiles,
 }
 
-/// What is asked.
 impl Files {
-    /// Nothing is open yet.
     pub(super) fn new(wake: &Wake, recent: RecentFiles) -> Self {
         Self {
             table: OnTable::default(),
             loading: Background::new("load", wake),
-            outputs: OutputSaves::new(wake),
+            outputs: Background::new("save", wake),
             projects: ProjectSaves::new(wake),
             autosave: Autosave::new(wake),
             recent,
         }
     }
 
-    /// Counts what was opened.
-    pub(super) fn opening(&self) -> u64 {
-        self.table.opening
-    }
-
-    /// The project that the document is saved to.
-    pub(super) fn project(&self) -> Option<&PathBuf> {
-        self.table.project.as_ref()
-    }
-
     /// What to call what is open.
-    pub(super) fn name(&self, model: Option<&Model>) -> Option<String> {
+    fn name(&self, model: Option<&Model>) -> Option<String> {
         let stem = self.table.project.as_ref().and_then(|path| path.file_stem());
         let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
         stem.or_else(|| self.table.name.clone()).or_else(|| model.map(|model| model.name.clone()))
     }
 
-    /// Whether a document is saved as it is.
-    pub(super) fn has_saved(&self, document: &Document) -> bool {
+    fn has_saved(&self, document: &Document) -> bool {
         self.table.saved.as_ref() == Some(document)
     }
 
-    /// How the person looks at it.
-    pub(super) fn view(&self) -> &ProjectView {
-        &self.table.view
-    }
-
-    /// Says how the person looks at it.
-    pub(super) fn set_view(&mut self, view: ProjectView) {
-        self.table.view = view;
-    }
-
-    /// The files opened last.
-    pub(super) fn recent(&self) -> &RecentFiles {
-        &self.recent
-    }
-
-    /// Forgets the files opened last.
-    pub(super) fn clear_recent(&mut self) {
-        self.recent.clear();
-    }
-
-    /// Whether something is being opened.
     pub(super) fn is_loading(&self) -> bool {
         self.loading.is_busy()
-    }
-
-    /// Whether a project is being written.
-    pub(super) fn is_saving_project(&self) -> bool {
-        self.projects.is_busy()
     }
 
     /// Whether a file is being written that a person asked for.
@@ -199,9 +161,9 @@ impl Files {
 
 /// Writing.
 impl Files {
-    /// Writes a file that a person asked for.
-    pub(super) fn write(&mut self, work: impl FnOnce() -> Result<Saved, WriteError> + Send + 'static) {
-        self.outputs.start(work);
+    /// Writes a file that a person asked for. The work gives the words that say so.
+    pub(super) fn write(&mut self, work: impl FnOnce() -> Result<String, WriteError> + Send + 'static) {
+        self.outputs.add((), move |_| work());
     }
 
     /// Saves the project, after those that were asked for before.
@@ -212,7 +174,13 @@ impl Files {
 
     /// Takes in what was written.
     pub(super) fn poll_saving(&mut self, messages: &mut Messages) {
-        self.outputs.poll(messages);
+        while let Some(((), written)) = self.outputs.poll() {
+            match written {
+                Ok(Ok(words)) => messages.note(words),
+                Ok(Err(error)) => messages.fail(Place::Embedding, error.to_string(), None),
+                Err(failure) => messages.fail_background(Place::Embedding, "saving", &failure),
+            }
+        }
         while let Some(Request { path, document, opening }) = self.projects.poll(messages) {
             self.recent.remember(&path);
             messages.note(format!("saved {}", path.display()));
@@ -221,33 +189,6 @@ impl Files {
                 (self.table.project, self.table.saved) = (Some(path), Some(document));
             }
         }
-    }
-
-    /// Waits until all files are written that were asked for, or the disk hangs.
-    pub(super) fn finish_writing(&mut self, messages: &mut Messages) {
-        let begun = Instant::now();
-        while self.is_saving() && begun.elapsed() < PATIENCE {
-            std::thread::sleep(Duration::from_millis(1));
-            self.poll_saving(messages);
-        }
-    }
-}
-
-/// Copies for recovery.
-impl Files {
-    /// Makes copies in a folder from now on, and looks at what is there.
-    pub(super) fn keep_copies_in(&mut self, folder: PathBuf) {
-        self.autosave.keep_copies_in(folder);
-    }
-
-    /// Work that sessions before have left unsaved, newest first.
-    pub(super) fn recoverable(&self) -> &[Recoverable] {
-        self.autosave.found()
-    }
-
-    /// Deletes what a session before has left.
-    pub(super) fn discard_recovery(&mut self, path: &Path) {
-        self.autosave.discard(path);
     }
 
     /// Makes a copy of the document where one is due. Nothing is open without a model.
@@ -264,14 +205,63 @@ impl Files {
             && let Some(project) = self.project_file(model, document)
         {
             let name = self.name(Some(model)).unwrap_or_default();
-            let at = self.project().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
-            let recovery = Some(crate::io::RecoveryNote { name, project: at });
+            let at = self.table.project.as_ref().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
+            let recovery = Some(RecoveryNote { name, project: at });
             self.autosave.begin_copy(now, ProjectFile { recovery, ..project }, document, messages);
         }
     }
+}
 
-    /// Ends the session as a person wishes: what is not saved is not wanted.
-    pub(super) fn close(&mut self) {
-        self.autosave.close();
+impl Session {
+    /// Changes whenever something was opened. Unlike [`model_revision`](Self::model_revision) it stays where the same
+    /// mesh is turned around, when no camera is to move.
+    pub fn opening_revision(&self) -> u64 {
+        self.files.table.opening
+    }
+
+    /// The files opened last.
+    pub fn recent(&self) -> &RecentFiles {
+        &self.files.recent
+    }
+
+    /// The project that the document is saved to.
+    pub fn project_path(&self) -> Option<&PathBuf> {
+        self.files.table.project.as_ref()
+    }
+
+    /// What to call what is open.
+    pub fn project_name(&self) -> Option<String> {
+        self.files.name(self.model().map(AsRef::as_ref))
+    }
+
+    /// Whether something would be lost if the session ended now.
+    pub fn has_unsaved_work(&self) -> bool {
+        self.model().is_some() && !self.files.has_saved(&self.document)
+    }
+
+    /// Whether a project is being written.
+    pub fn is_saving_project(&self) -> bool {
+        self.files.projects.is_busy()
+    }
+
+    /// How the person looked at it when it was saved: for the screen to take over when
+    /// [`opening_revision`](Self::opening_revision) changes.
+    pub fn view(&self) -> &ProjectView {
+        &self.files.table.view
+    }
+
+    /// Says how the person looks at it, to be saved with the project. A view alone is no unsaved work.
+    pub fn set_view(&mut self, view: ProjectView) {
+        self.files.table.view = view;
+    }
+
+    /// Waits until all files are written that were asked for, or the disk hangs. For the end of the program, which
+    /// would break them off.
+    pub fn finish_writing(&mut self) {
+        let begun = Instant::now();
+        while self.files.is_saving() && begun.elapsed() < PATIENCE {
+            std::thread::sleep(Duration::from_millis(1));
+            self.files.poll_saving(&mut self.messages);
+        }
     }
 }

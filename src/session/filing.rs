@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::opened::{Opened, Origin};
-use super::saving::Saved;
 use super::stop::Goal;
-use super::{Finished, Given, History, Message, Place, SaveRequest, Session, Surface};
+use super::{History, Message, Place, SaveRequest, Session, Surface};
 use crate::geom::Picture;
 use crate::io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
@@ -20,7 +19,7 @@ impl Session {
         self.files.put_on_table(&opened);
         let Opened { model, document, remarks, .. } = opened;
         // An example is there to be watched: it waits for the person to take the steps.
-        let waits = model.is_example() && is_mesh;
+        let waits = model.example.is_some() && is_mesh;
         self.document = document;
         self.history = History::default();
         self.errands.forget();
@@ -39,7 +38,7 @@ impl Session {
     }
 
     fn tell_faults(&mut self) {
-        let Some(model) = self.mesh.model() else { return };
+        let Some(model) = self.model().cloned() else { return };
         let Surface::Faulty(_, diagnosis) = &model.surface else { return };
         for fault in &diagnosis.faults {
             let message = Message::error(Place::Mesh, fault.message()).with_remedy(fault.remedy());
@@ -50,30 +49,27 @@ impl Session {
     /// Writes the embedding on the screen.
     pub(super) fn save(&mut self, request: SaveRequest) {
         let (Some(model), Some(outcome)) = (self.model().cloned(), self.outcome().cloned()) else {
-            return self.fail_to_save("there is nothing to save yet: open a mesh first", None);
+            return self.complain("there is nothing to save yet: open a mesh first", None);
         };
         if !self.is_current() {
             let text = "the embedding on the screen does not belong to these settings and pins yet";
-            return self.fail_to_save(text, Some("save again when it is solved"));
+            return self.complain(text, Some("save again when it is solved"));
         }
         let records = self.timeline().records()[..=outcome.step.index].to_vec();
         let picture = self.document.picture.clone();
         self.files.write(move || {
-            let disk = model.disk().expect("only a disk has an outcome");
-            let finished =
-                Finished::new(Given { model: &model, disk, read_seconds: 0.0 }, &outcome, records, request.fit)
-                    .with_picture(picture);
-            finished.write(request.kind, &request.path)?;
-            Ok(Saved::Output(request.path, finished.verdict().clone()))
+            let mut output = outcome.finished(&model, records, request.fit);
+            output.picture = picture.as_deref();
+            output.write(request.kind, &request.path)?;
+            Ok(format!("wrote {} ({})", request.path.display(), output.verdict.summary()))
         });
     }
 
     /// Saves the project.
     pub(super) fn save_project(&mut self, path: PathBuf) {
-        let model = self.mesh.model();
-        match model.and_then(|model| self.files.project_file(model, &self.document)) {
+        match self.model().and_then(|model| self.files.project_file(model, &self.document)) {
             Some(project) => self.files.save_project(path, project, &self.document),
-            None => self.fail_to_save("there is nothing to save yet: open a mesh first", None),
+            None => self.complain("there is nothing to save yet: open a mesh first", None),
         }
     }
 
@@ -81,11 +77,12 @@ impl Session {
     pub(super) fn export_constraints(&mut self, path: PathBuf) {
         let targets = self.document.targets.clone();
         if targets.is_empty() {
-            return self.fail_to_save("there are no constraints to write: pin a vertex first", None);
+            return self.complain("there are no constraints to write: pin a vertex first", None);
         }
         self.files.write(move || {
             write_durably(&path, |out| write_constraints(out, &targets))?;
-            Ok(Saved::Constraints(path, targets.len()))
+            let words = if targets.len() == 1 { "constraint" } else { "constraints" };
+            Ok(format!("wrote {} ({} {words})", path.display(), targets.len()))
         });
     }
 
@@ -93,18 +90,14 @@ impl Session {
     pub fn save_picture(&mut self, path: PathBuf, picture: Picture) {
         self.files.write(move || {
             write_atomically(&path, |out| picture.write_png(out).map_err(std::io::Error::other))?;
-            Ok(Saved::Picture(path))
+            Ok(format!("wrote {}", path.display()))
         });
     }
 
     /// Says that a name does not tell what kind of file to write.
     pub(super) fn refuse_name(&mut self, path: &Path) {
         let text = format!("{} does not say what to write", path.display());
-        self.messages.fail(Place::Embedding, text, Some(&format!("end the name in {EXTENSIONS}")));
-    }
-
-    fn fail_to_save(&mut self, text: &str, remedy: Option<&str>) {
-        self.messages.fail(Place::Embedding, text, remedy);
+        self.complain(text, Some(&format!("end the name in {EXTENSIONS}")));
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the session has to tell a person: what happened, where, and what to do.
 
-use super::Failure;
+use super::{Failure, Session};
 use crate::mesh::VertexId;
 
 /// How bad it is.
@@ -63,11 +63,6 @@ pub(super) struct Messages {
 }
 
 impl Messages {
-    /// The messages, oldest first.
-    pub(super) fn list(&self) -> &[Message] {
-        &self.list
-    }
-
     /// Says something. Returns the message's number.
     pub(super) fn say(&mut self, message: Message) -> u64 {
         self.last_id += 1;
@@ -91,7 +86,6 @@ impl Messages {
         self.fail(place, failure.words(work), failure.remedy());
     }
 
-    /// Takes a message away.
     pub(super) fn dismiss(&mut self, id: u64) {
         self.list.retain(|message| message.id != id);
     }
@@ -101,8 +95,19 @@ impl Messages {
         self.list.retain(|message| message.severity != Severity::Note);
     }
 
-    /// Takes all messages away.
     pub(super) fn clear(&mut self) {
         self.list.clear();
+    }
+}
+
+impl Session {
+    /// What has been said and not dismissed, oldest first.
+    pub fn messages(&self) -> &[Message] {
+        &self.messages.list
+    }
+
+    /// Says beside the embedding that something did not work, and what to do about it.
+    pub(super) fn complain(&mut self, text: impl Into<String>, remedy: Option<&str>) {
+        self.messages.fail(Place::Embedding, text, remedy);
     }
 }

@@ -9,7 +9,7 @@
 //! | `action`        | what a person can ask for                                                  |
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
-//! | `runs`          | how the document is solved, in a drag and otherwise                        |
+//! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
 //! | `document`      | part: what the user edits; one edit                                        |
 //! | `history`       | part: undo and redo                                                        |
@@ -23,8 +23,8 @@
 //! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
 //! | `files`         | part: what is open and saved, read and written                             |
 //! | `opened`        | what opening brings                                                        |
-//! | `model`         | mesh and picture as they were opened                                       |
-//! | `saving`        | files on their way to the disk                                             |
+//! | `model`         | a mesh as it was opened                                                    |
+//! | `saving`        | projects on their way to the disk                                          |
 //! | `finished`      | a result ready to be written                                               |
 //! | `recovery`      | copies for recovery                                                        |
 //! | `recent`        | the files opened last                                                      |
@@ -61,12 +61,12 @@ pub use action::Action;
 pub use background::{Background, Failure, Wake};
 pub use document::{Command, Document};
 pub use drag::Preview;
-pub use finished::{Finished, Given, SaveRequest};
+pub use finished::SaveRequest;
 pub use history::History;
 use messages::Messages;
 pub use messages::{Message, Place, Severity};
-pub use model::{Model, PictureFile, Surface};
-pub use outcome::{Outcome, OutputFit, Placement, Problem};
+pub use model::{Model, Surface};
+pub use outcome::{Outcome, OutputFit, Problem};
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
 pub use state::Session;

@@ -1,12 +1,11 @@
-//! Mesh and picture as they were opened.
+//! A mesh as it was opened.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::geom::Picture;
-use crate::io::{FileStamp, ObjMesh, PictureError, ReadError, read_mesh_with, read_picture};
+use crate::io::{FileStamp, ObjMesh, PictureFile, ReadError, read_mesh_with};
 use crate::mesh::{Diagnosis, DiskMesh, PolygonMesh, TriMesh, relative_volume};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
@@ -30,8 +29,9 @@ pub struct Model {
     pub source: Arc<ObjMesh>,
     /// Its triangles and what is known of them.
     pub surface: Surface,
-    /// Whether its faces seem to point inward: found once, for it takes a look at all of them.
-    pub(super) points_inward: bool,
+    /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
+    /// is too flat to tell. Found once, for it takes a look at all faces.
+    pub faces_point_inward: bool,
 }
 
 /// Triangles, with the diagnosis' word on them.
@@ -41,19 +41,6 @@ pub enum Surface {
     Disk(Arc<DiskMesh>),
     /// It has faults.
     Faulty(Arc<TriMesh>, Arc<Diagnosis>),
-}
-
-impl Surface {
-    fn of(source: &ObjMesh) -> Self {
-        match DiskMesh::try_from(source.polygons.triangulate()) {
-            Ok(disk) => Self::Disk(Arc::new(disk)),
-            Err(diagnosis) => Self::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
-        }
-    }
-
-    fn points_inward(&self) -> bool {
-        matches!(self, Self::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME)
-    }
 }
 
 impl Model {
@@ -86,35 +73,29 @@ impl Model {
     }
 
     fn new(name: String, path: Option<PathBuf>, source: ObjMesh) -> Self {
-        let surface = Surface::of(&source);
-        let points_inward = surface.points_inward();
+        let surface = match DiskMesh::try_from(source.polygons.triangulate()) {
+            Ok(disk) => Surface::Disk(Arc::new(disk)),
+            Err(diagnosis) => Surface::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
+        };
+        let faces_point_inward = matches!(&surface, Surface::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME);
         let source = Arc::new(source);
-        Self { name, path, stamp: None, example: None, faces_turned: false, source, surface, points_inward }
+        Self { name, path, stamp: None, example: None, faces_turned: false, source, surface, faces_point_inward }
     }
 
     /// The same mesh with its faces turned around: positions and vertices stay, and so does the order of the polygons.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
-        let source = self.source.turned();
-        let surface = Surface::of(&source);
-        let points_inward = surface.points_inward();
-        Self { faces_turned: !self.faces_turned, source: Arc::new(source), surface, points_inward, ..self.clone() }
-    }
-
-    /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
-    /// is too flat to tell.
-    pub fn faces_point_inward(&self) -> bool {
-        self.points_inward
+        Self {
+            stamp: self.stamp.clone(),
+            example: self.example,
+            faces_turned: !self.faces_turned,
+            ..Self::new(self.name.clone(), self.path.clone(), self.source.turned())
+        }
     }
 
     /// Where it came from, in words.
     pub fn path_words(&self) -> String {
         self.path.as_ref().map_or_else(|| format!("built-in: {}", self.name), |path| path.display().to_string())
-    }
-
-    /// Whether it is a built-in mesh.
-    pub fn is_example(&self) -> bool {
-        self.path.is_none()
     }
 
     /// The triangles.
@@ -134,40 +115,8 @@ impl Model {
     }
 }
 
-/// A picture with where it came from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PictureFile {
-    /// What to call it: the file's name, or a word for the built-in one.
-    pub name: String,
-    /// The file it came from; none where it belongs to the built-in mesh.
-    pub path: Option<PathBuf>,
-    /// The state of that file when it was read, where a project is to know it again.
-    pub stamp: Option<FileStamp>,
-    /// Its pixels.
-    pub pixels: Arc<Picture>,
-}
-
-impl PictureFile {
-    /// Reads a PNG or JPEG file.
-    ///
-    /// # Errors
-    ///
-    /// A file that cannot be read, or that is no such picture.
-    pub fn read(path: &Path) -> Result<Self, PictureError> {
-        let pixels = Arc::new(read_picture(path)?);
-        let stamp = FileStamp::read(path).ok();
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        Ok(Self { name, path: Some(path.to_owned()), stamp, pixels })
-    }
-
-    /// The picture that belongs to a built-in mesh.
-    pub fn of_example(example: Example) -> Option<Self> {
-        let pixels = Arc::new(example.picture()?);
-        Some(Self { name: "portrait".to_owned(), path: None, stamp: None, pixels })
-    }
-
-    /// Width over height.
-    pub fn aspect(&self) -> f64 {
-        f64::from(self.pixels.width) / f64::from(self.pixels.height)
-    }
+/// The picture that belongs to a built-in mesh.
+pub(super) fn example_picture(example: Example) -> Option<Arc<PictureFile>> {
+    let pixels = Arc::new(example.picture()?);
+    Some(Arc::new(PictureFile { name: "portrait".to_owned(), path: None, stamp: None, pixels }))
 }

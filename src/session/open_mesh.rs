@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Model;
+use super::{Model, Session};
 use crate::mesh::DiskMesh;
 
 /// The open mesh.
@@ -16,39 +16,13 @@ pub(super) struct OpenMesh {
 }
 
 impl OpenMesh {
-    /// The mesh.
-    pub(super) fn model(&self) -> Option<&Arc<Model>> {
-        self.model.as_ref()
-    }
-
-    /// The disk, where it is one.
-    pub(super) fn disk(&self) -> Option<&Arc<DiskMesh>> {
-        self.model.as_ref()?.disk()
-    }
-
-    /// How many vertices it has; none where nothing is open.
-    pub(super) fn vertex_count(&self) -> usize {
-        self.model.as_ref().map_or(0, |model| model.mesh().vertex_count())
-    }
-
-    /// Changes whenever another mesh is open, or the same one with its faces turned around.
-    pub(super) fn revision(&self) -> u64 {
-        self.revision
-    }
-
-    /// Opens another mesh.
     pub(super) fn open(&mut self, model: Model) {
         *self = Self { model: Some(Arc::new(model)), other_side: None, revision: self.revision + 1 };
     }
 
-    /// Whether its faces are turned around, or not, as is wanted. Where nothing is open, there is nothing to turn.
-    pub(super) fn has_faces(&self, turned: bool) -> bool {
-        self.model.as_ref().is_none_or(|model| model.faces_turned == turned)
-    }
-
     /// Takes in the mesh with its faces turned around, for [`turn_over`](Self::turn_over).
-    pub(super) fn take_other_side(&mut self, model: Arc<Model>) {
-        self.other_side = Some(model);
+    pub(super) fn take_other_side(&mut self, model: Model) {
+        self.other_side = Some(Arc::new(model));
     }
 
     /// Turns the faces around. Returns whether the other side was there to be shown.
@@ -57,5 +31,32 @@ impl OpenMesh {
         self.other_side = self.model.replace(other_side);
         self.revision += 1;
         true
+    }
+}
+
+impl Session {
+    /// The open mesh.
+    pub fn model(&self) -> Option<&Arc<Model>> {
+        self.mesh.model.as_ref()
+    }
+
+    /// Changes whenever another mesh is open, or the same one with its faces turned around.
+    pub fn model_revision(&self) -> u64 {
+        self.mesh.revision
+    }
+
+    /// The open mesh, where it is a disk.
+    pub(super) fn disk(&self) -> Option<&Arc<DiskMesh>> {
+        self.model()?.disk()
+    }
+
+    /// How many vertices the open mesh has; none where nothing is open.
+    pub(super) fn vertex_count(&self) -> usize {
+        self.model().map_or(0, |model| model.mesh().vertex_count())
+    }
+
+    /// Whether the mesh has its faces as the document wants them. Where nothing is open, there is nothing to turn.
+    pub(super) fn has_faces_as_wanted(&self) -> bool {
+        self.model().is_none_or(|model| model.faces_turned == self.document.faces_turned)
     }
 }

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{Document, Message, Model, PictureFile, Place};
+use super::model::example_picture;
+use super::{Document, Message, Model, Place};
 use crate::examples::Example;
 use crate::io::{
-    FileStamp, PROJECT_EXTENSION, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError, RecoveryNote,
-    Targets, material_picture,
+    FileStamp, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError,
+    RecoveryNote, Targets, material_picture,
 };
 
 /// Something that was opened, ready to be put on the table.
@@ -120,7 +121,7 @@ impl Opened {
         let document = Document {
             targets,
             settings: project.settings,
-            picture: picture.map(Arc::new),
+            picture,
             v_axis: project.v_axis,
             faces_turned: project.faces_turned,
             aspect: None,
@@ -159,9 +160,9 @@ fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Message>) -> Result<Mo
     }
 }
 
-fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option<PictureFile> {
+fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option<Arc<PictureFile>> {
     match source {
-        ProjectSource::Example(name) => example_called(name).and_then(PictureFile::of_example),
+        ProjectSource::Example(name) => example_called(name).and_then(example_picture),
         ProjectSource::File { path, stamp } => {
             let remedy = "the embedding has no picture now: open one, or mend this and open the project again";
             let picture = if path.exists() {
@@ -177,7 +178,7 @@ fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option
                     "check that the targets are in the right places, then save the project",
                 ));
             }
-            Some(picture)
+            Some(Arc::new(picture))
         }
     }
 }

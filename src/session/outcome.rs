@@ -1,51 +1,24 @@
 //! A step with its proof: what the screen shows and what files say.
 
+use clap::ValueEnum;
 use glam::DVec2;
 
 use crate::geom::{PictureFrame, VAxis};
-use crate::io::{Target, Targets, pins_in_plane};
+use crate::io::{Placement, Target, Targets, pins_in_plane};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
     Candidate, Distortion, Embedding, GaugeSize, Pins, Settings, Step, Verdict, are_held_alike, distortion,
     to_unit_box, to_unit_square, to_unit_square_by_power_of_two, verdict,
 };
 
-/// What to do with the size of an embedding that the user's pins do not fix.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Size of an embedding that the user's pins do not fix. Its words are those of the command line's help.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum OutputFit {
-    /// Scale it uniformly into the unit square, as texture coordinates want it.
+    /// Uniformly into the unit square
     #[default]
     Unit,
-    /// Keep the area of the surface.
+    /// The area of the surface
     True,
-}
-
-/// Where an embedding lies that is to be written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Placement {
-    /// On the user's pins.
-    Pins,
-    /// Within the picture.
-    Picture,
-    /// In the unit square.
-    UnitSquare,
-    /// As large as the surface.
-    TrueArea,
-    /// Scaled by a power of two and not moved, because the numbers of the unit square would fold it.
-    Unmoved,
-}
-
-impl Placement {
-    /// The name in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Pins => "pins",
-            Self::Picture => "picture",
-            Self::UnitSquare => "unit",
-            Self::TrueArea => "true",
-            Self::Unmoved => "unmoved",
-        }
-    }
 }
 
 /// What a run is to solve.
@@ -126,11 +99,6 @@ impl Outcome {
         self.step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len())
     }
 
-    /// Whether the picture is proved one-to-one, but exact pins are not on their targets yet.
-    pub fn is_planar_but_unmet(&self) -> bool {
-        self.step.verdict.planar && !self.step.unmet().is_empty()
-    }
-
     /// The texture coordinates that go into a file, where they lie, and the verdict on them, which is that on the mesh
     /// of the step. The user's pins keep their places, exact ones that are met to the last bit; without any, `fit`
     /// decides the size. `mesh` is the mesh as given.
@@ -147,7 +115,7 @@ impl Outcome {
             return self.as_it_lies(mesh, Placement::Picture);
         }
         if fit == OutputFit::True {
-            return (embedding.clone(), Placement::TrueArea, self.step.verdict.clone());
+            return (embedding.clone(), Placement::True, self.step.verdict.clone());
         }
         let placed = |place: fn(&mut Embedding), name| {
             let mut coordinates = embedding.clone();
@@ -155,12 +123,11 @@ impl Outcome {
             let verdict = verdict(mesh, &coordinates);
             (coordinates, name, verdict)
         };
-        let first = placed(to_unit_square, Placement::UnitSquare);
+        let first = placed(to_unit_square, Placement::Unit);
         if first.2.planar || !self.step.verdict.planar {
             return first;
         }
-        let others: [Way; 2] =
-            [(to_unit_square_by_power_of_two, Placement::UnitSquare), (to_unit_box, Placement::Unmoved)];
+        let others: [Way; 2] = [(to_unit_square_by_power_of_two, Placement::Unit), (to_unit_box, Placement::Unmoved)];
         let rescued = others.into_iter().map(|(place, name)| placed(place, name)).find(|found| found.2.planar);
         rescued.unwrap_or(first)
     }
@@ -196,11 +163,6 @@ impl Outcome {
             let error = if is_met { 0.0 } else { frame.uv_from_plane(z).distance(target.uv) };
             (vertex, target, error)
         })
-    }
-
-    /// Largest distance of a pinned vertex from its target.
-    pub fn pin_error(&self) -> f64 {
-        self.pin_errors().map(|(.., error)| error).fold(0.0, f64::max)
     }
 
     /// The targets of the user's pins, where the method takes any.

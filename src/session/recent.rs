@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::recovery::system_folder;
 use crate::io::write_atomically;
 
 /// How many are remembered.
@@ -24,11 +25,7 @@ impl RecentFiles {
 
     /// Where the list is kept on this system, `None` where it has no place for settings.
     pub fn default_store() -> Option<PathBuf> {
-        let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-        let folder = variable("XDG_CONFIG_HOME")
-            .or_else(|| variable("APPDATA"))
-            .or_else(|| variable("HOME").map(|home| home.join(".config")))?;
-        Some(folder.join("freebound").join("recent.json"))
+        Some(system_folder(["XDG_CONFIG_HOME", "APPDATA"], ".config")?.join("recent.json"))
     }
 
     /// The files, newest first.
@@ -57,29 +54,5 @@ impl RecentFiles {
             std::fs::create_dir_all(folder).ok();
         }
         write_atomically(store, |out| serde_json::to_writer(out, &self.paths).map_err(Into::into)).ok();
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_list_survives_a_restart_newest_first() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = folder.path().join("deep").join("recent.json");
-        let mut recent = RecentFiles::load(store.clone());
-        for name in ["/a.obj", "/b.obj", "/a.obj"] {
-            recent.remember(Path::new(name));
-        }
-        assert_eq!(RecentFiles::load(store).paths(), [PathBuf::from("/a.obj"), PathBuf::from("/b.obj")]);
-    }
-
-    #[test]
-    fn a_broken_list_is_an_empty_one() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = folder.path().join("recent.json");
-        std::fs::write(&store, "{").unwrap();
-        assert!(RecentFiles::load(store).paths().is_empty());
     }
 }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
-use super::{Background, Document, Messages, Place, Wake};
+use super::{Background, Document, Messages, Place, Session, Wake};
 use crate::io::{PROJECT_EXTENSION, PathStyle, ProjectFile, WriteError};
 
 /// Time from one copy to the next: what a crash may cost.
@@ -41,11 +41,14 @@ pub struct Recoverable {
 
 /// Where copies are kept on this system, `None` where it has no place for them.
 pub fn recovery_folder() -> Option<PathBuf> {
-    let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let folder = variable("XDG_STATE_HOME")
-        .or_else(|| variable("LOCALAPPDATA"))
-        .or_else(|| variable("HOME").map(|home| home.join(".local").join("state")))?;
-    Some(folder.join("freebound").join("recovery"))
+    Some(system_folder(["XDG_STATE_HOME", "LOCALAPPDATA"], ".local/state")?.join("recovery"))
+}
+
+/// The program's folder under the first of these variables that is set, or under a folder of the person's home.
+pub(super) fn system_folder(variables: [&str; 2], in_home: &str) -> Option<PathBuf> {
+    let value = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let folder = variables.into_iter().find_map(value).or_else(|| value("HOME").map(|home| home.join(in_home)))?;
+    Some(folder.join("freebound"))
 }
 
 /// What dead sessions have left in a folder, newest first. What cannot be read is left alone.
@@ -88,7 +91,6 @@ pub(super) struct Autosave {
 }
 
 impl Autosave {
-    /// Copies are made once there is a folder for them.
     pub(super) fn new(wake: &Wake) -> Self {
         Self {
             folder: None,
@@ -102,17 +104,6 @@ impl Autosave {
             has_failed: false,
             wake: Arc::clone(wake),
         }
-    }
-
-    /// Makes copies in a folder from now on, and looks at what is there.
-    pub(super) fn keep_copies_in(&mut self, folder: PathBuf) {
-        self.found = left_behind(&folder);
-        self.folder = Some(folder);
-    }
-
-    /// Work that sessions before have left unsaved, newest first.
-    pub(super) fn found(&self) -> &[Recoverable] {
-        &self.found
     }
 
     /// Takes what a dead session has left. Nothing else is ever taken, so that nothing else is ever deleted.
@@ -216,17 +207,33 @@ impl Autosave {
             messages.fail(Place::Embedding, text, Some("save the project by hand"));
         }
     }
+}
 
-    /// Deletes the copy, and makes no further one: what is not saved is not wanted.
-    pub(super) fn close(&mut self) {
-        self.leave_slot();
+impl Session {
+    /// Makes copies for recovery in a folder from now on, and looks at what is there.
+    pub fn keep_copies_in(&mut self, folder: PathBuf) {
+        let autosave = &mut self.files.autosave;
+        autosave.found = left_behind(&folder);
+        autosave.folder = Some(folder);
+    }
+
+    /// Work that sessions before have left unsaved, newest first.
+    pub fn recoverable(&self) -> &[Recoverable] {
+        &self.files.autosave.found
+    }
+
+    /// Ends the session as a person wishes: what is not saved is not wanted, so the copy is deleted, and no further one
+    /// made. A session that is merely dropped leaves its copy behind.
+    pub fn close(&mut self) {
+        let autosave = &mut self.files.autosave;
+        autosave.leave_slot();
         let begun = Instant::now();
-        self.clear_left();
-        while !self.leaving.is_empty() && begun.elapsed() < PATIENCE {
+        autosave.clear_left();
+        while !autosave.leaving.is_empty() && begun.elapsed() < PATIENCE {
             std::thread::sleep(Duration::from_millis(1));
-            self.clear_left();
+            autosave.clear_left();
         }
-        self.folder = None;
+        autosave.folder = None;
     }
 }
 

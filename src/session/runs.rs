@@ -1,23 +1,21 @@
-//! How the document is solved: a run takes its steps, and in a drag the embedding follows the pointer until it does.
+//! How the document is solved: a run takes its steps.
 
 use super::Session;
-use super::drag::Follow;
 use super::solving::{Next, Task};
 use super::stop::Goal;
-use crate::mesh::VertexId;
 
 impl Session {
     /// What is to be solved, once the mesh is there with its faces as the document wants them.
-    fn task(&mut self) -> Option<Task> {
+    pub(super) fn task(&mut self) -> Option<Task> {
         let has_faces = self.bring_faces();
-        let mesh = self.mesh.disk().filter(|_| has_faces)?.clone();
+        let mesh = self.disk().filter(|_| has_faces)?.clone();
         Some(Task { mesh, problem: self.document.problem() })
     }
 
     /// Begins a run of the document as it is now. While a gesture goes on it takes only its first step, which is
     /// linear: then a pin that is dragged is followed at the pace of the solver.
     pub(super) fn solve(&mut self) {
-        let goal = if self.history.is_in_gesture() { Goal::Steps(1) } else { self.solving.until_stop() };
+        let goal = if self.history.is_in_gesture() { Goal::Steps(1) } else { Goal::Until(self.stop_conditions()) };
         self.drag.end();
         self.begin(goal);
     }
@@ -25,7 +23,7 @@ impl Session {
     /// Begins a run of the document as it is now. What a drag shows stays until its first step is there.
     fn run_document(&mut self) {
         self.solving.follow_newest();
-        self.begin(self.solving.until_stop());
+        self.begin(Goal::Until(self.stop_conditions()));
     }
 
     /// Begins a run, or lets the first step that is under way finish where only targets differ.
@@ -56,7 +54,7 @@ impl Session {
     pub(super) fn run_on(&mut self) {
         self.solving.follow_newest();
         if !self.solving.run_on() && self.can_run() {
-            self.go_on(self.solving.until_stop());
+            self.go_on(Goal::Until(self.stop_conditions()));
         }
     }
 
@@ -95,14 +93,6 @@ impl Session {
         }
     }
 
-    /// Lets the embedding follow pins that were moved.
-    pub(super) fn follow(&mut self, dragged: Vec<VertexId>) {
-        // Where the mesh is to be turned around, a solve follows by itself.
-        if let Some(task) = self.task() {
-            self.drag.follow(task, dragged, self.solving.prepared());
-        }
-    }
-
     /// Takes in what the run has done.
     pub(super) fn poll_solving(&mut self) {
         let news = self.solving.poll(&mut self.messages);
@@ -116,29 +106,19 @@ impl Session {
         }
     }
 
-    /// Takes in what a drag has waited for.
-    pub(super) fn poll_drag(&mut self) {
-        if let Some(follow) = self.drag.poll_column() {
-            self.take_column(follow);
-        }
-        self.drag.poll_verdict(self.mesh.disk());
-    }
-
-    fn take_column(&mut self, follow: Follow) {
-        if !follow.is_like(&self.document.problem()) {
-            return;
-        }
-        self.solving.keep_prepared(follow.prepared());
-        let dragged = follow.dragged().to_vec();
-        self.drag.keep(follow);
-        if self.history.is_in_gesture() && !self.is_running() && !self.is_current() {
-            self.follow(dragged);
-        }
-    }
-
     /// Drops all that was solved: it belongs to another mesh, or to other faces.
     pub(super) fn forget_steps(&mut self) {
         self.solving.forget();
         self.drag.end();
+    }
+
+    /// Whether a run that goes on by itself would take a step.
+    pub fn can_run(&self) -> bool {
+        self.disk().is_some() && !(self.is_current() && self.solving.stopped_for_good().is_some())
+    }
+
+    /// Whether the newest step is planar, its constraints met, and its run waits to be taken on.
+    pub fn can_relax(&self) -> bool {
+        self.is_current() && self.solving.can_relax(&self.document.problem())
     }
 }

@@ -1,66 +1,10 @@
-//! Writing files in the background: results beside each other, projects one after the other.
+//! Projects on their way to the disk, one after the other.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
 
-use super::{Background, Document, Messages, Model, PictureFile, Place, Wake};
-use crate::io::{PathStyle, ProjectFile, ProjectSource, WriteError};
-use crate::solver::Verdict;
-
-/// A file that was written.
-#[derive(Debug)]
-pub(super) enum Saved {
-    /// A result, with the verdict on it.
-    Output(PathBuf, Verdict),
-    /// So many constraints.
-    Constraints(PathBuf, usize),
-    /// A picture of what the screen shows.
-    Picture(PathBuf),
-}
-
-impl Saved {
-    fn words(&self) -> String {
-        match self {
-            Self::Output(path, verdict) => format!("wrote {} ({})", path.display(), verdict.summary()),
-            Self::Constraints(path, 1) => format!("wrote {} (1 constraint)", path.display()),
-            Self::Constraints(path, count) => format!("wrote {} ({count} constraints)", path.display()),
-            Self::Picture(path) => format!("wrote {}", path.display()),
-        }
-    }
-}
-
-/// Results being written.
-pub(super) struct OutputSaves {
-    jobs: Background<(), Result<Saved, WriteError>>,
-}
-
-impl OutputSaves {
-    /// Nothing is being written.
-    pub(super) fn new(wake: &Wake) -> Self {
-        Self { jobs: Background::new("save", wake) }
-    }
-
-    /// Whether something is being written.
-    pub(super) fn is_busy(&self) -> bool {
-        self.jobs.is_busy()
-    }
-
-    /// Writes a file.
-    pub(super) fn start(&mut self, work: impl FnOnce() -> Result<Saved, WriteError> + Send + 'static) {
-        self.jobs.add((), move |_| work());
-    }
-
-    /// Tells what was written.
-    pub(super) fn poll(&mut self, messages: &mut Messages) {
-        while let Some(((), saved)) = self.jobs.poll() {
-            match saved {
-                Ok(Ok(saved)) => messages.note(saved.words()),
-                Ok(Err(error)) => messages.fail(Place::Embedding, error.to_string(), None),
-                Err(failure) => messages.fail_background(Place::Embedding, "saving", &failure),
-            }
-        }
-    }
-}
+use super::{Background, Document, Messages, Model, Place, Wake};
+use crate::io::{PathStyle, PictureFile, ProjectFile, ProjectSource, WriteError};
 
 /// A wish to save a project.
 #[derive(Debug)]
@@ -79,7 +23,6 @@ pub(super) struct ProjectSaves {
 }
 
 impl ProjectSaves {
-    /// Nothing is being written.
     pub(super) fn new(wake: &Wake) -> Self {
         Self { under_way: Background::new("save", wake), waiting: VecDeque::new() }
     }

@@ -44,7 +44,8 @@ impl Session {
             if self.outcome().is_some() { Status::Following } else { Status::Solving }
         } else if !is_current {
             Status::Stale
-        } else if self.is_held() {
+        } else if self.solving.is_at_first_step() {
+            // Neither a preview nor running: nobody else takes the steps.
             Status::Held
         } else {
             Status::Current
@@ -70,11 +71,6 @@ impl Session {
     /// Whether the outcome on the screen belongs to the document as it is now.
     pub fn is_current(&self) -> bool {
         self.has_faces_as_wanted() && self.outcome().is_some_and(|outcome| self.document.is_solved_in(outcome))
-    }
-
-    /// Whether a run takes steps in the background.
-    pub fn is_running(&self) -> bool {
-        self.solving.is_running()
     }
 
     /// Whether the screen shows the first solve alone, because a gesture goes on or its run has only begun.

@@ -5,13 +5,9 @@
 //! fits them much better than a rotation. They are compared with the mesh flattened without pins, once, in the
 //! background.
 
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-
 use glam::DVec2;
 
-use super::open_mesh::OpenMesh;
-use super::{Background, Document, Session, Wake};
+use super::{Background, Session, Wake};
 use crate::geom::Similarity;
 use crate::mesh::VertexId;
 use crate::solver::{Conflict, Control, Embedding, Family, Method, Pins, Settings, SolveError, conflicts, flatten};
@@ -23,7 +19,6 @@ const LEAST_PINS: usize = 3;
 const MUCH_BETTER: f64 = 0.5;
 
 /// What is known of the targets.
-#[derive(Debug)]
 pub(super) struct TargetChecks {
     /// What conflicts were looked for in: the mesh by its revision, and the pins as they are held.
     looked_in: (u64, Pins),
@@ -34,59 +29,45 @@ pub(super) struct TargetChecks {
 }
 
 impl TargetChecks {
-    /// Nothing is known yet.
     pub(super) fn new(wake: &Wake) -> Self {
-        Self {
-            looked_in: Default::default(),
-            conflicts: Vec::new(),
-            flat: None,
-            flattening: Background::new("undistorted", wake),
-        }
+        let flattening = Background::new("undistorted", wake);
+        Self { looked_in: Default::default(), conflicts: Vec::new(), flat: None, flattening }
     }
+}
 
+impl Session {
     /// Brings everything up to date. Call once per frame.
-    pub(super) fn refresh(&mut self, mesh: &OpenMesh, document: &Document) {
-        self.refresh_conflicts(mesh, document);
-        self.refresh_flat(mesh, document);
+    pub(super) fn refresh_target_checks(&mut self) {
+        self.refresh_conflicts();
+        self.refresh_flat();
     }
 
-    fn refresh_conflicts(&mut self, mesh: &OpenMesh, document: &Document) {
-        let settings = document.settings;
-        let pins = if settings.method.uses_pins() { settings.held(&document.pins()) } else { Pins::default() };
-        let looked_in = (mesh.revision(), pins);
-        if self.looked_in != looked_in {
-            self.conflicts = mesh.disk().map(|disk| conflicts(disk, &looked_in.1)).unwrap_or_default();
-            self.looked_in = looked_in;
+    fn refresh_conflicts(&mut self) {
+        let settings = self.document.settings;
+        let pins = if settings.method.uses_pins() { settings.held(&self.document.pins()) } else { Pins::default() };
+        let looked_in = (self.model_revision(), pins);
+        if self.target_checks.looked_in != looked_in {
+            let found = self.disk().map(|disk| conflicts(disk, &looked_in.1));
+            self.target_checks.conflicts = found.unwrap_or_default();
+            self.target_checks.looked_in = looked_in;
         }
     }
 
-    fn refresh_flat(&mut self, mesh: &OpenMesh, document: &Document) {
-        if let Some((revision, embedding)) = self.flattening.poll() {
-            self.flat = Some((revision, embedding.ok().and_then(Result::ok)));
+    fn refresh_flat(&mut self) {
+        let (revision, disk) = (self.model_revision(), self.disk().cloned());
+        let TargetChecks { flat, flattening, .. } = &mut self.target_checks;
+        if let Some((of, embedding)) = flattening.poll() {
+            *flat = Some((of, embedding.ok().and_then(Result::ok)));
         }
-        let revision = mesh.revision();
-        let is_known = self.flat.as_ref().is_some_and(|(of, _)| *of == revision) || self.flattening.is_busy();
-        let Some(disk) = mesh.disk().filter(|_| !is_known && document.targets.len() >= LEAST_PINS) else { return };
-        let disk = Arc::clone(disk);
-        self.flattening.start(revision, move |cancel: &AtomicBool| {
+        let is_known = flat.as_ref().is_some_and(|(of, _)| *of == revision) || flattening.is_busy();
+        let Some(disk) = disk.filter(|_| !is_known && self.document.targets.len() >= LEAST_PINS) else { return };
+        flattening.start(revision, move |cancel| {
             let settings = Settings::new(Method::Natural, Family::Conformal);
             let solution = flatten(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
             solution.map(|solution| solution.embedding)
         });
     }
 
-    fn look_mirrored(&self, mesh: &OpenMesh, document: &Document) -> bool {
-        let Some((revision, Some(embedding))) = &self.flat else { return false };
-        let pins = document.pins();
-        if *revision != mesh.revision() || pins.len() < LEAST_PINS || !document.settings.method.uses_pins() {
-            return false;
-        }
-        let pairs = pins.iter().filter_map(|(vertex, pin)| Some([*embedding.get(vertex.index())?, pin.target]));
-        look_mirrored(&pairs.collect::<Vec<_>>())
-    }
-}
-
-impl Session {
     /// Constraints of the document that contradict each other on the mesh as it is.
     pub fn conflicts(&self) -> &[Conflict] {
         &self.target_checks.conflicts
@@ -99,7 +80,13 @@ impl Session {
 
     /// Whether the targets of the document look mirrored: known only some time after there are enough of them.
     pub fn targets_look_mirrored(&self) -> bool {
-        self.target_checks.look_mirrored(&self.mesh, &self.document)
+        let Some((revision, Some(embedding))) = &self.target_checks.flat else { return false };
+        let pins = self.document.pins();
+        if *revision != self.model_revision() || pins.len() < LEAST_PINS || !self.document.settings.method.uses_pins() {
+            return false;
+        }
+        let pairs = pins.iter().filter_map(|(vertex, pin)| Some([*embedding.get(vertex.index())?, pin.target]));
+        look_mirrored(&pairs.collect::<Vec<_>>())
     }
 }
 
@@ -109,7 +96,7 @@ fn look_mirrored(pairs: &[[DVec2; 2]]) -> bool {
     Similarity::fitting(&mirrored).is_some_and(|best| best.error(&mirrored) < MUCH_BETTER * error_of(pairs))
 }
 
-/// What the similarity without reflection that fits best leaves; where none fits, what one place for all leaves.
+/// Error of the similarity without reflection that fits best; where none fits, of one point for all.
 fn error_of(pairs: &[[DVec2; 2]]) -> f64 {
     if let Some(best) = Similarity::fitting(pairs) {
         return best.error(pairs);

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use freebound::examples::Example;
 use freebound::geom::{Picture, PictureFrame, VAxis};
-use freebound::io::{OutputKind, hard_targets, material_picture, read_mesh, read_picture};
+use freebound::io::{OutputKind, PictureFile, hard_targets, material_picture, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::session::{Finished, Given, Model, Outcome, OutputFit, PictureFile, Problem};
+use freebound::session::{Model, Outcome, OutputFit, Problem};
 use freebound::solver::{Control, Ladder, Pins, Settings};
 use glam::DVec2;
 
@@ -156,9 +156,8 @@ fn a_picture_of_no_file_is_not_written_over_files_of_others() {
     let step = Ladder::new(Settings::default(), Pins::new()).step(mesh, Control::unattended()).unwrap();
     let outcome = Outcome::new(mesh, Problem::default(), step);
     let picture = PictureFile { name: "four".into(), path: None, stamp: None, pixels: quarters(4, 2).into() };
-    let finished =
-        Finished::new(Given { model: &model, disk: mesh, read_seconds: 0.0 }, &outcome, Vec::new(), OutputFit::Unit);
-    let finished = finished.with_picture(Some(picture.into()));
+    let mut finished = outcome.finished(&model, Vec::new(), OutputFit::Unit);
+    finished.picture = Some(&picture);
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     for name in ["out-picture.png", "out-picture-2.png"] {
@@ -172,7 +171,7 @@ fn a_picture_of_no_file_is_not_written_over_files_of_others() {
     }
     let written = read_mesh(&path("out.obj")).unwrap();
     assert_eq!(material_picture(&written, &path("out.obj")), Some(path("out-picture-3.png")));
-    assert_eq!(read_picture(&path("out-picture-3.png")).unwrap(), quarters(4, 2));
+    assert_eq!(*PictureFile::read(&path("out-picture-3.png")).unwrap().pixels, quarters(4, 2));
     assert!(!path("out-picture-4.png").exists(), "a second time it is found again");
 }
 
@@ -201,8 +200,7 @@ fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
     let problem = Problem { frame, targets: uv, ..Problem::default() };
     let step = Ladder::new(problem.settings, problem.pins()).step(mesh, Control::unattended()).unwrap();
     let outcome = Outcome::new(mesh, problem, step);
-    let finished =
-        Finished::new(Given { model: &model, disk: mesh, read_seconds: 0.0 }, &outcome, Vec::new(), OutputFit::Unit);
+    let finished = outcome.finished(&model, Vec::new(), OutputFit::Unit);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.obj");
     finished.write(OutputKind::Obj, &path).unwrap();
@@ -210,7 +208,7 @@ fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
     for (v, [u, down]) in targets {
         assert_eq!(written[v as usize], DVec2::new(u, 1.0 - down), "vertex {v}");
     }
-    assert_eq!(*finished.verdict(), freebound::solver::verdict(mesh, &written));
+    assert_eq!(finished.verdict, freebound::solver::verdict(mesh, &written));
     assert_eq!(finished.report.pins.as_ref().unwrap().max_error, 0.0);
 }
 
@@ -220,7 +218,7 @@ fn the_picture_is_on_the_mesh_in_the_picture_of_it() {
     example_file(&program, Example::Dome);
     write_quarters(&program.path("four.png"));
     program.run(&["flatten", "in.obj", "--picture", "four.png", "--png", "out.png"]).expect(0);
-    let shown = read_picture(&program.path("out.png")).unwrap();
+    let shown = PictureFile::read(&program.path("out.png")).unwrap().pixels;
     let left = (0..shown.width / 2).flat_map(|x| (0..shown.height).map(move |y| (x, y)));
     let colours = left.filter_map(|(x, y)| shown.pixel(x, y));
     let (mut red, mut green) = (0, 0);
@@ -245,7 +243,7 @@ fn the_picture_of_mesh_and_layout_is_not_squeezed_where_the_aspect_is_not_square
         let mut arguments = vec!["flatten", "in.obj", "--aspect", aspect, "--png", "out.png"];
         arguments.extend(pins.iter().map(String::as_str));
         program.run(&arguments).expect(0);
-        read_picture(&program.path("out.png")).unwrap()
+        PictureFile::read(&program.path("out.png")).unwrap().pixels
     };
     let (square, wide) = (shown("1:1", 1.0), shown("2:1", 2.0));
     let pairs = square.pixels.chunks_exact(4).zip(wide.pixels.chunks_exact(4));

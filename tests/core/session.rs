@@ -315,7 +315,8 @@ impl Walk {
         assert_eq!(outcome.step.solution.embedding.len(), count);
         assert!(outcome.step.solution.embedding.iter().all(|z| z.is_finite()));
         // A step on the way to the constraints is planar, and meets them at the end.
-        let is_one_to_one = outcome.step.rung.is_one_to_one() && outcome.is_planar_but_unmet();
+        let is_one_to_one =
+            outcome.step.rung.is_one_to_one() && outcome.step.verdict.planar && !outcome.step.unmet().is_empty();
         let is_on_its_way = is_one_to_one || outcome.step.is_of_planar_start();
         if outcome.problem.settings.method.uses_pins() && !is_on_its_way {
             for (vertex, pin) in &outcome.problem.targets {

@@ -263,9 +263,9 @@ fn a_cancelled_turn_is_made_up_for_by_the_next_solve() {
 #[test]
 fn a_bowl_seen_from_inside_points_inward_and_a_flat_sheet_says_nothing() {
     let (folder, mut session) = with_dome();
-    assert!(!session.model().expect("open").faces_point_inward());
+    assert!(!session.model().expect("open").faces_point_inward);
     settled(&mut session, Action::TurnFaces);
-    assert!(session.model().expect("open").faces_point_inward());
+    assert!(session.model().expect("open").faces_point_inward);
     let path = folder.path().join("flat.obj");
     let mut sheet = grid(4, 4);
     sheet.positions[12] += DVec3::Z * 0.01;
@@ -275,7 +275,7 @@ fn a_bowl_seen_from_inside_points_inward_and_a_flat_sheet_says_nothing() {
         for _ in 0..turns {
             settled(&mut session, Action::TurnFaces);
         }
-        assert!(!session.model().expect("open").faces_point_inward());
+        assert!(!session.model().expect("open").faces_point_inward);
     }
 }
 

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use freebound::examples::Example;
-use freebound::io::read_mesh;
+use freebound::io::{Placement, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::session::{Finished, Given, Model, Outcome, OutputFit, Problem};
+use freebound::session::{Model, Outcome, OutputFit, Problem};
 use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;
@@ -232,17 +232,15 @@ fn outcome_with(mesh: &DiskMesh, places: Embedding) -> Outcome {
     Outcome::new(mesh, Problem { settings: *run.settings(), ..Problem::default() }, step)
 }
 
-fn finish(mesh: &TriMesh, places: Embedding) -> (bool, String, bool) {
+fn finish(mesh: &TriMesh, places: Embedding) -> (bool, Placement, bool) {
     let disk = DiskMesh::try_from(mesh.clone()).expect("a disk");
     let program = Program::new();
     let path = program.write("in.obj", &crate::program::obj_text(&crate::program::polygons_of(&disk)));
     let model = Model::read(&path).expect("it was written just now");
     let outcome = outcome_with(&disk, places);
     let was_planar = outcome.step.verdict.planar;
-    let finished =
-        Finished::new(Given { model: &model, disk: &disk, read_seconds: 0.0 }, &outcome, Vec::new(), OutputFit::Unit);
-    let placement = finished.report.placement.expect("there are coordinates").to_owned();
-    (was_planar, placement, finished.verdict().planar)
+    let finished = outcome.finished(&model, Vec::new(), OutputFit::Unit);
+    (was_planar, finished.report.placement.expect("there are coordinates"), finished.verdict.planar)
 }
 
 #[test]
@@ -258,7 +256,7 @@ fn what_the_unit_square_would_fold_is_written_where_it_was_solved() {
     to_unit_square(&mut square);
     let disk = DiskMesh::try_from(mesh.clone()).unwrap();
     assert!(!verdict(&disk, &square).planar, "the case is one");
-    assert_eq!(finish(&mesh, places), (true, "unmoved".to_owned(), true));
+    assert_eq!(finish(&mesh, places), (true, Placement::Unmoved, true));
 }
 
 #[test]
@@ -277,7 +275,7 @@ fn what_the_division_would_fold_is_scaled_by_a_power_of_two() {
             continue;
         }
         found += 1;
-        assert_eq!(finish(&mesh, places), (true, "unit".to_owned(), true), "{x}");
+        assert_eq!(finish(&mesh, places), (true, Placement::Unit, true), "{x}");
     }
     assert!(found > 3, "{found} cases");
 }

@@ -5,7 +5,7 @@ use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::{ObjMesh, Statement, write_obj};
-use crate::io::{TexturePicture, WriteError, write_atomically};
+use crate::io::{PictureFile, WriteError, write_atomically};
 use crate::solver::Embedding;
 
 /// Name of the material.
@@ -14,7 +14,7 @@ const MATERIAL: &str = "picture";
 /// How the material libraries written here begin, by which they are known again.
 const HEAD: &str = "# Freebound: the picture of ";
 
-impl TexturePicture<'_> {
+impl PictureFile {
     /// Writes a mesh with texture coordinates, v up, whose only material shows this picture.
     ///
     /// Names in the files are relative and without blanks, which not all readers take. A picture that lies in the same
@@ -70,9 +70,9 @@ fn head_for(path: &Path) -> String {
 }
 
 /// Puts a picture beside a mesh where it is not there yet, and returns its name.
-fn put_picture(mesh: &Path, picture: &TexturePicture) -> Result<String, WriteError> {
+fn put_picture(mesh: &Path, picture: &PictureFile) -> Result<String, WriteError> {
     let stem = stem_of(mesh);
-    let Some(source) = picture.path else {
+    let Some(source) = &picture.path else {
         let name = format!("{stem}-{MATERIAL}.png");
         let mut bytes = Vec::new();
         let failed = |error| WriteError { path: mesh.with_file_name(&name), source: io::Error::other(error) };

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use super::Solving;
-use super::courier::Delivery;
-use super::running::{News, Next, Resting, Running};
+use super::running::{Delivery, News, Next, Resting, Running};
 use crate::session::stop::Goal;
 use crate::session::{Message, Messages, Place, Timeline};
 use crate::solver::{Ending, Ladder, SolveError};

@@ -9,29 +9,31 @@
 //! ```
 //!
 //! Another problem begins another run. Its first step begins another timeline; until it is there the old one stays on
-//! the screen. Nothing here knows the session: one could have several of these, each with a mesh of its own.
+//! the screen. [`Solving`] knows no session: one could have several of these, each with a mesh of its own.
 //!
-//! | file | what |
-//! |---|---|
-//! | `running.rs` | what is to be solved; a run in the background, and at rest |
-//! | `courier.rs` | the background's end of a run: takes steps, hands them over |
-//! | `incoming.rs` | takes in steps, and a run that has come to rest |
+//! | file       | what it holds                                                             |
+//! |------------|---------------------------------------------------------------------------|
+//! | `mod`      | the part: what is asked of it and done with it                            |
+//! | `running`  | what is to be solved; a run at rest and in the background, where it works |
+//! | `incoming` | takes in steps, and a run that has come to rest                           |
 
-mod courier;
 mod incoming;
 mod running;
 
 use std::sync::Arc;
+use std::sync::mpsc::sync_channel;
 
-use self::courier::Courier;
 pub(super) use self::running::{Next, Task};
-use self::running::{Resting, Running};
+use self::running::{Resting, Running, Shared, take_steps};
 use super::stop::Goal;
-use super::{Background, Messages, Outcome, Place, Problem, Stop, StopConditions, Timeline, Wake};
+use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Timeline, Wake};
 use crate::solver::{Ending, Kept, Ladder, Phase, Prepared};
 
 /// The most rounds of relaxing that are asked for at once.
 const RELAX_ROUNDS: usize = 20;
+
+/// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
+const STEPS_WAITING: usize = 8;
 
 /// A run, its steps, and where it comes to rest.
 pub(super) struct Solving {
@@ -56,7 +58,6 @@ pub(super) struct Solving {
 
 /// What is asked.
 impl Solving {
-    /// Nothing is solved yet.
     pub(super) fn new(wake: Wake) -> Self {
         Self {
             wake,
@@ -72,44 +73,14 @@ impl Solving {
         }
     }
 
-    /// The steps that there are, and which of them is on the screen.
-    pub(super) fn timeline(&self) -> &Timeline {
-        &self.timeline
-    }
-
-    /// The step on the screen.
-    pub(super) fn outcome(&self) -> Option<&Arc<Outcome>> {
-        self.timeline.outcome(self.timeline.shown()?)
-    }
-
     /// The newest step.
     fn newest(&self) -> Option<&Arc<Outcome>> {
         self.timeline.outcome(self.timeline.newest()?)
     }
 
-    /// Changes whenever another step is on the screen, or none any more.
-    pub(super) fn outcome_revision(&self) -> u64 {
-        self.outcome_revision
-    }
-
-    /// When a run that goes on by itself comes to rest.
-    pub(super) fn stop_conditions(&self) -> StopConditions {
-        self.stop
-    }
-
-    /// As far as a run goes by itself.
-    pub(super) fn until_stop(&self) -> Goal {
-        Goal::Until(self.stop)
-    }
-
     /// Kept from solves that succeeded, for problems where only targets differ.
     pub(super) fn prepared(&self) -> Option<&Arc<Prepared>> {
         self.kept.prepared.as_ref()
-    }
-
-    /// Whether a run takes steps.
-    pub(super) fn is_running(&self) -> bool {
-        self.running.is_some()
     }
 
     /// What a run that takes steps is doing.
@@ -125,11 +96,6 @@ impl Solving {
     /// Whether a run has taken its first step alone, and has more.
     pub(super) fn is_at_first_step(&self) -> bool {
         self.timeline.records().len() == 1 && self.ending.is_none()
-    }
-
-    /// Why the run is at rest, where that is not because of a person's wish.
-    pub(super) fn stopped(&self) -> Option<Stop> {
-        self.stop.reason(self.newest()?, self.ending).filter(|_| !self.is_running())
     }
 
     /// Why the run is at rest, however often it is asked to go on.
@@ -173,11 +139,12 @@ impl Solving {
     fn spawn(&mut self, Task { mesh, problem }: Task, mut run: Ladder, goal: Goal) {
         self.give_up();
         let has_delivered = run.step_count() > 0;
-        let (courier, deliveries) = Courier::new(problem.clone(), goal, &self.wake);
-        let shared = courier.shared();
+        let (sender, deliveries) = sync_channel(STEPS_WAITING);
+        let shared = Arc::new(Shared::new(goal, &self.wake));
         let mut job = Background::new("solve", &self.wake);
+        let (of_job, task) = (Arc::clone(&shared), Task { mesh, problem: problem.clone() });
         job.start((), move |cancel| {
-            let result = courier.take_steps(&mut run, &mesh, cancel);
+            let result = take_steps(&mut run, &task, &of_job, &sender, cancel);
             (run, result)
         });
         self.running = Some(Running { job, deliveries, shared, problem, has_delivered, paused: None });
@@ -201,7 +168,7 @@ impl Solving {
 
     /// Lets the run under way go on until something stops it. Returns whether there is one.
     pub(super) fn run_on(&mut self) -> bool {
-        let goal = self.until_stop();
+        let goal = Goal::Until(self.stop);
         let Some(running) = &mut self.running else { return false };
         running.set_goal(|_| goal);
         true
@@ -275,5 +242,43 @@ impl Solving {
     /// Compares the step on the screen with another one, or with none.
     pub(super) fn compare(&mut self, index: Option<usize>) {
         self.timeline.compare(index);
+    }
+}
+
+impl Session {
+    /// The steps that there are, and which of them is on the screen.
+    pub fn timeline(&self) -> &Timeline {
+        &self.solving.timeline
+    }
+
+    /// The step on the screen.
+    pub fn outcome(&self) -> Option<&Arc<Outcome>> {
+        self.timeline().outcome(self.timeline().shown()?)
+    }
+
+    /// The step that the one on the screen is compared with.
+    pub fn compared(&self) -> Option<&Arc<Outcome>> {
+        self.timeline().outcome(self.timeline().compared()?)
+    }
+
+    /// Changes whenever another step is on the screen, or none any more.
+    pub fn outcome_revision(&self) -> u64 {
+        self.solving.outcome_revision
+    }
+
+    /// When a run that goes on by itself comes to rest.
+    pub fn stop_conditions(&self) -> StopConditions {
+        self.solving.stop
+    }
+
+    /// Whether a run takes steps in the background.
+    pub fn is_running(&self) -> bool {
+        self.solving.running.is_some()
+    }
+
+    /// Why the run is at rest, where that is not because of a person's wish.
+    pub fn stopped(&self) -> Option<Stop> {
+        let solving = &self.solving;
+        solving.stop.reason(solving.newest()?, solving.ending).filter(|_| !self.is_running())
     }
 }

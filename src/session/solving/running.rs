@@ -1,13 +1,13 @@
-//! A run in the background, a run at rest, and how solving goes on.
+//! A run in the background with what works there, a run at rest, and how solving goes on.
 
-use std::sync::Arc;
-use std::sync::mpsc::Receiver;
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc::{Receiver, SyncSender};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::courier::{Delivery, Shared};
 use crate::mesh::DiskMesh;
 use crate::session::stop::Goal;
-use crate::session::{Background, Problem};
-use crate::solver::{Ladder, SolveError};
+use crate::session::{Background, Outcome, Problem, Wake};
+use crate::solver::{Control, Ending, Ladder, Phase, SolveError};
 
 /// What is to be solved, and on which mesh.
 #[derive(Clone, Debug)]
@@ -58,12 +58,79 @@ impl Running {
     pub(super) fn set_goal(&mut self, change: impl FnOnce(Goal) -> Goal) {
         match &mut self.paused {
             Some(after) => *after = change(*after),
-            None => self.shared.change_goal(change),
+            None => {
+                let mut goal = locked(&self.shared.goal);
+                *goal = change(*goal);
+            }
         }
     }
 
     /// Whether another problem only needs the first step again, with other targets of the same pins.
     pub(super) fn is_followed_by(&self, problem: &Problem) -> bool {
         self.paused.is_none() && !self.has_delivered && self.problem.differs_in_targets_alone(problem)
+    }
+}
+
+/// A step on its way to the timeline.
+pub(super) struct Delivery {
+    pub(super) outcome: Arc<Outcome>,
+    /// What the run says after this step.
+    pub(super) ending: Option<Ending>,
+}
+
+/// What both ends know of a run under way.
+pub(super) struct Shared {
+    goal: Mutex<Goal>,
+    /// What the background does.
+    phase: Mutex<Option<Phase>>,
+    wake: Wake,
+}
+
+impl Shared {
+    pub(super) fn new(goal: Goal, wake: &Wake) -> Self {
+        Self { goal: Mutex::new(goal), phase: Mutex::new(None), wake: Arc::clone(wake) }
+    }
+
+    /// How far the run is to go on.
+    pub(super) fn goal(&self) -> Goal {
+        *locked(&self.goal)
+    }
+
+    /// What the background does, once that is known.
+    pub(super) fn phase(&self) -> Option<Phase> {
+        *locked(&self.phase)
+    }
+}
+
+/// Both are plain values: they are whole even where a thread died beside them.
+fn locked<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+    value.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The background's end of a run: takes steps until the goal is reached, and hands each over. What nobody waits for any
+/// more is given up.
+pub(super) fn take_steps(
+    run: &mut Ladder,
+    Task { mesh, problem }: &Task,
+    shared: &Shared,
+    deliveries: &SyncSender<Delivery>,
+    cancel: &AtomicBool,
+) -> Result<(), SolveError> {
+    let report = |phase| *locked(&shared.phase) = Some(phase);
+    let control = Control::new(cancel, &report);
+    loop {
+        let step = run.step(mesh, control)?;
+        let outcome = Arc::new(Outcome::new(mesh, problem.clone(), step));
+        let ending = run.ending();
+        let is_reached = {
+            let mut goal = locked(&shared.goal);
+            goal.count_step();
+            goal.is_reached(&outcome, ending)
+        };
+        deliveries.send(Delivery { outcome, ending }).map_err(|_| SolveError::Cancelled)?;
+        (shared.wake)();
+        if is_reached {
+            return Ok(());
+        }
     }
 }

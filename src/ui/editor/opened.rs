@@ -54,7 +54,7 @@ impl Opened {
     /// Whether the mesh's faces point inward, and nobody said that they may.
     pub(in crate::ui) fn faces_point_inward(&self, session: &Session) -> bool {
         self.faces_left != Some(session.model_revision())
-            && session.model().is_some_and(|model| model.faces_point_inward())
+            && session.model().is_some_and(|model| model.faces_point_inward)
     }
 
     /// Whether the targets look mirrored, and nobody said that they may.
