@@ -46,9 +46,9 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::ArrowRight, "Next step", || Request::GoToStep(StepTarget::Next)),
     bind(NONE, Key::Home, "First step", || Request::GoToStep(StepTarget::First)),
     bind(NONE, Key::End, "Last step", || Request::GoToStep(StepTarget::Last)),
-    bind(NONE, Key::V, Tool::Select.about(), || Request::SetTool(Tool::Select)),
-    bind(NONE, Key::P, Tool::Fix.about(), || Request::SetTool(Tool::Fix)),
-    bind(NONE, Key::C, Tool::Constrain.about(), || Request::SetTool(Tool::Constrain)),
+    bind(NONE, Key::V, Tool::Select.words()[2], || Request::SetTool(Tool::Select)),
+    bind(NONE, Key::P, Tool::Fix.words()[2], || Request::SetTool(Tool::Fix)),
+    bind(NONE, Key::C, Tool::Constrain.words()[2], || Request::SetTool(Tool::Constrain)),
     bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::Backspace, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::F, "Frame the selection, or all", || Request::Frame),
@@ -120,7 +120,7 @@ fn is_edit(binding: &Binding) -> bool {
 }
 
 /// The keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty where it has none.
-pub fn keys_of(context: &egui::Context, request: &Request) -> String {
+pub(super) fn keys_of(context: &egui::Context, request: &Request) -> String {
     BINDINGS
         .iter()
         .find(|binding| (binding.request)() == *request)

@@ -23,15 +23,14 @@ mod timeline;
 mod window;
 
 pub use controls::sentence;
-pub use editor::{
-    Defect, Editor, Element, Files, Host, HullScene, Layout, Look, MeshScene, MeshView, Nudge, Opened, Paint, PaintKey,
-    Pane, PlaneScene, PlaneView, Pointer, Purpose, Request, Selection, Shading, Stage, StepTarget, Tab, Tool,
-    ToolState,
-};
-pub use keys::{BINDINGS, Binding, keys_of};
-pub use panels::{Answer, Choice, Dialogs, Unsaved};
-pub use panes::{Half, Intent, PinDrag, PinKind, PinShown};
-pub use timeline::TimelineView;
+pub use editor::{Defect, Editor, Pane, Request, Shading, Stage, StepTarget, Tab, Tool};
+use editor::{Element, HullScene, Purpose};
+use keys::keys_of;
+pub use keys::{BINDINGS, Binding};
+pub(crate) use panels::Dialogs;
+use panels::{Answer, Unsaved};
+pub use panes::{Half, Intent, PinKind};
+use timeline::TimelineView;
 pub use window::window_ui;
 
 /// Fields of the checker across the embedding.

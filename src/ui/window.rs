@@ -40,7 +40,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
             .frame(frame)
             .show(ui, |ui| side_panel::side_panel(ui, editor, &mut requests));
     }
-    if editor.timeline_shown() {
+    if editor.has_disk() {
         Panel::bottom("timeline")
             .exact_size(editor.timeline.height())
             .frame(bar)
@@ -124,7 +124,6 @@ fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
 
 /// What only the window itself can do.
 fn carry_out_for_window(context: &egui::Context, editor: &mut Editor) {
-    editor.host.put_on_theme();
     unsaved::title_of_window(editor);
     if editor.host.is_quitting() {
         context.send_viewport_cmd(egui::ViewportCommand::Close);

@@ -29,7 +29,7 @@ fn h_shows_the_stages_and_hides_them_again() {
     let pockets = window.outcome().step.virtual_boundary.clone().expect("bent").pockets.len();
     assert!(window.shows(&format!("{pockets} triangles up to the hull")), "{:?}", window.words());
     for stage in Stage::ALL {
-        window.click(stage.title());
+        window.click(stage.words()[0]);
         assert_eq!(window.editor().plane.stage(), stage);
     }
     window.key(Key::H);

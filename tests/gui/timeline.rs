@@ -226,7 +226,7 @@ fn what_is_no_disk_has_no_timeline() {
         "twice.obj",
         &TriMesh::new(cap.positions, &triangles.iter().map(|t| t.map(VertexId::number)).collect::<Vec<_>>()),
     );
-    assert!(!window.editor().timeline_shown() && !window.has_button("Run"));
+    assert!(!window.editor().has_disk() && !window.has_button("Run"));
     window.key(Key::Space);
     assert_eq!(step_count(&window), 0);
 }

@@ -1,8 +1,11 @@
 //! What the window is shown by: egui's context and a graphics card, with what they are to be told.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
+
+use crate::session::Wake;
 
 /// Work shorter than this shows no progress: it would only flicker.
 const PATIENCE: Duration = Duration::from_millis(250);
@@ -12,8 +15,6 @@ const PATIENCE: Duration = Duration::from_millis(250);
 pub struct Host {
     context: egui::Context,
     has_gpu: bool,
-    /// The theme that was asked for in this frame.
-    theme_wanted: Option<egui::ThemePreference>,
     /// The title that was sent last.
     title: String,
     /// Since when there is work in the background.
@@ -23,30 +24,22 @@ pub struct Host {
 
 impl Host {
     pub(super) fn new(context: &egui::Context) -> Self {
-        Self {
-            context: context.clone(),
-            has_gpu: false,
-            theme_wanted: None,
-            title: String::new(),
-            busy_since: None,
-            is_quitting: false,
-        }
+        Self { context: context.clone(), has_gpu: false, title: String::new(), busy_since: None, is_quitting: false }
     }
 
-    /// The window's context.
     pub(in crate::ui) fn context(&self) -> &egui::Context {
         &self.context
     }
 
     /// Seconds of the window's clock.
-    pub(in crate::ui) fn now(&self) -> f64 {
+    pub(super) fn now(&self) -> f64 {
         self.context.input(|input| input.time)
     }
 
     /// What background work calls when it has news.
-    pub(in crate::ui) fn waker(&self) -> impl Fn() + Send + Sync + 'static {
+    pub(in crate::ui) fn wake(&self) -> Wake {
         let context = self.context.clone();
-        move || context.request_repaint()
+        Arc::new(move || context.request_repaint())
     }
 
     /// Whether there is a graphics card to draw with.
@@ -55,19 +48,8 @@ impl Host {
     }
 
     /// Takes in that there is a graphics card to draw with.
-    pub fn use_gpu(&mut self) {
+    pub(crate) fn use_gpu(&mut self) {
         self.has_gpu = true;
-    }
-
-    pub(super) fn want_theme(&mut self, theme: egui::ThemePreference) {
-        self.theme_wanted = Some(theme);
-    }
-
-    /// Puts on the theme that was asked for.
-    pub(in crate::ui) fn put_on_theme(&mut self) {
-        if let Some(theme) = self.theme_wanted.take() {
-            self.context.set_theme(theme);
-        }
     }
 
     /// Gives the window its title.

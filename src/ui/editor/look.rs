@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Shading;
-use super::scene::{MeshScene, Paint, PaintKey, PlaneScene};
+use super::scene::{Legend, MeshScene, Paint, PaintKey, PlaneScene};
 use crate::geom;
 use crate::render::{PictureLayer, Sampling};
 use crate::session::{Document, Outcome};
@@ -53,6 +53,11 @@ impl Look {
         self.paint.as_ref()
     }
 
+    /// The scale of a shading by numbers.
+    pub(in crate::ui) fn legend(&self) -> Option<&Legend> {
+        self.paint.as_ref()?.legend.as_ref()
+    }
+
     /// Whether pixels show as squares.
     pub(in crate::ui) fn is_sharp(&self) -> bool {
         self.sampling == Sampling::Sharp
@@ -72,24 +77,18 @@ impl Look {
     pub(super) fn refresh_picture(&mut self, document: &Document) {
         let wanted = document.picture.as_ref().map(|file| &file.pixels);
         let shown = self.picture.as_ref().map(|(pixels, _)| pixels);
-        match (wanted, shown) {
-            (None, None) => {}
-            (Some(wanted), Some(shown)) if Arc::ptr_eq(wanted, shown) => {}
-            (None, Some(_)) => {
-                self.picture = None;
-                if self.shading == Shading::Picture {
-                    self.shading = Shading::Checker;
-                }
-            }
-            (Some(wanted), _) => {
-                let pixels = Arc::clone(wanted);
-                let picture = view::Picture::new([pixels.width, pixels.height], pixels.pixels.clone());
-                self.picture = picture.map(|picture| (pixels, Arc::new(picture)));
-                if matches!(self.shading, Shading::Plain | Shading::Checker) {
-                    self.shading = Shading::Picture;
-                }
-            }
+        if wanted.map(Arc::as_ptr) == shown.map(Arc::as_ptr) {
+            return;
         }
+        self.picture = wanted.and_then(|pixels| {
+            let picture = view::Picture::new([pixels.width, pixels.height], pixels.pixels.clone())?;
+            Some((Arc::clone(pixels), Arc::new(picture)))
+        });
+        self.shading = match self.shading {
+            Shading::Picture if wanted.is_none() => Shading::Checker,
+            Shading::Plain | Shading::Checker if wanted.is_some() => Shading::Picture,
+            other => other,
+        };
     }
 
     /// Colours the faces anew where mesh, embedding or shading have changed; moves are measured from `base`. Call once
@@ -103,11 +102,8 @@ impl Look {
             moved_from: base.map(|base| base.step.index),
         };
         if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
-            let (mesh, outcome) = match plane {
-                Some(plane) => (plane.mesh.mesh(), Some(plane.outcome.as_ref())),
-                None => (given.mesh(), None),
-            };
-            self.paint = Some(Paint::new(key, mesh, outcome, base));
+            let mesh = plane.map_or(given, |plane| &plane.mesh).mesh();
+            self.paint = Some(Paint::new(key, mesh, plane.map(|plane| plane.outcome.as_ref()), base));
         }
     }
 

@@ -2,12 +2,9 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-use glam::DVec3;
-
 use super::scene::MeshScene;
 use crate::session::{Background, Session, Wake};
-use crate::ui::panes::pane::{self, PaneArea};
+use crate::ui::panes::pane::{PaneArea, Viewport};
 use crate::view::{OrbitCamera, Sphere, UpAxis};
 
 /// The mesh's pane as the window has it.
@@ -48,10 +45,9 @@ impl MeshView {
         self.camera = Some(camera);
     }
 
-    /// Where a point of space is in the window.
-    pub(in crate::ui) fn spot(&self, position: DVec3) -> Option<egui::Pos2> {
-        let rect = self.area.rect()?;
-        Some(pane::on_screen(rect, self.camera?.pane_from_world(position, pane::size_of(rect))?))
+    /// What the window shows of it.
+    pub(in crate::ui) fn viewport(&self) -> Option<Viewport<OrbitCamera>> {
+        Some(Viewport { rect: self.area.rect()?, camera: self.camera? })
     }
 
     /// The mesh as given.
@@ -77,24 +73,17 @@ impl MeshView {
         let made = self.job.poll().and_then(|(_, scene)| scene.ok());
         let is_new = made.is_some();
         if let Some(scene) = made {
-            self.take(scene);
-        }
-        if self.job.is_busy() {
-            return is_new;
+            // Another mesh, or the same one turned around, is seen from its outside.
+            self.camera = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal()));
+            self.frame(scene.sphere);
+            self.scene = Some(Arc::new(scene));
         }
         let revision = session.model_revision();
-        let shown = self.scene.as_ref().map(|scene| scene.model_revision);
-        if let Some(model) = session.model().filter(|_| shown != Some(revision)) {
+        let is_shown = self.scene.as_ref().is_some_and(|scene| scene.model_revision == revision);
+        if let Some(model) = session.model().filter(|_| !is_shown && !self.job.is_busy()) {
             let model = Arc::clone(model);
             self.job.start(revision, move |_| MeshScene::new(model, revision));
         }
         is_new
-    }
-
-    /// Shows another mesh, or the same one turned around, from its outside.
-    fn take(&mut self, scene: MeshScene) {
-        self.camera = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal()));
-        self.frame(scene.sphere);
-        self.scene = Some(Arc::new(scene));
     }
 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `mod.rs` | the editor: its parts, and what it does in each frame |
 //! | `request.rs`, `requests.rs` | what a person asks of the window, and what it does |
-//! | `purpose.rs` | files that are asked for |
+//! | `purpose.rs` | files that are asked for, and what can be exported |
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
@@ -13,17 +13,12 @@
 //! | `look.rs` | how faces show: shading, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
 //! | `opened.rs` | what the window keeps of the open document |
-//! | `files.rs` | dialogs, unsaved work, size in files |
 //! | `host.rs` | egui's context and the graphics card |
 //! | `steps.rs` | moves along the timeline |
-//! | `views.rs`, `framing.rs` | what the cameras look at |
+//! | `views.rs` | what the cameras look at; defects |
 //! | `project_view.rs` | how the window looks, for the project file |
 //! | `nudge.rs` | pins moved by arrow keys |
-//! | `defect.rs` | one thing wrong with an embedding |
 
-mod defect;
-mod files;
-mod framing;
 mod host;
 mod layout;
 mod look;
@@ -41,30 +36,30 @@ mod steps;
 mod tools;
 mod views;
 
-pub use defect::Defect;
-pub use files::Files;
-pub use host::Host;
-pub use layout::Layout;
-pub use look::Look;
-pub use mesh_view::MeshView;
-pub use nudge::Nudge;
-pub use opened::Opened;
-pub use plane::{HullScene, PlaneView, Stage};
-pub use purpose::Purpose;
+pub(super) use plane::HullScene;
+pub use plane::Stage;
+pub(super) use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
-pub use scene::{Element, MeshScene, Paint, PaintKey, PlaneScene};
-pub use selection::{Pointer, Selection};
-pub use tools::ToolState;
+pub(super) use scene::Element;
+pub use views::Defect;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
 
-use crate::session::{Busy, RecentFiles, Session, Wake};
+use crate::session::{Busy, RecentFiles, Session};
 use crate::ui::TimelineView;
-use plane::Surroundings;
-use views::picture_box;
+use host::Host;
+use layout::Layout;
+use look::Look;
+use mesh_view::MeshView;
+use opened::Opened;
+use plane::{PlaneView, Surroundings};
+use purpose::Files;
+use scene::MeshScene;
+use selection::{Pointer, Selection};
+use tools::ToolState;
 
 /// How often the session is asked whether a copy for recovery is due.
 const COPY_INTERVAL: Duration = Duration::from_secs(5);
@@ -106,8 +101,8 @@ impl std::fmt::Debug for Editor {
 impl Editor {
     /// An empty window. `context` is woken when the background has news.
     pub fn new(context: &egui::Context, recent: RecentFiles) -> Self {
-        let waker = context.clone();
-        let wake: Wake = Arc::new(move || waker.request_repaint());
+        let host = Host::new(context);
+        let wake = host.wake();
         Self {
             mesh: MeshView::new(&wake),
             plane: PlaneView::new(&wake),
@@ -118,7 +113,7 @@ impl Editor {
             look: Look::default(),
             layout: Layout::default(),
             opened: Opened::default(),
-            host: Host::new(context),
+            host,
             files: Files::default(),
             timeline: TimelineView::default(),
         }
@@ -132,16 +127,6 @@ impl Editor {
     /// What goes on in the background, once it has taken long enough to be worth a word.
     pub fn busy_for_long(&self) -> Option<Busy> {
         self.session.busy().filter(|_| self.host.is_busy_for_long())
-    }
-
-    /// Everything that is wrong with the embedding on the screen: flipped faces, crossings, overwound vertices.
-    pub fn defects(&self) -> Vec<Defect> {
-        let Some(outcome) = self.session.outcome() else { return Vec::new() };
-        let verdict = &outcome.step.verdict;
-        let flipped = verdict.flipped_faces.iter().map(|&face| Defect::Flipped(face));
-        let crossings = verdict.boundary_crossings.iter().map(|&edges| Defect::Crossing(edges));
-        let overwound = verdict.overwound_vertices.iter().map(|&vertex| Defect::Overwound(vertex));
-        flipped.chain(crossings).chain(overwound).collect()
     }
 
     /// Takes in what the background has finished. Call at the start of each frame.
@@ -207,23 +192,5 @@ impl Editor {
         self.selection.set_defect(None);
         self.tools.end_drag();
         self.tools.set_pair(None);
-    }
-
-    /// How many selected vertices are pins of the user's.
-    pub fn selected_pins(&self) -> usize {
-        self.pins_selected().count()
-    }
-
-    /// How many defects are listed.
-    pub fn defect_count(&self) -> usize {
-        self.session.outcome().map_or(0, |outcome| {
-            let verdict = &outcome.step.verdict;
-            verdict.flipped_faces.len() + verdict.boundary_crossings.len() + verdict.overwound_vertices.len()
-        })
-    }
-
-    /// Whether there is a defect to go to.
-    pub fn has_defects(&self) -> bool {
-        self.defect_count() > 0
     }
 }

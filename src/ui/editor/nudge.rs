@@ -22,10 +22,6 @@ const ARROWS: [(Key, DVec2); 4] = [
     (Key::ArrowDown, DVec2::NEG_Y),
 ];
 
-/// A push, in pixels of the picture; y runs up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nudge(pub DVec2);
-
 /// What the arrow keys ask for in this frame, where pins are selected. They are then nobody else's.
 pub(in crate::ui) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
     let is_elsewhere = context.text_edit_focused()
@@ -35,7 +31,7 @@ pub(in crate::ui) fn requests(context: &egui::Context, editor: &Editor) -> Vec<R
     if !is_elsewhere && editor.tools.dragged().is_none() && editor.pins_selected().next().is_some() {
         let push = context.input_mut(take_push);
         if push != DVec2::ZERO {
-            requests.push(Request::Nudge(Nudge(push)));
+            requests.push(Request::Nudge(push));
         }
     }
     let is_held = context.input(|input| ARROWS.iter().any(|(key, _)| input.key_down(*key)));
@@ -61,8 +57,8 @@ fn take_push(input: &mut egui::InputState) -> DVec2 {
 }
 
 impl Editor {
-    /// Moves the selected pins.
-    pub(in crate::ui) fn nudge(&mut self, Nudge(pixels): Nudge) {
+    /// Moves the selected pins by pixels of the picture; y runs up.
+    pub(super) fn nudge(&mut self, pixels: DVec2) {
         let document = self.session.document();
         let frame = document.frame();
         let step = match &document.picture {

@@ -13,11 +13,8 @@ use glam::{DVec2, DVec3};
 
 use crate::io::ProjectView;
 use crate::mesh::VertexId;
-use crate::ui::{Editor, Request, Shading, Tool};
+use crate::ui::{Editor, Shading, Tool};
 use crate::view::{OrbitCamera, PlaneCamera};
-
-/// The tools by the names that files have for them.
-const TOOLS: [(Tool, &str); 3] = [(Tool::Select, "select"), (Tool::Fix, "fix"), (Tool::Constrain, "constrain")];
 
 /// A drag by which a camera shows how far drags turn it, points: far less than half a turn.
 const PROBE: f64 = 100.0;
@@ -25,7 +22,6 @@ const PROBE: f64 = 100.0;
 impl Editor {
     /// How the person looks at it now.
     fn view(&self) -> ProjectView {
-        let tool = TOOLS.iter().find(|(tool, _)| *tool == self.tools.tool()).map(|(_, name)| (*name).to_owned());
         let shading = Some(self.look.shading.title().to_owned());
         ProjectView {
             mesh_shading: shading.clone(),
@@ -33,7 +29,7 @@ impl Editor {
             mesh_camera: self.mesh.camera().as_ref().and_then(orbit_numbers),
             plane_camera: self.plane_camera_numbers(),
             selection: self.selection.vertices().iter().map(|vertex| vertex.number()).collect(),
-            tool,
+            tool: Some(self.tools.tool().words()[0].to_owned()),
         }
     }
 
@@ -60,8 +56,8 @@ impl Editor {
         if let Some(shading) = shading {
             self.look.shading = shading;
         }
-        if let Some((tool, _)) = TOOLS.into_iter().find(|(_, name)| view.tool.as_deref() == Some(*name)) {
-            self.handle(Request::SetTool(tool));
+        if let Some(tool) = Tool::ALL.into_iter().find(|tool| view.tool.as_deref() == Some(tool.words()[0])) {
+            self.tools.take_up(tool);
         }
         let orbit = view.mesh_camera.zip(self.mesh.camera()).and_then(|(numbers, start)| orbit_of(&numbers, start));
         if let Some(orbit) = orbit {

@@ -5,7 +5,20 @@ use std::slice;
 
 use crate::io::OutputKind;
 use crate::session::OutputFit;
-use crate::ui::Pane;
+use crate::ui::panels::exports::PaneShot;
+use crate::ui::{Dialogs, Pane, Unsaved};
+
+/// Files that are asked for, or about to be written.
+#[derive(Debug, Default)]
+pub struct Files {
+    /// File dialogs.
+    pub dialogs: Dialogs,
+    /// The question about unsaved work.
+    pub unsaved: Unsaved,
+    /// Size of coordinates in files.
+    pub fit: OutputFit,
+    pub(in crate::ui) shot: Option<PaneShot>,
+}
 
 /// What a file is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,10 +1,12 @@
 //! What a person can ask of the window. Panels collect requests; the editor carries them out after the frame.
 
+use eframe::egui;
+use glam::DVec2;
+
 use crate::mesh::VertexId;
 use crate::session::{Action, OutputFit};
 use crate::solver::Hold;
-use crate::ui::{Answer, Nudge, Purpose, Stage};
-use eframe::egui;
+use crate::ui::{Answer, Purpose, Stage};
 
 /// What the left mouse button does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,12 +24,12 @@ impl Tool {
     /// All tools, from top to bottom.
     pub const ALL: [Self; 3] = [Self::Select, Self::Fix, Self::Constrain];
 
-    /// What it does.
-    pub const fn about(self) -> &'static str {
+    /// Its name in files, its entry in menus, and what it does.
+    pub(in crate::ui) const fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Select => "Select vertices",
-            Self::Fix => "Fix: pin a vertex where it lies",
-            Self::Constrain => "Constrain: join a vertex with its place",
+            Self::Select => ["select", "Select vertices", "Select vertices"],
+            Self::Fix => ["fix", "Fix vertices", "Fix: pin a vertex where it lies"],
+            Self::Constrain => ["constrain", "Constrain vertices", "Constrain: join a vertex with its place"],
         }
     }
 }
@@ -114,12 +116,7 @@ impl Tab {
 
     /// Its name.
     pub const fn title(self) -> &'static str {
-        match self {
-            Self::Method => "Method",
-            Self::Pins => "Pins",
-            Self::Defects => "Defects",
-            Self::Vertex => "Vertex",
-        }
+        ["Method", "Pins", "Defects", "Vertex"][self as usize]
     }
 }
 
@@ -183,8 +180,8 @@ pub enum Request {
     ToggleSelected(VertexId),
     /// Frees the selected pins.
     UnpinSelected,
-    /// Moves the selected pins by pixels of the picture.
-    Nudge(Nudge),
+    /// Moves the selected pins by pixels of the picture; y runs up.
+    Nudge(DVec2),
     /// The keys that nudge are let go.
     EndNudge,
     /// Holds the selected pins in another way, and pins that are placed from now on.

@@ -54,7 +54,7 @@ impl Editor {
             Request::LeaveTargets => self.opened.leave_targets(&self.session),
             Request::AskGoTo => self.layout.go_to = Some(String::new()),
             Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
-            Request::SetTheme(theme) => self.host.want_theme(theme),
+            Request::SetTheme(theme) => self.host.context().set_theme(theme),
             Request::SetFit(fit) => self.files.fit = fit,
             Request::Quit => self.wish(Wish::Quit),
         }
@@ -63,13 +63,9 @@ impl Editor {
     /// Asks for a file.
     pub(in crate::ui) fn ask(&mut self, purpose: Purpose) {
         self.layout.exports_shown = false;
-        let suggestion = match purpose {
-            Purpose::SaveProject => {
-                self.session.project_path().cloned().unwrap_or_else(|| self.suggested_name(purpose))
-            }
-            _ => self.suggested_name(purpose),
-        };
-        self.files.dialogs.ask(self.host.context(), purpose, suggestion);
+        let project = self.session.project_path().filter(|_| purpose == Purpose::SaveProject);
+        let suggestion = project.cloned().unwrap_or_else(|| self.suggested_name(purpose));
+        self.files.dialogs.ask(&self.host.wake(), purpose, suggestion);
     }
 
     /// Opens, saves or exports as a dialog was answered.

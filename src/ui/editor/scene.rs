@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
 use crate::solver::{Embedding, FaceDistortion, Step};
@@ -33,6 +35,20 @@ impl MeshScene {
         Self::of(model, model_revision, None)
     }
 
+    /// The vertices of an element; none where the mesh does not have it.
+    pub(in crate::ui) fn vertices_of(&self, element: Element) -> Vec<VertexId> {
+        let mesh = self.mesh();
+        match element {
+            Element::Vertex(vertex) if vertex.index() < mesh.vertex_count() => vec![vertex],
+            Element::Vertex(_) => Vec::new(),
+            Element::Face(face) => mesh.triangles.get(face.index()).map(|t| t.to_vec()).unwrap_or_default(),
+            Element::Edge(edge) => match self.disk() {
+                Some(disk) if edge.index() < disk.edge_count() => disk.ends(edge).to_vec(),
+                _ => Vec::new(),
+            },
+        }
+    }
+
     /// The scene of the mesh that a step's embedding is of: that of the mesh as given, that of the step shown before,
     /// or one of its own.
     pub(in crate::ui) fn of_step(given: &Arc<Self>, before: Option<Arc<Self>>, step: &Step) -> Arc<Self> {
@@ -45,7 +61,7 @@ impl MeshScene {
 
     fn of(model: Arc<Model>, model_revision: u64, refinement: Option<Arc<Refinement>>) -> Self {
         let disk = refinement.as_ref().map(|refinement| refinement.disk()).or(model.disk().map(AsRef::as_ref));
-        let boundary = disk.map_or_else(|| EdgeList::new(Vec::new()), |d| EdgeList::closed_loop(d.boundary_loop()));
+        let boundary = EdgeList::closed_loop(disk.map_or(&[], |disk| disk.boundary_loop()));
         let TriMesh { positions, triangles, .. } = disk.map_or(model.mesh(), |disk| disk.mesh());
         Self {
             model_revision,
@@ -159,6 +175,11 @@ impl PlaneScene {
         self.positions.as_ref().unwrap_or(&self.outcome.step.solution.embedding)
     }
 
+    /// Where a vertex lies.
+    pub(in crate::ui) fn position_of(&self, vertex: VertexId) -> Option<DVec2> {
+        self.positions().get(vertex.index()).copied()
+    }
+
     /// Whether this is a stage on the way to the result.
     pub fn is_stage(&self) -> bool {
         self.part == Part::Stage
@@ -211,9 +232,12 @@ const BARS: usize = 40;
 impl Paint {
     /// Colours the faces of an embedding; moves are measured from `base`.
     pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
-        let Some(outcome) = outcome else {
-            return Self { key, faces: Arc::new(FacePaint::plain(mesh.face_count(), &[])), legend: None };
+        let plain = |flipped: &[FaceId]| Self {
+            key,
+            faces: Arc::new(FacePaint::plain(mesh.face_count(), flipped)),
+            legend: None,
         };
+        let Some(outcome) = outcome else { return plain(&[]) };
         let flipped = &outcome.step.verdict.flipped_faces;
         let by_values = |scale: Scale, values: &[f64]| {
             let range = scale.robust_range(values);
@@ -224,9 +248,7 @@ impl Paint {
             by_values(scale, &outcome.distortion.faces.iter().map(of).collect::<Vec<f64>>())
         };
         match (key.shading, base) {
-            (Shading::Plain | Shading::Checker | Shading::Picture, _) | (Shading::Move, None) => {
-                Self { key, faces: Arc::new(FacePaint::plain(mesh.face_count(), flipped)), legend: None }
-            }
+            (Shading::Plain | Shading::Checker | Shading::Picture, _) | (Shading::Move, None) => plain(flipped),
             (Shading::Angle, _) => by(Scale::Angle, |face| face.angle),
             (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
             (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),
@@ -272,7 +294,7 @@ fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64>
 
 /// A part of the mesh that a defect or a person names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Element {
+pub(in crate::ui) enum Element {
     /// A vertex.
     Vertex(VertexId),
     /// An edge.
@@ -283,31 +305,13 @@ pub enum Element {
 
 impl Element {
     /// Understands what a person types: `12` or `v12` a vertex, `e3` an edge, `f7` a face.
-    pub fn parse(text: &str) -> Option<Self> {
+    pub(in crate::ui) fn parse(text: &str) -> Option<Self> {
         let text = text.trim().to_ascii_lowercase();
-        let (kind, number) = match text.chars().next()? {
-            letter @ ('v' | 'e' | 'f') => (letter, &text[1..]),
-            _ => ('v', text.as_str()),
-        };
-        let number: u32 = number.trim().parse().ok()?;
-        Some(match kind {
-            'e' => Self::Edge(EdgeId::new(number)),
-            'f' => Self::Face(FaceId::new(number)),
+        let number = text.strip_prefix(['v', 'e', 'f']).unwrap_or(&text).trim().parse().ok()?;
+        Some(match text.as_bytes()[0] {
+            b'e' => Self::Edge(EdgeId::new(number)),
+            b'f' => Self::Face(FaceId::new(number)),
             _ => Self::Vertex(VertexId::new(number)),
         })
-    }
-}
-
-/// The vertices of an element; none where the mesh does not have it.
-pub(in crate::ui) fn vertices_of(scene: &MeshScene, element: Element) -> Vec<VertexId> {
-    let mesh = scene.mesh();
-    match element {
-        Element::Vertex(vertex) if vertex.index() < mesh.vertex_count() => vec![vertex],
-        Element::Vertex(_) => Vec::new(),
-        Element::Face(face) => mesh.triangles.get(face.index()).map(|t| t.to_vec()).unwrap_or_default(),
-        Element::Edge(edge) => match scene.disk() {
-            Some(disk) if edge.index() < disk.edge_count() => disk.ends(edge).to_vec(),
-            _ => Vec::new(),
-        },
     }
 }

@@ -10,25 +10,17 @@ const PLAY_SECONDS: f64 = 6.0;
 const STEP_SECONDS: (f64, f64) = (0.1, 0.8);
 
 impl Editor {
-    /// Whether the strip under the panes shows: as soon as there is something that steps can be taken of, so that the
-    /// panes have their final size before the first step is there.
-    pub fn timeline_shown(&self) -> bool {
-        self.has_disk()
-    }
-
-    /// Whether the open mesh can be solved.
-    pub(in crate::ui) fn has_disk(&self) -> bool {
+    /// Whether the open mesh can be solved. If so, the strip under the panes shows, so that the panes have their final
+    /// size before the first step is there.
+    pub fn has_disk(&self) -> bool {
         self.session.model().is_some_and(|model| model.disk().is_some())
     }
 
     /// Whether steps are kept before and after the one on the screen.
     pub(in crate::ui) fn steps_around(&self) -> [bool; 2] {
         let timeline = self.session.timeline();
-        let shown = timeline.shown();
-        [
-            shown.is_some_and(|shown| timeline.previous_kept(shown).is_some()),
-            shown.is_some_and(|shown| timeline.next_kept(shown).is_some()),
-        ]
+        let Some(shown) = timeline.shown() else { return [false; 2] };
+        [timeline.previous_kept(shown).is_some(), timeline.next_kept(shown).is_some()]
     }
 
     pub(super) fn go_to_step(&mut self, target: StepTarget) {
@@ -69,8 +61,7 @@ impl Editor {
         let Some(since) = self.timeline.playing_since else { return };
         let now = self.host.now();
         let timeline = self.session.timeline();
-        let next = timeline.shown().and_then(|shown| timeline.next_kept(shown));
-        let Some(next) = next else {
+        let Some(next) = timeline.shown().and_then(|shown| timeline.next_kept(shown)) else {
             self.timeline.playing_since = None;
             return;
         };

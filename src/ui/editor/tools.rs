@@ -3,7 +3,8 @@
 use super::Tool;
 use crate::mesh::VertexId;
 use crate::solver::Hold;
-use crate::ui::panes::{Half, Intent, PinDrag};
+use crate::ui::panes::pin_drag::PinDrag;
+use crate::ui::panes::{Half, Intent};
 
 /// The tool in hand, and what it has begun.
 #[derive(Clone, Debug)]

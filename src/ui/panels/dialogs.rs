@@ -3,7 +3,6 @@
 //! The system's dialog runs off the UI thread, so that the window lives on while it is open.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui;
@@ -51,7 +50,7 @@ impl Dialogs {
     }
 
     /// Asks for a file. `suggestion` is the name to begin with.
-    pub fn ask(&mut self, context: &egui::Context, purpose: Purpose, suggestion: PathBuf) {
+    pub(in crate::ui) fn ask(&mut self, wake: &Wake, purpose: Purpose, suggestion: PathBuf) {
         if self.is_open() {
             return;
         }
@@ -60,9 +59,7 @@ impl Dialogs {
             return;
         }
         let dialog = native_dialog(purpose, &suggestion);
-        let waker = context.clone();
-        let wake: Wake = Arc::new(move || waker.request_repaint());
-        let native = self.native.insert(Background::new("file dialog", &wake));
+        let native = self.native.insert(Background::new("file dialog", wake));
         native.start(Asked { purpose, suggestion, since: Instant::now() }, |_| pollster::block_on(dialog));
     }
 
@@ -86,10 +83,7 @@ impl Dialogs {
         let answer = browser.show(context)?;
         let purpose = browser.purpose;
         self.browser = None;
-        match answer {
-            Answer::Cancelled => None,
-            Answer::Chosen(path) => Some(Choice { purpose, path }),
-        }
+        answer.map(|path| Choice { purpose, path })
     }
 
     /// Closes the dialog inside the window. Returns whether one was open.
@@ -140,7 +134,8 @@ struct Browser {
     problem: Option<String>,
     /// Whether it has not been shown yet: the name then takes the keyboard.
     is_fresh: bool,
-    answer: Option<Answer>,
+    /// The file chosen, or none where it was called off; once there is an answer.
+    answer: Option<Option<PathBuf>>,
 }
 
 /// A folder's entry. Folders come before files.
@@ -148,12 +143,6 @@ struct Browser {
 enum Entry {
     Folder(String),
     File(String),
-}
-
-#[derive(Debug)]
-enum Answer {
-    Cancelled,
-    Chosen(PathBuf),
 }
 
 impl Browser {
@@ -194,7 +183,7 @@ impl Browser {
     }
 
     /// Shows it, and gives the answer once there is one.
-    fn show(&mut self, context: &egui::Context) -> Option<Answer> {
+    fn show(&mut self, context: &egui::Context) -> Option<Option<PathBuf>> {
         let mut open = true;
         egui::Window::new(self.purpose.form().title)
             .id(egui::Id::unique("file dialog"))
@@ -204,7 +193,7 @@ impl Browser {
             .pivot(egui::Align2::CENTER_CENTER)
             .default_pos(context.content_rect().center())
             .show(context, |ui| self.contents(ui));
-        if open { self.answer.take() } else { Some(Answer::Cancelled) }
+        if open { self.answer.take() } else { Some(None) }
     }
 
     fn contents(&mut self, ui: &mut egui::Ui) {
@@ -240,7 +229,7 @@ impl Browser {
                 Entry::File(name) => {
                     let response = ui.selectable_label(self.name == *name, name);
                     if response.double_clicked() && self.purpose.is_reading() {
-                        self.answer = Some(Answer::Chosen(self.folder.join(name)));
+                        self.answer = Some(Some(self.folder.join(name)));
                     }
                     if response.clicked() {
                         self.name.clone_from(name);
@@ -273,11 +262,11 @@ impl Browser {
         let is_clicked = ui.add_enabled(path.is_some(), egui::Button::new(words)).clicked();
         match path.filter(|_| is_clicked || (is_entered && !exists)) {
             Some(path) if path.is_dir() => self.enter(path),
-            Some(path) => self.answer = Some(Answer::Chosen(path)),
+            Some(path) => self.answer = Some(Some(path)),
             None => {}
         }
         if ui.button("Cancel").clicked() {
-            self.answer = Some(Answer::Cancelled);
+            self.answer = Some(None);
         }
     }
 

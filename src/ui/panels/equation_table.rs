@@ -3,7 +3,7 @@
 //! that points outwards on the boundary.
 
 use eframe::egui;
-use egui::{Pos2, Rect, RichText, Stroke, Vec2};
+use egui::{Pos2, RichText, Stroke, Vec2};
 use glam::DVec2;
 
 use super::status::short;
@@ -12,7 +12,7 @@ use crate::session::Outcome;
 use crate::solver::{NoEquation, VertexEquation, WeightSource, equation_of_step};
 use crate::ui::controls::{Control, number, pairs, remark};
 use crate::ui::editor::scene::PlaneScene;
-use crate::ui::panes::pane;
+use crate::ui::panes::pane::Viewport;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Request, Tab};
 use crate::view::PlaneCamera;
@@ -146,8 +146,8 @@ fn compact(value: f64) -> String {
 
 /// Draws the equation of the first selected vertex while its panel is open: spokes as wide as their shares, negative ones
 /// red, the barycentre as a cross, the offset as an arrow.
-pub(in crate::ui) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene, camera: PlaneCamera) {
-    if !(editor.layout.shows(Tab::Vertex)) || plane.is_stage() {
+pub(in crate::ui) fn draw(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
+    if !editor.layout.shows(Tab::Vertex) || plane.is_stage() {
         return;
     }
     let Some(&vertex) = editor.selection.vertices().first() else { return };
@@ -156,9 +156,8 @@ pub(in crate::ui) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &Pl
         // Its barycentre belongs to the stage that was solved.
         return;
     }
-    let (theme, painter, size) = (theme_of(ui), ui.painter_at(rect), pane::size_of(rect));
-    let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
-    let at = |v: VertexId| plane.positions().get(v.index()).map(|&z| spot(z));
+    let (theme, painter) = (theme_of(ui), ui.painter_at(view.rect));
+    let at = |v: VertexId| plane.position_of(v).map(|z| view.spot(z));
     let Some(centre) = at(vertex) else { return };
     for term in &equation.terms {
         #[expect(clippy::cast_possible_truncation, reason = "a width in points")]
@@ -168,13 +167,13 @@ pub(in crate::ui) fn draw(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &Pl
             painter.line_segment([centre, end], Stroke::new((SPOKE * share.abs()).clamp(0.75, SPOKE), colour));
         }
     }
-    let barycentre = spot(equation.barycentre);
+    let barycentre = view.spot(equation.barycentre);
     for arm in [Vec2::new(4.0, 4.0), Vec2::new(4.0, -4.0)] {
         painter.line_segment([barycentre - arm, barycentre + arm], Stroke::new(3.5, theme.background));
         painter.line_segment([barycentre - arm, barycentre + arm], Stroke::new(1.75, theme.text));
     }
     if let Some(offset) = equation.offset_vector {
-        arrow(&painter, [barycentre, spot(equation.barycentre + offset)], theme.text, theme.background);
+        arrow(&painter, [barycentre, view.spot(equation.barycentre + offset)], theme.text, theme.background);
     }
 }
 

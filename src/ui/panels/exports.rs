@@ -66,7 +66,7 @@ impl Editor {
         let area = if pane == Pane::Plane { self.plane.area() } else { self.mesh.area() };
         let Some(part) = area.rect() else { return };
         let (sender, answer) = sync_channel(1);
-        let wake = self.host.waker();
+        let wake = self.host.wake();
         self.host.context().request_screenshot(move |image| {
             sender.send(image).ok();
             wake();

@@ -4,7 +4,6 @@ use eframe::egui;
 use egui::{Align2, Key};
 
 use crate::ui::controls::pairs;
-use crate::ui::editor::scene::vertices_of;
 use crate::ui::keys::{BINDINGS, Binding, MOUSE};
 use crate::ui::{Editor, Element, Request};
 
@@ -59,11 +58,8 @@ fn go_to_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
         let label = ui.label("Number of a vertex (12 or v12), an edge (e7) or a face (f3), from 0");
         let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(160.0)).labelled_by(label.id);
-        let scene = editor.mesh_scene();
-        let found = Element::parse(&text)
-            .zip(scene)
-            .map(|(element, scene)| vertices_of(scene, element))
-            .filter(|vertices| !vertices.is_empty());
+        let found = Element::parse(&text).zip(editor.mesh_scene()).map(|(element, scene)| scene.vertices_of(element));
+        let found = found.filter(|vertices| !vertices.is_empty());
         if !text.trim().is_empty() && found.is_none() {
             ui.colored_label(crate::ui::theme::theme_of(ui).flipped, "This mesh has no such element");
         }

@@ -149,15 +149,13 @@ fn edit_menu(menu: &mut Menu<'_>) {
     menu.item(session.history().can_undo(), "Undo", Action::Undo);
     menu.item(session.history().can_redo(), "Redo", Action::Redo);
     menu.separator();
-    for (tool, words) in
-        [(Tool::Select, "Select vertices"), (Tool::Fix, "Fix vertices"), (Tool::Constrain, "Constrain vertices")]
-    {
-        menu.choice(editor.tools.tool() == tool, words, Request::SetTool(tool));
+    for tool in Tool::ALL {
+        menu.choice(editor.tools.tool() == tool, tool.words()[1], Request::SetTool(tool));
     }
     menu.separator();
     let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
     menu.item(fixable, "Fix the selection", Action::Fix(editor.selection.vertices().iter().copied().collect()));
-    menu.item(editor.selected_pins() > 0, "Free the selected pins", Request::UnpinSelected);
+    menu.item(editor.pins_selected().next().is_some(), "Free the selected pins", Request::UnpinSelected);
     let pin_count = session.document().targets.len();
     menu.item(pin_count > 0, "Free all pins", Action::UnpinAll);
     menu.separator();
@@ -183,8 +181,9 @@ fn view_menu(menu: &mut Menu<'_>) {
     menu.separator();
     menu.item(true, "Frame the selection, or all", Request::Frame);
     menu.item(true, "Go to…", Request::AskGoTo);
-    menu.item(editor.has_defects(), "Next defect", Request::StepDefect(1));
-    menu.item(editor.has_defects(), "Previous defect", Request::StepDefect(-1));
+    let has_defects = editor.defect_count() > 0;
+    menu.item(has_defects, "Next defect", Request::StepDefect(1));
+    menu.item(has_defects, "Previous defect", Request::StepDefect(-1));
     menu.separator();
     menu.part("Theme", |menu| {
         let now = menu.ui.ctx().options(|options| options.theme_preference);

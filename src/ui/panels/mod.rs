@@ -30,5 +30,5 @@ pub(super) mod unsaved;
 mod verdict_pill;
 mod vertex_panel;
 
-pub use dialogs::{Choice, Dialogs};
-pub use unsaved::{Answer, Unsaved};
+pub(crate) use dialogs::Dialogs;
+pub(super) use unsaved::{Answer, Unsaved};

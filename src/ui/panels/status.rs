@@ -48,7 +48,7 @@ fn fixed_hint(editor: &Editor) -> &'static str {
     {
         return "A new vertex belongs to this embedding alone, and cannot be pinned.";
     }
-    if editor.selected_pins() > 0 && editor.tools.tool() == Tool::Select {
+    if editor.pins_selected().next().is_some() && editor.tools.tool() == Tool::Select {
         return "Drag a selected pin to move them all, arrows nudge by a pixel (Shift: ten), Delete frees them.";
     }
     match editor.tools.tool() {

@@ -17,7 +17,8 @@ pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut
         for tool in Tool::ALL {
             let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
             let on = editor.tools.tool() == tool;
-            response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, tool.about()));
+            let about = tool.words()[2];
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, about));
             let theme = theme_of(ui);
             if on || response.hovered() {
                 let share = if on { 0.22 } else { 0.10 };
@@ -33,7 +34,7 @@ pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut
                 Tool::Constrain => icons::pair(ui.painter(), rect, colour),
             }
             let request = Request::SetTool(tool);
-            response.on_hover_text(tip_with_keys(ui, tool.about(), &request)).asks(request, requests);
+            response.on_hover_text(tip_with_keys(ui, about, &request)).asks(request, requests);
         }
     });
 }

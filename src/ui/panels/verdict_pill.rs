@@ -33,10 +33,10 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
         && show_pill(ui, pill).clicked()
     {
         let unmet = editor.session.outcome().map(|outcome| outcome.step.unmet()).unwrap_or_default();
-        requests.push(match editor.has_defects() {
-            true => Request::StepDefect(1),
-            false if unmet.is_empty() => Request::ShowTab(Tab::Defects),
-            false => Request::GoTo(unmet),
+        requests.push(match editor.defect_count() {
+            0 if unmet.is_empty() => Request::ShowTab(Tab::Defects),
+            0 => Request::GoTo(unmet),
+            _ => Request::StepDefect(1),
         });
     }
     let Some(busy) = busy else { return };

@@ -2,15 +2,18 @@
 //! click would do; the preview, the words in the status bar and the click itself all ask it.
 
 use eframe::egui;
-use egui::{Painter, Pos2, Stroke};
+use egui::Stroke;
 use glam::DVec2;
 
+use super::pane::Viewport;
 use super::pins;
 use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
+use crate::ui::editor::scene::PlaneScene;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Pane, Request, Tool};
+use crate::view::PlaneCamera;
 
 /// Targets snap to pixels that are larger than this, points.
 const SNAP_FROM: f64 = 8.0;
@@ -181,35 +184,32 @@ fn snapped(target: DVec2, pixels: DVec2) -> DVec2 {
 }
 
 /// What a click would place, over the embedding, and the line from the vertex that goes there.
-pub(in crate::ui) fn preview(painter: &Painter, ui: &egui::Ui, editor: &Editor, spot: &dyn Fn(DVec2) -> Pos2) {
-    if editor.tools.tool() != Tool::Constrain {
-        return;
+pub(super) fn preview(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
+    let is_constraining = editor.tools.tool() == Tool::Constrain;
+    let Some(target) = editor.target_of_pair().filter(|_| is_constraining).map(|z| view.spot(z)) else { return };
+    let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
+    if let Some(from) = editor.vertex_of_pair().and_then(|vertex| plane.position_of(vertex)) {
+        painter.line_segment([view.spot(from), target], Stroke::new(1.5, theme.constraint.gamma_multiply(0.75)));
     }
-    let theme = theme_of(ui);
-    let Some(target) = editor.target_of_pair() else { return };
-    let place =
-        |vertex: VertexId| editor.plane.drawn().and_then(|plane| plane.positions().get(vertex.index()).copied());
-    if let Some(from) = editor.vertex_of_pair().and_then(place) {
-        painter.line_segment([spot(from), spot(target)], Stroke::new(1.5, theme.constraint.gamma_multiply(0.75)));
-    }
-    pins::ghost(painter, spot(target), theme);
+    pins::ghost(&painter, target, theme);
 }
 
 /// The line across both panes, from the vertex on the mesh to its place.
 pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
-    let (Some(mesh), Some(plane)) = (editor.mesh.area().rect(), editor.plane.area().rect()) else { return };
+    let (Some(mesh), Some(plane)) = (editor.mesh.viewport(), editor.plane.viewport()) else { return };
     if editor.tools.tool() != Tool::Constrain || editor.tools.pair().is_none() {
         return;
     }
     let theme = theme_of(ui);
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|_| editor.pointer.pane().is_some());
     let position = |vertex: VertexId| editor.mesh_scene()?.mesh().positions.get(vertex.index()).copied();
-    let vertex = editor.vertex_of_pair().and_then(position).and_then(|position| editor.mesh.spot(position));
-    let target = editor.target_of_pair().and_then(|target| editor.plane.spot(target));
+    let vertex = editor.vertex_of_pair().and_then(position).and_then(|position| mesh.spot(position));
+    let target = editor.target_of_pair().map(|target| plane.spot(target));
     let ends = match editor.tools.pair() {
         Some(Half::Vertex(_)) => vertex.zip(target.or(pointer)),
         _ => vertex.or(pointer).zip(target),
     };
+    let (mesh, plane) = (mesh.rect, plane.rect);
     let Some((from, to)) = ends.filter(|(from, to)| mesh.contains(*from) && plane.contains(*to)) else { return };
     let stroke = Stroke::new(1.0, theme.constraint.gamma_multiply(0.6));
     ui.painter().with_clip_rect(mesh.union(plane)).add(egui::Shape::dashed_line(&[from, to], stroke, 6.0, 4.0));

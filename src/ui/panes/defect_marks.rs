@@ -5,16 +5,18 @@ use eframe::egui;
 use egui::{Pos2, Stroke};
 use glam::DVec2;
 
+use super::pane::Viewport;
 use crate::mesh::VertexId;
 use crate::ui::Editor;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::theme::{Theme, theme_of};
+use crate::view::PlaneCamera;
 
 /// Crossings and overwound vertices marked at most; the list in the panel has them all.
 const MARKS_SHOWN: usize = 500;
 
 /// Ends of the two boundary edges of each crossing that is marked.
-pub(in crate::ui) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2]; 2]> {
+pub(super) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2]; 2]> {
     let (Some(verdict), Some(disk)) = (editor.plane.verdict(), scene.disk()) else { return Vec::new() };
     let pairs = verdict.boundary_crossings.iter().take(MARKS_SHOWN);
     pairs.map(|edges| edges.map(|edge| disk.ends(edge))).collect()
@@ -27,32 +29,26 @@ pub(super) fn crossing_point([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> DVec2 {
     a + along * if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 }
 }
 
-/// Crossings and overwound vertices of the embedding, where `spot` has points of the plane on the screen.
-pub(super) fn plane_marks(
-    ui: &egui::Ui,
-    clip: egui::Rect,
-    editor: &Editor,
-    plane: &PlaneScene,
-    spot: &dyn Fn(DVec2) -> Pos2,
-) {
-    let (painter, theme) = (&ui.painter_at(clip), theme_of(ui));
-    let at = |vertex: VertexId| plane.positions().get(vertex.index()).copied().unwrap_or(DVec2::NAN);
+/// Crossings and overwound vertices of the embedding.
+pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
+    let (painter, theme) = (&ui.painter_at(view.rect), theme_of(ui));
+    let at = |vertex: VertexId| plane.position_of(vertex).unwrap_or(DVec2::NAN);
     for pair in crossings(editor, &plane.mesh) {
         let [first, second] = pair.map(|edge| edge.map(at));
         for edge in [first, second] {
-            painter.line_segment(edge.map(spot), Stroke::new(3.0, theme.crossing));
+            painter.line_segment(edge.map(|z| view.spot(z)), Stroke::new(3.0, theme.crossing));
         }
-        painter.circle_stroke(spot(crossing_point(first, second)), 7.0, Stroke::new(1.5, theme.crossing));
+        painter.circle_stroke(view.spot(crossing_point(first, second)), 7.0, Stroke::new(1.5, theme.crossing));
     }
     for vertex in overwound(editor) {
-        overwound_mark(painter, spot(at(vertex)), theme);
+        overwound_mark(painter, view.spot(at(vertex)), theme);
     }
 }
 
 /// The overwound vertices that are marked.
-pub(in crate::ui) fn overwound(editor: &Editor) -> Vec<VertexId> {
-    let all = editor.plane.verdict().map(|verdict| &verdict.overwound_vertices);
-    all.map(|all| all.iter().copied().take(MARKS_SHOWN).collect()).unwrap_or_default()
+pub(super) fn overwound(editor: &Editor) -> Vec<VertexId> {
+    let all = editor.plane.verdict().into_iter().flat_map(|verdict| &verdict.overwound_vertices);
+    all.copied().take(MARKS_SHOWN).collect()
 }
 
 /// A ring with a dot.

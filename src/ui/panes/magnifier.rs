@@ -1,26 +1,27 @@
-//! A magnifier over the embedding: an inset that shows the first defect, or the one gone to, from near by, as in the
-//! paper's figures 4 and 6. It draws from the buffers of the pane around it and so sends nothing of its own.
+//! Magnifiers: insets over the panes. One shows the first defect, or the one gone to, from near by, as in the paper's
+//! figures 4 and 6; the others show both halves of the pair in hand: the vertex on the mesh, its target on the picture.
+//! They draw from the buffers of the panes around them and so send nothing of their own.
 
 use std::sync::Arc;
 
 use eframe::egui;
-use egui::{Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2, WidgetInfo};
+use egui::{Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2};
 use glam::DVec2;
 
-use super::{defect_marks, mesh_pane, pane};
+use super::pane::{self, Viewport};
+use super::pins::{self, Emphasis};
+use super::{defect_marks, mesh_pane, plane_pane};
+use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame, Shading};
-use crate::ui::editor::scene::{PlaneScene, vertices_of};
+use crate::ui::controls::Control;
+use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::theme::{Theme, theme_of};
 use crate::ui::{Defect, Editor, Element, Request, keys_of};
-use crate::view::{PlaneBox, PlaneCamera};
+use crate::view::{OrbitCamera, PlaneBox, PlaneCamera, Sphere};
 
-/// Share of the pane's lesser side that the inset takes.
-const SHARE: f32 = 0.4;
-/// Least and greatest side of the inset, points.
-const SIDE: [f32; 2] = [110.0, 240.0];
-/// Distance from the pane's edges, points.
+/// Distance of insets from the pane's edges, points.
 const GAP: f32 = 12.0;
-/// Height of the words above the picture, points.
+/// Height of the words above the picture of a defect, points.
 const TITLE: f32 = 20.0;
 /// An inset narrower than this only says how much larger it shows, points.
 const ROOM_FOR_WORDS: f32 = 180.0;
@@ -28,9 +29,41 @@ const ROOM_FOR_WORDS: f32 = 180.0;
 const REACH: f64 = 0.7;
 /// Least side of the frame on the layout, points: a mark to be found by.
 const LEAST_FRAME: f32 = 7.0;
+/// The inset of half a pair shows this part of the whole.
+const PART: f64 = 1.0 / 14.0;
+/// An inset of half a pair that enlarges less than this shows nothing new.
+const LEAST_MAGNIFICATION: f64 = 1.5;
 
-/// The inset of one frame: what it shows, where, and how much larger.
-pub(in crate::ui) struct Magnifier {
+/// How large an inset's picture is in its pane.
+struct Size {
+    /// Share of the pane's lesser side.
+    share: f32,
+    /// Least and greatest side, points.
+    side: [f32; 2],
+    /// A pane narrower than so many insets has none, nor has one less than two insets high.
+    least_width: f32,
+}
+
+const DEFECT: Size = Size { share: 0.4, side: [110.0, 240.0], least_width: 2.0 };
+const PAIR: Size = Size { share: 0.3, side: [96.0, 180.0], least_width: 2.5 };
+
+impl Size {
+    fn side_in(&self, pane: Rect) -> Option<f32> {
+        let side = (self.share * pane.width().min(pane.height())).clamp(self.side[0], self.side[1]);
+        (pane.width() >= self.least_width * side && pane.height() >= 2.0 * side).then_some(side)
+    }
+}
+
+/// The lower right corner of the pane, or the upper one where the inset would come nearer than `margin` to what it
+/// looks at.
+fn place_for(pane: Rect, size: Vec2, looks_at: Pos2, margin: f32) -> Rect {
+    let lower = Rect::from_min_size(pane.max - size - Vec2::splat(GAP), size);
+    let upper = Rect::from_min_size(Pos2::new(lower.left(), pane.top() + GAP), size);
+    if lower.expand(margin).contains(looks_at) { upper } else { lower }
+}
+
+/// The inset of one frame that shows a defect: where, and how much larger.
+pub(super) struct Magnifier {
     place: usize,
     defect: Defect,
     camera: PlaneCamera,
@@ -38,60 +71,46 @@ pub(in crate::ui) struct Magnifier {
     /// What is shown, on the screen.
     looks_at: Rect,
     /// Where it is shown, words included.
-    pub(in crate::ui) rect: Rect,
+    pub(super) rect: Rect,
     magnification: f64,
 }
 
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
-    pub(in crate::ui) fn over(editor: &Editor, pane: Rect, scene: &PlaneScene) -> Option<Self> {
+    pub(super) fn over(editor: &Editor, view: Viewport<PlaneCamera>, scene: &PlaneScene) -> Option<Self> {
         if !editor.look.magnifier || scene.is_stage() || editor.plane.shows_preview() {
             return None;
         }
-        let verdict = &scene.outcome.step.verdict;
-        let chosen = editor.selection.defect().and_then(|place| Some((place, Defect::nth(verdict, place)?)));
-        let (place, defect) = chosen.or_else(|| Some((0, Defect::nth(verdict, 0)?)))?;
-        let side = (SHARE * pane.width().min(pane.height())).clamp(SIDE[0], SIDE[1]);
-        if pane.width() < 2.0 * side || pane.height() < 2.0 * side {
-            return None;
-        }
+        let nth = |place: usize| Some((place, Defect::all(&scene.outcome.step.verdict).nth(place)?));
+        let (place, defect) = editor.selection.defect().and_then(nth).or_else(|| nth(0))?;
+        let pane = view.rect;
+        let side = DEFECT.side_in(pane)?;
         let shown = neighbourhood(scene, defect)?;
         let camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
-        let around = editor.plane.camera()?;
-        let extent = pane::size_of(pane);
-        let corners = [shown.min, shown.max].map(|z| pane::on_screen(pane, around.pane_from_embedding(z, extent)));
-        let looks_at = Rect::from_two_pos(corners[0], corners[1]);
-        let magnification = camera.points_per_unit() / around.points_per_unit();
-        let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at);
+        let looks_at = Rect::from_two_pos(view.spot(shown.min), view.spot(shown.max));
+        let magnification = camera.points_per_unit() / view.camera.points_per_unit();
+        let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at.center(), GAP);
         (magnification > 1.0).then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
     }
 
     /// Draws the inset and the frame on the layout; a click goes there.
-    pub(in crate::ui) fn show(
-        &self,
-        ui: &mut egui::Ui,
-        editor: &Editor,
-        plane: &PlaneScene,
-        requests: &mut Vec<Request>,
-    ) {
+    pub(super) fn show(&self, ui: &egui::Ui, editor: &Editor, plane: &PlaneScene, requests: &mut Vec<Request>) {
         let theme = theme_of(ui);
         self.mark_on_layout(&ui.painter_at(self.pane), theme);
         let painter = ui.painter_at(self.rect.expand(1.0));
         painter.rect_filled(self.rect, 4.0, theme.panel);
-        let words = format!("× {}", self.factor());
         let title = self.rect.min + Vec2::new(8.0, TITLE / 2.0);
-        painter.text(title, Align2::LEFT_CENTER, words, FontId::proportional(11.0), theme.text);
+        let font = FontId::proportional(11.0);
+        painter.text(title, Align2::LEFT_CENTER, format!("× {}", self.factor()), font.clone(), theme.text);
         if self.rect.width() >= ROOM_FOR_WORDS {
             let right = Pos2::new(self.rect.right() - 8.0, title.y);
-            painter.text(right, Align2::RIGHT_CENTER, self.defect.words(), FontId::proportional(11.0), theme.weak_text);
+            painter.text(right, Align2::RIGHT_CENTER, self.defect.words(), font, theme.weak_text);
         }
         let picture = Rect::from_min_max(self.rect.min + Vec2::new(0.0, TITLE), self.rect.max);
         if editor.host.has_gpu() {
             ui.painter().add(render::plane_pane(PaneId("magnifier"), picture, self.frame(editor, plane, theme)));
         }
-        let size = pane::size_of(picture);
-        let spot = |z: DVec2| pane::on_screen(picture, self.camera.pane_from_embedding(z, size));
-        defect_marks::plane_marks(ui, picture, editor, plane, &spot);
+        defect_marks::plane_marks(ui, Viewport { rect: picture, camera: self.camera }, editor, plane);
         painter.rect_stroke(self.rect, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
         self.click(ui, requests);
     }
@@ -100,12 +119,10 @@ impl Magnifier {
         // Drags as well: a pin under the inset must not get them.
         let response = ui.interact(self.rect, ui.scope_id().with("magnifier"), Sense::click_and_drag());
         let name = format!("Magnifier: {}, × {}", self.defect.words(), self.factor());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
         let keys = keys_of(ui.ctx(), &Request::StepDefect(1));
         let tip = format!("A defect from near by. Click to go there; {keys} goes to the next");
-        if response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(tip).clicked() {
-            requests.push(Request::GoToDefect(self.place));
-        }
+        let response = response.named(Role::Button, &name).on_hover_cursor(CursorIcon::PointingHand).on_hover_text(tip);
+        response.asks(Request::GoToDefect(self.place), requests);
     }
 
     /// A thin frame where the inset looks, and a line from there to the inset.
@@ -123,19 +140,16 @@ impl Magnifier {
         painter.rect_stroke(frame.expand(1.0), 1.0, Stroke::new(1.25, theme.text), StrokeKind::Middle);
     }
 
+    /// The bare embedding, its faces' outlines and defects.
     fn frame(&self, editor: &Editor, plane: &PlaneScene, theme: &Theme) -> PlaneFrame {
         PlaneFrame {
-            mesh: Arc::clone(&plane.mesh.arrays),
-            plane: Some(Arc::clone(&plane.arrays)),
             paint: editor.look.paint().map(|paint| Arc::clone(&paint.faces)),
             fills: Vec::new(),
             lines: vec![mesh_pane::boundary_line(&plane.mesh, theme)],
             ghost: editor.plane.ghost_layer(theme),
             picture: None,
-            outlined: editor.picture_box(),
             style: render::Style { shading: Shading::Plain, wire_in_points: 1.0, ..mesh_pane::style(editor) },
-            palette: theme.palette,
-            camera: self.camera,
+            ..plane_pane::frame(editor, plane, self.camera, theme)
         }
     }
 
@@ -149,39 +163,127 @@ impl Magnifier {
     }
 }
 
-/// The lower right corner of the pane, or the upper one where the inset would hide what it looks at.
-fn place_for(pane: Rect, size: Vec2, looks_at: Rect) -> Rect {
-    let lower = Rect::from_min_size(pane.max - size - Vec2::splat(GAP), size);
-    if lower.expand(GAP).contains(looks_at.center()) {
-        Rect::from_min_size(Pos2::new(lower.left(), pane.top() + GAP), size)
-    } else {
-        lower
-    }
-}
-
 /// The part of the plane around a defect.
 fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<PlaneBox> {
     let disk = plane.mesh.disk()?;
-    let at = |v: crate::mesh::VertexId| plane.positions().get(v.index()).copied();
+    let around = |vertices: Vec<VertexId>| {
+        PlaneBox::around(&vertices.into_iter().filter_map(|v| plane.position_of(v)).collect::<Vec<DVec2>>())
+    };
     let (center, reach) = match defect {
         Defect::Crossing(edges) => {
-            let [a, b] = edges.map(|edge| disk.ends(edge).map(|v| at(v).unwrap_or(DVec2::NAN)));
+            let [a, b] = edges.map(|edge| disk.ends(edge).map(|v| plane.position_of(v).unwrap_or(DVec2::NAN)));
             let length = |[a, b]: [DVec2; 2]| a.distance(b);
             (defect_marks::crossing_point(a, b), length(a).min(length(b)))
         }
         Defect::Overwound(vertex) => {
-            let link: Vec<DVec2> = disk.outgoing(vertex).filter_map(|h| at(disk.head(h))).collect();
-            let bounds = PlaneBox::around(&link);
-            (at(vertex)?, bounds.size().max_element())
+            let link = around(disk.outgoing(vertex).map(|h| disk.head(h)).collect());
+            (plane.position_of(vertex)?, link.size().max_element())
         }
         Defect::Flipped(face) => {
-            let corners: Vec<DVec2> =
-                vertices_of(&plane.mesh, Element::Face(face)).into_iter().filter_map(at).collect();
-            let bounds = PlaneBox::around(&corners);
+            let bounds = around(plane.mesh.vertices_of(Element::Face(face)));
             (bounds.center(), bounds.size().max_element())
         }
     };
     // A defect without any extent is shown as near as the camera goes.
     let half = (REACH * reach).max(plane.arrays.bounds().extent() * 1e-9);
     (center.is_finite() && half.is_finite()).then(|| PlaneBox { min: center - half, max: center + half })
+}
+
+impl Editor {
+    /// The vertex that is magnified: that of the pair being placed, or the one selected pin.
+    fn vertex_in_hand(&self) -> Option<VertexId> {
+        if self.tools.is_placing_pair() {
+            return self.vertex_of_pair();
+        }
+        self.pins_selected().next().filter(|_| self.selection.vertices().len() == 1)
+    }
+
+    /// The target that is magnified, in the plane.
+    fn target_in_hand(&self) -> Option<DVec2> {
+        if self.tools.is_placing_pair() {
+            return self.target_of_pair();
+        }
+        let document = self.session.document();
+        let target = document.targets.get(&self.vertex_in_hand()?)?;
+        Some(document.frame().plane_from_uv(target.uv))
+    }
+
+    /// Whether a pair is magnified in the embedding's pane.
+    pub(super) fn magnifies_pair(&self) -> bool {
+        self.look.magnifier && (self.tools.is_placing_pair() || self.target_in_hand().is_some())
+    }
+}
+
+/// The place in a pane of the inset of half a pair that lies at a place of the screen.
+fn pair_inset(pane: Rect, looks_at: Pos2) -> Option<Rect> {
+    Some(place_for(pane, Vec2::splat(PAIR.side_in(pane)?), looks_at, 3.0 * GAP))
+}
+
+/// The pair's inset over the mesh's pane.
+pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &MeshScene) {
+    let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.look.magnifier) else { return };
+    let Some(&position) = scene.mesh().positions.get(vertex.index()) else { return };
+    let Some(inset) = view.spot(position).and_then(|at| pair_inset(view.rect, at)) else { return };
+    let mut camera = view.camera;
+    camera.frame(Sphere { center: position, radius: PART * scene.sphere.radius }, pane::size_of(inset));
+    let reach = |camera: &OrbitCamera| camera.eye().distance(position);
+    let enlarges = reach(&view.camera) / reach(&camera) * f64::from(inset.height() / view.rect.height());
+    if enlarges < LEAST_MAGNIFICATION {
+        return;
+    }
+    let theme = theme_of(ui);
+    ui.painter().rect_filled(inset, 4.0, theme.background);
+    if editor.host.has_gpu() {
+        let frame = mesh_pane::frame(editor, scene, camera, theme);
+        ui.painter().add(render::mesh_pane(PaneId("pair on mesh"), inset, frame));
+    }
+    pane::halo(&ui.painter_at(inset), inset.center(), theme.selection, 7.0);
+    close(ui, inset, &format!("Magnifier: {vertex} on the mesh"), enlarges);
+}
+
+/// The pair's inset over the embedding's pane.
+pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
+    let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
+    let Some(inset) = pair_inset(view.rect, view.spot(target)) else { return };
+    let half = DVec2::splat(PART / 2.0 * editor.with_picture(plane.arrays.bounds()).extent());
+    let camera = PlaneCamera::framing(PlaneBox { min: target - half, max: target + half }, pane::size_of(inset));
+    let enlarges = camera.points_per_unit() / view.camera.points_per_unit();
+    if enlarges < LEAST_MAGNIFICATION {
+        return;
+    }
+    let theme = theme_of(ui);
+    ui.painter().rect_filled(inset, 4.0, theme.background);
+    if editor.host.has_gpu() {
+        let frame = PlaneFrame { ghost: None, ..plane_pane::frame(editor, plane, camera, theme) };
+        ui.painter().add(render::plane_pane(PaneId("pair in plane"), inset, frame));
+    }
+    let painter = ui.painter_at(inset);
+    let near = Viewport { rect: inset, camera };
+    for pin in editor.pins_shown() {
+        let at = near.spot(pin.target);
+        if inset.expand(12.0).contains(at) {
+            pin.kind.mark(&painter, at, theme, Emphasis::Plain);
+        }
+    }
+    if editor.tools.pair().is_some() {
+        pins::ghost(&painter, near.spot(target), theme);
+    }
+    painter.circle_stroke(inset.center(), 11.0, Stroke::new(1.0, theme.selection));
+    let words = editor.vertex_in_hand().map_or_else(|| "the target".to_owned(), |v| format!("the target of {v}"));
+    close(ui, inset, &format!("Magnifier: {words}"), enlarges);
+}
+
+/// Edge, name and how much larger: what both insets of a pair end with.
+fn close(ui: &egui::Ui, inset: Rect, name: &str, enlarges: f64) {
+    let theme = theme_of(ui);
+    let painter = ui.painter_at(inset.expand(1.0));
+    painter.rect_stroke(inset, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
+    let corner = inset.left_top() + Vec2::new(7.0, 5.0);
+    let galley = painter.layout_no_wrap(format!("× {enlarges:.1}"), FontId::proportional(11.0), theme.text);
+    let under = Align2::LEFT_TOP.anchor_size(corner, galley.size()).expand(3.0);
+    painter.rect_filled(under, 3.0, theme.panel.gamma_multiply(0.85));
+    painter.galley(corner, galley, theme.text);
+    // Clicks and drags as well: what lies under the inset must not get them.
+    let response = ui.interact(inset, ui.scope_id().with(("pair magnifier", name)), Sense::click_and_drag());
+    response.named(Role::Image, name);
 }

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use eframe::egui;
-use egui::{CursorIcon, Pos2, Rect, Response};
+use egui::{Pos2, Response};
 use glam::DVec2;
 
-use super::pane;
+use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis, PinKind};
+use super::{bars, defect_marks, legend, magnifier};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, Style};
-use crate::session::{Action, Place};
 use crate::ui::editor::scene::MeshScene;
 use crate::ui::theme::{Theme, theme_of};
 use crate::ui::{Editor, Pane, Request, Shading, Tool};
@@ -22,8 +22,7 @@ const MARKS_SHOWN: usize = 2000;
 /// Shows the pane and takes its gestures.
 pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Mesh, requests);
-    super::bars::bars(ui, editor, Pane::Mesh, requests);
-    pane::message_bars(ui, editor, Place::Mesh, requests);
+    bars::bars(ui, editor, Pane::Mesh, requests);
     let (rect, response) = pane::surface(ui, "3D view of the mesh");
     editor.mesh.area_mut().set_rect(rect);
     let theme = theme_of(ui);
@@ -36,7 +35,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         };
         return pane::empty_state(ui, rect, lines);
     };
-    navigate(ui, rect, &response, &scene, &mut camera);
+    navigate(ui, &response, &scene, &mut camera);
     if editor.mesh.camera() != Some(camera) {
         editor.mesh.set_camera(camera);
         ui.ctx().request_repaint();
@@ -46,21 +45,28 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         editor.pointer.over_mesh(pick.map(|pick| pick.vertex));
         editor.aim(ui, Pane::Mesh, None);
     }
-    select(ui, &response, editor, &scene, requests);
+    let view = Viewport { rect, camera };
+    if let Some(chosen) = pane::drag_box(ui, &response, editor, Pane::Mesh) {
+        let inside = |vertex: &VertexId| {
+            let at = view.spot(scene.mesh().positions[vertex.index()]);
+            at.is_some_and(|at| chosen.contains(at)) && scene.picker.is_visible(*vertex, camera.eye())
+        };
+        let vertices = (0..scene.mesh().vertex_count()).map(VertexId::from_index);
+        requests.push(Request::AddToSelection(vertices.filter(inside).collect()));
+    }
+    pane::click(ui, &response, editor, requests);
     if editor.host.has_gpu() {
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, frame(editor, &scene, camera, theme)));
     }
-    marks(ui, rect, editor, &scene, &camera);
-    if let Some(legend) = editor.look.paint().and_then(|paint| paint.legend.as_ref()) {
-        pane::legend(ui, rect, legend, &editor.shading_title());
-    }
-    super::compare::no_move_note(ui, rect, editor);
-    super::pair_magnifier::over_mesh(ui, rect, editor, &scene);
+    marks(ui, view, editor, &scene);
+    legend::legend(ui, rect, editor);
+    legend::no_move_note(ui, rect, editor);
+    magnifier::over_mesh(ui, view, editor, &scene);
 }
 
 /// Camera moves: turntable, pan, zoom to the pointer, pivot.
-fn navigate(ui: &egui::Ui, rect: Rect, response: &Response, scene: &MeshScene, camera: &mut OrbitCamera) {
-    let size = pane::size_of(rect);
+fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut OrbitCamera) {
+    let size = pane::size_of(response.rect);
     let drag = DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into());
     let (shift, boxing) = ui.input(|input| (input.modifiers.shift, input.modifiers.command));
     if response.dragged_by(egui::PointerButton::Primary) && !shift && !boxing {
@@ -68,70 +74,24 @@ fn navigate(ui: &egui::Ui, rect: Rect, response: &Response, scene: &MeshScene, c
     } else if response.dragged() && !boxing {
         camera.pan(drag, size);
     }
-    let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(rect, at)) else { return };
-    let hit = || scene.picker.hit(camera.ray(pointer, size)).map(|hit| hit.point);
+    let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(response.rect, at)) else { return };
+    let hit = |camera: &OrbitCamera| scene.picker.hit(camera.ray(pointer, size)).map(|hit| hit.point);
     let wheel = pane::wheel(ui);
     if (wheel.zoom - 1.0).abs() > f64::EPSILON {
-        let anchor = hit().unwrap_or_else(|| camera.point_at_pivot_depth(pointer, size));
+        let anchor = hit(camera).unwrap_or_else(|| camera.point_at_pivot_depth(pointer, size));
         camera.zoom_about(anchor, 1.0 / wheel.zoom);
     }
     if wheel.pan != DVec2::ZERO {
         camera.pan(wheel.pan, size);
     }
     if response.double_clicked()
-        && let Some(point) = scene.picker.hit(camera.ray(pointer, size)).map(|hit| hit.point)
+        && let Some(point) = hit(camera)
     {
         camera.set_pivot(point);
     }
 }
 
-/// Clicks and boxes.
-fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, scene: &MeshScene, requests: &mut Vec<Request>) {
-    let Some(camera) = editor.mesh.camera() else { return };
-    let rect = response.rect;
-    if let Some(chosen) = super::boxes::drag_box(ui, response, editor, Pane::Mesh) {
-        let size = pane::size_of(rect);
-        let inside = |vertex: &VertexId| {
-            let position = scene.mesh().positions[vertex.index()];
-            let at = camera.pane_from_world(position, size).map(|at| pane::on_screen(rect, at));
-            at.is_some_and(|at| chosen.contains(at)) && scene.picker.is_visible(*vertex, camera.eye())
-        };
-        let count = scene.mesh().vertex_count();
-        requests.push(Request::AddToSelection((0..count).map(VertexId::from_index).filter(inside).collect()));
-    }
-    if response.clicked() {
-        requests.extend(clicked(ui, editor));
-    }
-    if response.hovered() {
-        ui.ctx().set_cursor_icon(cursor(editor));
-    }
-}
-
-/// What a click of the tool in hand asks for.
-pub(in crate::ui) fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
-    if editor.tools.tool() == Tool::Constrain {
-        return editor.constrain();
-    }
-    let Some(vertex) = editor.pointer.vertex() else { return vec![Request::Select(Vec::new())] };
-    let adds = ui.input(|input| input.modifiers.shift);
-    let select = if adds { Request::AddToSelection(vec![vertex]) } else { Request::Select(vec![vertex]) };
-    match editor.tools.tool() {
-        Tool::Select | Tool::Constrain => vec![select],
-        Tool::Fix if editor.is_new_vertex(vertex) => vec![select],
-        Tool::Fix => vec![Request::Do(Action::Fix(vec![vertex])), select],
-    }
-}
-
-/// The cursor says what a click would do.
-pub(super) fn cursor(editor: &Editor) -> CursorIcon {
-    match (editor.tools.tool(), editor.pointer.vertex()) {
-        (Tool::Constrain, _) | (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
-        (_, None) => CursorIcon::Default,
-        (Tool::Select, Some(_)) => CursorIcon::PointingHand,
-    }
-}
-
-pub(in crate::ui) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, theme: &Theme) -> MeshFrame {
+pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, theme: &Theme) -> MeshFrame {
     let plane = editor.plane.result().map(|plane| Arc::clone(&plane.arrays));
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
@@ -151,7 +111,7 @@ pub(super) fn boundary_line(scene: &MeshScene, theme: &Theme) -> LineLayer {
 }
 
 /// How faces look, in both panes.
-pub(in crate::ui) fn style(editor: &Editor) -> Style {
+pub(super) fn style(editor: &Editor) -> Style {
     let shading = match editor.look.shading {
         Shading::Plain => render::Shading::Plain,
         Shading::Picture if editor.has_picture() => render::Shading::Picture,
@@ -171,12 +131,9 @@ pub(in crate::ui) fn style(editor: &Editor) -> Style {
 }
 
 /// The vertices that are marked as new.
-pub(in crate::ui) fn new_vertices(scene: &MeshScene) -> impl Iterator<Item = VertexId> {
-    let counts = scene.refinement.as_ref().map(|refinement| {
-        let first = refinement.old_vertex_count();
-        first..first + refinement.new_vertices().len().min(MARKS_SHOWN)
-    });
-    counts.into_iter().flatten().map(VertexId::from_index)
+pub(super) fn new_vertices(scene: &MeshScene) -> impl Iterator<Item = VertexId> {
+    let first = scene.refinement.as_ref().map_or(usize::MAX, |refinement| refinement.old_vertex_count());
+    (first..scene.mesh().vertex_count()).take(MARKS_SHOWN).map(VertexId::from_index)
 }
 
 /// A small dot.
@@ -186,52 +143,43 @@ pub(super) fn new_vertex_mark(painter: &egui::Painter, at: Pos2, theme: &Theme) 
 }
 
 /// Pins, selection, hover and defects over the picture.
-fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, scene: &MeshScene, camera: &OrbitCamera) {
+fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &MeshScene) {
     let theme = theme_of(ui);
-    let painter = ui.painter_at(rect);
-    let size = pane::size_of(rect);
-    let eye = camera.eye();
+    let painter = ui.painter_at(view.rect);
+    let eye = view.camera.eye();
     let positions = &scene.mesh().positions;
     let place = |vertex: VertexId| -> Option<(Pos2, bool)> {
-        let at = camera.pane_from_world(*positions.get(vertex.index())?, size)?;
-        Some((pane::on_screen(rect, at), scene.picker.is_visible(vertex, eye)))
+        Some((view.spot(*positions.get(vertex.index())?)?, scene.picker.is_visible(vertex, eye)))
     };
-    for edge in super::defect_marks::crossings(editor, scene).into_iter().flatten() {
+    let seen = |vertex: VertexId| place(vertex).filter(|(_, is_seen)| *is_seen).map(|(at, _)| at);
+    for edge in defect_marks::crossings(editor, scene).into_iter().flatten() {
         if let [Some((a, a_seen)), Some((b, b_seen))] = edge.map(place)
             && (a_seen || b_seen)
         {
             painter.line_segment([a, b], egui::Stroke::new(4.0, theme.crossing));
         }
     }
-    for vertex in super::defect_marks::overwound(editor) {
-        if let Some((at, true)) = place(vertex) {
-            super::defect_marks::overwound_mark(&painter, at, theme);
-        }
+    for at in defect_marks::overwound(editor).into_iter().filter_map(seen) {
+        defect_marks::overwound_mark(&painter, at, theme);
     }
-    for vertex in new_vertices(scene) {
-        if let Some((at, true)) = place(vertex) {
-            new_vertex_mark(&painter, at, theme);
-        }
+    for at in new_vertices(scene).filter_map(seen) {
+        new_vertex_mark(&painter, at, theme);
     }
     let unmet = editor.unmet_shown();
     for pin in editor.pins_shown() {
-        if let Some((at, true)) = place(pin.vertex) {
+        if let Some(at) = seen(pin.vertex) {
             if unmet.contains(&pin.vertex) {
                 pins::unmet_mark(&painter, at, theme);
             } else if editor.session.conflict_of(pin.vertex).is_some() {
                 pins::conflict_mark(&painter, at, theme);
             }
-            let is_strong = editor.selection.contains(pin.vertex);
-            let emphasis = if is_strong { Emphasis::Strong } else { Emphasis::Plain };
-            pin.kind.mark(&painter, at, theme, emphasis);
+            pin.kind.mark(&painter, at, theme, Emphasis::strong_if(editor.selection.contains(pin.vertex)));
         }
     }
-    for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
-        if let Some((at, true)) = place(vertex) {
-            pane::halo(&painter, at, theme.selection, 6.0);
-        }
+    for at in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| seen(vertex)) {
+        pane::halo(&painter, at, theme.selection, 6.0);
     }
-    if let (Some(vertex), Some((at, true))) = (editor.pointer.vertex(), editor.pointer.vertex().and_then(place)) {
+    if let Some((vertex, at)) = editor.pointer.vertex().and_then(|vertex| Some((vertex, seen(vertex)?))) {
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });
         match editor.tools.tool() {
             _ if editor.is_new_vertex(vertex) => {}

@@ -1,15 +1,14 @@
-//! What both panes share: header, message bars, marks and legend.
+//! What both panes share: places on the screen, header, clicks and boxes, marks, the wheel.
 
 use eframe::egui;
-use egui::{Align2, Color32, FontId, Pos2, Rect, Role, Sense, Stroke, Vec2};
-use glam::DVec2;
+use egui::{Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
+use glam::{DVec2, DVec3};
 
-use crate::session::{Action, Message, Place, Severity};
-use crate::ui::controls::{Control, Offer, list, sentence, tip_with_keys};
-use crate::ui::editor::scene::Legend;
-use crate::ui::icons::{self, Sign};
+use crate::session::Action;
+use crate::ui::controls::{Control, list, tip_with_keys};
 use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Pane, Request, Shading};
+use crate::ui::{Editor, Pane, Request, Shading, Tool};
+use crate::view::{OrbitCamera, PlaneCamera};
 
 /// A point of the screen as the camera takes it, relative to the pane.
 pub(super) fn in_pane(rect: Rect, position: Pos2) -> DVec2 {
@@ -18,13 +17,39 @@ pub(super) fn in_pane(rect: Rect, position: Pos2) -> DVec2 {
 
 /// A point of the pane on the screen.
 #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
-pub(in crate::ui) fn on_screen(rect: Rect, point: DVec2) -> Pos2 {
+fn on_screen(rect: Rect, point: DVec2) -> Pos2 {
     rect.min + Vec2::new(point.x as f32, point.y as f32)
 }
 
 /// The pane's size as the camera takes it.
 pub(in crate::ui) fn size_of(rect: Rect) -> DVec2 {
     DVec2::new(rect.width().into(), rect.height().into())
+}
+
+/// A part of the screen, and the camera that shows something in it.
+#[derive(Clone, Copy)]
+pub(in crate::ui) struct Viewport<C> {
+    pub(in crate::ui) rect: Rect,
+    pub(in crate::ui) camera: C,
+}
+
+impl Viewport<PlaneCamera> {
+    /// Where a point of the plane shows.
+    pub(in crate::ui) fn spot(&self, point: DVec2) -> Pos2 {
+        on_screen(self.rect, self.camera.pane_from_embedding(point, size_of(self.rect)))
+    }
+
+    /// The point of the plane at a place of the screen.
+    pub(super) fn point_at(&self, at: Pos2) -> DVec2 {
+        self.camera.embedding_from_pane(in_pane(self.rect, at), size_of(self.rect))
+    }
+}
+
+impl Viewport<OrbitCamera> {
+    /// Where a point of the world shows; none behind the eye.
+    pub(in crate::ui) fn spot(&self, position: DVec3) -> Option<Pos2> {
+        Some(on_screen(self.rect, self.camera.pane_from_world(position, size_of(self.rect))?))
+    }
 }
 
 /// Where a pane lies in the window.
@@ -42,7 +67,7 @@ impl Default for PaneArea {
 }
 
 impl PaneArea {
-    /// Where the pane lies, points; `None` where it does not show.
+    /// Points; `None` where the pane does not show.
     pub(in crate::ui) fn rect(&self) -> Option<Rect> {
         self.rect
     }
@@ -76,28 +101,23 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
         ui.strong(title);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.add_space(4.0);
-            let (glyph, words) = if editor.layout.full().is_some() {
-                ("Both", "Show both panes")
-            } else {
-                ("Full", "Show this pane alone")
+            let (glyph, words) = match editor.layout.full() {
+                Some(_) => ("Both", "Show both panes"),
+                None => ("Full", "Show this pane alone"),
             };
             let tip = tip_with_keys(ui, words, &Request::TogglePane);
             let button = ui.add(egui::Button::new(glyph).frame(false)).on_hover_text(tip);
             button.named(Role::Button, &format!("{words}: {title}")).asks(Request::ToggleFull(pane), requests);
             if pane == Pane::Plane {
-                hull_switch(ui, editor, requests);
+                let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
+                let switch = ui.selectable_label(editor.plane.hull_shown(), "Hull").on_hover_text(tip);
+                switch.asks(Request::ToggleHull, requests);
             }
             if pane == Pane::Mesh || editor.layout.full() == Some(Pane::Plane) {
                 shading_menu(ui, editor, requests);
             }
         });
     });
-}
-
-fn hull_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
-    let switch = ui.selectable_label(editor.plane.hull_shown(), "Hull").on_hover_text(tip);
-    switch.asks(Request::ToggleHull, requests);
 }
 
 fn shading_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
@@ -115,73 +135,17 @@ fn shading_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>)
     });
 }
 
-/// Messages that belong to a pane: what happened, where, what to do. They stay until dismissed or mended.
-pub(super) fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: Place, requests: &mut Vec<Request>) {
-    let messages: Vec<&Message> = editor.session.messages().iter().filter(|m| m.place == place).collect();
-    if messages.is_empty() {
-        return;
-    }
-    let limit = ui.available_height() / 2.0;
-    egui::ScrollArea::vertical().id_salt(("messages", place == Place::Mesh)).max_height(limit).show(ui, |ui| {
-        for message in messages {
-            message_bar(ui, message, requests);
-        }
-    });
-}
-
-fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
-    let theme = theme_of(ui);
-    let sign = match message.severity {
-        Severity::Note => Sign::Good,
-        Severity::Error => Sign::Bad,
-    };
-    bar(ui, sign, |ui| {
-        ui.add(egui::Label::new(sentence(&message.text)).wrap());
-        if let Some(remedy) = &message.remedy {
-            ui.add(egui::Label::new(egui::RichText::new(sentence(remedy)).color(theme.weak_text)).wrap());
-        }
-        ui.horizontal_wrapped(|ui| message_buttons(ui, message, requests));
-    });
-}
-
-/// A bar over a pane, with its sign at the left.
-pub(in crate::ui) fn bar(ui: &mut egui::Ui, sign: Sign, add: impl FnOnce(&mut egui::Ui)) {
-    let theme = theme_of(ui);
-    let frame = egui::Frame::new()
-        .fill(sign.colour(theme).gamma_multiply(0.14))
-        .inner_margin(8)
-        .outer_margin(egui::Margin::symmetric(4, 2));
-    frame.show(ui, |ui| {
-        ui.set_width(ui.available_width());
-        ui.horizontal_top(|ui| {
-            let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
-            icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), sign, theme);
-            ui.vertical(add);
-        });
-    });
-}
-
-fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
-    if !message.vertices.is_empty() {
-        Offer::new("Go to", "Show it in the mesh", Request::GoTo(message.vertices.clone())).show(ui, requests);
-    }
-    if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
-        ui.ctx().copy_text(message.text.clone());
-    }
-    ui.small_button("Dismiss").asks(Action::Dismiss(message.id), requests);
-}
-
 /// Words in the middle of a pane that has nothing to show.
 pub(super) fn empty_state(ui: &egui::Ui, rect: Rect, lines: &[&str]) {
     let theme = theme_of(ui);
     let width = (rect.width() - 32.0).max(40.0);
-    let mut galleys = Vec::new();
-    for (i, line) in lines.iter().enumerate() {
-        let (size, colour) = if i == 0 { (15.0, theme.text) } else { (13.0, theme.weak_text) };
+    let looks = std::iter::once((15.0, theme.text)).chain(std::iter::repeat((13.0, theme.weak_text)));
+    let galley = |(line, (size, colour)): (&&str, (f32, Color32))| {
         let mut job = egui::text::LayoutJob::simple((*line).to_owned(), FontId::proportional(size), colour, width);
         job.halign = egui::Align::Center;
-        galleys.push(ui.painter().layout_job(job));
-    }
+        ui.painter().layout_job(job)
+    };
+    let galleys: Vec<_> = lines.iter().zip(looks).map(galley).collect();
     let height: f32 = galleys.iter().map(|galley| galley.size().y + 6.0).sum();
     let mut at = rect.center() - Vec2::new(0.0, height / 2.0);
     for galley in galleys {
@@ -197,48 +161,57 @@ pub(super) fn halo(painter: &egui::Painter, at: Pos2, colour: Color32, radius: f
     painter.circle_stroke(at, radius, Stroke::new(2.0, colour));
 }
 
-/// The scale of a shading: bar, histogram, numbers.
-pub(in crate::ui) fn legend(ui: &egui::Ui, rect: Rect, legend: &Legend, title: &str) {
+/// Follows a box being drawn: Ctrl and a drag. Gives it, in window points, when the drag ends.
+pub(super) fn drag_box(ui: &egui::Ui, response: &Response, editor: &mut Editor, pane: Pane) -> Option<Rect> {
+    if response.drag_started_by(egui::PointerButton::Primary) && ui.input(|input| input.modifiers.command) {
+        // From where the button went down, not from where egui was sure of a drag.
+        let origin = ui.input(|input| input.pointer.press_origin()).or(response.interact_pointer_pos());
+        editor.pointer.begin_box(pane, origin);
+    }
+    let from = editor.pointer.box_in(pane)?;
+    let chosen = Rect::from_two_pos(from, ui.input(|input| input.pointer.latest_pos())?);
+    if response.drag_stopped() {
+        editor.pointer.end_box();
+        return Some(chosen);
+    }
     let theme = theme_of(ui);
-    let painter = ui.painter_at(rect);
-    let size = Vec2::new(184.0, 78.0);
-    if rect.width() < size.x + 24.0 || rect.height() < 2.0 * size.y {
-        return;
+    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("selection box"));
+    let painter = ui.ctx().layer_painter(layer).with_clip_rect(response.rect);
+    painter.rect_filled(chosen, 0.0, theme.selection.gamma_multiply(0.12));
+    painter.rect_stroke(chosen, 0.0, Stroke::new(1.0, theme.selection), egui::StrokeKind::Inside);
+    None
+}
+
+/// Takes a click of the tool in hand, and shows by the cursor what it would do.
+pub(super) fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
+    if response.clicked() {
+        requests.extend(clicked(ui, editor));
     }
-    let frame = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -12.0 - size.y), size);
-    painter.rect_filled(frame, 4.0, theme.panel.gamma_multiply(0.92));
-    painter.text(frame.min + Vec2::new(10.0, 6.0), Align2::LEFT_TOP, title, FontId::proportional(11.0), theme.text);
-    let bar = Rect::from_min_size(frame.min + Vec2::new(10.0, 44.0), Vec2::new(size.x - 20.0, 9.0));
-    let most = legend.histogram.iter().copied().max().unwrap_or(0).max(1);
-    let width = bar.width() / legend.histogram.len() as f32;
-    for (i, &count) in legend.histogram.iter().enumerate() {
-        let left = bar.left() + width * i as f32;
-        let share = (i as f64 + 0.5) / legend.histogram.len() as f64;
-        let [r, g, b] = legend.scale.colour_at(share);
-        let cell = Rect::from_min_size(Pos2::new(left, bar.top()), Vec2::new(width + 0.5, bar.height()));
-        painter.rect_filled(cell, 0.0, crate::ui::theme::rgb([r, g, b]));
-        #[expect(clippy::cast_possible_truncation, reason = "a height in points")]
-        let height = (20.0 * f64::from(count) / f64::from(most)) as f32;
-        let column =
-            Rect::from_min_max(Pos2::new(left, bar.top() - 1.0 - height), Pos2::new(left + width, bar.top() - 1.0));
-        painter.rect_filled(column, 0.0, theme.weak_text.gamma_multiply(0.6));
+    if response.hovered() {
+        ui.ctx().set_cursor_icon(match (editor.tools.tool(), editor.pointer.vertex()) {
+            (Tool::Constrain, _) | (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
+            (_, None) => CursorIcon::Default,
+            (Tool::Select, Some(_)) => CursorIcon::PointingHand,
+        });
     }
-    for tick in legend.scale.ticks(legend.range) {
-        #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
-        let x = bar.left() + bar.width() * tick.at as f32;
-        painter.vline(x, bar.bottom()..=bar.bottom() + 3.0, Stroke::new(1.0, theme.weak_text));
-        painter.text(
-            Pos2::new(x, bar.bottom() + 4.0),
-            Align2::CENTER_TOP,
-            &tick.label,
-            FontId::proportional(10.0),
-            theme.weak_text,
-        );
+}
+
+fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
+    if editor.tools.tool() == Tool::Constrain {
+        return editor.constrain();
+    }
+    let Some(vertex) = editor.pointer.vertex() else { return vec![Request::Select(Vec::new())] };
+    let adds = ui.input(|input| input.modifiers.shift);
+    let select = if adds { Request::AddToSelection(vec![vertex]) } else { Request::Select(vec![vertex]) };
+    if editor.tools.tool() == Tool::Fix && !editor.is_new_vertex(vertex) {
+        vec![Request::Do(Action::Fix(vec![vertex])), select]
+    } else {
+        vec![select]
     }
 }
 
 /// A pane's drawing surface, with its name for those who do not see it.
-pub(in crate::ui) fn surface(ui: &mut egui::Ui, name: &str) -> (Rect, egui::Response) {
+pub(super) fn surface(ui: &mut egui::Ui, name: &str) -> (Rect, Response) {
     let size = ui.available_size().max(Vec2::splat(16.0));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     (rect, response.named(Role::Image, name))
@@ -250,7 +223,7 @@ pub(super) struct WheelMove {
     /// How much nearer to come: above 1 enlarges.
     pub(super) zoom: f64,
     /// How far to pan, points.
-    pub(in crate::ui) pan: DVec2,
+    pub(super) pan: DVec2,
 }
 
 /// Enlargement per notch of the wheel.

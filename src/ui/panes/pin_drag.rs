@@ -2,15 +2,16 @@
 //! selected, they go together.
 
 use eframe::egui;
-use egui::{CursorIcon, Rect, Response, Role, Sense, Vec2, WidgetInfo};
+use egui::{CursorIcon, Rect, Response, Role, Sense, Vec2};
 use glam::DVec2;
 
-use super::pane;
+use super::pane::Viewport;
 use super::pins::{self, Emphasis, PinShown};
 use crate::geom::PictureFrame;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::Conflict;
+use crate::ui::controls::Control;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Request};
 use crate::view::PlaneCamera;
@@ -23,7 +24,7 @@ const REST: f64 = 0.2;
 
 /// A pin that is dragged.
 #[derive(Clone, Debug)]
-pub struct PinDrag {
+pub(in crate::ui) struct PinDrag {
     vertex: VertexId,
     /// From where the pointer grabbed it to its middle, points.
     offset: Vec2,
@@ -56,20 +57,13 @@ impl PinDrag {
 struct Grip {
     pin: PinShown,
     at: egui::Pos2,
-    camera: PlaneCamera,
-    rect: Rect,
+    view: Viewport<PlaneCamera>,
 }
 
 /// Shows the pins and takes their gestures.
-pub(super) fn pins_ui(
-    ui: &mut egui::Ui,
-    rect: Rect,
-    editor: &mut Editor,
-    camera: PlaneCamera,
-    requests: &mut Vec<Request>,
-) {
+pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
-    let size = pane::size_of(rect);
+    let painter = ui.painter_at(view.rect);
     let pins = editor.pins_shown();
     if let Some(dragged) = editor.tools.dragged()
         && !pins.iter().any(|pin| pin.vertex == dragged)
@@ -79,25 +73,20 @@ pub(super) fn pins_ui(
         requests.push(Request::Do(Action::EndGesture));
     }
     for pin in pins {
-        let at = pane::on_screen(rect, camera.pane_from_embedding(pin.target, size));
+        let at = view.spot(pin.target);
         let is_dragged = editor.tools.dragged() == Some(pin.vertex);
         // A pin that is dragged out of the pane stays in the hand.
-        if !is_dragged && !rect.expand(GRAB_SIZE).contains(at) {
+        if !is_dragged && !view.rect.expand(GRAB_SIZE).contains(at) {
             continue;
         }
-        let grip = Grip { pin, at, camera, rect };
-        let response = grip.widget(ui, editor);
-        let strong = response.hovered() || editor.selection.contains(pin.vertex);
-        let emphasis = if strong { Emphasis::Strong } else { Emphasis::Plain };
-        let conflict = editor.session.conflict_of(pin.vertex);
-        if conflict.is_some() {
-            pins::conflict_mark(&ui.painter_at(rect), at, theme);
+        let grip = Grip { pin, at, view };
+        let mut response = grip.widget(ui, editor);
+        let is_strong = response.hovered() || editor.selection.contains(pin.vertex);
+        if let Some(conflict) = editor.session.conflict_of(pin.vertex) {
+            pins::conflict_mark(&painter, at, theme);
+            response = response.on_hover_text(conflict_words(conflict));
         }
-        let response = match conflict {
-            Some(conflict) => response.on_hover_text(conflict_words(conflict)),
-            None => response,
-        };
-        pin.kind.mark(&ui.painter_at(rect), at, theme, emphasis);
+        pin.kind.mark(&painter, at, theme, Emphasis::strong_if(is_strong));
         // A mark that leaves the click to the pane leaves it what is said of it, too.
         if editor.tools.pair().is_none() && (response.hovered() || response.dragged()) {
             ui.ctx().set_cursor_icon(if response.dragged() { CursorIcon::Grabbing } else { CursorIcon::Grab });
@@ -118,12 +107,8 @@ pub(in crate::ui) fn conflict_words(conflict: &Conflict) -> String {
 }
 
 /// The vertex of the pin whose mark is under a place of the screen: of several the one on top, which takes the click.
-pub(super) fn pin_at(editor: &Editor, rect: Rect, camera: PlaneCamera, at: egui::Pos2) -> Option<VertexId> {
-    let size = pane::size_of(rect);
-    let is_under = |pin: &PinShown| {
-        let middle = pane::on_screen(rect, camera.pane_from_embedding(pin.target, size));
-        Rect::from_center_size(middle, Vec2::splat(GRAB_SIZE)).contains(at)
-    };
+pub(super) fn pin_at(editor: &Editor, view: Viewport<PlaneCamera>, at: egui::Pos2) -> Option<VertexId> {
+    let is_under = |pin: &PinShown| Rect::from_center_size(view.spot(pin.target), Vec2::splat(GRAB_SIZE)).contains(at);
     editor.pins_shown().into_iter().rfind(is_under).map(|pin| pin.vertex)
 }
 
@@ -131,14 +116,11 @@ impl Grip {
     fn widget(&self, ui: &egui::Ui, editor: &Editor) -> Response {
         let PinShown { vertex, kind, .. } = self.pin;
         let grab = Rect::from_center_size(self.at, Vec2::splat(GRAB_SIZE));
-        let seen = grab.intersect(self.rect);
+        let seen = grab.intersect(self.view.rect);
         let grab = if seen.is_positive() { seen } else { grab };
         // The pane itself takes the click that completes a pair, even over a pin.
         let sense = if editor.tools.pair().is_some() { Sense::hover() } else { Sense::click_and_drag() };
-        let response = ui.interact(grab, ui.scope_id().with(("pin", vertex)), sense);
-        let name = kind.name(vertex);
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-        response
+        ui.interact(grab, ui.scope_id().with(("pin", vertex)), sense).named(Role::Button, &kind.name(vertex))
     }
 
     fn drag(&self, ui: &egui::Ui, response: &Response, editor: &mut Editor, requests: &mut Vec<Request>) {
@@ -150,7 +132,7 @@ impl Grip {
         let now = ui.input(|input| input.time);
         if response.dragged() && response.drag_delta() != Vec2::ZERO {
             let pointer = response.interact_pointer_pos().map_or(self.at, |pointer| pointer + drag.offset);
-            let place = self.camera.embedding_from_pane(pane::in_pane(self.rect, pointer), pane::size_of(self.rect));
+            let place = self.view.point_at(pointer);
             requests.push(Request::Do(drag.moves_to(place, editor.session.document().frame())));
             (drag.moved_at, drag.has_rested) = (now, false);
         } else if response.dragged() && !drag.has_rested {

@@ -53,7 +53,12 @@ impl PinKind {
     pub(in crate::ui) fn mark(self, painter: &Painter, at: Pos2, theme: &Theme, emphasis: Emphasis) {
         let more = if emphasis == Emphasis::Strong { STRONG } else { 0.0 };
         match self {
-            Self::Gauge => hollow_square(painter, at, theme, SQUARE + more),
+            Self::Gauge => {
+                let square = Rect::from_center_size(at, Vec2::splat(SQUARE + more));
+                painter.rect_filled(square, 1.0, theme.background.gamma_multiply(0.7));
+                let edge = Stroke::new(if more > 0.0 { 2.5 } else { 1.5 }, theme.pin);
+                painter.rect_stroke(square, 1.0, edge, egui::StrokeKind::Inside);
+            }
             Self::User(Hold::Fixed) => {
                 let square = Rect::from_center_size(at, Vec2::splat(SQUARE + more));
                 painter.rect_filled(square, 1.0, theme.pin);
@@ -63,7 +68,13 @@ impl PinKind {
                 let edge = Stroke::new(1.0, Color32::WHITE);
                 painter.add(Shape::convex_polygon(diamond(at, DIAMOND + more), theme.constraint, edge));
             }
-            Self::User(Hold::Weighted(weight)) => hollow_diamond(painter, at, theme, half_height(weight) + more),
+            Self::User(Hold::Weighted(weight)) => {
+                let corners = diamond(at, half_height(weight) + more);
+                let under = Stroke::new(4.0, theme.background.gamma_multiply(0.8));
+                painter.add(Shape::closed_line(corners.clone(), under));
+                let fill = theme.background.gamma_multiply(0.35);
+                painter.add(Shape::convex_polygon(corners, fill, Stroke::new(2.0, theme.constraint)));
+            }
         }
     }
 }
@@ -86,20 +97,13 @@ impl Editor {
         let uses_pins = document.settings.method.uses_pins();
         // Marks show what the solver does: a treatment may weigh what was asked for exactly.
         let users = if uses_pins { document.settings.held(&document.pins()) } else { BTreeMap::new() };
-        let gauge = self.plane.scene().filter(|scene| {
-            scene.outcome.step.solution.gauge_completed
-                && scene.outcome.problem.settings.method.uses_pins()
-                && users.len() < 2
+        let outcome = self.plane.scene().map(|scene| &scene.outcome).filter(|outcome| {
+            outcome.step.solution.gauge_completed && outcome.problem.settings.method.uses_pins() && users.len() < 2
         });
-        let gauge = gauge.map(|scene| &scene.outcome.step.solution.pins).into_iter().flatten();
-        let solver = gauge.filter(|(vertex, _)| !users.contains_key(vertex)).map(|(&vertex, pin)| PinShown {
-            vertex,
-            target: pin.target,
-            kind: PinKind::Gauge,
-        });
-        let own =
-            users.iter().map(|(&vertex, pin)| PinShown { vertex, target: pin.target, kind: PinKind::User(pin.hold) });
-        own.chain(solver).collect()
+        let gauge = outcome.into_iter().flat_map(|outcome| &outcome.step.solution.pins);
+        let gauge = gauge.filter(|(vertex, _)| !users.contains_key(vertex)).map(|found| (found, PinKind::Gauge));
+        let own = users.iter().map(|(vertex, pin)| ((vertex, pin), PinKind::User(pin.hold)));
+        own.chain(gauge).map(|((&vertex, pin), kind)| PinShown { vertex, target: pin.target, kind }).collect()
     }
 
     /// The exact pins that are not on their targets in the planar embedding on the screen, ascending.
@@ -125,6 +129,12 @@ pub(in crate::ui) enum Emphasis {
     Strong,
 }
 
+impl Emphasis {
+    pub(in crate::ui) fn strong_if(is_strong: bool) -> Self {
+        if is_strong { Self::Strong } else { Self::Plain }
+    }
+}
+
 /// A ring around a pin's vertex that is not on its target.
 pub(super) fn unmet_mark(painter: &Painter, at: Pos2, theme: &Theme) {
     painter.circle_stroke(at, DIAMOND + 4.0, Stroke::new(2.0, theme.unmet));
@@ -140,20 +150,6 @@ pub(in crate::ui) fn ghost(painter: &Painter, at: Pos2, theme: &Theme) {
     let colour = theme.constraint.gamma_multiply(0.7);
     let edge = Stroke::new(1.5, colour);
     painter.add(Shape::convex_polygon(diamond(at, DIAMOND + STRONG), colour.gamma_multiply(0.3), edge));
-}
-
-fn hollow_square(painter: &Painter, at: Pos2, theme: &Theme, side: f32) {
-    let square = Rect::from_center_size(at, Vec2::splat(side));
-    painter.rect_filled(square, 1.0, theme.background.gamma_multiply(0.7));
-    let edge = Stroke::new(if side > SQUARE { 2.5 } else { 1.5 }, theme.pin);
-    painter.rect_stroke(square, 1.0, edge, egui::StrokeKind::Inside);
-}
-
-fn hollow_diamond(painter: &Painter, at: Pos2, theme: &Theme, half: f32) {
-    let under = Stroke::new(4.0, theme.background.gamma_multiply(0.8));
-    painter.add(Shape::closed_line(diamond(at, half), under));
-    let fill = theme.background.gamma_multiply(0.35);
-    painter.add(Shape::convex_polygon(diamond(at, half), fill, Stroke::new(2.0, theme.constraint)));
 }
 
 /// Half the height of the diamond of a weight.

@@ -7,13 +7,15 @@ use egui::{Pos2, Rect, Response};
 use glam::DVec2;
 
 use super::magnifier::Magnifier;
-use super::mesh_pane::{boundary_line, clicked, cursor, new_vertex_mark, new_vertices, style};
-use super::{compare, constrain};
-use super::{pair_magnifier, pane, pin_drag, pins};
+use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, style};
+use super::pane::{self, Viewport};
+use super::{bars, constrain, defect_marks, legend, magnifier, pin_drag, pins};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
-use crate::session::{Place, Surface};
+use crate::session::Surface;
+use crate::ui::controls::Control;
 use crate::ui::editor::scene::PlaneScene;
+use crate::ui::panels::equation_table;
 use crate::ui::theme::{Theme, theme_of};
 use crate::ui::{Editor, HullScene, Pane, Request, Stage};
 use crate::view::PlaneCamera;
@@ -24,8 +26,7 @@ const MARKS_SHOWN: usize = 2000;
 /// Shows the pane and takes its gestures.
 pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Plane, requests);
-    super::bars::bars(ui, editor, Pane::Plane, requests);
-    pane::message_bars(ui, editor, Place::Embedding, requests);
+    bars::bars(ui, editor, Pane::Plane, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
     editor.lay_out_plane(rect);
     let theme = theme_of(ui);
@@ -33,51 +34,57 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     let (Some(plane), Some(mut camera)) = (editor.plane.drawn().map(Arc::clone), editor.plane.camera()) else {
         return pane::empty_state(ui, rect, &waiting_words(editor));
     };
-    navigate(ui, rect, &response, &mut camera);
+    navigate(ui, &response, &mut camera);
     if editor.plane.camera() != Some(camera) {
         editor.plane.set_camera(camera);
         ui.ctx().request_repaint();
     }
-    let magnifier = Magnifier::over(editor, rect, &plane).filter(|_| !editor.magnifies_pair());
+    let view = Viewport { rect, camera };
+    let magnifier = Magnifier::over(editor, view, &plane).filter(|_| !editor.magnifies_pair());
     let is_covered = |at: Pos2| magnifier.as_ref().is_some_and(|magnifier| magnifier.rect.contains(at));
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|at| rect.contains(*at) && !is_covered(*at));
     if response.hovered() || response.contains_pointer() {
-        look_under(ui, editor, &plane, pointer);
+        look_under(ui, view, editor, &plane, pointer);
     }
     if editor.host.has_gpu() {
         let frame = frame(editor, &plane, camera, theme);
         ui.painter().add(render::plane_pane(PaneId("plane"), rect, frame));
     }
-    select(ui, &response, editor, &plane, requests);
-    marks(ui, rect, editor, &plane, camera);
-    crate::ui::panels::equation_table::draw(ui, rect, editor, &plane, camera);
+    if let Some(chosen) = pane::drag_box(ui, &response, editor, Pane::Plane) {
+        requests.push(Request::AddToSelection(within(view, chosen, editor, &plane)));
+    }
+    pane::click(ui, &response, editor, requests);
+    marks(ui, view, editor, &plane);
+    equation_table::draw(ui, view, editor, &plane);
     if !plane.is_stage() {
-        pin_drag::pins_ui(ui, rect, editor, camera, requests);
-        pair_magnifier::over_plane(ui, rect, editor, &plane);
+        pin_drag::pins_ui(ui, view, editor, requests);
+        magnifier::over_plane(ui, view, editor, &plane);
     }
     if let Some(magnifier) = magnifier {
         magnifier.show(ui, editor, &plane, requests);
     }
     stage_selector(ui, rect, editor, requests);
-    if editor.layout.mesh_hidden()
-        && let Some(legend) = editor.look.paint().and_then(|paint| paint.legend.as_ref())
-    {
-        pane::legend(ui, rect, legend, &editor.shading_title());
+    if editor.layout.mesh_hidden() {
+        legend::legend(ui, rect, editor);
     }
     if !plane.is_stage() {
-        compare::ghost_note(ui, rect, editor);
+        legend::ghost_note(ui, rect, editor);
     }
 }
 
 /// Takes in what is under the pointer: a pin by its mark, which lies over the vertices, else the nearest vertex.
-fn look_under(ui: &egui::Ui, editor: &mut Editor, plane: &PlaneScene, pointer: Option<Pos2>) {
-    let (Some(rect), Some(camera)) = (editor.plane.area().rect(), editor.plane.camera()) else { return };
-    let size = pane::size_of(rect);
-    let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, rect, camera, at));
-    let pointer = pointer.map(|at| pane::in_pane(rect, at));
-    let pick = pointer.and_then(|at| plane.picker.nearest_vertex(&camera, size, at));
-    let in_plane = pointer.map(|at| camera.embedding_from_pane(at, size));
-    editor.pointer.over_plane(in_plane, grip.or(pick.map(|pick| pick.vertex)));
+fn look_under(
+    ui: &egui::Ui,
+    view: Viewport<PlaneCamera>,
+    editor: &mut Editor,
+    plane: &PlaneScene,
+    pointer: Option<Pos2>,
+) {
+    let Viewport { rect, camera } = view;
+    let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, view, at));
+    let nearest = |at| plane.picker.nearest_vertex(&camera, pane::size_of(rect), pane::in_pane(rect, at));
+    let pick = pointer.and_then(nearest);
+    editor.pointer.over_plane(pointer.map(|at| view.point_at(at)), grip.or(pick.map(|pick| pick.vertex)));
     editor.aim(ui, Pane::Plane, grip);
 }
 
@@ -92,7 +99,7 @@ fn waiting_words(editor: &Editor) -> Vec<&'static str> {
     }
 }
 
-fn navigate(ui: &egui::Ui, rect: Rect, response: &Response, camera: &mut PlaneCamera) {
+fn navigate(ui: &egui::Ui, response: &Response, camera: &mut PlaneCamera) {
     let drag = DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into());
     let boxing = ui.input(|input| input.modifiers.command);
     if response.dragged() && !(boxing && response.dragged_by(egui::PointerButton::Primary)) {
@@ -102,58 +109,37 @@ fn navigate(ui: &egui::Ui, rect: Rect, response: &Response, camera: &mut PlaneCa
     if let Some(pointer) = pointer {
         let wheel = pane::wheel(ui);
         if (wheel.zoom - 1.0).abs() > f64::EPSILON {
-            camera.zoom_at(pane::in_pane(rect, pointer), wheel.zoom, pane::size_of(rect));
+            camera.zoom_at(pane::in_pane(response.rect, pointer), wheel.zoom, pane::size_of(response.rect));
         }
         camera.pan(wheel.pan);
     }
 }
 
-fn select(ui: &egui::Ui, response: &Response, editor: &mut Editor, plane: &PlaneScene, requests: &mut Vec<Request>) {
-    let Some(camera) = editor.plane.camera() else { return };
-    let rect = response.rect;
-    if let Some(chosen) = super::boxes::drag_box(ui, response, editor, Pane::Plane) {
-        let size = pane::size_of(rect);
-        let [a, b] = [chosen.left_bottom(), chosen.right_top()]
-            .map(|corner| camera.embedding_from_pane(pane::in_pane(rect, corner), size));
-        let count = plane.mesh.mesh().vertex_count();
-        let positions = plane.positions()[..count].iter().enumerate();
-        let inside = positions.filter(|(_, z)| z.cmpge(a).all() && z.cmple(b).all());
-        let mut chosen: Vec<VertexId> = inside.map(|(i, _)| VertexId::from_index(i)).collect();
-        let targets = editor.pins_shown().into_iter();
-        let targets = targets.filter(|pin| pin.target.cmpge(a).all() && pin.target.cmple(b).all());
-        chosen.extend(targets.map(|pin| pin.vertex));
-        requests.push(Request::AddToSelection(chosen));
-    }
-    if response.clicked() {
-        requests.extend(clicked(ui, editor));
-    }
-    if response.hovered() {
-        ui.ctx().set_cursor_icon(cursor(editor));
-    }
+/// The vertices that lie in a box of the screen, and those whose targets do.
+fn within(view: Viewport<PlaneCamera>, chosen: Rect, editor: &Editor, plane: &PlaneScene) -> Vec<VertexId> {
+    let [a, b] = [chosen.left_bottom(), chosen.right_top()].map(|corner| view.point_at(corner));
+    let is_inside = |z: DVec2| z.cmpge(a).all() && z.cmple(b).all();
+    let vertices = (0..plane.mesh.mesh().vertex_count()).map(VertexId::from_index);
+    let inside = vertices.filter(|&vertex| plane.position_of(vertex).is_some_and(is_inside));
+    let pins = editor.pins_shown().into_iter().filter(|pin| is_inside(pin.target));
+    inside.chain(pins.map(|pin| pin.vertex)).collect()
 }
 
-pub(in crate::ui) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
+pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
+    let hull = editor.plane.hull_scene();
     let mut lines = vec![boundary_line(&plane.mesh, theme)];
-    let mut fills = Vec::new();
-    if let Some(scene) = editor.plane.hull_scene() {
-        fills = scene.fills(theme);
-        lines.extend(scene.lines(theme));
-    }
+    lines.extend(hull.into_iter().flat_map(|scene| scene.lines(theme)));
     let mut style = style(editor);
     if plane.is_stage() && style.shading == render::Shading::Paint {
         style.shading = render::Shading::Plain;
     }
-    let paint = editor
-        .plane
-        .hull_scene()
-        .and_then(HullScene::paint)
-        .or(editor.plane.preview_paint())
-        .or(editor.look.paint().map(|paint| &paint.faces));
+    let of_stage = hull.and_then(HullScene::paint).or(editor.plane.preview_paint());
+    let paint = of_stage.or(editor.look.paint().map(|paint| &paint.faces));
     PlaneFrame {
         mesh: Arc::clone(&plane.mesh.arrays),
         plane: Some(Arc::clone(&plane.arrays)),
         paint: paint.map(Arc::clone),
-        fills,
+        fills: hull.map(|scene| scene.fill(theme)).into_iter().collect(),
         lines,
         ghost: editor.plane.ghost_layer(theme).filter(|_| !plane.is_stage()),
         picture: editor.picture_layer(),
@@ -164,18 +150,13 @@ pub(in crate::ui) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCam
     }
 }
 
-fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene, camera: PlaneCamera) {
+fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
     let theme = theme_of(ui);
-    let over = ui.painter_at(rect);
-    let size = pane::size_of(rect);
-    let spot = |vertex: VertexId| -> Pos2 {
-        let z = plane.positions().get(vertex.index()).copied().unwrap_or(DVec2::NAN);
-        pane::on_screen(rect, camera.pane_from_embedding(z, size))
-    };
+    let over = ui.painter_at(view.rect);
+    let spot = |vertex: VertexId| view.spot(plane.position_of(vertex).unwrap_or(DVec2::NAN));
     // The verdict is on the result, not on a stage before it.
     if !plane.is_stage() {
-        let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
-        super::defect_marks::plane_marks(ui, rect, editor, plane, &spot);
+        defect_marks::plane_marks(ui, view, editor, plane);
     }
     for vertex in new_vertices(&plane.mesh) {
         new_vertex_mark(&over, spot(vertex), theme);
@@ -186,11 +167,9 @@ fn marks(ui: &egui::Ui, rect: Rect, editor: &Editor, plane: &PlaneScene, camera:
             if unmet.contains(&pin.vertex) {
                 pins::unmet_mark(&over, spot(pin.vertex), theme);
             }
-            let target = pane::on_screen(rect, camera.pane_from_embedding(pin.target, size));
-            pins::residual(&over, [spot(pin.vertex), target], theme, pin.kind);
+            pins::residual(&over, [spot(pin.vertex), view.spot(pin.target)], theme, pin.kind);
         }
-        let spot = |z: DVec2| pane::on_screen(rect, camera.pane_from_embedding(z, size));
-        constrain::preview(&over, ui, editor, &spot);
+        constrain::preview(ui, view, editor, plane);
     }
     for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
         pane::halo(&over, spot(vertex), theme.selection, 6.0);
@@ -212,10 +191,9 @@ fn stage_selector(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut
         if scene.has_stages {
             ui.horizontal_wrapped(|ui| {
                 for stage in Stage::ALL {
-                    let label = ui.selectable_label(editor.plane.stage() == stage, stage.title());
-                    if label.on_hover_text(stage.about()).clicked() {
-                        requests.push(Request::SetStage(stage));
-                    }
+                    let [title, about] = stage.words();
+                    let label = ui.selectable_label(editor.plane.stage() == stage, title).on_hover_text(about);
+                    label.asks(Request::SetStage(stage), requests);
                 }
             });
         }

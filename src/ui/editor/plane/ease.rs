@@ -85,7 +85,7 @@ impl PlaneView {
 
     /// The camera now, and the one that shows all of an embedding: where that is wanted.
     fn camera_along(&self, target: &PlaneScene, around: Surroundings) -> Option<[PlaneCamera; 2]> {
-        let stays = self.hull.is_shown() || around.is_dragging;
+        let stays = self.hull_shown() || around.is_dragging;
         let now = self.camera.filter(|_| self.is_framed() && !stays)?;
         let bounds = around.framed_box(target.arrays.bounds());
         let mut goal = now;

@@ -11,32 +11,14 @@ use crate::session::{Outcome, Session};
 use crate::ui::theme::Theme;
 use crate::view::{EdgeList, PlaneArrays};
 
-/// What an outline belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct GhostKey {
-    outcome_revision: u64,
-    /// The compared step.
-    step: usize,
-}
-
 /// The boundary of the compared step, ready to be drawn over the one on the screen.
 #[derive(Debug)]
 pub(super) struct Ghost {
-    key: GhostKey,
+    /// The revision of the outcome on the screen, and the compared step.
+    key: (u64, usize),
     /// The boundary's vertices only, in the unit space of the outcome on the screen.
     arrays: Arc<PlaneArrays>,
     edges: Arc<EdgeList>,
-}
-
-impl Ghost {
-    fn new(key: GhostKey, boundary: &[DVec2], shown: &PlaneArrays) -> Self {
-        let vertices: Vec<VertexId> = (0..boundary.len()).map(VertexId::from_index).collect();
-        Self {
-            key,
-            arrays: Arc::new(PlaneArrays::in_frame(boundary, &[], shown.frame())),
-            edges: Arc::new(EdgeList::closed_loop(&vertices)),
-        }
-    }
 }
 
 impl PlaneView {
@@ -49,7 +31,7 @@ impl PlaneView {
 
     /// The step whose outline shows.
     pub fn ghost_step(&self) -> Option<usize> {
-        self.ghost.as_ref().map(|ghost| ghost.key.step)
+        self.ghost.as_ref().map(|ghost| ghost.key.1)
     }
 
     /// The step that moves are measured from: the compared one, or else the one before, as far as it is kept.
@@ -62,20 +44,18 @@ impl PlaneView {
 
     /// Makes the outline of the compared step where another one is wanted. Call once per frame.
     pub(super) fn refresh_ghost(&mut self, session: &Session) {
-        let (Some(plane), Some(step)) = (&self.scene, session.timeline().compared()) else {
-            self.ghost = None;
-            return;
-        };
-        let key = GhostKey { outcome_revision: plane.outcome_revision, step };
-        if self.ghost.as_ref().is_some_and(|ghost| ghost.key == key) {
-            return;
-        }
-        let other = session.compared().filter(|_| step != plane.outcome.step.index);
-        self.ghost = other.zip(plane.mesh.model.disk()).map(|(other, disk)| {
+        let before = self.ghost.take();
+        let (Some(plane), Some(step)) = (&self.scene, session.timeline().compared()) else { return };
+        let key = (plane.outcome_revision, step);
+        self.ghost = before.filter(|ghost| ghost.key == key).or_else(|| {
+            let other = session.compared().filter(|_| step != plane.outcome.step.index)?;
             let embedding = &other.step.solution.embedding;
+            let loop_of_other = other.step.mesh(plane.mesh.model.disk()?).boundary_loop();
             let position_of = |v: &VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
-            let boundary: Vec<DVec2> = other.step.mesh(disk).boundary_loop().iter().map(position_of).collect();
-            Ghost::new(key, &boundary, &plane.arrays)
+            let boundary: Vec<DVec2> = loop_of_other.iter().map(position_of).collect();
+            let vertices: Vec<VertexId> = (0..boundary.len()).map(VertexId::from_index).collect();
+            let arrays = Arc::new(PlaneArrays::in_frame(&boundary, &[], plane.arrays.frame()));
+            Some(Ghost { key, arrays, edges: Arc::new(EdgeList::closed_loop(&vertices)) })
         });
     }
 }

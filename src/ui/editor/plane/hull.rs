@@ -43,23 +43,13 @@ impl Stage {
     /// All stages in their order.
     pub const ALL: [Self; 4] = [Self::Before, Self::Pockets, Self::Solved, Self::Peeled];
 
-    /// Its name.
-    pub const fn title(self) -> &'static str {
+    /// Its name, and what it shows.
+    pub const fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Before => "Before",
-            Self::Pockets => "Pockets",
-            Self::Solved => "Solved",
-            Self::Peeled => "Peeled",
-        }
-    }
-
-    /// What it shows.
-    pub const fn about(self) -> &'static str {
-        match self {
-            Self::Before => "The embedding before, in its hull",
-            Self::Pockets => "The outside triangulated up to the hull",
-            Self::Solved => "Mesh and outside embedded together, the hull where it was",
-            Self::Peeled => "The outside taken away: the result",
+            Self::Before => ["Before", "The embedding before, in its hull"],
+            Self::Pockets => ["Pockets", "The outside triangulated up to the hull"],
+            Self::Solved => ["Solved", "Mesh and outside embedded together, the hull where it was"],
+            Self::Peeled => ["Peeled", "The outside taken away: the result"],
         }
     }
 }
@@ -97,70 +87,68 @@ pub struct HullScene {
 }
 
 impl HullScene {
-    fn new(disk: &DiskMesh, result: &PlaneScene, stage: Stage) -> Self {
-        let step = &result.outcome.step;
-        let scene = match (&step.outside, &step.virtual_boundary) {
+    fn new(result: &PlaneScene, stage: Stage) -> Self {
+        let scene = match (&result.outcome.step.outside, &result.outcome.step.virtual_boundary) {
             (Some(outside), _) => Self::of_outside(result, outside),
-            (None, Some(stages)) => Self::of_stage(disk, result, stage, stages),
-            (None, None) => Self::of_free_boundary(disk, &step.solution.embedding),
+            (None, Some(stages)) => Self::of_stage(result, stage, stages),
+            (None, None) => Self::of_free_boundary(result),
         };
         Self { key: (result.outcome_revision, stage), ..scene }
     }
 
-    /// A hull without pockets, with the mesh as in the result.
-    fn of_hull(corners: &[VertexId], caption: String) -> Self {
+    /// A hull with pockets, and the mesh as in the result.
+    fn of_hull(corners: &[VertexId], pockets: &[[VertexId; 3]], caption: String) -> Self {
         Self {
             key: (0, Stage::default()),
             plane: None,
             paint: None,
             hull: Arc::new(EdgeList::closed_loop(corners)),
-            pocket_edges: Arc::new(EdgeList::new(Vec::new())),
-            pockets: Arc::new(FaceList::new(Vec::new())),
+            pocket_edges: Arc::new(EdgeList::new(sides_of(pockets))),
+            pockets: Arc::new(FaceList::new(pockets.to_vec())),
             caption,
             has_stages: false,
         }
     }
 
-    fn with_pockets(self, triangles: &[[VertexId; 3]]) -> Self {
-        let pocket_edges = Arc::new(EdgeList::new(sides_of(triangles)));
-        Self { pocket_edges, pockets: Arc::new(FaceList::new(triangles.to_vec())), ..self }
-    }
-
-    fn of_stage(disk: &DiskMesh, result: &PlaneScene, stage: Stage, stages: &VirtualBoundary) -> Self {
-        let hull: &[VertexId] = if stage == Stage::Peeled { &[] } else { &stages.hull };
-        let scene = Self { has_stages: true, ..Self::of_hull(hull, caption(stage, stages)) };
+    fn of_stage(result: &PlaneScene, stage: Stage, stages: &VirtualBoundary) -> Self {
+        let (hull, pockets): (&[_], &[_]) = match stage {
+            Stage::Before => (&stages.hull, &[]),
+            Stage::Pockets | Stage::Solved => (&stages.hull, &stages.pockets),
+            Stage::Peeled => (&[], &[]),
+        };
+        let scene = Self { has_stages: true, ..Self::of_hull(hull, pockets, caption(stage, stages)) };
         let positions = match stage {
             Stage::Before | Stage::Pockets => &stages.before,
             Stage::Solved => &stages.solved,
             Stage::Peeled => return scene,
         };
+        let disk = result.mesh.disk().expect("only a disk is solved");
         let moved = moved_along(positions, disk, [&stages.solved, &result.outcome.step.solution.embedding]);
-        let plane = Some(Arc::new(result.of_part(Part::Stage, moved)));
-        let paint = Some(Arc::new(FacePaint::plain(disk.face_count(), &flipped_faces(disk, positions))));
-        let scene = Self { plane, paint, ..scene };
-        if stage == Stage::Before { scene } else { scene.with_pockets(&stages.pockets) }
+        let paint = FacePaint::plain(disk.face_count(), &flipped_faces(disk, positions));
+        Self { plane: Some(Arc::new(result.of_part(Part::Stage, moved))), paint: Some(Arc::new(paint)), ..scene }
     }
 
     /// A step that was made with the outside triangulated up to a frame: the result within it.
     fn of_outside(result: &PlaneScene, outside: &Outside) -> Self {
         let embedding = result.positions();
-        let around: Vec<VertexId> =
-            (0..outside.frame.len()).map(|k| VertexId::from_index(embedding.len() + k)).collect();
-        let points = embedding.iter().chain(&outside.frame).copied().collect();
+        let points: Embedding = embedding.iter().chain(&outside.frame).copied().collect();
+        let around: Vec<VertexId> = (embedding.len()..points.len()).map(VertexId::from_index).collect();
         let caption = format!(
             "{} triangles around the mesh, up to a frame: while none turns over, the boundary stays simple",
             outside.triangles.len()
         );
         let plane = Some(Arc::new(result.of_part(Part::WithOutside, points)));
-        Self { plane, ..Self::of_hull(&around, caption).with_pockets(&outside.triangles) }
+        Self { plane, ..Self::of_hull(&around, &outside.triangles, caption) }
     }
 
     /// A step that bent no boundary still has a hull.
-    fn of_free_boundary(disk: &DiskMesh, embedding: &Embedding) -> Self {
+    fn of_free_boundary(result: &PlaneScene) -> Self {
+        let disk = result.mesh.disk().expect("only a disk is solved");
         let boundary = disk.boundary_loop();
-        let points = embedding.boundary(disk);
+        let points = result.outcome.step.solution.embedding.boundary(disk);
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
-        Self::of_hull(&corners, "This step has no virtual boundary; the line is the hull of the free one".to_owned())
+        let caption = "This step has no virtual boundary; the line is the hull of the free one".to_owned();
+        Self::of_hull(&corners, &[], caption)
     }
 
     /// Faces of the mesh that are turned over at a stage before the result.
@@ -179,18 +167,14 @@ impl HullScene {
     }
 
     /// The faces beside the mesh.
-    pub(in crate::ui) fn fills(&self, theme: &Theme) -> Vec<FillLayer> {
-        vec![FillLayer { faces: Arc::clone(&self.pockets), colour: theme.pocket_fill }]
+    pub(in crate::ui) fn fill(&self, theme: &Theme) -> FillLayer {
+        FillLayer { faces: Arc::clone(&self.pockets), colour: theme.pocket_fill }
     }
 
     /// Edges of the pockets, and the hull over them.
     pub(in crate::ui) fn lines(&self, theme: &Theme) -> [LineLayer; 2] {
-        let line = |edges: &Arc<EdgeList>, colour, width_in_points| LineLayer {
-            edges: Arc::clone(edges),
-            colour,
-            width_in_points,
-        };
-        [line(&self.pocket_edges, theme.pocket, 0.75), line(&self.hull, theme.hull, 2.0)]
+        [(&self.pocket_edges, theme.pocket, 0.75), (&self.hull, theme.hull, 2.0)]
+            .map(|(edges, colour, width_in_points)| LineLayer { edges: Arc::clone(edges), colour, width_in_points })
     }
 }
 
@@ -206,7 +190,7 @@ fn caption(stage: Stage, stages: &VirtualBoundary) -> String {
         Stage::Before => format!("The step before, {outline} of {} corners", stages.hull.len()),
         Stage::Pockets => format!("{} triangles up to the {outline}", stages.pockets.len()),
         Stage::Solved => format!("Mesh and outside together, {outline} fixed"),
-        Stage::Peeled => "The outside taken away: the result".to_owned(),
+        Stage::Peeled => stage.words()[1].to_owned(),
     }
 }
 
@@ -230,8 +214,7 @@ fn flipped_faces(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceId> {
 /// An embedding moved as the boundary is from one embedding to another that differs from it by a similarity; where there is
 /// none, it stays.
 fn moved_along(embedding: &Embedding, disk: &DiskMesh, [before, after]: [&Embedding; 2]) -> Embedding {
-    let pair = |v: &VertexId| [before[v], after[v]];
-    let pairs: Vec<[DVec2; 2]> = disk.boundary_loop().iter().map(pair).collect();
+    let pairs: Vec<[DVec2; 2]> = disk.boundary_loop().iter().map(|v| [before[v], after[v]]).collect();
     match Similarity::fitting(&pairs) {
         Some(similarity) => embedding.iter().map(|&z| similarity.apply(z)).collect(),
         None => embedding.clone(),
@@ -242,11 +225,6 @@ impl HullView {
     pub(super) fn new(wake: &Wake) -> Self {
         let (stage, job) = (Stage::default(), Background::new("hull", wake));
         Self { shown: false, stage, scene: None, job, cameras: None }
-    }
-
-    /// Whether hull and pockets are wanted.
-    pub(super) fn is_shown(&self) -> bool {
-        self.shown
     }
 
     /// Whether a stage is being made.
@@ -296,12 +274,11 @@ impl PlaneView {
             self.hull.scene = None;
             return;
         }
-        let Some(plane) = &self.scene else { return };
+        let Some(plane) = self.scene.clone() else { return };
         let key = (plane.outcome_revision, self.hull.stage);
-        let is_made = self.hull.scene.as_ref().is_some_and(|scene| scene.key == key);
-        let Some(disk) = plane.mesh.model.disk().filter(|_| !is_made) else { return };
-        let (disk, plane) = (Arc::clone(disk), Arc::clone(plane));
-        self.hull.job.start(key, move |_| HullScene::new(plane.outcome.step.mesh(&disk), &plane, key.1));
+        if self.hull.scene.as_ref().is_none_or(|scene| scene.key != key) {
+            self.hull.job.start(key, move |_| HullScene::new(&plane, key.1));
+        }
     }
 
     /// Shows or hides hull and pockets. The camera comes back where nobody has moved it since.

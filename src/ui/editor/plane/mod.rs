@@ -15,18 +15,18 @@ mod preview;
 
 use std::sync::Arc;
 
-pub use hull::{HullScene, Stage};
+pub(in crate::ui) use hull::HullScene;
+pub use hull::Stage;
 
 use eframe::egui;
-use glam::DVec2;
 
 use super::host::Host;
-use super::picture_box;
 use super::project_view::plane_of;
 use super::scene::{MeshScene, PlaneScene};
+use super::views::picture_box;
 use crate::session::{Background, Session, Wake};
 use crate::solver::Verdict;
-use crate::ui::panes::pane::{self, PaneArea};
+use crate::ui::panes::pane::{PaneArea, Viewport};
 use crate::view::{PlaneBox, PlaneCamera};
 use ease::Ease;
 use ghost::Ghost;
@@ -129,10 +129,9 @@ impl PlaneView {
         seen.min.cmple(bounds.min).all() && seen.max.cmpge(bounds.max).all()
     }
 
-    /// Where a place of the plane is in the window.
-    pub(in crate::ui) fn spot(&self, place: DVec2) -> Option<egui::Pos2> {
-        let rect = self.area.rect()?;
-        Some(pane::on_screen(rect, self.camera?.pane_from_embedding(place, pane::size_of(rect))))
+    /// What the window shows of it.
+    pub(in crate::ui) fn viewport(&self) -> Option<Viewport<PlaneCamera>> {
+        Some(Viewport { rect: self.area.rect()?, camera: self.camera? })
     }
 
     /// Shows a box in full size.

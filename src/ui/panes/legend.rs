@@ -1,0 +1,72 @@
+//! The legend of a shading, and words in the panes about two steps that are compared.
+
+use eframe::egui;
+use egui::{Align2, FontId, Pos2, Rect, RichText, Stroke, Vec2};
+
+use crate::ui::theme::{on_screen, rgb, theme_of};
+use crate::ui::{Editor, Shading};
+
+/// The scale of a shading by numbers: bar, histogram, numbers.
+pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor) {
+    let Some(legend) = editor.look.legend() else { return };
+    let title = match (editor.look.shading, editor.plane.moved_from(&editor.session)) {
+        (Shading::Move, Some(base)) => format!("Move from step {}, plane units", base.step.index),
+        (shading, _) => shading.title().to_owned(),
+    };
+    let theme = theme_of(ui);
+    let painter = ui.painter_at(rect);
+    let size = Vec2::new(184.0, 78.0);
+    if rect.width() < size.x + 24.0 || rect.height() < 2.0 * size.y {
+        return;
+    }
+    let frame = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -12.0 - size.y), size);
+    painter.rect_filled(frame, 4.0, theme.panel.gamma_multiply(0.92));
+    painter.text(frame.min + Vec2::new(10.0, 6.0), Align2::LEFT_TOP, title, FontId::proportional(11.0), theme.text);
+    let bar = Rect::from_min_size(frame.min + Vec2::new(10.0, 44.0), Vec2::new(size.x - 20.0, 9.0));
+    let most = legend.histogram.iter().copied().max().unwrap_or(0).max(1);
+    let width = bar.width() / legend.histogram.len() as f32;
+    for (i, &count) in legend.histogram.iter().enumerate() {
+        let left = bar.left() + width * i as f32;
+        let share = (i as f64 + 0.5) / legend.histogram.len() as f64;
+        let cell = Rect::from_min_size(Pos2::new(left, bar.top()), Vec2::new(width + 0.5, bar.height()));
+        painter.rect_filled(cell, 0.0, rgb(legend.scale.colour_at(share)));
+        #[expect(clippy::cast_possible_truncation, reason = "a height in points")]
+        let height = (20.0 * f64::from(count) / f64::from(most)) as f32;
+        let column =
+            Rect::from_min_max(Pos2::new(left, bar.top() - 1.0 - height), Pos2::new(left + width, bar.top() - 1.0));
+        painter.rect_filled(column, 0.0, theme.weak_text.gamma_multiply(0.6));
+    }
+    for tick in legend.scale.ticks(legend.range) {
+        #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
+        let x = bar.left() + bar.width() * tick.at as f32;
+        painter.vline(x, bar.bottom()..=bar.bottom() + 3.0, Stroke::new(1.0, theme.weak_text));
+        let (at, font) = (Pos2::new(x, bar.bottom() + 4.0), FontId::proportional(10.0));
+        painter.text(at, Align2::CENTER_TOP, &tick.label, font, theme.weak_text);
+    }
+}
+
+/// Says in the pane's lower left corner which step the outline is of.
+pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
+    let Some(step) = editor.plane.ghost_step().filter(|_| rect.width() >= 180.0) else { return };
+    let theme = theme_of(ui);
+    let height = if editor.layout.mesh_hidden() && editor.look.legend().is_some() { 124.0 } else { 32.0 };
+    let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(150.0, 20.0));
+    ui.painter_at(rect).rect_filled(place, 4.0, theme.panel.gamma_multiply(0.92));
+    let middle = place.left_center() + Vec2::new(8.0, 0.0);
+    let sample = [middle, middle + Vec2::new(18.0, 0.0)];
+    ui.painter_at(rect).line_segment(sample, Stroke::new(2.0, on_screen(theme.ghost)));
+    let words = RichText::new(format!("Outline of step {step}")).small().color(theme.weak_text);
+    let text = Rect::from_min_max(place.min + Vec2::new(32.0, 0.0), place.max);
+    let mut part = ui.new_child(egui::UiBuilder::new().max_rect(text));
+    part.horizontal_centered(|ui| ui.add(egui::Label::new(words).selectable(false)));
+}
+
+/// Says why nothing is coloured where moves are asked for and there are none.
+pub(super) fn no_move_note(ui: &egui::Ui, rect: Rect, editor: &Editor) {
+    if editor.look.shading == Shading::Move && editor.look.legend().is_none() && editor.plane.scene().is_some() {
+        let at = rect.left_bottom() + Vec2::new(12.0, -12.0);
+        let words = "No step before this one is kept: nothing has moved";
+        let ink = theme_of(ui).weak_text;
+        ui.painter_at(rect).text(at, Align2::LEFT_BOTTOM, words, FontId::proportional(11.0), ink);
+    }
+}
