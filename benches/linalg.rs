@@ -58,8 +58,7 @@ impl Job {
         let pins = gauge_pins(mesh);
         let system = FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v));
         let natural = equations::natural(mesh, power).expect("weights are finite");
-        let targets = pins.iter().map(|(&v, t)| (v, C::new(t.x, t.y))).collect();
-        let rhs = system.pinned_terms(mesh, &natural, &targets);
+        let rhs = system.pinned_terms(mesh, &natural, |v| C::new(pins[&v].x, pins[&v].y));
         let matrix = system.negated_matrix(mesh, &natural);
         let [analyze, factor, solve, adjoint] = <[Times; 4]>::default();
         Self { name, kind, matrix, rhs, analyze, factor, processor: f64::INFINITY, solve, adjoint, last: None }
@@ -74,7 +73,7 @@ impl Job {
         self.processor = self.processor.min(processor_seconds() - before);
         let solved = self.solve.run(|| factor.solve(&self.matrix, &self.rhs).expect("a good answer"));
         let many: Vec<C> = self.rhs.iter().copied().cycle().take(8 * self.rhs.len()).collect();
-        self.adjoint.run(|| factor.solve_adjoint_many(&self.matrix, &many).expect("good answers"));
+        self.adjoint.run(|| factor.solve_adjoint(&self.matrix, &many).expect("good answers"));
         let earlier = self.last.replace((solved, factor.stats()));
         let (solved, _) = self.last.as_ref().expect("just put there");
         assert!(earlier.is_none_or(|(earlier, _)| earlier.x == solved.x), "two factorizations of one matrix differ");

@@ -44,8 +44,7 @@ impl Systems {
         let system = FreeSystem::new(mesh, |v: VertexId| pins.contains_key(&v));
         let weights = equations::barycentric(mesh, 1.0).expect("weights are finite");
         let natural = equations::natural(mesh, 1.0).expect("weights are finite");
-        let targets = pins.iter().map(|(&v, t)| (v, C::new(t.x, t.y))).collect();
-        let rhs: Vec<C> = system.pinned_terms(mesh, &natural, &targets);
+        let rhs: Vec<C> = system.pinned_terms(mesh, &natural, |v| C::new(pins[&v].x, pins[&v].y));
         let complex = system.negated_matrix(mesh, &natural);
         Self {
             laplacian: system.negated_matrix(mesh, &weights),

@@ -48,6 +48,9 @@ pub struct Factor<T> {
     numeric: Numeric<T>,
 }
 
+/// How a factor answers: [`Factor::solve`], [`Factor::solve_correction`].
+pub type Answer<T> = fn(&Factor<T>, &CscMatrix<T>, &[T]) -> Result<Solved<T>, LinalgError>;
+
 #[derive(Debug)]
 enum Numeric<T> {
     Llt(Llt<T>),
@@ -129,7 +132,8 @@ impl Analysis {
 }
 
 impl<T: Scalar> Factor<T> {
-    /// Solves A x = b with iterative refinement against `matrix`, which must be the matrix that was factored.
+    /// Solves A X = B with iterative refinement against `matrix`, which must be the matrix that was factored. Several
+    /// right-hand sides are stored one after another; so is the answer. The residual is that of the worst column.
     ///
     /// # Errors
     ///
@@ -137,38 +141,17 @@ impl<T: Scalar> Factor<T> {
     /// [`LinalgError::NotFinite`] for a broken right-hand side; [`LinalgError::WrongLength`],
     /// [`LinalgError::OtherPattern`].
     pub fn solve(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.check_single(rhs)?;
-        self.solve_many(matrix, rhs)
+        self.run(matrix, Operation::Plain, Accept::Residual, rhs)
     }
 
-    /// Solves Aᴴ x = b, otherwise as [`Factor::solve`]. An answer with a backward error of a few units of
-    /// rounding is accepted whatever its residual.
+    /// Solves Aᴴ X = B, otherwise as [`Factor::solve`]. The adjoint systems of this project have single rows on their
+    /// right, and answers larger than those by up to the condition number: so an answer with a backward error of a few
+    /// units of rounding is accepted whatever its residual.
     ///
     /// # Errors
     ///
     /// Those of [`Factor::solve`].
     pub fn solve_adjoint(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.check_single(rhs)?;
-        self.solve_adjoint_many(matrix, rhs)
-    }
-
-    /// Solves A X = B for several right-hand sides, stored one after another; so is the answer. The residual is that
-    /// of the worst column.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Factor::solve`].
-    pub fn solve_many(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
-        self.run(matrix, Operation::Plain, Accept::Residual, rhs)
-    }
-
-    /// Solves Aᴴ X = B, otherwise as [`Factor::solve_many`]. The adjoint systems of this project have single rows on
-    /// their right, and answers larger than those by up to the condition number: so here the backward error decides.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Factor::solve`].
-    pub fn solve_adjoint_many(&self, matrix: &CscMatrix<T>, rhs: &[T]) -> Result<Solved<T>, LinalgError> {
         self.run(matrix, Operation::Adjoint, Accept::BackwardError, rhs)
     }
 
@@ -180,8 +163,7 @@ impl<T: Scalar> Factor<T> {
         }
     }
 
-    /// Solves A x = b for a correction x of an answer, b being the residual of that answer; several, stored one after
-    /// another. An answer with a backward error of a few units of rounding is accepted whatever its residual.
+    /// Solves A X = B for corrections of answers whose residuals are B, judged as those of [`Factor::solve_adjoint`].
     ///
     /// # Errors
     ///
@@ -201,12 +183,6 @@ impl<T: Scalar> Factor<T> {
         let mut x = rhs.to_vec();
         self.solve_in_place(Operation::Plain, &mut x);
         x
-    }
-
-    /// Refuses all but one right-hand side.
-    fn check_single(&self, rhs: &[T]) -> Result<(), LinalgError> {
-        let (order, found) = (self.shared.pattern.order(), rhs.len());
-        if found == order { Ok(()) } else { Err(LinalgError::WrongLength { order, found }) }
     }
 
     fn run(

@@ -28,7 +28,7 @@ mod refine;
 mod scalar;
 mod sparse;
 
-pub use analysis::{Analysis, Factor, FactorStats, Kind};
+pub use analysis::{Analysis, Answer, Factor, FactorStats, Kind};
 pub use error::LinalgError;
 pub use gram::gram;
 pub use refine::Solved;

@@ -3,9 +3,9 @@
 //!
 //! ```text
 //! response: how all points follow, to first order of the energy, where the pins go to their targets
-//! jump:     all of the way at once; what folds is unfolded with the pins held           tried once
+//! jump:     the whole response at once; what folds is unfolded with the pins held        tried once
 //! advance:  as far along the response as no face folds and the boundary stays simple    then again and again
-//! loosen:   where little of the way is free, springs instead of pins: they pass around each other
+//! loosen:   where that is a small share, springs instead of pins: they pass around each other
 //! settle:   outside triangulated anew, a few Newton steps down the energy
 //! ```
 //!
@@ -24,7 +24,6 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
-use super::way::Way;
 use super::{
     Candidate, Control, Embedding, Hold, Method, Outside, Pin, PinPositions, Pins, Progress, SolveError, verdict,
 };
@@ -33,10 +32,10 @@ use crate::mesh::DiskMesh;
 /// Weight of the whole outside, that of the mesh being 1.
 const OUTSIDE_WEIGHT: f64 = 0.02;
 
-/// The share of the way until the first face would fold that is gone at once.
+/// The share of the longest step that folds no face that is taken at once.
 const ADVANCE_SHARE: f64 = 0.8;
 
-/// The smallest advance, as a share of the way that is left.
+/// The smallest advance, as a share of the response.
 const SMALLEST_ADVANCE: f64 = 1e-4;
 
 /// Newton steps to unfold a jump, and to settle.
@@ -46,14 +45,14 @@ const SETTLE_STEPS: usize = 4;
 /// The least share of the energy that a Newton step must gain to be followed by another.
 const TOLERANCE: f64 = 1e-3;
 
-/// It is stuck where so many steps shorten the way by less than this factor, after so many steps in all, and where all
-/// but so little of the way is behind it and the rest cannot be gone.
+/// It is stuck where so many steps shorten the largest distance by less than this factor, after so many steps in all, and
+/// where it is so small a share of the first one and yet not zero.
 const PATIENCE: usize = 10;
 const SHORTER: f64 = 0.9;
 const MOST_STEPS: usize = 200;
 const HARDLY_ANY: f64 = 1e-6;
 
-/// Where less of the way than this can be gone, pins in each other's way are let loose: springs draw them to their
+/// Where less of the response than this folds no face, pins are let loose: springs draw them to their
 /// targets, by a greater weight each time, and they pass around each other.
 const NARROW: f64 = 0.25;
 const LOOSE_WEIGHTS: [f64; 5] = [30.0, 100.0, 300.0, 1000.0, 3000.0];
@@ -62,7 +61,7 @@ const LOOSE_STEPS: usize = 10;
 /// Weights of the springs, one after another, by which a second try begins.
 const TIGHTENING: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
-/// An embedding whose energy is more than so many times the lowest is crushed, and nothing to go on from.
+/// An embedding whose energy is more than so many times the lowest is crushed: no step continues from it.
 const CRUSHED: f64 = 10.0;
 
 /// A one-to-one embedding on its way.
@@ -70,12 +69,14 @@ const CRUSHED: f64 = 10.0;
 pub(super) struct Continuation {
     rest: Rest,
     pins: Pins,
+    /// Where exact pins are to go.
+    targets: PinPositions,
     embedding: Embedding,
-    /// The way that was left after each step.
-    way_left: Vec<f64>,
+    /// The largest distance of an exact pin from its target after each step.
+    distances: Vec<f64>,
     /// Mesh and outside after the latest step, all points, and the outside.
     settled: Option<Settled>,
-    /// Whether to try all of the way at once.
+    /// Whether to try the whole response at once.
     jumps: bool,
     /// How often pins were let loose, and whether by the latest step.
     loosened: usize,
@@ -97,13 +98,16 @@ impl Continuation {
     /// Begins at a planar embedding, wherever it lies.
     pub(super) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let (rest, pins) = (Rest::new(mesh), pins.clone());
+        let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
+        let targets = exact.map(|(&vertex, pin)| (vertex, pin.target)).collect();
         let sound = (embedding.clone(), rest.progress(mesh, &embedding, 0.0).energy);
         let start = Some(embedding.clone());
         Self {
             rest,
             pins,
+            targets,
             embedding,
-            way_left: Vec::new(),
+            distances: Vec::new(),
             settled: None,
             jumps: true,
             loosened: 0,
@@ -125,41 +129,41 @@ impl Continuation {
         &self.embedding
     }
 
-    /// Where exact pins are to go.
-    fn targets(&self) -> PinPositions {
-        let exact = self.pins.iter().filter(|(_, pin)| pin.hold.is_exact());
-        exact.map(|(&vertex, pin)| (vertex, pin.target)).collect()
+    fn outside_of(&self, mesh: &DiskMesh, embedding: &Embedding) -> Option<Outside> {
+        outside_of(mesh, embedding, self.targets.values().copied(), FRAME_POINTS)
+    }
+
+    /// The points moved by a share of the moves; those with targets exactly onto them by all of it.
+    fn moved(&self, points: &[DVec2], moves: &[DVec2], share: f64) -> Vec<DVec2> {
+        let mut z: Vec<DVec2> = points.iter().zip(moves).map(|(z, by)| *z + share * *by).collect();
+        if share >= 1.0 {
+            for (v, target) in &self.targets {
+                z[v.index()] = *target;
+            }
+        }
+        z
     }
 
     /// How far it has come.
     pub(super) fn progress(&self, mesh: &DiskMesh) -> Progress {
-        let targets = self.targets();
-        let left = targets.iter().map(|(v, target)| self.embedding[v].distance(*target));
-        self.rest.progress(mesh, &self.embedding, left.fold(0.0, f64::max))
+        let distances = self.targets.iter().map(|(v, target)| self.embedding[v].distance(*target));
+        self.rest.progress(mesh, &self.embedding, distances.fold(0.0, f64::max))
     }
 
-    /// Whether every exact pin is on its target.
-    pub(super) fn has_arrived(&self) -> bool {
-        self.targets().iter().all(|(v, target)| self.embedding[v] == *target)
-    }
-
-    /// Goes on as far as can be at once; where it is stuck, once again from the beginning with springs that are tightened
-    /// step by step, which find other ways around each other. `None` where nothing goes any more.
-    pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Candidate>, SolveError> {
-        match self.go_on(mesh, control) {
-            Err(SolveError::Cancelled) => Err(SolveError::Cancelled),
-            Ok(None) | Err(_) if self.start.is_some() => self.begin_again(mesh, control),
-            other => other,
+    /// Advances as far as possible at once; where it is stuck, once again from the beginning with springs that are tightened
+    /// step by step, which find other ways around each other.
+    pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
+        match (self.go_on(mesh, control), &self.start) {
+            (Ok(candidate), _) => Ok(candidate),
+            (Err(error), Some(_)) if error != SolveError::Cancelled => self.begin_again(mesh, control),
+            (Err(error), _) => Err(error),
         }
     }
 
-    fn begin_again(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Candidate>, SolveError> {
-        let Some(start) = self.start.take() else { return Ok(None) };
-        let targets = self.targets();
+    fn begin_again(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
+        let start = self.start.take().ok_or(SolveError::Unmet)?;
         let stopped_at = std::mem::replace(&mut self.embedding, start);
-        let Some(outside) = outside_of(mesh, &self.embedding, targets.values().copied(), FRAME_POINTS) else {
-            return Ok(None);
-        };
+        let outside = self.outside_of(mesh, &self.embedding).ok_or(SolveError::Unmet)?;
         for weight in TIGHTENING {
             if let Err(error) = self.loosen(mesh, weight, control) {
                 let start = std::mem::replace(&mut self.embedding, stopped_at);
@@ -171,39 +175,33 @@ impl Continuation {
             }
         }
         (self.settled, self.is_loose) = (None, true);
-        self.way_left.clear();
+        self.distances.clear();
         let progress = self.progress(mesh);
-        Ok(Some(self.candidate(progress, Arc::new(outside))))
+        Ok(self.candidate(progress, Arc::new(outside)))
     }
 
-    fn go_on(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Option<Candidate>, SolveError> {
-        let targets = self.targets();
+    fn go_on(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
         let settled = match self.settled.take() {
             Some(settled) => settled,
-            None => match self.surround(mesh, &self.embedding, &self.pins, None)? {
-                Some(settled) => settled,
-                None => return Ok(None),
-            },
+            None => self.surround(mesh, &self.embedding, &self.pins, None)?.ok_or(SolveError::Unmet)?,
         };
         let mut shift = vec![DVec2::ZERO; settled.points.len()];
-        for (v, target) in &targets {
+        for (v, target) in &self.targets {
             shift[v.index()] = *target - settled.points[v.index()];
         }
         let moves = settled.membrane.response(&settled.points, &shift, control)?;
-        let way = Way { targets, moves };
-        let jumped = self.jumps && self.jump(mesh, &settled, &way, control)?;
+        let has_jumped = self.jumps && self.jump(mesh, &settled, &moves, control)?;
         self.jumps = false;
-        let gone = jumped || self.loosen_or_advance(mesh, &settled, &way, control)?;
-        if !gone {
-            return Ok(None);
+        if !has_jumped && !self.loosen_or_advance(mesh, &settled, &moves, control)? {
+            return Err(SolveError::Unmet);
         }
         let progress = self.progress(mesh);
         if progress.energy <= CRUSHED * self.sound.1 {
             self.sound = (self.embedding.clone(), self.sound.1.min(progress.energy));
         }
-        self.way_left.push(progress.distance_left);
+        self.distances.push(progress.distance_left);
         let outside = self.settled.as_ref().map_or(settled.outside, |settled| Arc::clone(&settled.outside));
-        Ok((!self.is_stuck()).then(|| self.candidate(progress, outside)))
+        if self.is_stuck() { Err(SolveError::Unmet) } else { Ok(self.candidate(progress, outside)) }
     }
 
     /// The present embedding, accepted by the verdict.
@@ -212,15 +210,13 @@ impl Continuation {
         Candidate { progress: Some(progress), outside: Some(outside), ..candidate }
     }
 
-    /// Whether there is no sense in going on.
+    /// Whether further steps are of no use.
     fn is_stuck(&self) -> bool {
-        let way = &self.way_left;
-        let is_short_of_all = || matches!(way[..], [first, .., now] if now <= HARDLY_ANY * first);
-        let has_hardly_gone = || match way.len().checked_sub(PATIENCE + 1) {
-            Some(before) => way[way.len() - 1] > SHORTER * way[before],
-            None => false,
-        };
-        !self.has_arrived() && (way.len() >= MOST_STEPS || is_short_of_all() || has_hardly_gone())
+        let (all, count) = (&self.distances, self.distances.len());
+        let has_arrived = self.targets.iter().all(|(v, target)| self.embedding[v] == *target);
+        let is_almost_there = || matches!(all[..], [first, .., now] if now <= HARDLY_ANY * first);
+        let is_slow = || count > PATIENCE && all[count - 1] > SHORTER * all[count - 1 - PATIENCE];
+        !has_arrived && (count >= MOST_STEPS || is_almost_there() || is_slow())
     }
 
     /// Goes on along the response, or lets the pins loose where it is narrow.
@@ -228,17 +224,17 @@ impl Continuation {
         &mut self,
         mesh: &DiskMesh,
         settled: &Settled,
-        way: &Way,
+        moves: &[DVec2],
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
-        let longest = settled.membrane.longest_step(&settled.points, &way.moves, mesh.face_count());
+        let longest = settled.membrane.longest_step(&settled.points, moves, mesh.face_count());
         let weight = LOOSE_WEIGHTS.get(self.loosened).filter(|_| longest < NARROW && !self.is_loose);
         self.is_loose = match weight {
             Some(&weight) => self.loosen(mesh, weight, control)?,
             None => false,
         };
         self.loosened += usize::from(weight.is_some());
-        Ok(self.is_loose || self.advance(mesh, settled, way, control)?)
+        Ok(self.is_loose || self.advance(mesh, settled, moves, control)?)
     }
 
     /// Lowers the energy with springs in the place of exact pins. Returns whether that is planar.
@@ -270,47 +266,39 @@ impl Continuation {
         pins: &Pins,
         similar: Option<&Membrane>,
     ) -> Result<Option<Settled>, SolveError> {
-        let targets = self.targets();
-        let Some(outside) = outside_of(mesh, embedding, targets.values().copied(), FRAME_POINTS) else {
-            return Ok(None);
-        };
-        let (membrane, points) = self.rest.membrane(
-            mesh,
-            Surrounded { embedding, outside: &outside, weight: OUTSIDE_WEIGHT },
-            pins,
-            similar,
-        )?;
+        let Some(outside) = self.outside_of(mesh, embedding) else { return Ok(None) };
+        let surrounded = Surrounded { embedding, outside: &outside, weight: OUTSIDE_WEIGHT };
+        let (membrane, points) = self.rest.membrane(mesh, surrounded, pins, similar)?;
         Ok(Some(Settled { membrane, points, outside: Arc::new(outside) }))
     }
 
-    /// Moves the pins to their targets at once, and unfolds what folds. Returns whether that goes.
+    /// Moves the pins to their targets at once, and unfolds what folds. Returns whether that is planar.
     fn jump(
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        way: &Way,
+        moves: &[DVec2],
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
-        let mut z = way.from(points, 1.0);
+        let mut z = self.moved(points, moves, 1.0);
         let limits = Limits { until_unfolded: true, ..downhill(UNFOLD_STEPS) };
         let is_unfolded = membrane.descend(&mut z, limits, control)?.least_determinant > 0.0;
         let z = Embedding::of_mesh(mesh, &z);
         Ok(is_unfolded && verdict(mesh, &z).planar && self.settle(mesh, z, membrane, control)?)
     }
 
-    /// Moves the pins as far as no face folds and the boundary stays simple. Returns whether that is any way.
+    /// Moves the pins as far as no face folds and the boundary stays simple. Returns whether they moved.
     fn advance(
         &mut self,
         mesh: &DiskMesh,
         Settled { membrane, points, .. }: &Settled,
-        way: &Way,
+        moves: &[DVec2],
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
-        let longest = membrane.longest_step(points, &way.moves, mesh.face_count());
+        let longest = membrane.longest_step(points, moves, mesh.face_count());
         let mut share = (ADVANCE_SHARE * longest).min(1.0);
         while share > SMALLEST_ADVANCE {
-            let z = way.from(points, share);
-            let z = Embedding::of_mesh(mesh, &z);
+            let z = Embedding::of_mesh(mesh, &self.moved(points, moves, share));
             if verdict(mesh, &z).planar {
                 return self.settle(mesh, z, membrane, control);
             }

@@ -110,12 +110,3 @@ impl<'a> IntoIterator for &'a Embedding {
         self.0.iter()
     }
 }
-
-impl<'a> IntoIterator for &'a mut Embedding {
-    type Item = &'a mut DVec2;
-    type IntoIter = std::slice::IterMut<'a, DVec2>;
-
-    fn into_iter(self) -> Self::IntoIter {
-        self.0.iter_mut()
-    }
-}

@@ -1,5 +1,6 @@
 //! Everything that can stop a solve.
 
+use crate::linalg::LinalgError;
 use crate::mesh::{FaceId, VertexId};
 
 /// Why no embedding was produced.
@@ -137,4 +138,15 @@ pub enum SolveError {
     /// The caller asked the solve to stop.
     #[error("the solve was cancelled")]
     Cancelled,
+}
+
+/// An error that belongs to no vertex.
+impl From<LinalgError> for SolveError {
+    fn from(error: LinalgError) -> Self {
+        match error {
+            LinalgError::Cancelled => Self::Cancelled,
+            LinalgError::ResidualTooLarge { residual, limit } => Self::ResidualTooLarge { residual, limit },
+            other => Self::Linear { reason: other.to_string() },
+        }
+    }
 }

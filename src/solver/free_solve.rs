@@ -11,9 +11,9 @@ use rayon::prelude::*;
 
 use super::equations::Equations;
 use super::least_squares::{Factored, LeastSquares, Rest, Spring};
-use super::system::FreeSystem;
-use super::{Control, Embedding, Hold, Phase, PhaseSeconds, PinPositions, Pins, SolveError, Treatment};
-use crate::linalg::{Analysis, Factor, FactorStats, LinalgError};
+use super::system::{FreeSystem, Site};
+use super::{Control, Embedding, Hold, LinearSolve, Phase, PhaseSeconds, PinPositions, Pins, SolveError, Treatment};
+use crate::linalg::{Analysis, Answer, Factor};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// One further solve is not worth an interruption.
@@ -30,13 +30,6 @@ pub(super) struct FreeSolve {
     least_squares: Option<LeastSquares>,
     /// Pins whose equations are not kept.
     eliminated: Vec<VertexId>,
-}
-
-/// Where a system stands: its mesh and its unknowns.
-#[derive(Clone, Copy)]
-pub(super) struct Site<'a> {
-    pub(super) mesh: &'a DiskMesh,
-    pub(super) system: &'a FreeSystem,
 }
 
 /// What a system is made of.
@@ -78,7 +71,7 @@ impl Layout {
         let holds: BTreeMap<VertexId, Hold> = pins.iter().map(|(&v, pin)| (v, pin.hold)).collect();
         let exact = pins.iter().filter(|(_, pin)| pin.hold.is_exact());
         let mut left_out: Vec<VertexId> = exact.map(|(&v, _)| v).collect();
-        // One pin alone does not fix the similarity: what is left without its equation would still be singular.
+        // One pin alone does not fix the similarity: the rest without its equation would still be singular.
         let keeps_equations = treatment != Treatment::Eliminate || left_out.len() < 2;
         if keeps_equations {
             left_out = pins.keys().copied().collect();
@@ -93,7 +86,7 @@ impl Layout {
         FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok())
     }
 
-    /// What is left for least squares, where anything is. `unit` is what the rows are to be multiplied by so that they
+    /// What least squares has to treat, if anything. `unit` is what the rows are to be multiplied by so that they
     /// are those of a geometry whose edges have length 1 on average.
     fn rest(&self, unit: f64) -> Option<Rest> {
         let spring = |(&vertex, hold): (&VertexId, &Hold)| match hold {
@@ -117,7 +110,7 @@ impl FreeSolve {
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
         let Setup { equations, unit, analysis, layout } = setup;
-        let named = |error| in_vertices(error, site.system.free());
+        let named = |error| site.system.named(error);
         let start = Instant::now();
         let matrix = site.system.negated_matrix(site.mesh, &equations);
         seconds.assemble += start.elapsed().as_secs_f64();
@@ -140,7 +133,7 @@ impl FreeSolve {
             start[vertex] = *target;
         }
         let start = Start { embedding: &start, residuals: &self.residuals(site.mesh, &start) };
-        let (embedding, residual) = self.move_from(site, start, targets, Begin::Nothing)?;
+        let (embedding, residual) = self.move_from(site, start, targets, Factor::solve)?;
         if self.least_squares.is_some() && residual > GRADIENT_LIMIT {
             return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
         }
@@ -155,7 +148,7 @@ impl FreeSolve {
         start: Start<'_>,
         targets: &PinPositions,
     ) -> Result<(Embedding, f64), SolveError> {
-        self.move_from(site, start, targets, Begin::Near)
+        self.move_from(site, start, targets, Factor::solve_correction)
     }
 
     /// Solves for the move from `start` that takes up the residuals there.
@@ -164,34 +157,31 @@ impl FreeSolve {
         site: Site<'_>,
         Start { embedding: start, residuals }: Start<'_>,
         targets: &PinPositions,
-        begin: Begin,
+        answer: Answer<Complex<f64>>,
     ) -> Result<(Embedding, f64), SolveError> {
-        let named = |error: LinalgError| in_vertices(error, site.system.free());
+        let named = |error| site.system.named(error);
         let mut embedding = start.clone();
         let Some(least_squares) = &self.least_squares else {
             let terms: Vec<_> = site.system.free().iter().map(|v| residuals[v.index()]).collect();
-            let solved = match begin {
-                Begin::Nothing => self.factor.solve(&self.matrix, &terms),
-                Begin::Near => self.factor.solve_correction(&self.matrix, &terms),
-            };
-            for (&vertex, z) in site.system.free().iter().zip(solved.map_err(named)?.x) {
+            let moves = answer(&self.factor, &self.matrix, &terms).map_err(named)?.x;
+            for (&vertex, z) in site.system.free().iter().zip(moves) {
                 embedding[vertex] += DVec2::new(z.re, z.im);
             }
-            let residual = self.relative_residual(site, &embedding, targets);
+            let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding);
             return Ok((embedding, residual));
         };
         let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: &NEVER };
-        let way = |pin: &Spring| {
-            let way = targets[&pin.vertex] - start[pin.vertex.index()];
-            Complex::new(way.x, way.y)
+        let to_target = |pin: &Spring| {
+            let to_target = targets[&pin.vertex] - start[pin.vertex];
+            Complex::new(to_target.x, to_target.y)
         };
-        let ways: Vec<_> = least_squares.springs().iter().map(way).collect();
-        let moves = least_squares.moves(site, &factored, residuals, &ways).map_err(named)?;
+        let to_targets: Vec<_> = least_squares.springs().iter().map(to_target).collect();
+        let moves = least_squares.moves(site, &factored, residuals, &to_targets).map_err(named)?;
         // Adding nothing would still make a zero of a negative zero.
         for (z, by) in embedding.iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO) {
             *z += DVec2::new(by.re, by.im);
         }
-        let residual = self.gradient_residual(site, &embedding, least_squares.springs(), targets);
+        let residual = self.gradient_residual(site.mesh, &embedding, least_squares.springs(), targets);
         Ok((embedding, residual))
     }
 
@@ -199,26 +189,25 @@ impl FreeSolve {
     /// vertices that can move, relative to ‖|A|ᵀ |A| |z| + W² (|z| + |t|)‖, the sizes of the terms that should cancel.
     fn gradient_residual(
         &self,
-        site: Site<'_>,
+        mesh: &DiskMesh,
         embedding: &Embedding,
         springs: &[Spring],
         targets: &PinPositions,
     ) -> f64 {
-        let mesh = site.mesh;
-        let mut left = self.residuals(mesh, embedding);
+        let mut residuals = self.residuals(mesh, embedding);
         let mut bounds = vec![0.0; mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
             let along = embedding[mesh.head(h)].distance(embedding[mesh.tail(h)]);
             bounds[mesh.tail(h).index()] += coefficient.norm() * along;
         }
         for vertex in &self.eliminated {
-            left[vertex.index()] = Complex::ZERO;
+            residuals[vertex.index()] = Complex::ZERO;
             bounds[vertex.index()] = 0.0;
         }
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
         for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
             let tail = mesh.tail(h).index();
-            let (term, most) = (coefficient.conj() * left[tail], coefficient.norm() * bounds[tail]);
+            let (term, most) = (coefficient.conj() * residuals[tail], coefficient.norm() * bounds[tail]);
             for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {
                 let (sum, total) = &mut sums[vertex.index()];
                 *sum += term * sign;
@@ -231,13 +220,14 @@ impl FreeSolve {
         for pin in springs {
             let at = &mut sums[pin.vertex.index()];
             let (place, target) = (embedding[pin.vertex], targets[&pin.vertex]);
-            let way = (place - target) / pin.compliance;
-            at.0 += Complex::new(way.x, way.y);
+            let pull = (place - target) / pin.compliance;
+            at.0 += Complex::new(pull.x, pull.y);
             at.1 += (place.length() + target.length()) / pin.compliance;
         }
-        let (left, whole) =
-            sums.iter().fold((0.0, 0.0), |(left, whole), (sum, total)| (left + sum.norm_sqr(), whole + total * total));
-        if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
+        let (gradient, whole) = sums
+            .iter()
+            .fold((0.0, 0.0), |(gradient, whole), (sum, total)| (gradient + sum.norm_sqr(), whole + total * total));
+        if gradient > 0.0 { f64::sqrt(gradient / whole) } else { 0.0 }
     }
 
     /// The residuals of all equations.
@@ -246,48 +236,10 @@ impl FreeSolve {
         (0..mesh.vertex_count()).into_par_iter().map(at).collect()
     }
 
-    /// ‖Ax − b‖ / ‖b‖ of the free vertices' equations, b being what the pins give.
-    fn relative_residual(&self, site: Site<'_>, embedding: &Embedding, targets: &PinPositions) -> f64 {
-        let targets: BTreeMap<VertexId, Complex<f64>> =
-            targets.iter().map(|(&v, t)| (v, Complex::new(t.x, t.y))).collect();
-        let rhs = site.system.pinned_terms(site.mesh, &self.equations, &targets);
-        let whole: f64 = rhs.iter().map(Complex::norm_sqr).sum();
-        let left = self.residuals(site.mesh, embedding);
-        let left: f64 = site.system.free().iter().map(|v| left[v.index()].norm_sqr()).sum();
-        if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
-    }
-
-    /// ‖A z‖ of all equations, relative to their terms.
-    pub(super) fn equation_residual(&self, mesh: &DiskMesh, embedding: &Embedding) -> f64 {
-        self.equations.residual(mesh, embedding, |_| true)
-    }
-
-    pub(super) fn stats(&self) -> FactorStats {
-        self.factor.stats()
-    }
-
-    pub(super) fn bounded_corners(&self) -> usize {
-        self.equations.bounded_corners
-    }
-}
-
-/// What a solve starts from.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Begin {
-    /// The pins alone.
-    Nothing,
-    /// An embedding that is near the answer.
-    Near,
-}
-
-/// Says a linear solver's error in terms of the mesh: its rows are the free vertices.
-pub(super) fn in_vertices(error: LinalgError, free: &[VertexId]) -> SolveError {
-    match error {
-        LinalgError::Cancelled => SolveError::Cancelled,
-        LinalgError::ResidualTooLarge { residual, limit } => SolveError::ResidualTooLarge { residual, limit },
-        LinalgError::Singular { row } | LinalgError::NotPositiveDefinite { row } | LinalgError::NotFinite { row } => {
-            SolveError::Singular { vertex: free[row] }
-        }
-        other => SolveError::Linear { reason: other.to_string() },
+    /// The numbers of a solve.
+    pub(super) fn numbers(&self, mesh: &DiskMesh, embedding: &Embedding, residual: f64) -> LinearSolve {
+        let Equations { bounded_corners, .. } = self.equations;
+        let equation_residual = self.equations.residual(mesh, embedding, |_| true);
+        LinearSolve { residual, equation_residual, bounded_corners, ..self.factor.stats().into() }
     }
 }

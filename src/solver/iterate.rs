@@ -9,11 +9,11 @@ use std::time::Instant;
 use glam::DVec2;
 use num_complex::Complex;
 
-use super::free_solve::{FreeSolve, Layout, Setup, Site, Start};
+use super::free_solve::{FreeSolve, Layout, Setup, Start};
 use super::left_kernel::gauge_or_farthest;
 use super::pins::targets_of;
 use super::plane_weights::{mean_edge_length_in_plane, natural_in_plane, residuals_in_plane};
-use super::system::FreeSystem;
+use super::system::{FreeSystem, Site};
 use super::{
     Control, Embedding, LinearSolve, Phase, PhaseSeconds, Pin, Pins, Solution, SolveError, Treatment, are_held_alike,
     check_pins, farthest_pair,
@@ -56,8 +56,7 @@ impl Iteration {
             }
         })?;
         let system = layout.system(mesh);
-        let analysis = Analysis::new(Kind::General, system.pattern())
-            .map_err(|error| SolveError::Linear { reason: error.to_string() })?;
+        let analysis = system.analysis(Kind::General)?;
         let analyze_seconds = start.elapsed().as_secs_f64();
         Ok(Self { pins: pins.clone(), layout, system, analysis, analyze_seconds })
     }
@@ -87,22 +86,9 @@ impl Iteration {
         let start = Instant::now();
         let (embedding, residual) =
             solve.solve_from(site, Start { embedding, residuals: &residuals }, &targets_of(&pins))?;
-        let stats = solve.stats();
-        let equation_residual = solve.equation_residual(mesh, &embedding);
+        let linear = Some(solve.numbers(mesh, &embedding, residual));
         seconds.solve = start.elapsed().as_secs_f64();
-        Ok(Solution {
-            embedding,
-            pins,
-            gauge_completed: false,
-            linear: Some(LinearSolve {
-                residual,
-                equation_residual,
-                replaced_pivots: stats.replaced_pivots,
-                bounded_corners: solve.bounded_corners(),
-                factor_bytes: stats.factor_bytes,
-            }),
-            seconds,
-        })
+        Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds })
     }
 
     /// Whether this iteration serves these pins: the same vertices, held in the same way, weighted ones with the same

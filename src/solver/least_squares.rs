@@ -42,7 +42,7 @@ use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
 use super::equations::Equations;
-use super::free_solve::Site;
+use super::system::Site;
 use crate::linalg::{Factor, LinalgError, gram};
 use crate::mesh::VertexId;
 
@@ -202,7 +202,7 @@ fn gram_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<DMatrix<C6
         for (row, column) in group.iter().zip(columns.chunks_exact_mut(n)) {
             add_adjoint(row, C64::ONE, column);
         }
-        Ok(factored.factor.solve_adjoint_many(factored.matrix, &columns)?.x)
+        Ok(factored.factor.solve_adjoint(factored.matrix, &columns)?.x)
     };
     if n * k * size_of::<C64>() <= COLUMNS_KEPT {
         let mut columns = Vec::with_capacity(n * k);

@@ -7,10 +7,9 @@
 use num_complex::Complex;
 
 use super::equations::Equations;
-use super::free_solve::in_vertices;
 use super::system::FreeSystem;
 use super::{Control, SolveError, farthest_pair};
-use crate::linalg::{Analysis, Kind};
+use crate::linalg::Kind;
 use crate::mesh::{DiskMesh, VertexId};
 
 type C64 = Complex<f64>;
@@ -28,21 +27,20 @@ const ROUNDS: usize = 2;
 /// A shifted system that cannot be solved, or the caller's wish to stop.
 fn gauge_of(mesh: &DiskMesh, equations: &Equations<C64>, control: Control<'_>) -> Result<[VertexId; 2], SolveError> {
     let system = FreeSystem::new(mesh, |_| false);
-    let named = |error| in_vertices(error, system.free());
+    let named = |error| system.named(error);
     let mut matrix = system.negated_matrix(mesh, equations);
     for (row, column, value) in matrix.triplet_iter_mut() {
         if row == column {
             *value *= 1.0 + SHIFT;
         }
     }
-    let analysis = Analysis::new(Kind::General, system.pattern()).map_err(named)?;
-    let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
+    let factor = system.analysis(Kind::General)?.factor(&matrix, control.cancel()).map_err(named)?;
     let n = mesh.vertex_count();
     // Any start that has a part in the kernel will do: an even column and an alternating one.
     let mut kernel: Vec<C64> =
         (0..2 * n).map(|i| C64::new(1.0, if i < n { 0.0 } else { (i % 7) as f64 - 3.0 })).collect();
     for _ in 0..ROUNDS {
-        kernel = factor.solve_adjoint_many(&matrix, &kernel).map_err(named)?.x;
+        kernel = factor.solve_adjoint(&matrix, &kernel).map_err(named)?.x;
         orthonormalize(&mut kernel, n);
     }
     let (first, second) = kernel.split_at(n);

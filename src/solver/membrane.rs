@@ -125,10 +125,9 @@ impl Membrane {
         let diagonal = (0..number(unknowns.len())).map(|unknown| neighbours.slot(unknown, unknown)).collect();
         let pattern = neighbours.block_pattern();
         let analysis = match similar {
-            Some(similar) => similar.analysis.of_similar(&pattern),
-            None => Analysis::new(Kind::Hermitian, &pattern),
+            Some(similar) => similar.analysis.of_similar(&pattern)?,
+            None => Analysis::new(Kind::Hermitian, &pattern)?,
         };
-        let analysis = analysis.map_err(of_the_system)?;
         Ok(Self { elements, springs, unknown_of, unknowns, pattern, slots, column_length, diagonal, analysis })
     }
 
@@ -235,7 +234,7 @@ impl Membrane {
                     }
                     share *= 10.0;
                 }
-                other => return other.map_err(of_the_system),
+                other => return Ok(other?),
             }
         }
     }
@@ -326,12 +325,5 @@ impl Membrane {
             step *= 0.5;
         }
         Ok(None)
-    }
-}
-
-fn of_the_system(error: LinalgError) -> SolveError {
-    match error {
-        LinalgError::Cancelled => SolveError::Cancelled,
-        other => SolveError::Linear { reason: other.to_string() },
     }
 }

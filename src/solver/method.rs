@@ -1,6 +1,6 @@
 //! The ways to an embedding: all that is said of them by name stands here.
 
-use super::{Choice, Words};
+use super::{Choice, NoEquation, WeightSource, Words};
 
 /// A way to an embedding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,6 +57,21 @@ impl Method {
     /// Whether pins matter.
     pub const fn uses_pins(self) -> bool {
         !matches!(self, Self::Convex(_))
+    }
+
+    /// What the weights of its vertices' equations are computed from.
+    ///
+    /// # Errors
+    ///
+    /// Why vertices have no equations with a barycentre.
+    pub const fn weight_source(self) -> Result<WeightSource, NoEquation> {
+        match self {
+            Self::Auto | Self::Natural | Self::Convex(_) | Self::Lscm => Ok(WeightSource::Surface),
+            Self::Iterate => Ok(WeightSource::StepBefore),
+            Self::VirtualBoundary => Ok(WeightSource::Extended),
+            Self::Levy => Err(NoEquation::OfTriangles),
+            Self::Continuation | Self::Matchmaker | Self::Relax => Err(NoEquation::OfEnergy),
+        }
     }
 
     /// What it is called as a rung: the way to a step.

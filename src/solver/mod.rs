@@ -6,11 +6,11 @@
 //! | `pins`, `conflicts`, `scale` | pins and gauge; pins that contradict each other; size and place of what is not pinned |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
-//! | `system`, `prepared`, `free_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
+//! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
 //! | `iterate` | one mean-value iteration (paper §4) |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
-//! | `continuation`, `way`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
+//! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/` | a plan of rungs over all of these, each step proved |
 //! | `verdict`, `distortion`, `vertex_equation` | what is said of an embedding |
 //! | `control`, `error` | progress and cancelling; why no embedding was produced |
@@ -26,6 +26,7 @@ mod embedding;
 pub mod equations;
 mod error;
 mod family;
+mod fixed_solve;
 pub mod foldover_energy;
 mod free_solve;
 mod iterate;
@@ -49,7 +50,6 @@ mod system;
 mod verdict;
 mod vertex_equation;
 mod virtual_boundary;
-mod way;
 pub mod weights;
 
 pub use choice::{Choice, Words};

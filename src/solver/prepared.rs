@@ -2,27 +2,23 @@
 //!
 //! New targets for the same pinned vertices then cost one substitution. That is what makes a pin follow the pointer.
 
-use std::collections::BTreeMap;
 use std::time::Instant;
 
 use glam::DVec2;
-use nalgebra_sparse::CscMatrix;
 use num_complex::Complex;
 
 use super::convex::convex_boundary;
 use super::equations::mean_edge_length;
 use super::equations::{self, Equations};
-use super::free_solve::{FreeSolve, Layout, Setup, Site, in_vertices};
+use super::fixed_solve::FixedSolve;
+use super::free_solve::{FreeSolve, Layout, Setup};
 use super::left_kernel::gauge_or_farthest;
 use super::pins::{PinPositions, Pins, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of};
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
-use super::system::FreeSystem;
-use super::{
-    BoundaryShape, Choice as _, Control, Embedding, Family, LinearSolve, Method, Phase, PhaseSeconds, Settings,
-    Solution, SolveError,
-};
-use crate::linalg::{Analysis, Factor, Kind};
+use super::system::{FreeSystem, Site};
+use super::{BoundaryShape, Choice as _, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Fewest pins that fix the similarity of a free boundary.
@@ -46,18 +42,11 @@ impl std::fmt::Debug for Prepared {
     }
 }
 
-/// Equations, matrix and factors of a prescribed boundary.
-struct Prescribed {
-    equations: Equations<f64>,
-    matrix: CscMatrix<f64>,
-    factor: Factor<f64>,
-}
-
 enum Values {
     /// A free boundary couples x and y: one complex unknown per vertex.
     Free(Box<FreeSolve>),
     /// A prescribed boundary does not: one real matrix, two right-hand sides.
-    Prescribed(Prescribed),
+    Fixed(FixedSolve),
 }
 
 /// Solves for an embedding.
@@ -99,11 +88,14 @@ impl Prepared {
             Method::Convex(_) => {
                 let system = FreeSystem::new(mesh, |v| pins.contains_key(&v));
                 let equations = convex_equations(mesh, settings.family)?;
-                let symmetric = matches!(settings.family, Family::Conformal | Family::Uniform);
+                let is_symmetric = matches!(settings.family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
-                let site = Site { mesh, system: &system };
-                let prescribed = Prescribed::new(site, equations, symmetric, &mut seconds, control)?;
-                (system, Values::Prescribed(prescribed))
+                let analysis = analyze(&system, is_symmetric, &mut seconds, control)?;
+                control.enter(Phase::Factor)?;
+                let start = Instant::now();
+                let fixed = FixedSolve::new(Site { mesh, system: &system }, equations, &analysis, control)?;
+                seconds.factor = start.elapsed().as_secs_f64();
+                (system, Values::Fixed(fixed))
             }
             method => {
                 let (equations, power) = free_equations(mesh, method, settings.family)?;
@@ -118,15 +110,10 @@ impl Prepared {
                 })?;
                 let system = layout.system(mesh);
                 seconds.assemble = start.elapsed().as_secs_f64();
-                let site = Site { mesh, system: &system };
                 let analysis = analyze(&system, is_hermitian, &mut seconds, control)?;
                 let unit = mean_edge_length(mesh).powf(1.0 - power);
-                let free = FreeSolve::new(
-                    site,
-                    Setup { equations, unit, analysis: &analysis, layout: &layout },
-                    &mut seconds,
-                    control,
-                )?;
+                let setup = Setup { equations, unit, analysis: &analysis, layout: &layout };
+                let free = FreeSolve::new(Site { mesh, system: &system }, setup, &mut seconds, control)?;
                 (system, Values::Free(Box::new(free)))
             }
         };
@@ -179,7 +166,7 @@ impl Prepared {
         let site = Site { mesh, system: &self.system };
         let (mut embedding, residual) = match &self.values {
             Values::Free(free) => free.solve(site, &targets)?,
-            Values::Prescribed(prescribed) => prescribed.solve(site, &targets)?,
+            Values::Fixed(fixed) => fixed.solve(site, &targets)?,
         };
         let in_force = if self.own_places.is_some() {
             complete_gauge(mesh, &mut embedding, &held, self.settings.size);
@@ -187,65 +174,17 @@ impl Prepared {
         } else {
             held
         };
-        let (stats, bounded_corners, equation_residual) = match &self.values {
-            Values::Free(free) => (free.stats(), free.bounded_corners(), free.equation_residual(mesh, &embedding)),
-            Values::Prescribed(Prescribed { equations, factor, .. }) => {
-                let left = equations.to_complex().residual(mesh, &embedding, |v| !targets.contains_key(&v));
-                (factor.stats(), equations.bounded_corners, left)
-            }
+        let linear = match &self.values {
+            Values::Free(free) => free.numbers(mesh, &embedding, residual),
+            Values::Fixed(fixed) => fixed.numbers(site, &embedding, residual),
         };
         Ok(Solution {
             embedding,
             pins: in_force,
             gauge_completed: self.own_places.is_some(),
-            linear: Some(LinearSolve {
-                residual,
-                equation_residual,
-                replaced_pivots: stats.replaced_pivots,
-                bounded_corners,
-                factor_bytes: stats.factor_bytes,
-            }),
+            linear: Some(linear),
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..self.seconds },
         })
-    }
-}
-
-impl Prescribed {
-    fn new(
-        site: Site<'_>,
-        equations: Equations<f64>,
-        symmetric: bool,
-        seconds: &mut PhaseSeconds,
-        control: Control<'_>,
-    ) -> Result<Self, SolveError> {
-        let analysis = analyze(site.system, symmetric, seconds, control)?;
-        control.enter(Phase::Factor)?;
-        let start = Instant::now();
-        let matrix = site.system.negated_matrix(site.mesh, &equations);
-        let named = |error| in_vertices(error, site.system.free());
-        let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
-        seconds.factor = start.elapsed().as_secs_f64();
-        Ok(Self { equations, matrix, factor })
-    }
-
-    /// Solves for x and y, which share the matrix.
-    fn solve(&self, site: Site<'_>, places: &PinPositions) -> Result<(Embedding, f64), SolveError> {
-        let terms = |axis: usize| {
-            let targets: BTreeMap<VertexId, f64> = places.iter().map(|(&v, t)| (v, t[axis])).collect();
-            site.system.pinned_terms(site.mesh, &self.equations, &targets)
-        };
-        let both: Vec<f64> = terms(0).into_iter().chain(terms(1)).collect();
-        let named = |error| in_vertices(error, site.system.free());
-        let solved = self.factor.solve_many(&self.matrix, &both).map_err(named)?;
-        let (x, y) = solved.x.split_at(site.system.free().len());
-        let mut embedding = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
-        for (&vertex, (&x, &y)) in site.system.free().iter().zip(x.iter().zip(y)) {
-            embedding[vertex] = DVec2::new(x, y);
-        }
-        for (&vertex, target) in places {
-            embedding[vertex] = *target;
-        }
-        Ok((embedding, solved.residual))
     }
 }
 
@@ -293,7 +232,7 @@ fn analyze(
     control.enter(Phase::Analyze)?;
     let start = Instant::now();
     let kind = if hermitian { Kind::Hermitian } else { Kind::General };
-    let analysis = Analysis::new(kind, system.pattern()).map_err(|error| in_vertices(error, system.free()))?;
+    let analysis = system.analysis(kind)?;
     seconds.analyze = start.elapsed().as_secs_f64();
     Ok(analysis)
 }

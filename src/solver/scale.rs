@@ -29,7 +29,7 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
         .sum();
     let factor = (surface / flat).sqrt() * (in_plane / in_space);
     if factor.is_finite() && factor > 0.0 {
-        for z in embedding {
+        for z in embedding.iter_mut() {
             *z *= factor;
         }
     }
@@ -44,7 +44,7 @@ pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &
     }
     if let Some((vertex, Pin { target, .. })) = pins.first_key_value() {
         let shift = *target - embedding[vertex];
-        for z in &mut *embedding {
+        for z in embedding.iter_mut() {
             *z += shift;
         }
         embedding[*vertex] = *target;
@@ -67,7 +67,7 @@ pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins,
     if !turn.is_finite() || turn == DVec2::ZERO {
         return false;
     }
-    for z in &mut *embedding {
+    for z in embedding.iter_mut() {
         *z = *a + turn.rotate(*z - origin);
     }
     embedding[*first] = *a;
@@ -82,7 +82,7 @@ fn to_middle_of(low: DVec2, high: DVec2, embedding: &mut Embedding) {
     let factor = ((high - low) / bounds.size()).min_element();
     if factor.is_finite() && factor > 0.0 {
         let (from, to) = (bounds.middle(), low.midpoint(high));
-        for z in embedding {
+        for z in embedding.iter_mut() {
             *z = to + (*z - from) * factor;
         }
     }
@@ -96,7 +96,7 @@ fn extent_of(embedding: &Embedding) -> f64 {
 /// As [`to_unit_square`], but scaled by a power of two alone: the one rounding is that of the move.
 pub fn to_unit_square_by_power_of_two(embedding: &mut Embedding) {
     let Bounds { low, .. } = embedding.bounds();
-    for z in &mut *embedding {
+    for z in embedding.iter_mut() {
         *z -= low;
     }
     to_unit_box(embedding);
@@ -108,7 +108,7 @@ pub fn to_unit_box(embedding: &mut Embedding) {
     let extent = extent_of(embedding);
     if extent.is_finite() && extent > 0.0 {
         let factor = (-extent.log2().ceil()).exp2();
-        for z in embedding {
+        for z in embedding.iter_mut() {
             *z *= factor;
         }
     }
@@ -121,7 +121,7 @@ pub fn to_unit_square(embedding: &mut Embedding) {
     let bounds = embedding.bounds();
     let extent = bounds.size().max_element();
     if extent.is_finite() && extent > 0.0 {
-        for z in embedding {
+        for z in embedding.iter_mut() {
             *z = (*z - bounds.low) / extent;
         }
     }

@@ -1,6 +1,7 @@
 //! What a solve gives back.
 
 use super::{Embedding, Pins};
+use crate::linalg::FactorStats;
 
 /// An embedding and the numbers of the solve that made it.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +32,12 @@ pub struct LinearSolve {
     pub bounded_corners: usize,
     /// Bytes of the matrix's factors.
     pub factor_bytes: usize,
+}
+
+impl From<FactorStats> for LinearSolve {
+    fn from(FactorStats { replaced_pivots, factor_bytes, .. }: FactorStats) -> Self {
+        Self { replaced_pivots, factor_bytes, ..Self::default() }
+    }
 }
 
 /// Seconds by phase of a solve.

@@ -3,14 +3,16 @@
 //! With F the free and P the pinned vertices, `A_FF z_F = −A_FP t`. The pattern depends on the mesh and on which
 //! vertices are pinned; weights and targets only change values.
 
-use std::collections::BTreeMap;
 use std::ops::{AddAssign, Mul};
 
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
+use num_complex::Complex;
+use rayon::prelude::*;
 
 use super::equations::Equations;
-use crate::linalg::Scalar;
+use super::{Embedding, SolveError};
+use crate::linalg::{Analysis, Kind, LinalgError, Scalar};
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// Marks a vertex without a row and a halfedge without an entry.
@@ -123,7 +125,7 @@ impl FreeSystem {
         &self,
         mesh: &DiskMesh,
         equations: &Equations<T>,
-        targets: &BTreeMap<VertexId, P>,
+        target: impl Fn(VertexId) -> P,
     ) -> Vec<P>
     where
         T: Copy + Mul<P, Output = P>,
@@ -132,8 +134,43 @@ impl FreeSystem {
         let mut terms = vec![P::default(); self.free.len()];
         for &h in &self.to_pinned {
             let row = self.row_of_vertex[mesh.tail(h).index()];
-            terms[row as usize] += equations.coefficients[h.index()] * targets[&mesh.head(h)];
+            terms[row as usize] += equations.coefficients[h.index()] * target(mesh.head(h));
         }
         terms
     }
+
+    /// ‖Ax − b‖ / ‖b‖, b being what the pinned vertices give where they lie.
+    pub(super) fn relative_residual<T>(&self, mesh: &DiskMesh, equations: &Equations<T>, embedding: &Embedding) -> f64
+    where
+        T: Copy + Sync + Mul<Complex<f64>, Output = Complex<f64>>,
+    {
+        let rhs = self.pinned_terms(mesh, equations, |v| Complex::new(embedding[v].x, embedding[v].y));
+        let whole: f64 = rhs.iter().map(Complex::norm_sqr).sum();
+        let square = |&v: &VertexId| equations.residual_of(mesh, embedding, v).norm_sqr();
+        let squares: Vec<f64> = self.free.par_iter().map(square).collect();
+        let residual: f64 = squares.iter().sum();
+        if residual > 0.0 { f64::sqrt(residual / whole) } else { 0.0 }
+    }
+
+    /// Orders and analyses its pattern.
+    pub(super) fn analysis(&self, kind: Kind) -> Result<Analysis, SolveError> {
+        Analysis::new(kind, &self.pattern).map_err(|error| self.named(error))
+    }
+
+    /// Says a linear solver's error in terms of the mesh: its rows are the free vertices.
+    pub(super) fn named(&self, error: LinalgError) -> SolveError {
+        match error {
+            LinalgError::Singular { row }
+            | LinalgError::NotPositiveDefinite { row }
+            | LinalgError::NotFinite { row } => SolveError::Singular { vertex: self.free[row] },
+            other => other.into(),
+        }
+    }
+}
+
+/// Where a system stands: its mesh and its unknowns.
+#[derive(Clone, Copy)]
+pub(super) struct Site<'a> {
+    pub(super) mesh: &'a DiskMesh,
+    pub(super) system: &'a FreeSystem,
 }

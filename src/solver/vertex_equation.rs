@@ -54,7 +54,7 @@ pub struct VertexEquation {
     pub barycentre: DVec2,
     /// From the barycentre to where eq. (3) wants the vertex; none inside.
     pub offset_vector: Option<DVec2>,
-    /// What the equation leaves, relative to the sizes of its terms.
+    /// Residual of the equation, relative to the sizes of its terms.
     pub residual: f64,
 }
 
@@ -109,26 +109,26 @@ pub fn equation_of_step(
     vertex: VertexId,
 ) -> Result<(VertexEquation, WeightSource), NoEquation> {
     let embedding = &step.solution.embedding;
-    let on_surface = |family| (on_surface(mesh, family, embedding, vertex), WeightSource::Surface);
-    match step.rung {
-        Method::Levy => Err(NoEquation::OfTriangles),
-        Method::Convex(_) if mesh.boundary_place(vertex).is_some() => Err(NoEquation::Prescribed),
-        Method::Lscm => Ok(on_surface(Family::Conformal)),
-        Method::Iterate => {
+    let source = step.rung.weight_source()?;
+    if matches!(step.rung, Method::Convex(_)) && mesh.boundary_place(vertex).is_some() {
+        return Err(NoEquation::Prescribed);
+    }
+    match (source, &step.virtual_boundary) {
+        (WeightSource::StepBefore, _) => {
             let before = before.ok_or(NoEquation::StepBeforeMissing)?;
-            Ok((in_plane(&Fan::of_mesh(mesh, vertex), before, embedding), WeightSource::StepBefore))
+            Ok((in_plane(&Fan::of_mesh(mesh, vertex), before, embedding), source))
         }
-        Method::VirtualBoundary => match &step.virtual_boundary {
-            Some(stages) if stages.hull.contains(&vertex) => Err(NoEquation::Prescribed),
-            Some(stages) if !stages.weights_of_before => Err(NoEquation::OtherWeights),
-            Some(stages) => {
-                let fan = Fan::of_extended(mesh, stages, vertex);
-                Ok((in_plane(&fan, &stages.before, &stages.solved), WeightSource::Extended))
-            }
-            None => Ok(on_surface(step.family)),
-        },
-        Method::Continuation | Method::Matchmaker | Method::Relax => Err(NoEquation::OfEnergy),
-        Method::Auto | Method::Natural | Method::Convex(_) => Ok(on_surface(step.family)),
+        (WeightSource::Extended, Some(stages)) if stages.hull.contains(&vertex) => Err(NoEquation::Prescribed),
+        (WeightSource::Extended, Some(stages)) if !stages.weights_of_before => Err(NoEquation::OtherWeights),
+        (WeightSource::Extended, Some(stages)) => {
+            let fan = Fan::of_extended(mesh, stages, vertex);
+            Ok((in_plane(&fan, &stages.before, &stages.solved), source))
+        }
+        // Without stages the virtual boundary has solved the natural equations, some of the boundary pinned.
+        (WeightSource::Surface | WeightSource::Extended, _) => {
+            let family = if step.rung.uses_family() { step.family } else { Family::Conformal };
+            Ok((on_surface(mesh, family, embedding, vertex), WeightSource::Surface))
+        }
     }
 }
 
@@ -153,20 +153,17 @@ impl Fan {
             v if v == c => Some([a, b]),
             _ => None,
         };
-        let mut left: Vec<[VertexId; 2]> = stages.pockets.iter().filter_map(from_pocket).collect();
+        let mut outside: Vec<[VertexId; 2]> = stages.pockets.iter().filter_map(from_pocket).collect();
         while let Some(&[_, last]) = corners.last()
-            && let Some(place) = left.iter().position(|&[first, _]| first == last)
+            && let Some(place) = outside.iter().position(|&[first, _]| first == last)
         {
-            corners.push(left.swap_remove(place));
+            corners.push(outside.swap_remove(place));
         }
         Self { vertex, corners }
     }
 
     fn is_closed(&self) -> bool {
-        match (self.corners.first(), self.corners.last()) {
-            (Some([first, _]), Some([_, last])) => first == last,
-            _ => false,
-        }
+        matches!((self.corners.first(), self.corners.last()), (Some([first, _]), Some([_, last])) if first == last)
     }
 
     /// The neighbours in turn, each once.
@@ -200,7 +197,7 @@ fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: Ve
             _ => vec![1.0; neighbours.len()],
         };
         let ones = vec![1.0; neighbours.len()];
-        return put_together(&fan, embedding, Coefficients { weights, offsets: ones.clone(), radii: ones });
+        return put_together(&fan, embedding, [weights, ones.clone(), ones]);
     };
     let shares = |next, previous| {
         let corner = [vertex, next, previous].map(|v: VertexId| mesh.position(v));
@@ -208,7 +205,7 @@ fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: Ve
     };
     let radii: Vec<f64> = arms.iter().map(|arm| arm.length()).collect();
     let offsets = radii.iter().map(|r| r.powf(power)).collect();
-    put_together(&fan, embedding, Coefficients { weights: fan.sums(shares), offsets, radii })
+    put_together(&fan, embedding, [fan.sums(shares), offsets, radii])
 }
 
 /// Mean-value weights of one embedding, another one put into them.
@@ -224,18 +221,12 @@ fn in_plane(fan: &Fan, weights_from: &Embedding, embedding: &Embedding) -> Verte
     if let (false, Some(&[next, previous]), Some(last)) = (fan.is_closed(), fan.corners.last(), radii.last_mut()) {
         *last = edge_radius([fan.vertex, next, previous].map(at), 2);
     }
-    put_together(fan, embedding, Coefficients { offsets: vec![1.0; weights.len()], weights, radii })
+    let ones = vec![1.0; weights.len()];
+    put_together(fan, embedding, [weights, ones, radii])
 }
 
-/// k, d and r of each neighbour.
-struct Coefficients {
-    weights: Vec<f64>,
-    offsets: Vec<f64>,
-    radii: Vec<f64>,
-}
-
-fn put_together(fan: &Fan, embedding: &Embedding, coefficients: Coefficients) -> VertexEquation {
-    let Coefficients { weights, offsets, radii } = coefficients;
+/// The equation from k, d and r of each neighbour.
+fn put_together(fan: &Fan, embedding: &Embedding, [weights, offsets, radii]: [Vec<f64>; 3]) -> VertexEquation {
     let neighbours = fan.neighbours();
     let place = embedding[fan.vertex];
     let arms: Vec<DVec2> = neighbours.iter().map(|v| embedding[v] - place).collect();

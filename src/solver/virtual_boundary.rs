@@ -14,17 +14,17 @@
 //! hull. Then the outside is triangulated up to a strictly convex frame around the hull, and every doubled edge is
 //! split by a virtual vertex. The frame's vertices and these are peeled off afterwards, as the faces are.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use glam::DVec2;
 use num_complex::Complex;
 
 use super::equations::Equations;
-use super::free_solve::in_vertices;
-use super::system::FreeSystem;
-use super::{Control, Embedding, Phase, SolveError};
+use super::fixed_solve::FixedSolve;
+use super::system::{FreeSystem, Site};
+use super::{Control, Embedding, LinearSolve, Phase, SolveError};
 use crate::geom::{Bounds, Orientation, orientation, outside_triangles};
-use crate::linalg::{Analysis, FactorStats, Kind};
+use crate::linalg::Kind;
 use crate::mesh::{DiskMesh, TriMesh, VertexId};
 
 /// The frame's corners, relative to half the extent of the boundary: an octagon whose sides are far from straight.
@@ -144,55 +144,32 @@ impl Extended {
         })
     }
 
-    /// Solves equations of mesh and outside with the outline where it is, for the move from `start`. Returns all
-    /// positions, the residual and what the factors cost.
+    /// Solves equations of mesh and outside with the outline where it is, for the move from `start`.
     ///
     /// # Errors
     ///
     /// A system that cannot be solved, or the caller's wish to stop.
     pub fn solve(
         &self,
-        equations: &Equations<f64>,
+        equations: Equations<f64>,
         start: Start<'_>,
         control: Control<'_>,
-    ) -> Result<(Embedding, f64, FactorStats), SolveError> {
+    ) -> Result<(Embedding, LinearSolve), SolveError> {
         let system = FreeSystem::new(&self.disk, |v| self.disk.boundary_place(v).is_some());
-        let matrix = system.negated_matrix(&self.disk, equations);
-        let named = |error| in_vertices(error, system.free());
-        control.enter(Phase::Analyze)?;
-        let analysis = Analysis::new(Kind::General, system.pattern()).map_err(named)?;
-        control.enter(Phase::Factor)?;
-        let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
-        control.enter(Phase::Solve)?;
+        let site = Site { mesh: &self.disk, system: &system };
         let residual_of = |v: &VertexId| match start.residuals {
             Some(residuals) => residuals[v.index()],
             None => equations.residual_of(&self.disk, start.embedding, *v),
         };
-        let residuals: Vec<Complex<f64>> = system.free().iter().map(residual_of).collect();
-        let both: Vec<f64> = residuals.iter().map(|z| z.re).chain(residuals.iter().map(|z| z.im)).collect();
-        let solved = factor.solve_correction(&matrix, &both).map_err(named)?;
-        let (x, y) = solved.x.split_at(system.free().len());
-        let mut embedding = start.embedding.clone();
-        for (&vertex, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
-            embedding[vertex] += DVec2::new(x, y);
-        }
-        let residual = self.relative_residual(equations, &system, &embedding);
-        Ok((embedding, residual, factor.stats()))
-    }
-
-    /// ‖A z‖ of the equations within the outline, relative to their terms.
-    pub(super) fn equation_residual(&self, equations: &Equations<f64>, embedding: &Embedding) -> f64 {
-        let is_inside = |v: VertexId| self.disk.boundary_place(v).is_none();
-        equations.to_complex().residual(&self.disk, embedding, is_inside)
-    }
-
-    /// ‖Ax − b‖ / ‖b‖, b being what the outline gives.
-    fn relative_residual(&self, equations: &Equations<f64>, system: &FreeSystem, embedding: &Embedding) -> f64 {
-        let fixed = self.disk.boundary_loop().iter().map(|&v| (v, embedding[v]));
-        let rhs = system.pinned_terms(&self.disk, equations, &fixed.collect::<BTreeMap<VertexId, DVec2>>());
-        let left = system.free().iter().map(|&v| equations.residual_of(&self.disk, embedding, v).norm_sqr());
-        let (left, whole): (f64, f64) = (left.sum(), rhs.iter().map(|b| b.length_squared()).sum());
-        if left > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
+        let residuals: Vec<DVec2> = system.free().iter().map(residual_of).map(|z| DVec2::new(z.re, z.im)).collect();
+        control.enter(Phase::Analyze)?;
+        let analysis = system.analysis(Kind::General)?;
+        control.enter(Phase::Factor)?;
+        let solve = FixedSolve::new(site, equations, &analysis, control)?;
+        control.enter(Phase::Solve)?;
+        let embedding = solve.solve_from(site, start.embedding, &residuals)?;
+        let numbers = solve.numbers_measured(site, &embedding);
+        Ok((embedding, numbers))
     }
 }
 

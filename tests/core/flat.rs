@@ -115,7 +115,7 @@ fn blob(random: &mut Random) -> Flat {
 fn spiral(random: &mut Random) -> Flat {
     let (length, width) = (60, 4);
     let (mut plane, triangles) = jittered([length, width], |_, _| true, random);
-    for p in &mut plane {
+    for p in plane.iter_mut() {
         let angle = p.x / f64::from(length) * 1.4 * TAU;
         // Farther along is counter-clockwise and farther up is inwards, so faces keep their sense.
         *p = DVec2::from_angle(angle) * (10.0 + 1.1 * angle - p.y);

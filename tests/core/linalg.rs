@@ -47,14 +47,14 @@ fn agrees_with_dense<T: Draw>(seed: u64, n: usize, density: f64) {
     // More than a group of lanes and more than a group of refinement.
     let rhs: Vec<T> = (0..11 * n).map(|_| T::draw(&mut random)).collect();
     let dense = dense(&matrix);
-    let many = factor.solve_many(&matrix, &rhs).expect("regular");
+    let many = factor.solve(&matrix, &rhs).expect("regular");
     assert!(deviation(&dense, &many.x, &rhs) < TOLERANCE);
     assert!(many.residual < 1e-14, "{}", many.residual);
     let one = factor.solve(&matrix, &rhs[..n]).expect("regular");
     assert!(deviation(&dense, &one.x, &rhs[..n]) < TOLERANCE);
     let adjoint = factor.solve_adjoint(&matrix, &rhs[..n]).expect("regular");
     assert!(deviation(&dense.adjoint().to_owned(), &adjoint.x, &rhs[..n]) < TOLERANCE);
-    let adjoints = factor.solve_adjoint_many(&matrix, &rhs[..3 * n]).expect("regular");
+    let adjoints = factor.solve_adjoint(&matrix, &rhs[..3 * n]).expect("regular");
     assert!(deviation(&dense.adjoint().to_owned(), &adjoints.x, &rhs[..3 * n]) < TOLERANCE);
 }
 
@@ -64,7 +64,7 @@ fn hermitian_agrees_with_dense<T: Draw>(seed: u64, n: usize, sign: f64) {
     let matrix: CscMatrix<T> = hermitian(&pattern, sign, &mut random);
     let factor = factored(Kind::Hermitian, &matrix).expect("definite");
     let rhs: Vec<T> = (0..2 * n).map(|_| T::draw(&mut random)).collect();
-    let solved = factor.solve_many(&matrix, &rhs).expect("definite");
+    let solved = factor.solve(&matrix, &rhs).expect("definite");
     assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
     let adjoint = factor.solve_adjoint(&matrix, &rhs[..n]).expect("definite");
     assert!(deviation(&dense(&matrix), &adjoint.x, &rhs[..n]) < TOLERANCE);

@@ -66,7 +66,7 @@ fn a_nan_in_the_right_hand_side_is_named_by_its_row() {
     let factor = factored(Kind::General, &matrix).expect("regular");
     let mut rhs = vec![0.0; 32];
     rhs[16 + 5] = f64::INFINITY;
-    assert_eq!(factor.solve_many(&matrix, &rhs).expect_err("infinite"), LinalgError::NotFinite { row: 5 });
+    assert_eq!(factor.solve(&matrix, &rhs).expect_err("infinite"), LinalgError::NotFinite { row: 5 });
 }
 
 #[test]

@@ -156,7 +156,7 @@ pub(super) fn nearly_planar_case(random: &mut Random) -> Case {
 
 /// Moves every coordinate by a few units of its last place.
 pub(super) fn nudge(random: &mut Random, embedding: &mut Embedding) {
-    for point in embedding {
+    for point in embedding.iter_mut() {
         for coordinate in [&mut point.x, &mut point.y] {
             for _ in 0..random.index(3) {
                 *coordinate = if random.index(2) == 0 { coordinate.next_up() } else { coordinate.next_down() };

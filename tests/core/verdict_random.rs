@@ -97,7 +97,7 @@ fn the_verdict_agrees_with_the_oracle_where_scales_are_mixed() {
         let mut case = nearly_planar_case(random);
         // The map x ↦ x³ stretches and does not fold by itself; then everything near the axes is tiny.
         let tiny = [1.0, 1e-130, 1e-200, 1e-320][random.index(4)];
-        for point in &mut case.embedding {
+        for point in case.embedding.iter_mut() {
             for coordinate in [&mut point.x, &mut point.y] {
                 if coordinate.abs() < 1.5 {
                     *coordinate *= tiny;

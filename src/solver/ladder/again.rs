@@ -4,40 +4,30 @@
 //! a circle. Before it has to bend, the ladder starts once more, if other weights or pins were asked for: the default
 //! ones' boundary is simple far more often, and stays free.
 
-use std::sync::Arc;
-
 use super::Candidate;
 use super::rung::{Failure, Footing, Latest, Notes, Rung};
 use super::task::Task;
 use crate::solver::{Control, Family, Method, Pins, Settings, flatten};
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Again {
-    task: Arc<Task>,
-    /// Whether there is nothing else to try, or no longer.
     is_done: bool,
-}
-
-impl Again {
-    pub(super) fn new(task: Arc<Task>) -> Self {
-        let is_done = task.settings.family == Family::default() && task.pins.is_empty();
-        Self { task, is_done }
-    }
 }
 
 impl Rung for Again {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
-        let settings = Settings { size: self.task.settings.size, ..Settings::new(Method::Natural, Family::default()) };
+        let settings = Settings { size: from.task.settings.size, ..Settings::new(Method::Natural, Family::default()) };
         let mut solution = flatten(from.mesh, &settings, &Pins::new(), control)
             .map_err(|error| Failure::of("starting again", error))?;
         self.is_done = true;
         let mut notes = Notes::default();
         notes.say("started again with conformal weights and the farthest boundary vertices as pins".to_owned());
-        self.task.fit(from.mesh, &mut solution, &mut notes);
+        from.task.fit(from.mesh, &mut solution, &mut notes);
         Ok(Candidate { note: notes.take(), ..Candidate::new(Method::Natural, settings.family, solution) })
     }
 
-    fn has_more(&self, latest: Option<&Latest>) -> bool {
-        !self.is_done && latest.is_none_or(|latest| !latest.has_simple_boundary)
+    fn has_more(&self, task: &Task, latest: Option<&Latest>) -> bool {
+        let is_other = task.settings.family != Family::default() || !task.pins.is_empty();
+        is_other && !self.is_done && latest.is_none_or(|latest| !latest.has_simple_boundary)
     }
 }

@@ -1,9 +1,6 @@
 //! Rung 2: mean-value iterations (paper §4), until they get no better or are as many as allowed.
 
-use std::sync::Arc;
-
 use super::rung::{Failure, Footing, Latest, Rung};
-use super::stall::Stall;
 use super::task::Task;
 use super::{Candidate, Ending, Step, gauge_in};
 use crate::solver::scale::complete_gauge;
@@ -12,9 +9,20 @@ use crate::solver::{Control, Family, Iteration, Method, SolveError};
 /// The most iterations of a ladder that has other ways to the constraints.
 const ITERATIONS_WITH_CONSTRAINTS: usize = 8;
 
-#[derive(Debug)]
+/// Steps without an improvement after which an iteration that hardly moves has stalled.
+const PATIENCE: usize = 5;
+
+/// Steps without an improvement after which it has stalled however much it moves: it goes round in circles.
+const LONG_PATIENCE: usize = 12;
+
+/// A move of every vertex below this share of the embedding's diameter is hardly any.
+const STILL: f64 = 1e-3;
+
+/// An iteration is slow where a step has more than this part of the fewest defects before.
+const SLOW: f64 = 0.9;
+
+#[derive(Debug, Default)]
 pub(super) struct Iterate {
-    task: Arc<Task>,
     iteration: Option<Iteration>,
     /// What has become of the steps since the last linear solve, and how many of them were iterations.
     stall: Stall,
@@ -22,29 +30,22 @@ pub(super) struct Iterate {
 }
 
 impl Iterate {
-    pub(super) fn new(task: Arc<Task>) -> Self {
-        Self { task, iteration: None, stall: Stall::default(), taken: 0 }
-    }
-
     /// Why there is no sense in going on.
-    fn end(&self) -> Option<Ending> {
+    fn end(&self, task: &Task) -> Option<Ending> {
         // With constraints the iteration seldom arrives, and continuation always begins anew.
-        let gives_way = self.task.settings.method == Method::Auto && self.task.is_constrained();
-        let is_enough = gives_way && (self.stall.is_slow() || self.taken >= ITERATIONS_WITH_CONSTRAINTS);
+        let gives_way = task.settings.method == Method::Auto && task.is_constrained();
+        let is_enough = gives_way && (self.stall.is_slow || self.taken >= ITERATIONS_WITH_CONSTRAINTS);
         if is_enough || self.stall.is_reached() {
             Some(Ending::Stalled)
         } else {
-            (self.taken >= self.task.settings.max_steps).then_some(Ending::Limit)
+            (self.taken >= task.settings.max_steps).then_some(Ending::Limit)
         }
     }
 
-    fn iterated(
-        &mut self,
-        Footing { mesh, latest }: Footing<'_>,
-        control: Control<'_>,
-    ) -> Result<Candidate, SolveError> {
+    fn iterated(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
+        let Footing { task, mesh, latest } = from;
         let Some(latest) = latest else { return Err(SolveError::Cancelled) };
-        let Task { settings, pins: asked } = &*self.task;
+        let Task { settings, pins: asked } = task;
         let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
         if self.iteration.as_ref().is_none_or(|iteration| !iteration.serves(&pins)) {
             let treatment = settings.treatment_on(Method::Iterate, asked.len());
@@ -55,7 +56,7 @@ impl Iterate {
         if self.taken == 0 {
             solution.seconds.analyze = iteration.analyze_seconds();
         }
-        if self.task.has_open_gauge() {
+        if task.has_open_gauge() {
             complete_gauge(mesh, &mut solution.embedding, asked, settings.size);
             solution.gauge_completed = true;
             for (vertex, pin) in &mut solution.pins {
@@ -71,8 +72,8 @@ impl Rung for Iterate {
         self.iterated(from, control).map_err(|error| Failure::of("the iteration", error))
     }
 
-    fn has_more(&self, latest: Option<&Latest>) -> bool {
-        latest.is_some() && self.end().is_none()
+    fn has_more(&self, task: &Task, latest: Option<&Latest>) -> bool {
+        latest.is_some() && self.end(task).is_none()
     }
 
     fn look_at(&mut self, step: &Step) {
@@ -85,7 +86,38 @@ impl Rung for Iterate {
         self.stall.look_at(step);
     }
 
-    fn ending(&self) -> Ending {
-        self.end().unwrap_or(Ending::Done)
+    fn ending(&self, task: &Task) -> Ending {
+        self.end(task).unwrap_or(Ending::Done)
+    }
+}
+
+/// Watches steps for improvement.
+#[derive(Debug, Default)]
+struct Stall {
+    best: Option<usize>,
+    steps_since: usize,
+    is_still: bool,
+    /// Whether the last step is hardly better than one before it, or no better.
+    is_slow: bool,
+}
+
+impl Stall {
+    /// Takes in a step.
+    fn look_at(&mut self, step: &Step) {
+        let count = step.verdict.defect_count();
+        self.is_slow = self.best.is_some_and(|best| count as f64 > SLOW * best as f64);
+        if self.best.is_none_or(|best| count < best) {
+            self.best = Some(count);
+            self.steps_since = 0;
+        } else {
+            self.steps_since += 1;
+        }
+        let limit = STILL * step.solution.embedding.bounds().diameter();
+        self.is_still = step.max_move.is_some_and(|moved| moved <= limit);
+    }
+
+    /// Whether the iteration gets no better.
+    fn is_reached(&self) -> bool {
+        self.steps_since >= LONG_PATIENCE || (self.steps_since >= PATIENCE && self.is_still)
     }
 }

@@ -21,33 +21,25 @@ const WORTHWHILE: f64 = 0.05;
 /// Rounds of relaxing that follow: paths were made straight.
 const ROUNDS_AFTER_MATCHMAKER: usize = 30;
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Match {
-    task: Arc<Task>,
     stage: Stage,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 enum Stage {
+    #[default]
     Begin,
     /// The constraints are met with new vertices, some of which may be needless once the embedding has relaxed.
-    Refined {
-        found: Box<Matched>,
-        looks_left: usize,
-    },
+    Refined { found: Box<Matched>, looks_left: usize },
     /// There is no further step.
     End,
 }
 
-impl Match {
-    pub(super) fn new(task: Arc<Task>) -> Self {
-        Self { task, stage: Stage::Begin }
-    }
-}
-
 impl Rung for Match {
-    fn step(&mut self, Footing { mesh, latest }: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
-        let (began, held) = (Instant::now(), self.task.held());
+    fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
+        let Footing { task, mesh, latest } = from;
+        let (began, held) = (Instant::now(), task.held());
         let (found, looks_left) = match &self.stage {
             Stage::Begin => {
                 let start = latest.ok_or(SolveError::NotPlanar)?.onward();
@@ -68,7 +60,7 @@ impl Rung for Match {
         Ok(Candidate { refinement, ..candidate })
     }
 
-    fn has_more(&self, _: Option<&Latest>) -> bool {
+    fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {
         !matches!(self.stage, Stage::End)
     }
 
@@ -76,11 +68,11 @@ impl Rung for Match {
         matches!(self.stage, Stage::Refined { .. })
     }
 
-    fn relax_rounds_after(&self, _: &Step) -> usize {
+    fn relax_rounds_after(&self, _: &Task, _: &Step) -> usize {
         ROUNDS_AFTER_MATCHMAKER
     }
 
-    fn ending(&self) -> Ending {
+    fn ending(&self, _: &Task) -> Ending {
         Ending::Unmet
     }
 }

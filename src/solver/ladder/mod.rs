@@ -9,11 +9,10 @@
 //! | `candidate.rs` | [`Candidate`]: what a rung gives, before it is proved |
 //! | `step.rs` | [`Step`]: a candidate with its verdict |
 //! | `natural.rs` | rung 1: one linear solve |
-//! | `iterate.rs`, `stall.rs` | rung 2: mean-value iterations, and when they get no better |
+//! | `iterate.rs` | rung 2: mean-value iterations, and when they get no better |
 //! | `again.rs` | rung 1 once more, with the default weights and pins |
 //! | `virtual_boundary.rs` | rung 3: the boundary made simple, and the outside embedded with the mesh |
-//! | `fit.rs` | a planar start without the constraints, moved to where it fits them best |
-//! | `continuation.rs` | rung 4: one-to-one on the way to the constraints |
+//! | `continuation.rs` | rung 4: a planar start fitted to the constraints, then one-to-one on the way to them |
 //! | `matchmaker.rs` | rung 5: new vertices |
 //! | `relax.rs` | what follows: lower distortion |
 //!
@@ -23,14 +22,12 @@
 mod again;
 mod candidate;
 mod continuation;
-mod fit;
 mod iterate;
 mod matchmaker;
 mod natural;
 mod plan;
 mod relax;
 mod rung;
-mod stall;
 mod step;
 mod task;
 mod virtual_boundary;
@@ -151,7 +148,8 @@ impl Ladder {
             // Where no way led to the constraints, none does now.
             Some(Ending::Unmet) => Err(SolveError::Unmet),
             Some(_) => {
-                let from = Footing { mesh, latest: self.latest.as_ref() };
+                let task = Arc::clone(&self.plan.part().task);
+                let from = Footing { task: &task, mesh, latest: self.latest.as_ref() };
                 self.plan.part_mut().by_hand().step(from, control).map_err(|failure| failure.error)
             }
         };
@@ -189,11 +187,12 @@ impl Ladder {
                 self.enter_next_part()?;
                 continue;
             };
-            let Failure { error, way_on } =
-                match self.plan.part_mut().enter(place).step(Footing { mesh, latest }, control) {
-                    Ok(candidate) => return Ok(candidate),
-                    Err(failure) => failure,
-                };
+            let task = Arc::clone(&self.plan.part().task);
+            let from = Footing { task: &task, mesh, latest };
+            let Failure { error, way_on } = match self.plan.part_mut().enter(place).step(from, control) {
+                Ok(candidate) => return Ok(candidate),
+                Err(failure) => failure,
+            };
             let Some(way_on) = way_on else { return Err(error) };
             if !self.plan.part_mut().leave_flight(place) {
                 if !self.plan.has_next_part() {

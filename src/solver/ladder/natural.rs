@@ -9,20 +9,13 @@ use crate::solver::{Control, Method, Prepared, SolveError};
 
 #[derive(Debug)]
 pub(super) struct Natural {
-    task: Arc<Task>,
     /// Equations and factors, kept from an earlier solve or made by this one.
-    prepared: Option<Arc<Prepared>>,
-}
-
-impl Natural {
-    pub(super) fn new(task: Arc<Task>, prepared: Option<Arc<Prepared>>) -> Self {
-        Self { task, prepared }
-    }
+    pub(super) prepared: Option<Arc<Prepared>>,
 }
 
 impl Rung for Natural {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
-        let Task { settings, pins } = &*self.task;
+        let Task { settings, pins } = from.task;
         let prepared = match self.prepared.take().filter(|prepared| prepared.serves(settings, pins)) {
             Some(prepared) => prepared,
             None => Arc::new(Prepared::new(from.mesh, settings, pins, control).map_err(failure)?),
@@ -36,7 +29,7 @@ impl Rung for Natural {
         Ok(Candidate { prepared: Some(prepared), ..Candidate::new(rung, settings.family, solution) })
     }
 
-    fn has_more(&self, latest: Option<&Latest>) -> bool {
+    fn has_more(&self, _: &Task, latest: Option<&Latest>) -> bool {
         latest.is_none()
     }
 }

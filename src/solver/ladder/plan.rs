@@ -12,7 +12,7 @@ use super::relax::Relax;
 use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
-use super::{again, continuation, fit, iterate, matchmaker, natural, virtual_boundary};
+use super::{again, continuation, iterate, matchmaker, natural, virtual_boundary};
 use crate::solver::{Embedding, GaugeSize, Method, Prepared};
 
 /// The rungs of a part, flight by flight.
@@ -46,16 +46,15 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    fn rung(self, task: &Arc<Task>, kept: &Kept) -> Box<dyn Rung> {
-        let task = Arc::clone(task);
+    fn rung(self, kept: &Kept) -> Box<dyn Rung> {
         match self {
-            Natural => Box::new(natural::Natural::new(task, kept.prepared.clone())),
-            Iterate => Box::new(iterate::Iterate::new(task)),
-            Again => Box::new(again::Again::new(task)),
-            VirtualBoundary => Box::new(virtual_boundary::Bend::new(task)),
-            Fit => Box::new(fit::Fit::new(task, kept.planar_start.clone())),
-            Continuation => Box::new(continuation::Continue::new(task)),
-            Matchmaker => Box::new(matchmaker::Match::new(task)),
+            Natural => Box::new(natural::Natural { prepared: kept.prepared.clone() }),
+            Iterate => Box::<iterate::Iterate>::default(),
+            Again => Box::<again::Again>::default(),
+            VirtualBoundary => Box::<virtual_boundary::Bend>::default(),
+            Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
+            Continuation => Box::<continuation::Continue>::default(),
+            Matchmaker => Box::<matchmaker::Match>::default(),
         }
     }
 }
@@ -176,10 +175,9 @@ impl Part {
     fn new(task: &Arc<Task>, aim: Aim, flights: Flights, kept: &Kept) -> Self {
         // The latest step of any part can be iterated on by hand, or relaxed where it is one-to-one.
         let kinds = flights.iter().copied().flatten().chain(&[Iterate]);
-        let rungs = kinds.map(|&kind| (kind, kind.rung(task, kept))).collect();
+        let rungs = kinds.map(|&kind| (kind, kind.rung(kept))).collect();
         let (at, has_stepped, has_begun) = (At::default(), false, false);
-        let relax = Relax::new(Arc::clone(task));
-        Self { aim, task: Arc::clone(task), relax, flights, rungs, at, has_stepped, has_begun }
+        Self { aim, task: Arc::clone(task), relax: Relax::default(), flights, rungs, at, has_stepped, has_begun }
     }
 
     fn kind(&self, at: At) -> Kind {
@@ -199,11 +197,11 @@ impl Part {
     pub(super) fn next(&self, latest: Option<&Latest>) -> Option<Place> {
         if latest.is_some_and(|latest| latest.is_solved) {
             let improves = self.rung(self.at).improves().then_some(Place::Rung(self.at));
-            return improves.or_else(|| self.relax.has_more(latest).then_some(Place::Relax));
+            return improves.or_else(|| self.relax.has_more(&self.task, latest).then_some(Place::Relax));
         }
         let (mut at, mut has_stepped) = (self.at, self.has_stepped);
         while let Some(flight) = self.flights.get(at.flight) {
-            if self.rung(at).has_more(latest) {
+            if self.rung(at).has_more(&self.task, latest) {
                 return Some(Place::Rung(at));
             }
             let follows = has_stepped && at.rung + 1 < flight.len();
@@ -249,7 +247,7 @@ impl Part {
         if step.rung == Method::Relax {
             self.relax.look_at(step);
         } else {
-            let own = || self.rung(self.at).relax_rounds_after(step);
+            let own = || self.rung(self.at).relax_rounds_after(&self.task, step);
             self.relax.begin(self.task.settings.relax_rounds.unwrap_or_else(own));
         }
     }
@@ -257,6 +255,6 @@ impl Part {
     /// Why the ladder ends where this was its last part, and it is not solved.
     pub(super) fn ending(&self) -> Ending {
         let last = self.flights.iter().copied().flatten().last().expect("a part has rungs");
-        self.rungs[last].ending()
+        self.rungs[last].ending(&self.task)
     }
 }

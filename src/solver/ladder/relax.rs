@@ -14,49 +14,32 @@ use crate::solver::relaxing::Relaxing;
 use crate::solver::scale::complete_gauge;
 use crate::solver::{Control, Outside, Pins, SolveError};
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Relax {
-    task: Arc<Task>,
     relaxing: Option<Relaxing>,
     /// Rounds that may still follow.
     rounds_left: usize,
 }
 
 impl Relax {
-    pub(super) fn new(task: Arc<Task>) -> Self {
-        Self { task, relaxing: None, rounds_left: 0 }
-    }
-
     /// Lets so many rounds follow, from the latest embedding on.
     pub(super) fn begin(&mut self, rounds: usize) {
         (self.relaxing, self.rounds_left) = (None, rounds);
     }
 
-    fn round(&mut self, Footing { mesh, latest }: Footing<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
+    fn round(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
+        let Footing { task, mesh, latest } = from;
         let start = Instant::now();
         let latest = latest.ok_or(SolveError::NotPlanar)?;
         let refinement = latest.refinement.clone();
         let mesh = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
-        let held = if self.task.has_open_gauge() { Pins::new() } else { self.task.held() };
+        let held = if task.has_open_gauge() { Pins::new() } else { task.held() };
         let relaxing = self.relaxing.get_or_insert_with(|| Relaxing::new(mesh, latest.embedding.clone(), &held));
         let mut candidate = relaxing.round(mesh, control)?;
         if held.is_empty() {
-            self.place(mesh, &mut candidate);
+            place(task, mesh, &mut candidate);
         }
         Ok(Candidate { refinement, ..candidate.since(start) })
-    }
-
-    /// Moves an embedding that no pins hold to where it is asked for, its outside with it.
-    fn place(&self, mesh: &DiskMesh, candidate: &mut Candidate) {
-        let solution = &mut candidate.solution;
-        let before = solution.embedding.clone();
-        complete_gauge(mesh, &mut solution.embedding, &self.task.pins, self.task.settings.size);
-        solution.pins = gauge_in(mesh, &solution.embedding);
-        let pairs: Vec<[DVec2; 2]> = before.iter().zip(&solution.embedding).map(|(a, b)| [*a, *b]).collect();
-        if let (Some(similarity), Some(outside)) = (Similarity::fitting(&pairs), &candidate.outside) {
-            let frame = outside.frame.iter().map(|&z| similarity.apply(z)).collect();
-            candidate.outside = Some(Arc::new(Outside { frame, triangles: outside.triangles.clone() }));
-        }
     }
 }
 
@@ -64,17 +47,30 @@ impl Rung for Relax {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         self.round(from, control).map_err(|error| {
             // What was planar before is still there to go on from.
-            let is_start = !self.task.is_constrained();
+            let is_start = !from.task.is_constrained();
             let way_on = (is_start && error != SolveError::Cancelled).then(WayOn::default);
             Failure { error, way_on }
         })
     }
 
-    fn has_more(&self, _: Option<&Latest>) -> bool {
+    fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {
         self.rounds_left > 0 && !self.relaxing.as_ref().is_some_and(Relaxing::has_converged)
     }
 
     fn look_at(&mut self, _: &Step) {
         self.rounds_left = self.rounds_left.saturating_sub(1);
+    }
+}
+
+/// Moves an embedding that no pins hold to where it is asked for, its outside with it.
+fn place(task: &Task, mesh: &DiskMesh, candidate: &mut Candidate) {
+    let solution = &mut candidate.solution;
+    let before = solution.embedding.clone();
+    complete_gauge(mesh, &mut solution.embedding, &task.pins, task.settings.size);
+    solution.pins = gauge_in(mesh, &solution.embedding);
+    let pairs: Vec<[DVec2; 2]> = before.iter().zip(&solution.embedding).map(|(a, b)| [*a, *b]).collect();
+    if let (Some(similarity), Some(outside)) = (Similarity::fitting(&pairs), &candidate.outside) {
+        let frame = outside.frame.iter().map(|&z| similarity.apply(z)).collect();
+        candidate.outside = Some(Arc::new(Outside { frame, triangles: outside.triangles.clone() }));
     }
 }

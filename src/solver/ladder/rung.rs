@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::task::Task;
 use super::{Candidate, Ending, Step};
 use crate::mesh::{DiskMesh, Refinement};
 use crate::solver::{Control, Embedding, Pins, SolveError};
@@ -12,7 +13,7 @@ pub(super) trait Rung: std::fmt::Debug + Send {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure>;
 
     /// Whether it has another step, on the way to what is asked for.
-    fn has_more(&self, latest: Option<&Latest>) -> bool;
+    fn has_more(&self, task: &Task, latest: Option<&Latest>) -> bool;
 
     /// Whether another step makes better what is solved already.
     fn improves(&self) -> bool {
@@ -23,12 +24,12 @@ pub(super) trait Rung: std::fmt::Debug + Send {
     fn look_at(&mut self, _step: &Step) {}
 
     /// Rounds of relaxing that follow a step of its own, where nobody says how many.
-    fn relax_rounds_after(&self, _step: &Step) -> usize {
+    fn relax_rounds_after(&self, _task: &Task, _step: &Step) -> usize {
         0
     }
 
     /// Why the ladder ends where this was its last rung.
-    fn ending(&self) -> Ending {
+    fn ending(&self, _task: &Task) -> Ending {
         Ending::Done
     }
 }
@@ -36,6 +37,8 @@ pub(super) trait Rung: std::fmt::Debug + Send {
 /// What a step goes on from.
 #[derive(Clone, Copy)]
 pub(super) struct Footing<'a> {
+    /// What the part of the plan is asked for.
+    pub(super) task: &'a Task,
     /// The mesh as given.
     pub(super) mesh: &'a DiskMesh,
     /// The latest step of the same part of the plan; of the part before, where that leads here.

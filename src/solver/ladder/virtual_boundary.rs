@@ -22,8 +22,8 @@ use crate::mesh::DiskMesh;
 use crate::solver::equations::{barycentric, uniform};
 use crate::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use crate::solver::{
-    Control, Embedding, Extended, Family, Growth, LinearSolve, Method, PhaseSeconds, PinPositions, Pins, Settings,
-    Solution, SolveError, Start, Treatment, VirtualBoundary, fixed_pins, flatten,
+    Control, Embedding, Extended, Family, Growth, Method, PhaseSeconds, PinPositions, Pins, Settings, Solution,
+    SolveError, Start, Treatment, VirtualBoundary, fixed_pins, flatten,
 };
 
 /// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,
@@ -64,90 +64,93 @@ const TRIED_AT_LAST: &[Weights] = &[
 
 #[derive(Debug)]
 pub(super) struct Bend {
-    task: Arc<Task>,
     /// Boundary vertices that the present embedding was pinned by, and whether they are all of them.
     pinned: usize,
     is_all_pinned: bool,
+    trial: Trial,
+    /// What gave nothing, and why.
+    notes: Notes,
+}
+
+/// An embedding that is being extended.
+#[derive(Debug, Default)]
+struct Trial {
     extended: Option<Extended>,
     /// The last result, with the outside.
     solved: Embedding,
     /// How many weights have been tried on `extended`.
     tried: usize,
-    /// What gave nothing, and why.
-    notes: Notes,
+}
+
+impl Default for Bend {
+    fn default() -> Self {
+        Self { pinned: 2, is_all_pinned: false, trial: Trial::default(), notes: Notes::default() }
+    }
 }
 
 impl Rung for Bend {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let mut candidate = self.bent(from, control)?;
-        self.task.fit(from.mesh, &mut candidate.solution, &mut self.notes);
+        from.task.fit(from.mesh, &mut candidate.solution, &mut self.notes);
         candidate.bent_vertices = if self.pinned > 2 { self.pinned } else { 0 };
         Ok(Candidate { note: self.notes.take(), ..candidate })
     }
 
-    fn has_more(&self, _: Option<&Latest>) -> bool {
-        let has_tried_all = self.extended.is_some() && self.tried >= self.weights().len();
+    fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {
+        let has_tried_all = self.trial.extended.is_some() && self.trial.tried >= self.weights().len();
         !(self.is_all_pinned && has_tried_all)
     }
 
-    fn relax_rounds_after(&self, step: &Step) -> usize {
-        let is_bent = self.task.settings.method == Method::Auto && step.bent_vertices > 0;
+    fn relax_rounds_after(&self, task: &Task, step: &Step) -> usize {
+        let is_bent = task.settings.method == Method::Auto && step.bent_vertices > 0;
         if is_bent { ROUNDS_AFTER_BENDING } else { 0 }
     }
 }
 
 impl Bend {
-    pub(super) fn new(task: Arc<Task>) -> Self {
-        Self {
-            task,
-            pinned: 2,
-            is_all_pinned: false,
-            extended: None,
-            solved: Embedding::default(),
-            tried: 0,
-            notes: Notes::default(),
-        }
-    }
-
     fn weights(&self) -> &'static [Weights] {
         if self.is_all_pinned { TRIED_AT_LAST } else { TRIED_WHILE_FREE }
     }
 
     /// Tries the next weights on the embedding extended; where all are tried, or the boundary is not simple, pins more.
-    fn bent(&mut self, Footing { mesh, latest }: Footing<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
-        if self.extended.is_none() && self.tried == 0 {
+    fn bent(
+        &mut self,
+        Footing { task, mesh, latest }: Footing<'_>,
+        control: Control<'_>,
+    ) -> Result<Candidate, SolveError> {
+        if self.trial.extended.is_none() && self.trial.tried == 0 {
             let simple = latest.filter(|latest| latest.has_simple_boundary);
-            self.extended = simple.and_then(|latest| Extended::new(mesh, &latest.embedding));
+            self.trial.extended = simple.and_then(|latest| Extended::new(mesh, &latest.embedding));
         }
-        while let (Some(extended), Some(&weights)) = (&self.extended, self.weights().get(self.tried)) {
+        while let (Some(extended), Some(&weights)) = (&self.trial.extended, self.weights().get(self.trial.tried)) {
             match self.peeled(mesh, extended, weights, control) {
                 Ok((candidate, solved)) => {
-                    self.tried += 1;
-                    self.solved = solved;
+                    self.trial.tried += 1;
+                    self.trial.solved = solved;
                     return Ok(candidate);
                 }
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
                 Err(error) => {
-                    self.tried += 1;
+                    self.trial.tried += 1;
                     self.notes.say(format!("the virtual boundary gave nothing: {error}"));
                 }
             }
         }
-        self.pin_more(mesh, control)
+        self.pin_more(task, mesh, control)
     }
 
     /// Solves the natural boundary equations with more vertices on a circle.
-    fn pin_more(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
+    fn pin_more(&mut self, task: &Task, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
         let boundary = mesh.boundary_loop().len();
         while !self.is_all_pinned {
-            let wanted = match self.task.settings.growth {
+            let wanted = match task.settings.growth {
                 Growth::Double => 2 * self.pinned,
                 Growth::One => self.pinned + 1,
             };
             let pinned = wanted.min(boundary);
             let is_last = pinned == boundary;
             // At last only weights that cannot fail will do.
-            let family = if is_last { Family::MeanValue } else { self.task.settings.family };
+            let family = if is_last { Family::MeanValue } else { task.settings.family };
             let settings = Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Natural, family) };
             let solved = flatten(mesh, &settings, &fixed_pins(on_circle(mesh, pinned)), control);
             if solved == Err(SolveError::Cancelled) {
@@ -157,8 +160,7 @@ impl Bend {
             match solved {
                 Err(error) => self.notes.say(format!("{pinned} boundary pins gave nothing: {error}")),
                 Ok(solution) => {
-                    (self.extended, self.tried) = (None, 0);
-                    self.solved = Embedding::default();
+                    self.trial = Trial::default();
                     return Ok(Candidate::new(Method::VirtualBoundary, family, solution));
                 }
             }
@@ -175,8 +177,8 @@ impl Bend {
         control: Control<'_>,
     ) -> Result<(Candidate, Embedding), SolveError> {
         let start = Instant::now();
-        let goes_on = weights == Weights::Again && !self.solved.is_empty();
-        let from = if goes_on { &self.solved } else { &extended.embedding };
+        let goes_on = weights == Weights::Again && !self.trial.solved.is_empty();
+        let from = if goes_on { &self.trial.solved } else { &extended.embedding };
         let has_pockets = !extended.pockets.is_empty();
         let (equations, residuals) = match weights {
             Weights::Surface if !has_pockets => (barycentric(mesh, 0.0)?, None),
@@ -184,7 +186,7 @@ impl Bend {
             _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
         };
         let start_at = Start { embedding: from, residuals: residuals.as_deref() };
-        let (solved, residual, stats) = extended.solve(&equations, start_at, control)?;
+        let (solved, linear) = extended.solve(equations, start_at, control)?;
         let stages = VirtualBoundary {
             pinned: self.pinned,
             outline: extended.outline,
@@ -198,14 +200,7 @@ impl Bend {
             embedding: Embedding::of_mesh(mesh, &solved),
             pins: Pins::new(),
             gauge_completed: true,
-            linear: Some(LinearSolve {
-                residual,
-                // All equations of the extended mesh are solved; those of the outline are prescribed.
-                equation_residual: extended.equation_residual(&equations, &solved),
-                replaced_pivots: stats.replaced_pivots,
-                bounded_corners: equations.bounded_corners,
-                factor_bytes: stats.factor_bytes,
-            }),
+            linear: Some(linear),
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() },
         };
         let candidate = Candidate::new(Method::VirtualBoundary, Family::MeanValue, solution);

@@ -3,15 +3,14 @@
 //! The regions between the paths are mapped into triangles, so every one of them has a convex outline, and positive
 //! weights give positive faces (Tutte 1963; Floater 2003 where vertices of the outline lie on one line).
 
-use glam::DVec2;
-
 use super::subdivision::{Role, Subdivision};
 use super::target_graph::TargetGraph;
-use crate::linalg::{Analysis, Kind};
+use crate::linalg::Kind;
 use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::equations::Equations;
-use crate::solver::free_solve::in_vertices;
+use crate::solver::equations::uniform;
+use crate::solver::fixed_solve::FixedSolve;
 use crate::solver::plane_weights::mean_value_in_plane;
+use crate::solver::system::Site;
 use crate::solver::{Control, Embedding, FreeSystem, PinPositions, SolveError};
 
 /// What the free vertices are drawn by.
@@ -56,33 +55,11 @@ pub(super) fn straightened(
     weights: Weights,
     control: Control<'_>,
 ) -> Result<Embedding, SolveError> {
-    let start = Embedding::from(cells.places.clone());
-    let mut places = start.clone();
-    for (&v, &place) in held {
-        places[v] = place;
-    }
     let system = FreeSystem::new(mesh, |v| cells.roles[v.index()] != Role::Free);
-    if system.free().is_empty() {
-        return Ok(places);
-    }
     let (equations, kind) = match weights {
-        Weights::MeanValue => (mean_value_in_plane(mesh, &start), Kind::General),
-        Weights::Uniform => {
-            let coefficients = vec![1.0; mesh.halfedge_count()];
-            (Equations { coefficients, bounded_corners: 0 }, Kind::Hermitian)
-        }
+        Weights::MeanValue => (mean_value_in_plane(mesh, &cells.places.clone().into()), Kind::General),
+        Weights::Uniform => (uniform(mesh), Kind::Hermitian),
     };
-    let matrix = system.negated_matrix(mesh, &equations);
-    let named = |error| in_vertices(error, system.free());
-    let factor = Analysis::new(kind, system.pattern())
-        .and_then(|analysis| analysis.factor(&matrix, control.cancel()))
-        .map_err(named)?;
-    let terms: Vec<DVec2> = system.pinned_terms(mesh, &equations, held);
-    let both: Vec<f64> = terms.iter().map(|z| z.x).chain(terms.iter().map(|z| z.y)).collect();
-    let solved = factor.solve_many(&matrix, &both).map_err(named)?;
-    let (x, y) = solved.x.split_at(terms.len());
-    for (&v, (&x, &y)) in system.free().iter().zip(x.iter().zip(y)) {
-        places[v] = DVec2::new(x, y);
-    }
-    Ok(places)
+    let site = Site { mesh, system: &system };
+    Ok(FixedSolve::new(site, equations, &system.analysis(kind)?, control)?.solve(site, held)?.0)
 }

@@ -1,0 +1,84 @@
+//! One factored system of a prescribed boundary: a real matrix, which x and y share.
+
+use glam::DVec2;
+use nalgebra_sparse::CscMatrix;
+
+use super::equations::Equations;
+use super::system::Site;
+use super::{Control, Embedding, LinearSolve, PinPositions, SolveError};
+use crate::linalg::{Analysis, Answer, Factor};
+use crate::mesh::VertexId;
+
+/// Equations, matrix and factors.
+pub(super) struct FixedSolve {
+    equations: Equations<f64>,
+    matrix: CscMatrix<f64>,
+    factor: Factor<f64>,
+}
+
+impl FixedSolve {
+    /// Factors the matrix of the equations.
+    pub(super) fn new(
+        site: Site<'_>,
+        equations: Equations<f64>,
+        analysis: &Analysis,
+        control: Control<'_>,
+    ) -> Result<Self, SolveError> {
+        let matrix = site.system.negated_matrix(site.mesh, &equations);
+        let factor = analysis.factor(&matrix, control.cancel()).map_err(|error| site.system.named(error))?;
+        Ok(Self { equations, matrix, factor })
+    }
+
+    /// The embedding with the prescribed vertices in their places, and the residual.
+    pub(super) fn solve(&self, site: Site<'_>, places: &PinPositions) -> Result<(Embedding, f64), SolveError> {
+        let terms = site.system.pinned_terms(site.mesh, &self.equations, |v| places[&v]);
+        let (free, residual) = self.answer(site, &terms, Factor::solve)?;
+        let mut embedding = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
+        // Assigned, not added: adding to zero would make a zero of a negative zero.
+        for (vertex, place) in free.into_iter().chain(places.iter().map(|(&v, &place)| (v, place))) {
+            embedding[vertex] = place;
+        }
+        Ok((embedding, residual))
+    }
+
+    /// The same, found as a move from an embedding whose free vertices have these residuals.
+    pub(super) fn solve_from(
+        &self,
+        site: Site<'_>,
+        start: &Embedding,
+        residuals: &[DVec2],
+    ) -> Result<Embedding, SolveError> {
+        let mut embedding = start.clone();
+        for (vertex, by) in self.answer(site, residuals, Factor::solve_correction)?.0 {
+            embedding[vertex] += by;
+        }
+        Ok(embedding)
+    }
+
+    /// What the system says of the free vertices for one term each, and the residual.
+    fn answer(
+        &self,
+        site: Site<'_>,
+        terms: &[DVec2],
+        by: Answer<f64>,
+    ) -> Result<(Vec<(VertexId, DVec2)>, f64), SolveError> {
+        let both: Vec<f64> = terms.iter().map(|z| z.x).chain(terms.iter().map(|z| z.y)).collect();
+        let solved = by(&self.factor, &self.matrix, &both).map_err(|error| site.system.named(error))?;
+        let (x, y) = solved.x.split_at(terms.len());
+        let free = site.system.free().iter().zip(x.iter().zip(y)).map(|(&v, (&x, &y))| (v, DVec2::new(x, y)));
+        Ok((free.collect(), solved.residual))
+    }
+
+    /// The numbers of a solve whose residual is summed up from the equations.
+    pub(super) fn numbers_measured(&self, site: Site<'_>, embedding: &Embedding) -> LinearSolve {
+        self.numbers(site, embedding, site.system.relative_residual(site.mesh, &self.equations, embedding))
+    }
+
+    /// The numbers of a solve. Prescribed vertices have no equation.
+    pub(super) fn numbers(&self, site: Site<'_>, embedding: &Embedding, residual: f64) -> LinearSolve {
+        let has_equation = |v| site.system.row(v).is_some();
+        let equation_residual = self.equations.to_complex().residual(site.mesh, embedding, has_equation);
+        let bounded_corners = self.equations.bounded_corners;
+        LinearSolve { residual, equation_residual, bounded_corners, ..self.factor.stats().into() }
+    }
+}
