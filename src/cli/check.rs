@@ -7,7 +7,7 @@ use super::flatten::{disk_of, go_on};
 use super::progress::is_interrupted;
 use super::summary::{StandardOutput, deliver};
 use super::{Failure, Status};
-use crate::io::{MeshReport, Report, Seconds, TextureError, TextureMesh, WriteError, verdict_as_in_file};
+use crate::io::{MeshReport, Report, Seconds, TextureError, WriteError, verdict_as_in_file};
 use crate::mesh::DiskMesh;
 use crate::session::Model;
 use crate::solver::{distortion, verdict};
@@ -16,18 +16,22 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let start = Instant::now();
     let model = Model::read_until(&arguments.mesh, &is_interrupted)?;
     let path = model.path_words();
-    let Some(texture) = texture_of(&model)? else {
-        let mesh = disk_of(&model)?;
-        go_on()?;
-        let report = report(MeshReport::new(path, mesh), start, start.elapsed().as_secs_f64());
-        let notes = &report.mesh;
-        let words = format!(
-            "{}: a disk of {} vertices and {} faces, {} on the boundary, {} dividing edges, {} ears; no texture \
-             coordinates",
-            notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
-        );
-        conclude(arguments, &report, &words)?;
-        return Ok(Status::Fine);
+    let texture = match model.source.texture_mesh() {
+        Ok(texture) => texture,
+        Err(TextureError::None) => {
+            let mesh = disk_of(&model)?;
+            go_on()?;
+            let report = report(MeshReport::new(path, mesh), start, start.elapsed().as_secs_f64());
+            let notes = &report.mesh;
+            let words = format!(
+                "{}: a disk of {} vertices and {} faces, {} on the boundary, {} dividing edges, {} ears; no texture \
+                 coordinates",
+                notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
+            );
+            conclude(arguments, &report, &words)?;
+            return Ok(Status::Fine);
+        }
+        Err(error) => return Err(error.into()),
     };
     let mesh = DiskMesh::try_from(texture.mesh).map_err(|diagnosis| Failure::NotADisk {
         path: format!("{path} (cut along the seams of its texture coordinates)"),
@@ -60,13 +64,4 @@ fn conclude(arguments: &CheckArguments, report: &Report, words: &str) -> Result<
         println!("{words}");
     }
     Ok(())
-}
-
-/// The mesh of the texture coordinates, `None` where the file has none.
-fn texture_of(model: &Model) -> Result<Option<TextureMesh>, Failure> {
-    match model.source.texture_mesh() {
-        Ok(texture) => Ok(Some(texture)),
-        Err(TextureError::None) => Ok(None),
-        Err(error) => Err(error.into()),
-    }
 }

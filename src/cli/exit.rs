@@ -66,50 +66,45 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 130 interrupted.
-    pub fn code(&self) -> u8 {
+    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 130 interrupted. Every error is named, so that a new
+    /// one has to choose.
+    pub const fn code(&self) -> u8 {
         match self {
-            Self::Read(error) => code_of_reading(error),
-            Self::Constraints(_) | Self::Picture(_) | Self::Texture(_) | Self::NotADisk { .. } => UNUSABLE_INPUT,
-            Self::Solve(error) => code_of_solving(error),
-            Self::Write(_) => INTERNAL,
-            Self::Usage(_) => WRONG_USE,
+            Self::Read(ReadError::Cancelled) | Self::Solve(SolveError::Cancelled) => INTERRUPTED,
+            Self::Read(
+                ReadError::File { .. }
+                | ReadError::Stream(_)
+                | ReadError::NotReadYet(_)
+                | ReadError::NotText
+                | ReadError::LineTooLong { .. }
+                | ReadError::Parse { .. }
+                | ReadError::NoFaces { .. }
+                | ReadError::TooLarge,
+            )
+            | Self::Constraints(_)
+            | Self::Picture(_)
+            | Self::Texture(_)
+            | Self::NotADisk { .. }
+            | Self::Solve(SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. }) => UNUSABLE_INPUT,
+            Self::Write(_)
+            | Self::Solve(
+                SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
+            ) => INTERNAL,
+            Self::Usage(_)
+            | Self::Solve(
+                SolveError::CoincidentPins { .. }
+                | SolveError::NoSuchVertex { .. }
+                | SolveError::TargetNotFinite { .. }
+                | SolveError::WeightNotPositive { .. }
+                | SolveError::FamilyNotApplicable { .. }
+                | SolveError::BoundaryTooShort { .. }
+                | SolveError::TooManyPins { .. }
+                | SolveError::Unmet
+                | SolveError::TooFine
+                | SolveError::NotPlanar
+                | SolveError::LadderExhausted,
+            ) => WRONG_USE,
         }
-    }
-}
-
-/// Every error is named, so that a new one has to choose.
-const fn code_of_reading(error: &ReadError) -> u8 {
-    match error {
-        ReadError::File { .. }
-        | ReadError::Stream(_)
-        | ReadError::NotReadYet { .. }
-        | ReadError::NotText
-        | ReadError::LineTooLong { .. }
-        | ReadError::Parse { .. }
-        | ReadError::NoFaces { .. }
-        | ReadError::TooLarge => UNUSABLE_INPUT,
-        ReadError::Cancelled => INTERRUPTED,
-    }
-}
-
-/// As [`code_of_reading`].
-const fn code_of_solving(error: &SolveError) -> u8 {
-    match error {
-        SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. } => UNUSABLE_INPUT,
-        SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. } => INTERNAL,
-        SolveError::CoincidentPins { .. }
-        | SolveError::NoSuchVertex { .. }
-        | SolveError::TargetNotFinite { .. }
-        | SolveError::WeightNotPositive { .. }
-        | SolveError::FamilyNotApplicable { .. }
-        | SolveError::BoundaryTooShort { .. }
-        | SolveError::TooManyPins { .. }
-        | SolveError::Unmet
-        | SolveError::TooFine
-        | SolveError::NotPlanar
-        | SolveError::LadderExhausted => WRONG_USE,
-        SolveError::Cancelled => INTERRUPTED,
     }
 }
 

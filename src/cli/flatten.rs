@@ -1,18 +1,24 @@
-//! `freebound flatten`: read, solve, prove, write.
+//! `freebound flatten`: read, solve, prove, write. And the main job without a screen: the built-in example, flattened
+//! into a folder.
 
 use std::path::Path;
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
 use super::args::FlattenArguments;
-use super::constraints::gather;
-use super::progress::{Progress, interrupted, is_interrupted};
+use super::exit::conclude;
+use super::progress::{Progress, interrupted, is_interrupted, stop_on_interrupt};
 use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, print_summary, step_words};
 use super::{Failure, Status};
-use crate::io::{OutputKind, PictureFile, Report, StepReport, StepsFolder};
-use crate::mesh::DiskMesh;
+use crate::examples::Example;
+use crate::io::{Constraints, OutputKind, PictureFile, Report, StepReport, StepsFolder, Target, Targets, WriteError};
+use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Outcome, OutputFit, Surface};
 use crate::solver::{Choice as _, Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
+
+/// Folder that the example is written into, in the current one.
+const FOLDER: &str = "freebound-example";
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     if let Some((option, why)) = arguments.idle_option() {
@@ -51,21 +57,80 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     })
 }
 
+/// Flattens the built-in face and writes mesh, report and picture into a folder that it names.
+pub fn run_example() -> ExitCode {
+    stop_on_interrupt();
+    conclude(flatten_example())
+}
+
+fn flatten_example() -> Result<Status, Failure> {
+    let folder = Path::new(FOLDER);
+    std::fs::create_dir_all(folder).map_err(|error| WriteError { path: folder.to_owned(), source: error })?;
+    let [mesh, picture, report] = ["face.obj", "face.png", "face.json"].map(|name| folder.join(name));
+    let job = HeadlessJob {
+        document: Document::of_example(Example::Face),
+        fit: OutputFit::Unit,
+        svg_fit: OutputFit::Unit,
+        outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
+        report: Some(&report),
+        steps: None,
+    };
+    let progress = Progress::default();
+    let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;
+    println!("wrote face.obj with its material and picture, face.json and face.png (before and after) into {FOLDER}/");
+    Ok(status)
+}
+
+/// The targets of all pins, for a mesh with so many vertices.
+///
+/// # Errors
+///
+/// A file that cannot be used, or a pin that clashes with another one; where that stands in the file, with its line.
+fn gather(arguments: &FlattenArguments, vertex_count: usize) -> Result<Targets, Failure> {
+    let file = match &arguments.constraints {
+        Some(path) => Constraints::read(path, vertex_count)?,
+        None => Constraints::default(),
+    };
+    let place = arguments.constraints.as_deref().unwrap_or(Path::new(""));
+    let mut targets = file.targets.clone();
+    for (vertex, target) in &arguments.pins {
+        if let Some(line) = file.lines.get(vertex) {
+            let text = format!("vertex {vertex} is pinned twice: by --pin and on line {line} of {}", place.display());
+            return Err(Failure::Usage(text));
+        }
+        if let Some(first) = in_the_way(&file.targets, target) {
+            let line = file.lines[&first];
+            let text = format!("--pin puts vertex {vertex} on the same place as line {line} of {}", place.display());
+            return Err(Failure::Usage(format!("{text} does vertex {first}: move one of them, or give a weight")));
+        }
+        if targets.insert(*vertex, *target).is_some() {
+            return Err(Failure::Usage(format!("vertex {vertex} is pinned twice: leave out one of the --pin")));
+        }
+    }
+    Ok(targets)
+}
+
+/// The exact pin that has the target of another exact one.
+fn in_the_way(targets: &Targets, target: &Target) -> Option<VertexId> {
+    let clashes = |other: &Target| target.hold.is_exact() && other.hold.is_exact() && other.uv == target.uv;
+    targets.iter().find(|(_, other)| clashes(other)).map(|(&vertex, _)| vertex)
+}
+
 /// A flattening without a screen, the mesh already read.
-pub(super) struct HeadlessJob<'a> {
-    pub(super) document: Document,
+struct HeadlessJob<'a> {
+    document: Document,
     /// Size of the texture coordinates.
-    pub(super) fit: OutputFit,
+    fit: OutputFit,
     /// Size of the drawing.
-    pub(super) svg_fit: OutputFit,
-    pub(super) outputs: Vec<(OutputKind, &'a Path)>,
-    pub(super) report: Option<&'a Path>,
-    pub(super) steps: Option<&'a Path>,
+    svg_fit: OutputFit,
+    outputs: Vec<(OutputKind, &'a Path)>,
+    report: Option<&'a Path>,
+    steps: Option<&'a Path>,
 }
 
 impl HeadlessJob<'_> {
     /// Flattens, proves, writes, and prints the summary. `start` is when reading began.
-    pub(super) fn run(&self, model: &Model, start: Instant, progress: &Progress) -> Result<Status, Failure> {
+    fn run(&self, model: &Model, start: Instant, progress: &Progress) -> Result<Status, Failure> {
         let mesh = disk_of(model)?;
         let read_seconds = start.elapsed().as_secs_f64();
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;

@@ -21,6 +21,11 @@ impl Bounds {
         points.into_iter().fold(Self::EMPTY, with)
     }
 
+    /// The box of a size whose lower left corner is given.
+    pub fn at(low: DVec2, size: DVec2) -> Self {
+        Self { low, high: low + size }
+    }
+
     /// The smallest box around both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
@@ -43,6 +48,12 @@ impl Bounds {
     /// The point in its middle.
     pub fn middle(self) -> DVec2 {
         self.low.midpoint(self.high)
+    }
+
+    /// Its corners: the lower left one, then along the x axis, around.
+    pub fn corners(self) -> [DVec2; 4] {
+        let Self { low, high } = self;
+        [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
     }
 
     /// Length of its diagonal.

@@ -48,29 +48,17 @@ pub enum ConstraintsError {
 #[non_exhaustive]
 pub enum ConstraintFault {
     /// Not of the form that lines have.
-    #[error("write \"vertex u v\" or \"vertex u v weight\", not \"{text}\"")]
-    Form {
-        /// The line.
-        text: String,
-    },
+    #[error("write \"vertex u v\" or \"vertex u v weight\", not \"{0}\"")]
+    Form(String),
     /// Something that ought to be a number is none.
-    #[error("\"{text}\" is not a number")]
-    BadNumber {
-        /// The word.
-        text: String,
-    },
+    #[error("\"{0}\" is not a number")]
+    BadNumber(String),
     /// A vertex number that is negative, broken, or beyond 32 bits.
-    #[error("\"{text}\" is not the number of a vertex; vertices count from 0")]
-    BadVertex {
-        /// The word.
-        text: String,
-    },
-    /// A target that is infinite or not a number.
-    #[error("the target of vertex {vertex} is not finite")]
-    NotFinite {
-        /// The vertex.
-        vertex: VertexId,
-    },
+    #[error("\"{0}\" is not the number of a vertex; vertices count from 0")]
+    BadVertex(String),
+    /// A vertex whose target is infinite or not a number.
+    #[error("the target of vertex {0} is not finite")]
+    NotFinite(VertexId),
     /// A weight that pulls nowhere.
     #[error("the weight {weight} of vertex {vertex} is not a positive number")]
     WeightNotPositive {
@@ -170,16 +158,16 @@ impl Constraints {
 fn parse_line(text: &str) -> Result<(VertexId, Target), ConstraintFault> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let (&[vertex, u, v] | &[vertex, u, v, _]) = words.as_slice() else {
-        return Err(ConstraintFault::Form { text: text.to_owned() });
+        return Err(ConstraintFault::Form(text.to_owned()));
     };
-    let vertex: u32 = vertex.parse().map_err(|_| ConstraintFault::BadVertex { text: vertex.to_owned() })?;
+    let vertex: u32 = vertex.parse().map_err(|_| ConstraintFault::BadVertex(vertex.to_owned()))?;
     let vertex = VertexId::new(vertex);
     let number = |word: &str| -> Result<f64, ConstraintFault> {
-        word.parse().map_err(|_| ConstraintFault::BadNumber { text: word.to_owned() })
+        word.parse().map_err(|_| ConstraintFault::BadNumber(word.to_owned()))
     };
     let uv = DVec2::new(number(u)?, number(v)?);
     if !uv.is_finite() {
-        return Err(ConstraintFault::NotFinite { vertex });
+        return Err(ConstraintFault::NotFinite(vertex));
     }
     let hold = match words.get(3) {
         None => Hold::Hard,

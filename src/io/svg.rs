@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use glam::DVec2;
 
 use super::ProvedEmbedding;
-use crate::geom::Similarity;
+use crate::geom::{Bounds, Similarity};
 use crate::mesh::{DiskMesh, EdgeId, VertexId};
 use crate::solver::{Embedding, Step, VirtualBoundary, to_true_area};
 
@@ -192,8 +192,7 @@ impl<'a> Drawing<'a> {
 
 /// From the plane to the drawing.
 struct Frame {
-    low: DVec2,
-    high: DVec2,
+    bounds: Bounds,
     scale: f64,
     /// Free space around it, in the drawing's units.
     margin: f64,
@@ -205,48 +204,43 @@ struct Frame {
 
 impl Frame {
     /// Around some points, at a size of its own.
-    fn around<'a>(points: impl Iterator<Item = &'a DVec2>) -> Self {
-        let [low, high] = bounds(points);
-        let extent = (high - low).max_element();
+    fn around<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> Self {
+        let bounds = finite_bounds(points);
+        let extent = bounds.size().max_element();
         let scale = if extent.is_finite() && extent > 0.0 { SIZE / extent } else { 1.0 };
-        Self { low, high, scale, margin: MARGIN, decimals: 3, is_to_scale: false }
+        Self { bounds, scale, margin: MARGIN, decimals: 3, is_to_scale: false }
     }
 
     /// The unit square, as wide as a picture of this aspect, and whatever lies outside.
     fn of_picture(aspect: f64, points: &[DVec2]) -> Self {
-        let [low, high] = bounds(points.iter().chain(&[DVec2::ZERO, DVec2::new(aspect, 1.0)]));
-        Self { low, high, scale: SIZE / aspect.max(1.0), margin: 0.0, decimals: 3, is_to_scale: false }
+        let bounds = finite_bounds(points.iter().chain(&[DVec2::ZERO, DVec2::new(aspect, 1.0)]));
+        Self { bounds, scale: SIZE / aspect.max(1.0), margin: 0.0, decimals: 3, is_to_scale: false }
     }
 
     /// Around some points, lengths as they are.
     fn at_scale(points: &[DVec2]) -> Self {
-        let [low, high] = bounds(points.iter());
-        let extent = (high - low).max_element();
+        let bounds = finite_bounds(points);
+        let extent = bounds.size().max_element();
         let decimals = (0..=300).take_while(|&n| extent * 10_f64.powi(n) < SIZE * SIZE).count();
-        Self { low, high, scale: 1.0, margin: extent * MARGIN / SIZE, decimals, is_to_scale: true }
+        Self { bounds, scale: 1.0, margin: extent * MARGIN / SIZE, decimals, is_to_scale: true }
     }
 
     /// A length that is measured in parts of the drawing's size.
     fn length(&self, parts: f64) -> f64 {
-        let unit = if self.is_to_scale { (self.high - self.low).max_element() / SIZE } else { 1.0 };
+        let unit = if self.is_to_scale { self.bounds.size().max_element() / SIZE } else { 1.0 };
         parts * unit
     }
 
     /// Width and height.
     fn page(&self) -> DVec2 {
-        (self.high - self.low) * self.scale + 2.0 * self.margin
+        self.bounds.size() * self.scale + 2.0 * self.margin
     }
 
     fn place(&self, z: DVec2) -> DVec2 {
-        DVec2::new(z.x - self.low.x, self.high.y - z.y) * self.scale + self.margin
+        DVec2::new(z.x - self.bounds.low.x, self.bounds.high.y - z.y) * self.scale + self.margin
     }
 }
 
-/// Lower left and upper right corner of the box around the points that are finite.
-fn bounds<'a>(points: impl Iterator<Item = &'a DVec2>) -> [DVec2; 2] {
-    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for point in points.filter(|point| point.is_finite()) {
-        (low, high) = (low.min(*point), high.max(*point));
-    }
-    [low, high]
+fn finite_bounds<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> Bounds {
+    Bounds::of(points.into_iter().copied().filter(|point| point.is_finite()))
 }

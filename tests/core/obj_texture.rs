@@ -43,6 +43,6 @@ fn faces_without_texture_coordinates_are_named() {
         partial.texture.as_ref().expect("one face has them").corners[..4],
         [NO_TEXTURE, NO_TEXTURE, NO_TEXTURE, 0]
     );
-    assert_eq!(partial.texture_mesh(), Err(TextureError::Missing { faces: vec![0, 2] }));
+    assert_eq!(partial.texture_mesh(), Err(TextureError::Missing(vec![0, 2])));
     assert_eq!(read(&format!("{ELEMENTS}f 1 2 3\n")).texture_mesh(), Err(TextureError::None));
 }

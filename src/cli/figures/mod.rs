@@ -6,13 +6,11 @@
 //! | file       | what it holds                                                              |
 //! |------------|----------------------------------------------------------------------------|
 //! | `mod`      | a figure and its rows of the table; all figures computed and written       |
-//! | `flat`     | figure 1: a flat mesh under a convex boundary                              |
-//! | `free`     | figures 3 and 4: the cube, and its free-boundary embeddings                |
+//! | `free`     | figures 1, 3 and 4: a flat mesh; the cube, its free-boundary embeddings    |
 //! | `repaired` | figures 5 and 6: the iteration and the virtual boundary                    |
 //! | `textured` | figures 8 and 9: the face and its portrait                                 |
 //! | `pairs`    | the pinned pairs of vertices                                               |
 
-mod flat;
 mod free;
 pub mod pairs;
 mod repaired;
@@ -138,7 +136,7 @@ fn compute(progress: &Progress) -> Result<Vec<Figure>, SolveError> {
     let disk = |example: Example| Arc::new(DiskMesh::try_from(example.mesh()).expect("built-in meshes are disks"));
     let (ell, cube) = (disk(Example::Ell), disk(Example::Cube));
     progress.enter("figure 1");
-    let mut figures = vec![flat::figure_1(&ell, control)?];
+    let mut figures = vec![free::figure_1(&ell, control)?];
     progress.enter("figure 3");
     figures.push(free::figure_3(&cube));
     progress.enter("figure 4");

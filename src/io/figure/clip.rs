@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::Area;
+use crate::geom::Bounds;
 
 /// The part of a segment inside a rectangle, if there is any (Liang and Barsky 1984).
-pub(super) fn clip_segment([a, b]: [DVec2; 2], area: Area) -> Option<[DVec2; 2]> {
+pub(super) fn clip_segment([a, b]: [DVec2; 2], area: Bounds) -> Option<[DVec2; 2]> {
     let along = b - a;
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for axis in 0..2 {
@@ -25,7 +25,7 @@ pub(super) fn clip_segment([a, b]: [DVec2; 2], area: Area) -> Option<[DVec2; 2]>
 
 /// The part of a polygon inside a rectangle (Sutherland and Hodgman 1974). Where the polygon leaves and comes back, its
 /// parts hang together along the rectangle's side.
-pub(super) fn clip_polygon(polygon: &[DVec2], area: Area) -> Vec<DVec2> {
+pub(super) fn clip_polygon(polygon: &[DVec2], area: Bounds) -> Vec<DVec2> {
     let sides =
         [(DVec2::X, area.low.x), (DVec2::NEG_X, -area.high.x), (DVec2::Y, area.low.y), (DVec2::NEG_Y, -area.high.y)];
     let mut kept = polygon.to_vec();
@@ -50,7 +50,7 @@ pub(super) fn clip_polygon(polygon: &[DVec2], area: Area) -> Vec<DVec2> {
 mod tests {
     use super::*;
 
-    const UNIT: Area = Area { low: DVec2::ZERO, high: DVec2::ONE };
+    const UNIT: Bounds = Bounds { low: DVec2::ZERO, high: DVec2::ONE };
 
     #[test]
     fn a_segment_is_cut_on_both_sides_or_left_out() {

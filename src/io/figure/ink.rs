@@ -9,8 +9,8 @@
 use glam::DVec2;
 
 use super::font::{strokes_of, width_of};
-use super::{Anchor, Area, Ink, Item, Page, Path, Words, colours};
-use crate::geom::Picture;
+use super::{Anchor, Ink, Item, Page, Path, Words, colours};
+use crate::geom::{Bounds, Picture};
 use crate::io::raster::Colour;
 
 /// Scan lines per row of pixels.
@@ -37,7 +37,7 @@ impl Page {
 }
 
 /// Copies a picture into an area, each pixel as it is at its centre.
-fn paste(page: &mut Picture, area: Area, source: &Picture, scale: f64) {
+fn paste(page: &mut Picture, area: Bounds, source: &Picture, scale: f64) {
     let (low, size) = (area.low * scale, area.size() * scale);
     let end = |high: f64, limit: u32| (high.round().max(0.0) as u32).min(limit);
     for y in low.y.round().max(0.0) as u32..end(low.y + size.y, page.height) {

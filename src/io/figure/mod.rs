@@ -28,7 +28,7 @@ use glam::DVec2;
 
 use self::clip::{clip_polygon, clip_segment};
 use super::raster::Colour;
-use crate::geom::Picture;
+use crate::geom::{Bounds, Picture};
 
 pub use font::has_glyph;
 pub use panel::{Outside, PlaneDrawing, Pockets, Window, zones_of};
@@ -66,38 +66,6 @@ pub mod colours {
     pub const CONSTRAINT: Colour = [0x00, 0x8f, 0xa3];
     /// The frame around what an inset shows.
     pub const FRAME: Colour = [0x2f, 0x5b, 0xd8];
-}
-
-/// A rectangle on a page.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Area {
-    /// Upper left corner.
-    pub low: DVec2,
-    /// Lower right corner.
-    pub high: DVec2,
-}
-
-impl Area {
-    /// A rectangle by its upper left corner and its size.
-    fn new(low: DVec2, size: DVec2) -> Self {
-        Self { low, high: low + size }
-    }
-
-    /// Width and height.
-    fn size(&self) -> DVec2 {
-        self.high - self.low
-    }
-
-    /// The middle.
-    fn centre(&self) -> DVec2 {
-        self.low.midpoint(self.high)
-    }
-
-    /// The corners, clockwise on the page from the upper left.
-    fn corners(&self) -> [DVec2; 4] {
-        let (low, high) = (self.low, self.high);
-        [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
-    }
 }
 
 /// What a line or an outline is drawn with.
@@ -156,7 +124,7 @@ struct Words {
 enum Item {
     Path(Path),
     Words(Words),
-    Picture(Area, Picture),
+    Picture(Bounds, Picture),
 }
 
 /// A page of paths, pictures and words, later ones over earlier ones.
@@ -173,7 +141,7 @@ impl Page {
     }
 
     /// Draws closed outlines, or their parts within an area.
-    fn outlines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Area>) {
+    fn outlines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Bounds>) {
         let Some(area) = within else { return self.path(lines, true, ink) };
         if let Some(fill) = ink.fill {
             let inside = lines.iter().map(|line| clip_polygon(line, area)).collect();
@@ -187,7 +155,7 @@ impl Page {
     }
 
     /// Draws open lines, or their parts within an area.
-    fn lines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Area>) {
+    fn lines(&mut self, lines: Vec<Vec<DVec2>>, ink: Ink, within: Option<Bounds>) {
         let Some(area) = within else { return self.path(lines, false, ink) };
         self.path(lines.iter().flat_map(|line| parts_within(line, area)).collect(), false, ink);
     }
@@ -200,7 +168,7 @@ impl Page {
     }
 
     /// Draws a picture into an area.
-    fn picture_at(&mut self, area: Area, picture: Picture) {
+    fn picture_at(&mut self, area: Bounds, picture: Picture) {
         self.items.push(Item::Picture(area, picture));
     }
 
@@ -213,7 +181,7 @@ impl Page {
 }
 
 /// The parts of an open line within an area, in its order.
-fn parts_within(line: &[DVec2], area: Area) -> Vec<Vec<DVec2>> {
+fn parts_within(line: &[DVec2], area: Bounds) -> Vec<Vec<DVec2>> {
     let mut parts: Vec<Vec<DVec2>> = Vec::new();
     for pair in line.windows(2) {
         let Some([from, to]) = clip_segment([pair[0], pair[1]], area) else { continue };

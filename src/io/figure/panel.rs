@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Anchor, Area, Ink, Page, colours};
+use super::{Anchor, Ink, Page, colours};
+use crate::geom::Bounds;
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::solver::{Embedding, Step};
 
@@ -45,22 +46,21 @@ pub struct Window {
 }
 
 impl Window {
-    /// The square around some points with a share of their extent left free on each side.
-    fn around(points: impl Iterator<Item = DVec2> + Clone, margin: f64) -> Self {
-        let low = points.clone().fold(DVec2::INFINITY, DVec2::min);
-        let high = points.fold(DVec2::NEG_INFINITY, DVec2::max);
-        Self { centre: low.midpoint(high), half: (high - low).max_element() * (0.5 + margin) }
+    /// The square around a box with a share of its extent left free on each side.
+    fn around(bounds: Bounds, margin: f64) -> Self {
+        Self { centre: bounds.middle(), half: bounds.size().max_element() * (0.5 + margin) }
     }
 
     /// The square around some faces of an embedding.
     pub fn on_faces(mesh: &DiskMesh, embedding: &Embedding, faces: &[FaceId]) -> Self {
-        Self::around(faces.iter().flat_map(|&face| mesh.face(face)).map(|v| embedding[v]), WINDOW_MARGIN)
+        let corners = faces.iter().flat_map(|&face| mesh.face(face));
+        Self::around(Bounds::of(corners.map(|v| embedding[v])), WINDOW_MARGIN)
     }
 
     /// The square around some triangles of an embedding, moved to where a panel of the whole shows it.
     pub fn on_triangles(embedding: &Embedding, triangles: &[[VertexId; 3]]) -> Self {
-        let whole = Self::around(embedding.iter().copied(), MARGIN);
-        let window = Self::around(triangles.iter().flatten().map(|v| embedding[v]), TRIANGLES_MARGIN);
+        let whole = Self::around(embedding.bounds(), MARGIN);
+        let window = Self::around(Bounds::of(triangles.iter().flatten().map(|&v| embedding[v])), TRIANGLES_MARGIN);
         let room = DVec2::splat((whole.half - window.half).max(0.0));
         Self { centre: window.centre.clamp(whole.centre - room, whole.centre + room), ..window }
     }
@@ -68,7 +68,7 @@ impl Window {
 
 /// Groups faces that lie near each other in an embedding, the largest group first.
 pub fn zones_of(mesh: &DiskMesh, embedding: &Embedding, faces: &[FaceId]) -> Vec<Vec<FaceId>> {
-    let reach = ZONE * 2.0 * Window::around(embedding.iter().copied(), 0.0).half;
+    let reach = ZONE * 2.0 * Window::around(embedding.bounds(), 0.0).half;
     let centre = |face: FaceId| mesh.face(face).iter().map(|v| embedding[v]).sum::<DVec2>() / 3.0;
     let mut zones: Vec<Vec<FaceId>> = Vec::new();
     for &face in faces {
@@ -162,8 +162,8 @@ impl PlaneDrawing {
     }
 
     /// Draws into an area.
-    pub(super) fn draw(&self, page: &mut Page, area: Area) {
-        let shown = self.window.unwrap_or_else(|| Window::around(self.embedding.iter().copied(), MARGIN));
+    pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
+        let shown = self.window.unwrap_or_else(|| Window::around(self.embedding.bounds(), MARGIN));
         self.draw_window(page, area, shown);
         if self.window.is_some() {
             page.outlines(vec![area.corners().to_vec()], Ink::stroke(colours::INK, 0.8), None);
@@ -174,7 +174,7 @@ impl PlaneDrawing {
             let [low, high] = [place(window.centre - half), place(window.centre + half)];
             // A frame that a pin's square would hide is drawn larger than what it frames.
             let (centre, half) = (low.midpoint(high), ((high - low) / 2.0).max(DVec2::splat(LEAST_FRAME)));
-            Area { low: centre - half, high: centre + half }
+            Bounds { low: centre - half, high: centre + half }
         };
         let frame_ink = Ink::stroke(colours::FRAME, 0.9);
         if let Some(window) = &self.framed {
@@ -189,19 +189,19 @@ impl PlaneDrawing {
     }
 
     /// Draws a magnified part, in a frame with its number.
-    pub(super) fn draw_inset(&self, page: &mut Page, area: Area, number: usize) {
+    pub(super) fn draw_inset(&self, page: &mut Page, area: Bounds, number: usize) {
         self.draw_window(page, area, self.insets[number]);
         page.outlines(vec![area.corners().to_vec()], Ink::stroke(colours::FRAME, 0.9), None);
-        let label = Area::new(area.low, DVec2::new(12.0, 13.0));
+        let label = Bounds::at(area.low, DVec2::new(12.0, 13.0));
         page.outlines(vec![label.corners().to_vec()], Ink::both(colours::PAPER, colours::FRAME, 0.9), None);
-        let at = DVec2::new(label.centre().x, label.high.y - 3.0);
+        let at = DVec2::new(label.middle().x, label.high.y - 3.0);
         page.words(at, Anchor::Middle, 9.0, &format!("{}", number + 1));
     }
 
-    fn draw_window(&self, page: &mut Page, area: Area, shown: Window) {
+    fn draw_window(&self, page: &mut Page, area: Bounds, shown: Window) {
         let place = placing(area, shown);
         let at = |v: VertexId| place(self.embedding[v]);
-        let whole = Window::around(self.embedding.iter().copied(), MARGIN);
+        let whole = Window::around(self.embedding.bounds(), MARGIN);
         let width = if shown.half < 0.5 * whole.half { MAGNIFIED * EDGE } else { EDGE };
         let clip = Some(area);
         let corners = |faces: &[FaceId]| -> Vec<Vec<DVec2>> {
@@ -235,17 +235,17 @@ impl PlaneDrawing {
         self.draw_pins(page, area, &at);
     }
 
-    fn draw_pins(&self, page: &mut Page, area: Area, at: &impl Fn(VertexId) -> DVec2) {
+    fn draw_pins(&self, page: &mut Page, area: Bounds, at: &impl Fn(VertexId) -> DVec2) {
         let squares = self.pins.iter().map(|&v| {
             let half = DVec2::splat(PIN);
-            Area { low: at(v) - half, high: at(v) + half }.corners().to_vec()
+            Bounds { low: at(v) - half, high: at(v) + half }.corners().to_vec()
         });
         page.outlines(squares.collect(), Ink::both(colours::PAPER, colours::PIN, 1.4), Some(area));
     }
 }
 
 /// From the plane to an area of the page, as large as fits.
-fn placing(area: Area, shown: Window) -> impl Fn(DVec2) -> DVec2 {
+fn placing(area: Bounds, shown: Window) -> impl Fn(DVec2) -> DVec2 {
     let scale = area.size().min_element() / (2.0 * shown.half);
-    move |z| area.centre() + scale * DVec2::new(z.x - shown.centre.x, shown.centre.y - z.y)
+    move |z| area.middle() + scale * DVec2::new(z.x - shown.centre.x, shown.centre.y - z.y)
 }

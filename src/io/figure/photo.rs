@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Anchor, Area, Ink, Page, colours};
-use crate::geom::Picture;
+use super::{Anchor, Ink, Page, colours};
+use crate::geom::{Bounds, Picture};
 
 /// Half the diagonal of a mark, points.
 const MARK: f64 = 3.6;
@@ -22,10 +22,10 @@ pub struct PhotoDrawing {
 
 impl PhotoDrawing {
     /// Draws into an area.
-    pub(super) fn draw(&self, page: &mut Page, area: Area) {
+    pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         let pixels = DVec2::new(f64::from(self.picture.width), f64::from(self.picture.height));
         let size = pixels * (area.size() / pixels).min_element();
-        let shown = Area::new(area.centre() - size / 2.0, size);
+        let shown = Bounds::at(area.middle() - size / 2.0, size);
         page.picture_at(shown, self.picture.clone());
         let place = |mark: &DVec2| shown.low + DVec2::new(mark.x, 1.0 - mark.y) * size;
         let diamond = |at: DVec2| [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y].map(|way| at + MARK * way).to_vec();

@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use super::font::width_of;
-use super::{Anchor, Area, Page, PhotoDrawing, PlaneDrawing, SpaceDrawing};
+use super::{Anchor, Page, PhotoDrawing, PlaneDrawing, SpaceDrawing};
+use crate::geom::Bounds;
 
 /// Free space around everything, points.
 const MARGIN: f64 = 16.0;
@@ -51,11 +52,11 @@ impl Panel {
         }
     }
 
-    fn draw(&self, page: &mut Page, cell: Area, inset: f64) {
+    fn draw(&self, page: &mut Page, cell: Bounds, inset: f64) {
         // Without insets of its own the drawing stands in the middle of its cell.
         let count = self.inset_count();
         let shift = if count > 0 { 0.0 } else { (cell.size().x - PANEL) / 2.0 };
-        let area = Area::new(cell.low + DVec2::new(shift, 0.0), DVec2::splat(PANEL));
+        let area = Bounds::at(cell.low + DVec2::new(shift, 0.0), DVec2::splat(PANEL));
         match &self.drawing {
             Drawing::Space(drawing) => drawing.draw(page, area),
             Drawing::Photo(drawing) => drawing.draw(page, area),
@@ -64,11 +65,11 @@ impl Panel {
                 for number in 0..count {
                     let down = number as f64 * (inset + INSET_GAP);
                     let corner = DVec2::new(area.high.x + INSET_GAP, area.low.y + down);
-                    drawing.draw_inset(page, Area::new(corner, DVec2::splat(inset)), number);
+                    drawing.draw_inset(page, Bounds::at(corner, DVec2::splat(inset)), number);
                 }
             }
         }
-        let at = DVec2::new(cell.centre().x, cell.low.y + PANEL + 8.0 + LINE * 0.7);
+        let at = DVec2::new(cell.middle().x, cell.low.y + PANEL + 8.0 + LINE * 0.7);
         page.words(at, Anchor::Middle, WORDS, &self.words);
     }
 }
@@ -100,7 +101,7 @@ impl Sheet {
         for (k, panel) in self.panels.iter().enumerate() {
             let (row, column) = (k / self.columns, k % self.columns);
             let corner = DVec2::new(column as f64, row as f64) * (cell + GAP) + MARGIN;
-            panel.draw(&mut page, Area::new(corner, cell), inset);
+            panel.draw(&mut page, Bounds::at(corner, cell), inset);
         }
         for (k, line) in caption.iter().enumerate() {
             page.words(DVec2::new(MARGIN, below + LINE * (k as f64 + 0.7)), Anchor::Start, WORDS, line);

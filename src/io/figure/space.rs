@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::{Area, Ink, Page, colours};
+use super::{Ink, Page, colours};
+use crate::geom::Bounds;
 use crate::io::raster::{Colour, View};
 use crate::mesh::DiskMesh;
 
@@ -31,7 +32,7 @@ pub struct SpaceDrawing {
 
 impl SpaceDrawing {
     /// Draws into an area.
-    pub(super) fn draw(&self, page: &mut Page, area: Area) {
+    pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
         let [right, up, towards] = self.view.axes();
         let seen: Vec<DVec3> =
             self.mesh.mesh().positions.iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect();
@@ -39,7 +40,7 @@ impl SpaceDrawing {
         let high = seen.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         let (centre, extent) = (low.midpoint(high), high - low);
         let scale = (area.size() / extent.truncate()).min_element() * (1.0 - 2.0 * MARGIN);
-        let place = |p: DVec3| area.centre() + scale * DVec2::new(p.x - centre.x, centre.y - p.y);
+        let place = |p: DVec3| area.middle() + scale * DVec2::new(p.x - centre.x, centre.y - p.y);
         let depth = |corners: &[DVec3; 3]| corners.iter().map(|p| p.z).sum::<f64>();
         let mut faces: Vec<([DVec3; 3], [bool; 3])> = self
             .mesh

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use base64::prelude::{BASE64_STANDARD, Engine as _};
 use glam::DVec2;
 
-use super::{Anchor, Area, Item, Page, Path, Words, colours};
-use crate::geom::Picture;
+use super::{Anchor, Item, Page, Path, Words, colours};
+use crate::geom::{Bounds, Picture};
 use crate::io::raster::Colour;
 
 impl Page {
@@ -25,7 +25,7 @@ impl Page {
             match item {
                 Item::Path(path) => write_path(out, path)?,
                 Item::Words(words) => write_words(out, words)?,
-                Item::Picture(area, picture) => write_picture(out, area, picture)?,
+                Item::Picture(area, picture) => write_picture(out, *area, picture)?,
             }
         }
         writeln!(out, "</svg>")
@@ -54,7 +54,7 @@ fn write_path(out: &mut impl Write, path: &Path) -> io::Result<()> {
     writeln!(out, r#""/>"#)
 }
 
-fn write_picture(out: &mut impl Write, area: &Area, picture: &Picture) -> io::Result<()> {
+fn write_picture(out: &mut impl Write, area: Bounds, picture: &Picture) -> io::Result<()> {
     let mut png = Vec::new();
     picture.write_png(&mut png).map_err(io::Error::other)?;
     let (DVec2 { x, y }, size) = (area.low, area.size());

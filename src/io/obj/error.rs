@@ -21,11 +21,8 @@ pub enum ReadError {
     #[error("cannot read: {0}")]
     Stream(#[from] std::io::Error),
     /// The file has a format that is known but not read.
-    #[error("format not read yet: {format}")]
-    NotReadYet {
-        /// The format's name.
-        format: &'static str,
-    },
+    #[error("format not read yet: {0}")]
+    NotReadYet(&'static str),
     /// The file holds a zero byte, which no text does.
     #[error("this is no text, so no OBJ file")]
     NotText,
@@ -64,7 +61,7 @@ impl ReadError {
     pub const fn remedy(&self) -> &'static str {
         match self {
             Self::File { .. } | Self::Stream(_) => "check the path and the permissions",
-            Self::NotReadYet { .. } => "convert the file to OBJ",
+            Self::NotReadYet(_) => "convert the file to OBJ",
             Self::NotText | Self::LineTooLong { .. } => "choose an OBJ file",
             Self::Parse { .. } => "mend these lines, or export the file again",
             Self::NoFaces { .. } => "export the surface with its faces",
@@ -97,11 +94,8 @@ pub struct ParseFault {
 #[non_exhaustive]
 pub enum ParseFaultKind {
     /// A word in the place of a number.
-    #[error("\"{text}\" is not a number")]
-    BadNumber {
-        /// The word.
-        text: String,
-    },
+    #[error("\"{0}\" is not a number")]
+    BadNumber(String),
     /// A vertex or texture coordinate with too few numbers.
     #[error("{found} numbers where {needed} are needed")]
     TooFewNumbers {
@@ -111,11 +105,8 @@ pub enum ParseFaultKind {
         needed: usize,
     },
     /// A corner that is not of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-    #[error("\"{text}\" is not a corner of a face")]
-    BadCorner {
-        /// The word.
-        text: String,
-    },
+    #[error("\"{0}\" is not a corner of a face")]
+    BadCorner(String),
     /// An index that no element can have.
     #[error("index 0: OBJ files count from 1")]
     IndexZero,
@@ -129,12 +120,9 @@ pub enum ParseFaultKind {
         /// How many such elements there are.
         count: usize,
     },
-    /// A face with fewer than three corners.
-    #[error("a face with {found} {}, three are needed", if *found == 1 { "corner" } else { "corners" })]
-    TooFewCorners {
-        /// How many there are.
-        found: usize,
-    },
+    /// A face with so many corners, fewer than three.
+    #[error("a face with {} {}, three are needed", .0, if *.0 == 1 { "corner" } else { "corners" })]
+    TooFewCorners(usize),
 }
 
 /// Why texture coordinates do not make a mesh.
@@ -144,10 +132,7 @@ pub enum TextureError {
     /// The file has no texture coordinates on its faces.
     #[error("the file has no texture coordinates")]
     None,
-    /// Some faces have corners without texture coordinates.
-    #[error("{} faces have corners without texture coordinates, the first is face {}", faces.len(), faces[0])]
-    Missing {
-        /// The file's numbers of these faces, from 0.
-        faces: Vec<u32>,
-    },
+    /// These faces, by the file's numbers from 0, have corners without texture coordinates.
+    #[error("{} faces have corners without texture coordinates, the first is face {}", .0.len(), .0[0])]
+    Missing(Vec<u32>),
 }

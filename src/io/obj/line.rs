@@ -18,7 +18,7 @@ pub(super) fn numbers<'a, const N: usize>(
     let mut values = [0.0; N];
     for (found, value) in values.iter_mut().enumerate() {
         let word = words.next().ok_or(ParseFaultKind::TooFewNumbers { found, needed: N })?;
-        *value = number(word).ok_or_else(|| ParseFaultKind::BadNumber { text: quoted(word) })?;
+        *value = number(word).ok_or_else(|| ParseFaultKind::BadNumber(quoted(word)))?;
     }
     Ok(values)
 }
@@ -46,7 +46,7 @@ fn special_number(text: &str) -> Option<f64> {
 
 /// One corner of a face as written: indices of the position and of the texture coordinate, if it has one.
 pub(super) fn corner(word: &[u8]) -> Result<(i64, Option<i64>), ParseFaultKind> {
-    let bad = || ParseFaultKind::BadCorner { text: quoted(word) };
+    let bad = || ParseFaultKind::BadCorner(quoted(word));
     let (vertex, mut rest) = index(word).ok_or_else(bad)?;
     let mut texture = None;
     if let [b'/', after @ ..] = rest {

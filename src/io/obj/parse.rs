@@ -73,7 +73,7 @@ impl Parser {
         if !std::mem::replace(&mut self.begun, true)
             && let Some(format) = format_of_word(keyword)
         {
-            return Err(ReadError::NotReadYet { format });
+            return Err(ReadError::NotReadYet(format));
         }
         match keyword {
             b"v" => match numbers::<3>(words) {
@@ -152,7 +152,7 @@ impl Parser {
             self.mesh.polygons.corners.push(VertexId::new(vertex));
             found += 1;
         }
-        if found < 3 { Err(ParseFaultKind::TooFewCorners { found }) } else { Ok(()) }
+        if found < 3 { Err(ParseFaultKind::TooFewCorners(found)) } else { Ok(()) }
     }
 
     /// The line that a face stands on.

@@ -47,7 +47,7 @@ pub fn read_mesh_with(path: &Path, watch: &mut dyn FnMut(Progress) -> ControlFlo
     let file = File::open(path).map_err(unreadable)?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if let Some(format) = format_of_extension(&extension) {
-        return Err(ReadError::NotReadYet { format });
+        return Err(ReadError::NotReadYet(format));
     }
     let total = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|data| data.len());
     let read = read_obj_with(file, &mut |bytes| watch(Progress { bytes, total }));
@@ -133,5 +133,5 @@ fn not_text(head: &[u8], lines_before: u64) -> ReadError {
         _ if head.starts_with(b"glTF") => Some("glTF"),
         word => word.and_then(format_of_word),
     };
-    format.map_or(ReadError::NotText, |format| ReadError::NotReadYet { format })
+    format.map_or(ReadError::NotText, ReadError::NotReadYet)
 }

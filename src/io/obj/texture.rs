@@ -76,7 +76,7 @@ impl ObjMesh {
         };
         let face_count = u32::try_from(self.polygons.face_count()).expect("faces fit");
         let faces: Vec<u32> = (0..face_count).filter(lacks).collect();
-        if faces.is_empty() { Ok(()) } else { Err(TextureError::Missing { faces }) }
+        if faces.is_empty() { Ok(()) } else { Err(TextureError::Missing(faces)) }
     }
 }
 

@@ -61,7 +61,9 @@ fn with_material(mesh: &ObjMesh, library: &str) -> ObjMesh {
 fn library_beside(path: &Path) -> PathBuf {
     let stem = stem_of(path);
     let head = head_for(path);
-    place_for(path, &[format!("{stem}.mtl"), format!("{stem}-{MATERIAL}.mtl")], |place| begins_with(place, &head))
+    place_for(path, &[format!("{stem}.mtl"), format!("{stem}-{MATERIAL}.mtl")], |place| {
+        begins_with(place, head.as_bytes())
+    })
 }
 
 /// First line of the material library of an OBJ file. One of another mesh's begins otherwise: it may be in use.
@@ -113,19 +115,18 @@ fn is_free(place: &Path) -> bool {
 }
 
 /// Whether a file begins so. Something that is no regular file, such as a pipe, is not opened: nothing may ever come.
-fn begins_with(place: &Path, head: &str) -> bool {
+fn begins_with(place: &Path, head: &[u8]) -> bool {
     if !place.is_file() {
         return false;
     }
     let Ok(file) = fs::File::open(place) else { return false };
     let mut found = Vec::new();
-    file.take(head.len() as u64).read_to_end(&mut found).is_ok() && found == head.as_bytes()
+    file.take(head.len() as u64).read_to_end(&mut found).is_ok() && found == head
 }
 
 /// Whether a file has exactly these contents. It is only read where its length is the same.
 fn holds(place: &Path, bytes: &[u8]) -> bool {
-    let is_as_long = |data: &fs::Metadata| data.is_file() && data.len() == bytes.len() as u64;
-    fs::metadata(place).is_ok_and(|data| is_as_long(&data)) && fs::read(place).is_ok_and(|found| found == bytes)
+    fs::metadata(place).is_ok_and(|data| data.len() == bytes.len() as u64) && begins_with(place, bytes)
 }
 
 fn is_same_file(a: &Path, b: &Path) -> bool {

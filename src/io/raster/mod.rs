@@ -7,15 +7,14 @@
 //! | file    | what it holds                                                          |
 //! |---------|------------------------------------------------------------------------|
 //! | `mod`   | view, canvas and paint; pictures of meshes and of embeddings           |
-//! | `scene` | triangles in samples, drawn band by band into a z-buffer               |
-//! | `brush` | paint, light and edges of a face                                       |
+//! | `scene` | triangles in samples, drawn band by band into a z-buffer; light        |
 
-mod brush;
 mod scene;
 
 use std::io::Write;
 
 use glam::{DVec2, DVec3};
+use image::ImageEncoder as _;
 use rayon::prelude::*;
 
 use self::scene::{Scene, vertex_normals};
@@ -186,12 +185,7 @@ impl Picture {
     /// What the writer or the encoder reports.
     pub fn write_png(&self, writer: impl Write) -> image::ImageResult<()> {
         let encoder = image::codecs::png::PngEncoder::new(writer);
-        image::ImageEncoder::write_image(
-            encoder,
-            &self.pixels,
-            self.width,
-            self.height,
-            image::ExtendedColorType::Rgba8,
-        )
+        let Self { width, height, pixels } = self;
+        encoder.write_image(pixels, *width, *height, image::ExtendedColorType::Rgba8)
     }
 }
