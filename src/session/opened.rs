@@ -115,12 +115,12 @@ impl Opened {
             model = model.turned();
         }
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
-        let pin_count = project.targets.len();
+        let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);
         let lost_pins = targets.len() < pin_count;
         let document = Document {
             targets,
-            settings: project.settings,
+            settings,
             picture,
             v_axis: project.v_axis,
             faces_turned: project.faces_turned,

@@ -28,7 +28,6 @@ impl Session {
 
     /// Begins a run, or lets the first step that is under way finish where only targets differ.
     pub(super) fn begin(&mut self, goal: Goal) {
-        self.solving.give_up_resting();
         if let Some(task) = self.task() {
             self.solving.begin(task, goal);
         }

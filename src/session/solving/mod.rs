@@ -215,11 +215,6 @@ impl Solving {
         self.resting = None;
     }
 
-    /// Gives up the run at rest.
-    pub(super) fn give_up_resting(&mut self) {
-        self.resting = None;
-    }
-
     /// Drops all that was solved: it belongs to another mesh, or to other faces.
     pub(super) fn forget(&mut self) {
         self.give_up_all();
