@@ -3,8 +3,7 @@
 use std::path::Path;
 use std::slice;
 
-use crate::io::OutputKind;
-use crate::session::OutputFit;
+use crate::io::{OutputFit, OutputKind};
 use crate::ui::panels::exports::PaneShot;
 use crate::ui::{Dialogs, Pane, Unsaved};
 
