@@ -101,7 +101,7 @@ fn drag(vertices: usize) -> [String; 7] {
             move_.run(|| session.handle(Action::MovePin { vertex, target }));
             let preview = session.preview().expect("it follows").embedding.clone();
             let drawn = arrays.run(|| PlaneArrays::in_frame(&preview, &mesh.mesh().triangles, frame));
-            bytes = size_of_val(drawn.points()) + size_of_val(drawn.corners());
+            bytes = size_of_val(&*drawn.points) + size_of_val(&*drawn.corners);
             proof.run(|| verdict(&mesh, &preview));
         }
         session.handle(Action::GiveUpGesture);

@@ -26,7 +26,7 @@ struct Pane {
     picture_box: vec4<f32>,
     // Opacity of the faint grid lines; of the picture; half the width of the wire in pixels; nothing.
     strength: vec4<f32>,
-    // Shading, flat normals (0 or 1), face under the pointer, nothing.
+    // Shading, flat normals (0 or 1), nothing, nothing.
     choice: vec4<u32>,
     background: vec4<f32>,
     grid_colour: vec4<f32>,
@@ -39,7 +39,6 @@ struct Pane {
     checker_dark: vec4<f32>,
     wire: vec4<f32>,
     flipped: vec4<f32>,
-    hover: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> pane: Pane;

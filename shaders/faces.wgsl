@@ -60,13 +60,6 @@ fn face_colour(plain: vec3<f32>, paint: vec3<f32>, plane: vec2<f32>) -> vec3<f32
     }
 }
 
-fn marked(colour: vec3<f32>, flags: u32, face: u32) -> vec3<f32> {
-    var result = colour;
-    if (flags & FLIPPED) != 0u {
-        result = pane.flipped.rgb;
-    }
-    if face == pane.choice.z {
-        result = mix(result, pane.hover.rgb, pane.hover.a);
-    }
-    return result;
+fn marked(colour: vec3<f32>, flags: u32) -> vec3<f32> {
+    return select(colour, pane.flipped.rgb, (flags & FLIPPED) != 0u);
 }

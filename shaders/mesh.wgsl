@@ -7,7 +7,6 @@ struct Corner {
     @location(2) weight: vec3<f32>,
     @location(3) plane: vec2<f32>,
     @location(4) @interpolate(flat, either) paint: vec4<f32>,
-    @location(5) @interpolate(flat, either) face: u32,
 }
 
 @vertex
@@ -25,7 +24,6 @@ fn vs_main(
     out.weight = corner_weight(vertex_index);
     out.plane = plane.xy + plane.zw;
     out.paint = paint;
-    out.face = vertex_index / 3u;
     return out;
 }
 
@@ -67,7 +65,7 @@ fn fs_shaded(in: Corner, @builtin(front_facing) front: bool) -> @location(0) vec
     let flags = u32(round(in.paint.a * 255.0));
     // The back is told from the front in every shading.
     albedo = select(albedo * 0.72, albedo, front || pane.choice.x == SHADING_PLAIN);
-    albedo = marked(albedo, flags, in.face);
+    albedo = marked(albedo, flags);
     let relief = select(0.6, 1.0, pane.choice.x == SHADING_PLAIN || pane.choice.x == SHADING_CHECKER);
     let shaded = lit(albedo, normal, to_eye, relief);
     return vec4<f32>(mix(shaded, pane.wire.rgb, wire * pane.wire.a), 1.0);

@@ -15,7 +15,6 @@ struct Corner {
     // Relative to the pane's middle, so that it keeps its digits however far one zooms in.
     @location(1) plane: vec2<f32>,
     @location(2) @interpolate(flat, either) paint: vec4<f32>,
-    @location(3) @interpolate(flat, either) face: u32,
 }
 
 @vertex
@@ -32,7 +31,6 @@ fn vs_main(
     out.weight = corner_weight(vertex_index);
     out.plane = relative;
     out.paint = paint;
-    out.face = vertex_index / 3u;
     return out;
 }
 
@@ -51,7 +49,7 @@ fn fs_flat(in: Corner) -> @location(0) vec4<f32> {
 
     let flags = u32(round(in.paint.a * 255.0));
     let is_flipped = (flags & FLIPPED) != 0u;
-    colour = marked(colour, flags, in.face);
+    colour = marked(colour, flags);
     if is_flipped {
         colour = mix(colour, pane.background.rgb, 0.55 * hatch_cover(in.clip.xy));
     }

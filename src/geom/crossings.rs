@@ -73,13 +73,11 @@ fn straddles(line: [DVec2; 2], segment: [DVec2; 2]) -> bool {
 }
 
 /// Whether the segments from `shared` to `a` and to `b` have more than `shared` in common.
-fn folds_back(a: DVec2, shared: DVec2, b: DVec2) -> bool {
-    if orientation(a, shared, b) != Some(Orientation::Collinear) {
-        return false;
-    }
-    // On one line: they overlap where both go the same way. Comparing coordinates is exact, subtracting them is not.
+pub fn folds_back(a: DVec2, shared: DVec2, b: DVec2) -> bool {
+    // On one line they overlap where both go the same way. Comparing coordinates is exact, subtracting them is not.
     let same_way = |a: f64, shared: f64, b: f64| (a > shared && b > shared) || (a < shared && b < shared);
-    same_way(a.x, shared.x, b.x) || same_way(a.y, shared.y, b.y)
+    orientation(a, shared, b) == Some(Orientation::Collinear)
+        && (same_way(a.x, shared.x, b.x) || same_way(a.y, shared.y, b.y))
 }
 
 /// The box around a segment, empty where an end is not finite.

@@ -10,7 +10,7 @@ use super::LinalgError;
 use super::llt::{Llt, LltAnalysis};
 use super::lu::{Lu, LuAnalysis};
 use super::order::{Pattern, order};
-use super::refine::{Accept, Factors, Solved, System, refined};
+use super::refine::{Accept, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, check_finite};
 
@@ -199,16 +199,16 @@ impl<T: Scalar> Factor<T> {
         if rhs.len().checked_rem(order).unwrap_or(rhs.len()) != 0 {
             return Err(LinalgError::WrongLength { order, found: rhs.len() });
         }
-        if let Some(place) = rhs.iter().position(|value| !value.is_finite_scalar()) {
+        if let Some(place) = rhs.iter().position(|value| !value.is_finite()) {
             return Err(LinalgError::NotFinite { row: place % order });
         }
         let solve = |columns: &mut [T]| self.solve_in_place(operation, columns);
         let row_scale = match (&self.numeric, operation) {
-            (Numeric::Lu(lu), Operation::Plain) => Some(lu.row_scale()),
+            (Numeric::Lu(lu), Operation::Plain) => Some(lu.row_scale.as_slice()),
             _ => None,
         };
-        let factors = if self.stats().replaced_pivots == 0 { Factors::Faithful } else { Factors::Disturbed };
-        refined(&System { matrix, operation, row_scale, factors, accept, solve: &solve }, rhs)
+        let is_faithful = self.stats().replaced_pivots == 0;
+        refined(&System { matrix, operation, row_scale, is_faithful, accept, solve: &solve }, rhs)
     }
 
     fn solve_in_place(&self, operation: Operation, columns: &mut [T]) {
@@ -226,9 +226,9 @@ impl<T: Scalar> Factor<T> {
     /// right-hand side with a part in every direction has a solution only if the matrix is regular.
     fn check_regular(&self, matrix: &CscMatrix<T>) -> Result<(), LinalgError> {
         let Numeric::Lu(lu) = &self.numeric else { return Ok(()) };
-        let Some(row) = lu.first_replaced_row() else { return Ok(()) };
+        let Some(row) = lu.replaced_rows.first().map(|&row| row as usize) else { return Ok(()) };
         let probe = |(index, scale): (usize, &f64)| T::from_real((0.5 + spread(index)) / scale);
-        let rhs: Vec<T> = lu.row_scale().iter().enumerate().map(probe).collect();
+        let rhs: Vec<T> = lu.row_scale.iter().enumerate().map(probe).collect();
         match self.run(matrix, Operation::Plain, Accept::Residual, &rhs) {
             Err(LinalgError::ResidualTooLarge { .. }) => Err(LinalgError::Singular { row }),
             other => other.map(|_| ()),

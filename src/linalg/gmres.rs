@@ -22,7 +22,7 @@ const REDUCTION: f64 = 1e-13;
 
 /// Improves `x` in place; returns the number of steps.
 pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> usize {
-    if x.iter().any(|x| !x.is_finite_scalar()) {
+    if x.iter().any(|x| !x.is_finite()) {
         x.fill(T::ZERO);
     }
     let mut steps = 0;
@@ -42,7 +42,7 @@ pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> 
         steps += space.triangle.len();
         let mut correction = space.combination();
         (system.solve)(&mut correction);
-        if correction.iter().any(|value| !value.is_finite_scalar()) {
+        if correction.iter().any(|value| !value.is_finite()) {
             return steps;
         }
         x.iter_mut().zip(&correction).for_each(|(x, &correction)| *x += correction);
@@ -52,7 +52,7 @@ pub(super) fn gmres<T: Scalar>(system: &System<'_, T>, x: &mut [T], b: &[T]) -> 
 
 fn scale<T: Scalar>(vector: &mut [T], factor: f64) {
     for value in vector {
-        *value = value.scaled(factor);
+        *value = value.scale(factor);
     }
 }
 
@@ -61,7 +61,7 @@ fn scaled_residual<T: Scalar>(system: &System<'_, T>, x: &[T], b: &[T]) -> Vec<T
     let mut r = vec![T::ZERO; b.len()];
     residual(system.matrix, system.operation, x, b, &mut r);
     if let Some(scale) = system.row_scale {
-        r.iter_mut().zip(scale).for_each(|(r, &scale)| *r = r.scaled(scale));
+        r.iter_mut().zip(scale).for_each(|(r, &scale)| *r = r.scale(scale));
     }
     r
 }
@@ -89,7 +89,7 @@ impl<T: Scalar> Krylov<T> {
         // Twice is enough (Kahan and Parlett) to stay orthogonal.
         for _ in 0..2 {
             for (entry, known) in column.iter_mut().zip(&self.basis) {
-                let part = known.iter().zip(&next).fold(T::ZERO, |sum, (&q, &v)| sum + q.conjugated() * v);
+                let part = known.iter().zip(&next).fold(T::ZERO, |sum, (&q, &v)| sum + q.conjugate() * v);
                 next.iter_mut().zip(known).for_each(|(v, &q)| *v -= part * q);
                 *entry += part;
             }
@@ -111,19 +111,19 @@ impl<T: Scalar> Krylov<T> {
     fn rotate(&mut self, mut column: Vec<T>, left: f64) {
         for (k, &(cosine, sine)) in self.rotations.iter().enumerate() {
             let (upper, lower) = (column[k], column[k + 1]);
-            column[k] = upper.scaled(cosine) + sine * lower;
-            column[k + 1] = lower.scaled(cosine) - sine.conjugated() * upper;
+            column[k] = upper.scale(cosine) + sine * lower;
+            column[k + 1] = lower.scale(cosine) - sine.conjugate() * upper;
         }
         let k = column.len() - 1;
         let diagonal = column[k];
         let modulus = norm(std::iter::once(diagonal));
         let length = modulus.hypot(left);
         let (cosine, sine) =
-            if modulus == 0.0 { (0.0, T::ONE) } else { (modulus / length, diagonal.scaled(left / (modulus * length))) };
-        column[k] = diagonal.scaled(cosine) + sine.scaled(left);
+            if modulus == 0.0 { (0.0, T::ONE) } else { (modulus / length, diagonal.scale(left / (modulus * length))) };
+        column[k] = diagonal.scale(cosine) + sine.scale(left);
         let above = self.rhs[k];
-        self.rhs[k] = above.scaled(cosine);
-        self.rhs.push(-(sine.conjugated() * above));
+        self.rhs[k] = above.scale(cosine);
+        self.rhs.push(-(sine.conjugate() * above));
         self.rotations.push((cosine, sine));
         self.triangle.push(column);
     }

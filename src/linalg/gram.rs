@@ -14,8 +14,8 @@ pub fn gram<T: Scalar>(columns: &[T], n: usize) -> Vec<T> {
     matmul(product.as_mut(), Accum::Replace, w.adjoint(), w, T::ONE, Par::rayon(0));
     let entry = |i: usize, j: usize| match i.cmp(&j) {
         std::cmp::Ordering::Less => product[(i, j)],
-        std::cmp::Ordering::Equal => T::from_real(product[(i, i)].real_part()),
-        std::cmp::Ordering::Greater => product[(j, i)].conjugated(),
+        std::cmp::Ordering::Equal => T::from_real(product[(i, i)].real()),
+        std::cmp::Ordering::Greater => product[(j, i)].conjugate(),
     };
     (0..k * k).map(|at| entry(at % k, at / k)).collect()
 }

@@ -62,7 +62,7 @@ impl LltAnalysis {
         let n = pattern.order();
         let too_large = || LinalgError::TooLarge { order: n };
         // The diagonal's first entry is the first of column 0, since no row comes before it.
-        let sign = matrix.values().first().map_or(1.0, |value| value.real_part().signum());
+        let sign = matrix.values().first().map_or(1.0, |value| value.real().signum());
         let negated: Vec<T>;
         let entries = if sign < 0.0 {
             negated = matrix.values().iter().map(|&value| -value).collect();

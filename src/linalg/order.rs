@@ -159,7 +159,9 @@ pub(super) fn order(pattern: &Pattern) -> Result<Elimination, LinalgError> {
     let degree = minimum_degree(pattern)?;
     let upper = pattern.permuted_upper(&degree);
     let (parent, counts) = elimination_tree(&upper);
-    let post = postorder(&parent);
+    let children = children(&parent);
+    let roots = (0..).zip(&parent).filter(|&(_, &above)| above == NONE).map(|(node, _)| node).collect();
+    let post = postorder(roots, |node| children.of(node as usize));
     let mut position = vec![0u32; n];
     for (new, &old) in post.iter().enumerate() {
         position[old as usize] = narrow(new);
@@ -197,31 +199,51 @@ fn elimination_tree(upper: &Pattern) -> (Vec<u32>, Vec<u32>) {
 }
 
 /// A postorder of a forest: children before parents, subtrees contiguous, siblings in their given order.
-pub(super) fn postorder(parent: &[u32]) -> Vec<u32> {
-    let n = parent.len();
-    let (mut first_child, mut sibling) = (vec![NONE; n], vec![NONE; n]);
-    for node in (0..n).rev() {
-        if parent[node] != NONE {
-            sibling[node] = first_child[parent[node] as usize];
-            first_child[parent[node] as usize] = narrow(node);
-        }
+pub(super) fn postorder<'a>(roots: Vec<u32>, children: impl Fn(u32) -> &'a [u32]) -> Vec<u32> {
+    // Parents first and siblings last to first: reversed, it is the postorder.
+    let (mut sequence, mut stack) = (Vec::new(), roots);
+    while let Some(node) = stack.pop() {
+        sequence.push(node);
+        stack.extend(children(node));
     }
-    let mut post = Vec::with_capacity(n);
-    let mut stack = Vec::new();
-    for root in (0..n).filter(|&node| parent[node] == NONE) {
-        stack.push(narrow(root));
-        while let Some(&node) = stack.last() {
-            let child = std::mem::replace(&mut first_child[node as usize], NONE);
-            if child == NONE {
-                stack.pop();
-                post.push(node);
-                first_child[node as usize] = NONE;
-            } else {
-                // The next visit of this node goes on with the child's sibling.
-                first_child[node as usize] = sibling[child as usize];
-                stack.push(child);
-            }
-        }
+    sequence.reverse();
+    sequence
+}
+
+/// Lists of numbers, one after another.
+#[derive(Debug)]
+pub(super) struct Lists {
+    /// Where each list begins, and the end of the last.
+    pub(super) offsets: Vec<u32>,
+    pub(super) items: Vec<u32>,
+}
+
+impl Lists {
+    pub(super) fn of(&self, index: usize) -> &[u32] {
+        &self.items[self.offsets[index] as usize..self.offsets[index + 1] as usize]
     }
-    post
+}
+
+/// Where lists of these lengths begin, and the end of the last.
+pub(super) fn running_sum(counts: &[u32]) -> Vec<u32> {
+    let mut total = 0usize;
+    let later = counts.iter().map(|&count| {
+        total += count as usize;
+        narrow(total)
+    });
+    std::iter::once(0).chain(later).collect()
+}
+
+/// Children of every node, ascending.
+pub(super) fn children(parent: &[u32]) -> Lists {
+    let mut counts = vec![0u32; parent.len()];
+    parent.iter().filter(|&&above| above != NONE).for_each(|&above| counts[above as usize] += 1);
+    let offsets = running_sum(&counts);
+    let mut next = offsets.clone();
+    let mut items = vec![0u32; offsets[parent.len()] as usize];
+    for (node, &above) in parent.iter().enumerate().filter(|(_, above)| **above != NONE) {
+        items[next[above as usize] as usize] = narrow(node);
+        next[above as usize] += 1;
+    }
+    Lists { offsets, items }
 }

@@ -55,15 +55,6 @@ pub struct Solved<T> {
     pub refinement_steps: usize,
 }
 
-/// How factors stand to the matrix they were made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Factors {
-    /// Equal up to rounding.
-    Faithful,
-    /// Pivots were replaced.
-    Disturbed,
-}
-
 /// What makes an answer good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Accept {
@@ -80,8 +71,8 @@ pub(super) struct System<'a, T> {
     pub(super) operation: Operation,
     /// Factors of the rows of op(A), if they are scaled.
     pub(super) row_scale: Option<&'a [f64]>,
-    /// How the factors stand to the matrix.
-    pub(super) factors: Factors,
+    /// Whether the factors are those of the matrix up to rounding: no pivot was replaced.
+    pub(super) is_faithful: bool,
     /// What makes an answer good.
     pub(super) accept: Accept,
     /// Solves in place, column by column.
@@ -94,7 +85,7 @@ impl<T: Scalar> System<'_, T> {
         let ratio = |r: f64, b: f64| if r == 0.0 { 0.0 } else { r / b };
         let plain = ratio(norm(r.iter().copied()), norm(b.iter().copied()));
         let Some(scale) = self.row_scale else { return (plain, plain) };
-        let scaled = |v: &[T]| norm(v.iter().zip(scale).map(|(&v, &scale)| v.scaled(scale)));
+        let scaled = |v: &[T]| norm(v.iter().zip(scale).map(|(&v, &scale)| v.scale(scale)));
         (plain, ratio(scaled(r), scaled(b)))
     }
 }
@@ -138,7 +129,7 @@ fn accept<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>) -> Resu
     let mut relative = measure(column.x);
     // Written so that a NaN counts as stalled.
     let converged = column.backward_error <= STALLED;
-    let at_the_floor = converged && system.accept == Accept::BackwardError && system.factors == Factors::Faithful;
+    let at_the_floor = converged && system.accept == Accept::BackwardError && system.is_faithful;
     if !good(GOAL, relative) && !converged {
         column.steps += gmres(system, column.x, column.b);
         relative = measure(column.x);
@@ -157,15 +148,6 @@ struct Column<'a, T> {
     steps: usize,
 }
 
-/// What a step did for one right-hand side.
-#[derive(PartialEq)]
-enum Progress {
-    /// Another step may help.
-    GoOn,
-    /// As good as it gets.
-    Done,
-}
-
 /// Refines the answers in place, all that still gain by it together.
 fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) {
     let n = system.matrix.nrows();
@@ -175,8 +157,8 @@ fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) {
         let judged = active.into_par_iter().zip(r.par_chunks_exact_mut(n));
         let judged: Vec<_> = judged.map(|(column, r)| (judge(system, column, r, step), column)).collect();
         let mut still = Vec::with_capacity(judged.len());
-        for (place, (progress, column)) in judged.into_iter().enumerate() {
-            if progress == Progress::GoOn && step < MOST_STEPS {
+        for (place, (may_gain, column)) in judged.into_iter().enumerate() {
+            if may_gain && step < MOST_STEPS {
                 r.copy_within(place * n..(place + 1) * n, still.len() * n);
                 still.push(column);
             }
@@ -198,8 +180,9 @@ fn refine<T: Scalar>(system: &System<'_, T>, columns: &mut [Column<'_, T>]) {
     }
 }
 
-/// Takes the residual after `step` steps. `r` holds the answer before the last, which comes back if that was better.
-fn judge<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>, r: &mut [T], step: usize) -> Progress {
+/// Takes the residual after `step` steps. `r` holds the answer before the last, which comes back if that was
+/// better. Returns whether another step may help.
+fn judge<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>, r: &mut [T], step: usize) -> bool {
     let Column { x, b, backward_error: before, steps } = column;
     let previous = (step > 0).then(|| r.to_vec());
     residual(system.matrix, system.operation, x, b, r);
@@ -209,10 +192,10 @@ fn judge<T: Scalar>(system: &System<'_, T>, column: &mut Column<'_, T>, r: &mut 
         if let Some(previous) = previous {
             x.copy_from_slice(&previous);
         }
-        return Progress::Done;
+        return false;
     }
     *steps = step;
     let worthwhile = now <= WORTHWHILE * *before;
     *before = now;
-    if worthwhile && now > GOOD_BACKWARD_ERROR { Progress::GoOn } else { Progress::Done }
+    worthwhile && now > GOOD_BACKWARD_ERROR
 }

@@ -29,7 +29,7 @@ pub(super) fn residual<T: Scalar>(matrix: &CscMatrix<T>, operation: Operation, x
         }
         Operation::Adjoint => {
             for ((rows, values), out) in columns.zip(out) {
-                *out -= rows.iter().zip(values).fold(T::ZERO, |sum, (&row, &value)| sum + value.conjugated() * x[row]);
+                *out -= rows.iter().zip(values).fold(T::ZERO, |sum, (&row, &value)| sum + value.conjugate() * x[row]);
             }
         }
     }
@@ -43,7 +43,7 @@ pub(super) fn norm<T: Scalar>(vector: impl Iterator<Item = T> + Clone) -> f64 {
     }
     // Two factors, because 1/largest overflows where `largest` is subnormal.
     let half = power_of_two_near(largest).sqrt().recip();
-    let sum: f64 = vector.map(|v| v.scaled(half).scaled(half).squared_modulus()).sum();
+    let sum: f64 = vector.map(|v| v.scale(half).scale(half).modulus_squared()).sum();
     sum.sqrt() / half / half
 }
 
@@ -60,7 +60,7 @@ pub(super) fn power_of_two_near(value: f64) -> f64 {
 ///
 /// [`LinalgError::NotFinite`] names it.
 pub(super) fn check_finite<T: Scalar>(matrix: &CscMatrix<T>) -> Result<(), LinalgError> {
-    let broken = matrix.row_indices().iter().zip(matrix.values()).filter(|(_, value)| !value.is_finite_scalar());
+    let broken = matrix.row_indices().iter().zip(matrix.values()).filter(|(_, value)| !value.is_finite());
     broken.map(|(&row, _)| row).min().map_or(Ok(()), |row| Err(LinalgError::NotFinite { row }))
 }
 

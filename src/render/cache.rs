@@ -87,7 +87,6 @@ impl Cache {
         self.buffers.get(&key)
     }
 
-    /// Drops all buffers but these.
     pub(super) fn retain(&mut self, used: &BTreeSet<Key>) {
         self.buffers.retain(|key, _| used.contains(key));
     }

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::mesh::FaceId;
 use crate::view::{
     EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Srgb,
 };
@@ -48,8 +47,6 @@ pub struct Style {
     pub flipped_outline_in_points: f32,
     /// Side of a check, embedding units.
     pub check_size: f64,
-    /// The face under the pointer.
-    pub hovered: Option<FaceId>,
 }
 
 impl Default for Style {
@@ -60,7 +57,6 @@ impl Default for Style {
             wire_in_points: 0.0,
             flipped_outline_in_points: 1.5,
             check_size: 0.1,
-            hovered: None,
         }
     }
 }

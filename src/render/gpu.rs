@@ -7,7 +7,7 @@ use eframe::wgpu;
 use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::Pipelines;
-use super::plan::{Draw, Kind, LAYER_LIMIT, Plan, Planner};
+use super::plan::{Draw, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
 use super::shrink::shrunk;
 use super::target::Target;
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
@@ -56,7 +56,6 @@ struct PaneState {
 }
 
 impl Gpu {
-    /// Compiles the pipelines.
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, window_format: wgpu::TextureFormat) -> Self {
         let sampler = |magnified| {
             device.create_sampler(&wgpu::SamplerDescriptor {
@@ -80,7 +79,6 @@ impl Gpu {
         }
     }
 
-    /// What was done so far.
     pub(super) fn stats(&self) -> Stats {
         Stats {
             uploads: self.stats.uploads + self.cache.uploads,
@@ -131,26 +129,21 @@ impl Gpu {
 
     /// Puts a pane's picture into egui's window.
     pub(super) fn paint(&self, pane: PaneId, pass: &mut wgpu::RenderPass<'static>) {
-        let Some(state) = self.panes.get(&pane).filter(|state| state.shown.is_some()) else {
-            return;
-        };
+        let Some(state) = self.panes.get(&pane).filter(|state| state.shown.is_some()) else { return };
         pass.set_pipeline(&self.pipelines.blit);
         pass.set_bind_group(0, &state.blit_group, &[]);
         pass.draw(0..3, 0..1);
     }
 
     fn ensure_picture(&mut self, io: &Io<'_>, layer: Option<&PictureLayer>) {
-        let Some(picture) = layer.map(|layer| &layer.picture) else {
-            return;
-        };
-        let key = Some(picture.revision());
+        let Some(picture) = layer.map(|layer| &layer.picture) else { return };
+        let key = Some(picture.revision);
         if self.pictures.contains_key(&key) {
             return;
         }
         // A picture that the card does not take is shown with less detail rather than not at all.
-        let small = shrunk(picture.size(), picture.pixels(), io.device.limits().max_texture_dimension_2d);
-        let whole = (picture.size(), picture.pixels());
-        let (size, pixels) = small.as_ref().map_or(whole, |(size, pixels)| (*size, pixels.as_slice()));
+        let small = shrunk(picture.size, &picture.pixels, io.device.limits().max_texture_dimension_2d);
+        let (size, pixels) = small.as_ref().map_or((picture.size, &picture.pixels), |(size, pixels)| (*size, pixels));
         self.stats.uploads += 1;
         self.stats.uploaded_bytes += pixels.len() as u64;
         self.pictures.insert(key, picture_view(io.device, io.queue, size, pixels));
@@ -174,7 +167,6 @@ pub(super) struct Io<'a> {
     pub(super) encoder: &'a mut wgpu::CommandEncoder,
 }
 
-/// Which pane, and its size on the screen.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     pub(super) pane: PaneId,
@@ -211,8 +203,8 @@ impl PaneState {
 
     fn upload_uniforms(&self, queue: &wgpu::Queue, plan: &Plan) {
         queue.write_buffer(&self.uniforms, 0, &plan.uniforms);
-        for (layer, bytes) in (0..).zip(&plan.layer_uniforms) {
-            queue.write_buffer(&self.line_uniforms, layer * LINE_STRIDE, bytes);
+        for (place, layer) in (0..).zip(&plan.layers) {
+            queue.write_buffer(&self.line_uniforms, place * LINE_STRIDE, &layer.uniforms);
         }
     }
 }
@@ -264,20 +256,15 @@ impl Scene<'_> {
                 calls += 1;
             }
         }
-        let mut offsets = (0_u32..).step_by(256);
-        pass.set_pipeline(&self.pipelines.plane_fills);
-        for (draw, offset) in plan.fills.iter().zip(&mut offsets) {
+        for (Layer { shape, draw, .. }, offset) in plan.layers.iter().zip((0_u32..).step_by(256)) {
             if self.bind(&mut pass, draw) {
+                let (pipeline, vertices, instances) = match shape {
+                    Shape::Fill => (&self.pipelines.plane_fills, draw.count, 1),
+                    Shape::Line => (lines, 6, draw.count),
+                };
+                pass.set_pipeline(pipeline);
                 pass.set_bind_group(1, &state.line_group, &[offset]);
-                pass.draw(0..draw.count, 0..1);
-                calls += 1;
-            }
-        }
-        pass.set_pipeline(lines);
-        for (draw, offset) in plan.lines.iter().zip(&mut offsets) {
-            if self.bind(&mut pass, draw) {
-                pass.set_bind_group(1, &state.line_group, &[offset]);
-                pass.draw(0..6, 0..draw.count);
+                pass.draw(0..vertices, 0..instances);
                 calls += 1;
             }
         }
@@ -287,9 +274,7 @@ impl Scene<'_> {
     /// Binds the vertex buffers of a draw call. False if one could not be made.
     fn bind(&self, pass: &mut wgpu::RenderPass<'_>, draw: &Draw) -> bool {
         for (slot, &key) in (0..).zip(&draw.buffers) {
-            let Some(buffer) = self.cache.get(key) else {
-                return false;
-            };
+            let Some(buffer) = self.cache.get(key) else { return false };
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }
         true

@@ -50,11 +50,8 @@ pub(super) struct Pipelines {
 }
 
 impl Pipelines {
-    /// Compiles all pipelines for a device and the format of egui's window.
     pub(super) fn new(device: &wgpu::Device, window_format: wgpu::TextureFormat) -> Self {
-        let pane_layout = pane_layout(device);
-        let line_layout = line_layout(device);
-        let blit_layout = blit_layout(device);
+        let [pane_layout, line_layout, blit_layout] = layouts(device);
         let blit_entry = if window_format.is_srgb() { "fs_linear" } else { "fs_gamma" };
         let pane: Layouts<'_> = &[Some(&pane_layout)];
         let lines: Layouts<'_> = &[Some(&pane_layout), Some(&line_layout)];
@@ -113,40 +110,41 @@ const COUNTING: BlendState = BlendState {
 };
 
 type Layouts<'a> = &'a [Option<&'a wgpu::BindGroupLayout>];
-type Buffers = [Option<wgpu::VertexBufferLayout<'static>>];
 
-const fn buffer<const N: usize>(
-    stride: u64,
+type Buffer = Option<wgpu::VertexBufferLayout<'static>>;
+
+const fn buffer(
+    array_stride: u64,
     step_mode: wgpu::VertexStepMode,
-    attributes: &'static [wgpu::VertexAttribute; N],
-) -> wgpu::VertexBufferLayout<'static> {
-    wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes }
+    attributes: &'static [wgpu::VertexAttribute],
+) -> Buffer {
+    Some(wgpu::VertexBufferLayout { array_stride, step_mode, attributes })
 }
 
 const PER_VERTEX: wgpu::VertexStepMode = wgpu::VertexStepMode::Vertex;
 const PER_LINE: wgpu::VertexStepMode = wgpu::VertexStepMode::Instance;
 
 /// `MeshArrays::corner_positions`, `corner_normals`, `PlaneArrays::corners`, `FacePaint::corners`.
-static MESH_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 4] = [
-    Some(buffer(12, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x3])),
-    Some(buffer(8, PER_VERTEX, &wgpu::vertex_attr_array![1 => Snorm16x4])),
-    Some(buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![2 => Float32x4])),
-    Some(buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![3 => Unorm8x4])),
+static MESH_BUFFERS: [Buffer; 4] = [
+    buffer(12, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x3]),
+    buffer(8, PER_VERTEX, &wgpu::vertex_attr_array![1 => Snorm16x4]),
+    buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![2 => Float32x4]),
+    buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![3 => Unorm8x4]),
 ];
 /// `PlaneArrays::corners`, `FacePaint::corners`.
-static PLANE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
-    Some(buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4])),
-    Some(buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![1 => Unorm8x4])),
+static PLANE_BUFFERS: [Buffer; 2] = [
+    buffer(16, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4]),
+    buffer(4, PER_VERTEX, &wgpu::vertex_attr_array![1 => Unorm8x4]),
 ];
 /// Corners of `FaceList` in an embedding.
-static PLANE_FILL_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
-    [Some(buffer(PLANE_POINT_STRIDE, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4]))];
+static PLANE_FILL_BUFFERS: [Buffer; 1] =
+    [buffer(PLANE_POINT_STRIDE, PER_VERTEX, &wgpu::vertex_attr_array![0 => Float32x4])];
 /// Two points in unit space.
-static MESH_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
-    [Some(buffer(MESH_LINE_STRIDE, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3]))];
+static MESH_LINE_BUFFERS: [Buffer; 1] =
+    [buffer(MESH_LINE_STRIDE, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3])];
 /// Two split points.
-static PLANE_LINE_BUFFERS: [Option<wgpu::VertexBufferLayout<'static>>; 1] =
-    [Some(buffer(PLANE_LINE_STRIDE, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4]))];
+static PLANE_LINE_BUFFERS: [Buffer; 1] =
+    [buffer(PLANE_LINE_STRIDE, PER_LINE, &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4])];
 
 /// What tells one pipeline from another.
 struct Recipe<'a> {
@@ -154,7 +152,7 @@ struct Recipe<'a> {
     vertex_entry: &'static str,
     fragment_entry: &'static str,
     layouts: Layouts<'a>,
-    buffers: &'a Buffers,
+    buffers: &'a [Buffer],
     blend: Option<BlendState>,
     writes: ColorWrites,
     /// How depth is compared, and whether it is written.
@@ -181,16 +179,9 @@ impl<'a> Recipe<'a> {
 
     fn lines(layouts: Layouts<'a>) -> Self {
         Self {
-            shader: LINES,
-            vertex_entry: "vs_mesh",
-            fragment_entry: "fs_line",
-            layouts,
-            buffers: &[],
             blend: Some(BlendState::ALPHA_BLENDING),
-            writes: ColorWrites::COLOR,
             depth: Some((CompareFunction::LessEqual, false)),
-            samples: SAMPLES,
-            format: COLOUR,
+            ..Self::faces(LINES, "fs_line", layouts)
         }
     }
 
@@ -238,67 +229,29 @@ impl<'a> Recipe<'a> {
     }
 }
 
-const BOTH_STAGES: wgpu::ShaderStages = wgpu::ShaderStages::VERTEX_FRAGMENT;
-
-fn uniform_entry(binding: u32, size: usize, has_dynamic_offset: Offset) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: BOTH_STAGES,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: matches!(has_dynamic_offset, Offset::PerLayer),
-            min_binding_size: std::num::NonZeroU64::new(size as u64),
+/// The layouts of what shaders read: of a pane, of a layer, of the picture that goes to the window.
+fn layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 3] {
+    use wgpu::{BindingType, ShaderStages};
+    let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
+    // One buffer holds the numbers of all layers: an offset chooses.
+    let uniforms = |size: usize, has_dynamic_offset: bool| BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset,
+        min_binding_size: std::num::NonZeroU64::new(size as u64),
+    };
+    let pane = entry(0, ShaderStages::VERTEX_FRAGMENT, uniforms(size_of::<PaneUniforms>(), false));
+    let line = entry(0, ShaderStages::VERTEX_FRAGMENT, uniforms(size_of::<LineUniforms>(), true));
+    let texture = BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let texture = entry(1, ShaderStages::FRAGMENT, texture);
+    let sampler = entry(2, ShaderStages::FRAGMENT, BindingType::Sampler(wgpu::SamplerBindingType::Filtering));
+    [("pane", vec![pane, texture, sampler]), ("line", vec![line]), ("blit", vec![pane, texture])].map(
+        |(label, entries)| {
+            let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries };
+            device.create_bind_group_layout(&descriptor)
         },
-        count: None,
-    }
-}
-
-/// Whether one buffer holds the numbers of many draw calls.
-#[derive(Clone, Copy)]
-enum Offset {
-    None,
-    PerLayer,
-}
-
-fn texture_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty: wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: true },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        },
-        count: None,
-    }
-}
-
-fn pane_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("pane"),
-        entries: &[
-            uniform_entry(0, size_of::<PaneUniforms>(), Offset::None),
-            texture_entry(1),
-            wgpu::BindGroupLayoutEntry {
-                binding: 2,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-                count: None,
-            },
-        ],
-    })
-}
-
-fn line_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("line"),
-        entries: &[uniform_entry(0, size_of::<LineUniforms>(), Offset::PerLayer)],
-    })
-}
-
-fn blit_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("blit"),
-        entries: &[uniform_entry(0, size_of::<PaneUniforms>(), Offset::None), texture_entry(1)],
-    })
+    )
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use eframe::wgpu;
 
 use super::cache::{Cache, Key};
-use super::frame::{FillLayer, LineLayer, MeshFrame, PictureLayer, PlaneFrame, Sampling, Style};
+use super::frame::{LineLayer, MeshFrame, PictureLayer, PlaneFrame, Sampling, Style};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::mesh::VertexId;
 use crate::view::{EdgeList, FacePaint, MeshArrays, Palette, PlaneArrays};
@@ -30,13 +30,27 @@ pub(super) enum Kind {
     Plane,
 }
 
-/// One draw call.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Draw {
     /// Vertex buffers in the order of their slots.
     pub(super) buffers: Vec<Key>,
     /// Vertices of faces and fills, instances of lines.
     pub(super) count: u32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shape {
+    Fill,
+    Line,
+}
+
+/// A draw call with a colour of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Layer {
+    pub(super) shape: Shape,
+    pub(super) draw: Draw,
+    /// The bytes of a [`LineUniforms`].
+    pub(super) uniforms: Vec<u8>,
 }
 
 /// Everything that a pane's picture depends on. Equal plans give equal pictures.
@@ -47,55 +61,43 @@ pub(super) struct Plan {
     /// The bytes of [`PaneUniforms`].
     pub(super) uniforms: Vec<u8>,
     pub(super) faces: Vec<Draw>,
-    pub(super) fills: Vec<Draw>,
-    pub(super) lines: Vec<Draw>,
-    /// The bytes of a [`LineUniforms`] per layer: first the fills, then the lines.
-    pub(super) layer_uniforms: Vec<Vec<u8>>,
+    /// First the fills, then the lines.
+    pub(super) layers: Vec<Layer>,
     pub(super) picture: Option<crate::view::Revision>,
     pub(super) sampling: Sampling,
     pub(super) clear: [f64; 4],
 }
 
 impl Plan {
-    /// All buffers that the pane needs.
     pub(super) fn keys(&self) -> impl Iterator<Item = Key> + '_ {
-        self.faces.iter().chain(&self.fills).chain(&self.lines).flat_map(|draw| draw.buffers.iter().copied())
+        let draws = self.faces.iter().chain(self.layers.iter().map(|layer| &layer.draw));
+        draws.flat_map(|draw| draw.buffers.iter().copied())
     }
 
-    fn new(kind: Kind, size: PaneSize, uniforms: &PaneUniforms, palette: &Palette) -> Self {
+    fn new(
+        kind: Kind,
+        size: PaneSize,
+        uniforms: &PaneUniforms,
+        palette: &Palette,
+        picture: Option<&PictureLayer>,
+    ) -> Self {
         let [r, g, b, _] = palette.background.to_linear().map(f64::from);
         Self {
             kind,
             size: size.in_pixels,
             uniforms: bytemuck::bytes_of(uniforms).to_vec(),
             faces: Vec::new(),
-            fills: Vec::new(),
-            lines: Vec::new(),
-            layer_uniforms: Vec::new(),
-            picture: None,
-            sampling: Sampling::default(),
+            layers: Vec::new(),
+            picture: picture.map(|layer| layer.picture.revision),
+            sampling: picture.map_or(Sampling::default(), |layer| layer.sampling),
             // Alpha counts faces; there are none yet.
             clear: [r, g, b, 0.0],
         }
     }
 
-    fn set_picture(&mut self, layer: Option<&PictureLayer>) {
-        self.picture = layer.map(|layer| layer.picture.revision());
-        self.sampling = layer.map_or(Sampling::default(), |layer| layer.sampling);
-    }
-
-    /// Call before [`Self::push_line`]: the uniforms of fills come first.
-    fn push_fill(&mut self, draw: Draw, uniforms: LineUniforms) {
-        if draw.count > 0 && self.layer_uniforms.len() < LAYER_LIMIT {
-            self.fills.push(draw);
-            self.layer_uniforms.push(bytemuck::bytes_of(&uniforms).to_vec());
-        }
-    }
-
-    fn push_line(&mut self, draw: Draw, uniforms: LineUniforms) {
-        if draw.count > 0 && self.layer_uniforms.len() < LAYER_LIMIT {
-            self.lines.push(draw);
-            self.layer_uniforms.push(bytemuck::bytes_of(&uniforms).to_vec());
+    fn push(&mut self, shape: Shape, draw: Draw, uniforms: LineUniforms) {
+        if draw.count > 0 && self.layers.len() < LAYER_LIMIT {
+            self.layers.push(Layer { shape, draw, uniforms: bytemuck::bytes_of(&uniforms).to_vec() });
         }
     }
 }
@@ -111,47 +113,41 @@ impl Planner<'_> {
     /// Plans the 3D pane and makes the buffers that it lacks.
     pub(super) fn mesh(&mut self, frame: &MeshFrame) -> Plan {
         let uniforms = PaneUniforms::of_mesh(frame, self.size);
-        let mut plan = Plan::new(Kind::Mesh, self.size, &uniforms, &frame.palette);
-        plan.set_picture(frame.picture.as_ref());
+        let mut plan = Plan::new(Kind::Mesh, self.size, &uniforms, &frame.palette, frame.picture.as_ref());
         let mesh = &frame.mesh;
-        let count = corner_count(mesh);
-        let positions = Key::Positions(mesh.revision());
-        let normals = Key::Normals(mesh.revision());
-        self.ensure(positions, mesh.corner_positions());
-        self.ensure(normals, mesh.corner_normals());
+        let positions = Key::Positions(mesh.revision);
+        let normals = Key::Normals(mesh.revision);
+        self.ensure(positions, &mesh.corner_positions);
+        self.ensure(normals, &mesh.corner_normals);
         let plane = self.plane_or_zeros(frame.plane.as_ref(), mesh);
         let paint = self.paint_or_zeros(frame.paint.as_ref(), mesh);
-        plan.faces.push(Draw { buffers: vec![positions, normals, plane, paint], count });
+        plan.faces.push(Draw { buffers: vec![positions, normals, plane, paint], count: corner_count(mesh) });
 
         for layer in &frame.lines {
-            let key = Key::MeshLines(mesh.revision(), layer.edges.revision());
-            self.ensure_with(key, || segments(mesh.points(), vertex_pairs(&layer.edges)));
-            plan.push_line(self.line_draw(key, MESH_LINE_STRIDE), self.line(layer, LIFT));
+            let key = Key::MeshLines(mesh.revision, layer.edges.revision);
+            self.ensure_with(key, || segments(&mesh.points, vertex_pairs(&layer.edges)));
+            plan.push(Shape::Line, self.draw_of(key, MESH_LINE_STRIDE), self.line(layer, LIFT));
         }
         if let Some((paint, uniforms)) = self.outline(&frame.style, &frame.palette, frame.paint.as_ref(), LIFT) {
-            let key = Key::MeshLines(mesh.revision(), paint.revision());
-            self.ensure_with(key, || segments(mesh.points(), flipped_outline(mesh, paint)));
-            plan.push_line(self.line_draw(key, MESH_LINE_STRIDE), uniforms);
+            let key = Key::MeshLines(mesh.revision, paint.revision);
+            self.ensure_with(key, || segments(&mesh.points, flipped_outline(mesh, paint)));
+            plan.push(Shape::Line, self.draw_of(key, MESH_LINE_STRIDE), uniforms);
         }
         plan
     }
 
-    /// Plans the embedding's pane and makes the buffers that it lacks.
     pub(super) fn plane(&mut self, frame: &PlaneFrame) -> Plan {
         let uniforms = PaneUniforms::of_plane(frame, self.size);
-        let mut plan = Plan::new(Kind::Plane, self.size, &uniforms, &frame.palette);
-        plan.set_picture(frame.picture.as_ref());
-        let Some(plane) = frame.plane.as_ref() else {
-            return plan;
-        };
+        let mut plan = Plan::new(Kind::Plane, self.size, &uniforms, &frame.palette, frame.picture.as_ref());
+        let Some(plane) = frame.plane.as_ref() else { return plan };
         let mesh = &frame.mesh;
         // Flipped faces come first: they lie in front, and what lies behind them is then not drawn.
-        if let Some(paint) = frame.paint.as_ref().filter(|paint| !paint.flipped().is_empty()) {
-            let corners = Key::FlippedPlane(plane.revision(), paint.revision());
-            let colours = Key::FlippedPaint(paint.revision());
-            self.ensure_with(corners, || flipped_corners(plane.corners(), paint));
-            self.ensure_with(colours, || flipped_corners(paint.corners(), paint));
-            let count = u32::try_from(3 * paint.flipped().len()).unwrap_or(0);
+        if let Some(paint) = frame.paint.as_ref().filter(|paint| !paint.flipped.is_empty()) {
+            let corners = Key::FlippedPlane(plane.revision, paint.revision);
+            let colours = Key::FlippedPaint(paint.revision);
+            self.ensure_with(corners, || flipped_corners(&plane.corners, paint));
+            self.ensure_with(colours, || flipped_corners(&paint.corners, paint));
+            let count = u32::try_from(3 * paint.flipped.len()).unwrap_or(0);
             plan.faces.push(Draw { buffers: vec![corners, colours], count });
         }
         let corners = self.plane_or_zeros(Some(plane), mesh);
@@ -159,18 +155,23 @@ impl Planner<'_> {
         plan.faces.push(Draw { buffers: vec![corners, paint], count: corner_count(mesh) });
 
         for layer in &frame.fills {
-            plan.push_fill(self.fill_draw(plane, layer), LineUniforms::new(layer.colour, 0.0, 1.0, 0.0));
+            let key = Key::PlaneFills(plane.revision, layer.faces.revision);
+            // Corners at vertices that are not there fall together.
+            let point = |v: VertexId| plane.points.get(v.index()).copied().unwrap_or_default();
+            self.ensure_with(key, || layer.faces.triangles.iter().flat_map(|corners| corners.map(point)).collect());
+            let uniforms = LineUniforms::new(layer.colour, 0.0, 1.0, 0.0);
+            plan.push(Shape::Fill, self.draw_of(key, PLANE_POINT_STRIDE), uniforms);
         }
         let ghost = frame.ghost.as_ref().map(|ghost| (&ghost.plane, &ghost.line));
         for (plane, layer) in frame.lines.iter().map(|layer| (plane, layer)).chain(ghost) {
-            let key = Key::PlaneLines(plane.revision(), layer.edges.revision());
-            self.ensure_with(key, || segments(plane.points(), vertex_pairs(&layer.edges)));
-            plan.push_line(self.line_draw(key, PLANE_LINE_STRIDE), self.line(layer, 0.0));
+            let key = Key::PlaneLines(plane.revision, layer.edges.revision);
+            self.ensure_with(key, || segments(&plane.points, vertex_pairs(&layer.edges)));
+            plan.push(Shape::Line, self.draw_of(key, PLANE_LINE_STRIDE), self.line(layer, 0.0));
         }
         if let Some((paint, uniforms)) = self.outline(&frame.style, &frame.palette, frame.paint.as_ref(), 0.0) {
-            let key = Key::PlaneLines(plane.revision(), paint.revision());
-            self.ensure_with(key, || segments(plane.points(), flipped_outline(mesh, paint)));
-            plan.push_line(self.line_draw(key, PLANE_LINE_STRIDE), uniforms);
+            let key = Key::PlaneLines(plane.revision, paint.revision);
+            self.ensure_with(key, || segments(&plane.points, flipped_outline(mesh, paint)));
+            plan.push(Shape::Line, self.draw_of(key, PLANE_LINE_STRIDE), uniforms);
         }
         plan
     }
@@ -183,43 +184,28 @@ impl Planner<'_> {
         self.cache.ensure(self.device, key, || Cow::Owned(bytemuck::cast_slice(&values()).to_vec()));
     }
 
-    /// An embedding of another mesh is worse than none.
     fn plane_or_zeros(&mut self, plane: Option<&Arc<PlaneArrays>>, mesh: &MeshArrays) -> Key {
-        match plane.filter(|plane| plane.corners().len() == mesh.corner_positions().len()) {
-            Some(plane) => {
-                self.ensure(Key::Plane(plane.revision()), plane.corners());
-                Key::Plane(plane.revision())
-            }
-            None => self.zeros(size_of::<[f32; 4]>(), mesh),
-        }
+        self.stream_or_zeros(plane.map(|plane| (Key::Plane(plane.revision), &*plane.corners)), mesh)
     }
 
     fn paint_or_zeros(&mut self, paint: Option<&Arc<FacePaint>>, mesh: &MeshArrays) -> Key {
-        match paint.filter(|paint| paint.corners().len() == mesh.corner_positions().len()) {
-            Some(paint) => {
-                self.ensure(Key::Paint(paint.revision()), paint.corners());
-                Key::Paint(paint.revision())
-            }
-            None => self.zeros(size_of::<[u8; 4]>(), mesh),
-        }
+        self.stream_or_zeros(paint.map(|paint| (Key::Paint(paint.revision), &*paint.corners)), mesh)
     }
 
-    fn zeros(&mut self, stride: usize, mesh: &MeshArrays) -> Key {
-        let size = (stride * mesh.corner_positions().len()) as u64;
+    /// One value per corner of the mesh. A stream of another mesh is worse than none.
+    fn stream_or_zeros<T: bytemuck::Pod>(&mut self, stream: Option<(Key, &[T])>, mesh: &MeshArrays) -> Key {
+        let count = mesh.corner_positions.len();
+        if let Some((key, corners)) = stream.filter(|(_, corners)| corners.len() == count) {
+            self.ensure(key, corners);
+            return key;
+        }
+        let size = (size_of::<T>() * count) as u64;
         self.cache.ensure_zeros(self.device, size);
         Key::Zeros(size)
     }
 
-    /// One call for all the faces of a layer; corners at vertices that are not there fall together.
-    fn fill_draw(&mut self, plane: &PlaneArrays, layer: &FillLayer) -> Draw {
-        let key = Key::PlaneFills(plane.revision(), layer.faces.revision());
-        let point = |v: VertexId| plane.points().get(v.index()).copied().unwrap_or_default();
-        self.ensure_with(key, || layer.faces.triangles().iter().flat_map(|corners| corners.map(point)).collect());
-        self.line_draw(key, PLANE_POINT_STRIDE)
-    }
-
-    /// One call for all the lines of a buffer.
-    fn line_draw(&self, key: Key, stride: u64) -> Draw {
+    /// One call for all that is in a buffer.
+    fn draw_of(&self, key: Key, stride: u64) -> Draw {
         let size = self.cache.get(key).map_or(0, wgpu::Buffer::size);
         Draw { buffers: vec![key], count: u32::try_from(size / stride).unwrap_or(0) }
     }
@@ -236,17 +222,17 @@ impl Planner<'_> {
         lift: f32,
     ) -> Option<(&'p FacePaint, LineUniforms)> {
         let width = style.flipped_outline_in_points;
-        let paint = paint.filter(|paint| width > 0.0 && !paint.flipped().is_empty())?;
+        let paint = paint.filter(|paint| width > 0.0 && !paint.flipped.is_empty())?;
         Some((paint, LineUniforms::new(palette.flipped, width, self.size.pixels_per_point, lift)))
     }
 }
 
 fn corner_count(mesh: &MeshArrays) -> u32 {
-    u32::try_from(mesh.corner_positions().len()).unwrap_or(0)
+    u32::try_from(mesh.corner_positions.len()).unwrap_or(0)
 }
 
 fn vertex_pairs(edges: &EdgeList) -> impl Iterator<Item = [usize; 2]> + '_ {
-    edges.ends().iter().map(|ends| ends.map(VertexId::index))
+    edges.ends.iter().map(|ends| ends.map(VertexId::index))
 }
 
 /// Begin and end of each line; lines to vertices that are not there shrink to a point.
@@ -256,20 +242,17 @@ fn segments<P: Copy + Default + bytemuck::Pod>(points: &[P], ends: impl Iterator
 
 /// Sides of flipped faces that no other flipped face shares: around each red region, not all over it.
 fn flipped_outline(mesh: &MeshArrays, paint: &FacePaint) -> impl Iterator<Item = [usize; 2]> {
-    let faces = paint.flipped().iter().filter_map(|face| mesh.triangles().get(face.index()));
+    let faces = paint.flipped.iter().filter_map(|face| mesh.triangles.get(face.index()));
     let mut sides: Vec<[usize; 2]> = faces
         .map(|triangle| triangle.map(VertexId::index))
         .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
         .map(|[a, b]| [a.min(b), a.max(b)])
         .collect();
     sides.sort_unstable();
-    let outline: Vec<[usize; 2]> =
-        sides.chunk_by(|a, b| a == b).filter(|run| run.len() == 1).map(|run| run[0]).collect();
-    outline.into_iter()
+    sides.chunk_by(|a, b| a == b).filter(|run| run.len() == 1).map(|run| run[0]).collect::<Vec<_>>().into_iter()
 }
 
-/// The corners of the flipped faces only.
 fn flipped_corners<T: Copy>(corners: &[T], paint: &FacePaint) -> Vec<T> {
     let of_face = |face: usize| corners.get(3 * face..3 * face + 3).unwrap_or_default();
-    paint.flipped().iter().flat_map(|face| of_face(face.index()).iter().copied()).collect()
+    paint.flipped.iter().flat_map(|face| of_face(face.index()).iter().copied()).collect()
 }

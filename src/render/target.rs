@@ -6,7 +6,6 @@ use eframe::wgpu;
 pub(super) const SAMPLES: u32 = 4;
 /// Linear light, stored with the sRGB curve.
 pub(super) const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-/// Depth.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// The textures of one pane, of one size.

@@ -29,7 +29,7 @@ pub(super) struct PaneUniforms {
     picture_box: [f32; 4],
     strength: [f32; 4],
     choice: [u32; 4],
-    colours: [[f32; 4]; 12],
+    colours: [[f32; 4]; 11],
 }
 
 /// Matches `Line` of shaders/lines.wgsl.
@@ -48,7 +48,6 @@ impl LineUniforms {
     }
 }
 
-/// Size of a pane on the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PaneSize {
     pub(super) in_pixels: [u32; 2],
@@ -67,15 +66,14 @@ impl PaneSize {
 }
 
 impl PaneUniforms {
-    /// The uniforms of the 3D pane.
     pub(super) fn of_mesh(frame: &MeshFrame, size: PaneSize) -> Self {
         let mut uniforms = Self::common(&frame.style, &frame.palette, size);
-        uniforms.set_orbit(&frame.camera, frame.mesh.frame(), size);
+        uniforms.set_orbit(&frame.camera, frame.mesh.frame, size);
         if let Some(plane) = &frame.plane {
-            let origin = plane.frame().center();
-            uniforms.set_checker(plane.frame(), origin, frame.style.check_size);
+            let origin = plane.frame.center();
+            uniforms.set_checker(plane.frame, origin, frame.style.check_size);
             if let Some(layer) = &frame.picture {
-                uniforms.set_picture(plane.frame(), origin, layer);
+                uniforms.set_picture(plane.frame, origin, layer);
             }
         }
         // Without coordinates, or without a picture, there is nothing to carry over.
@@ -86,10 +84,9 @@ impl PaneUniforms {
         uniforms
     }
 
-    /// The uniforms of the embedding's pane.
     pub(super) fn of_plane(frame: &PlaneFrame, size: PaneSize) -> Self {
         let mut uniforms = Self::common(&frame.style, &frame.palette, size);
-        let unit = frame.plane.as_ref().map_or_else(|| UnitPlane::of(PlaneBox::UNIT), |plane| plane.frame());
+        let unit = frame.plane.as_ref().map_or_else(|| UnitPlane::of(PlaneBox::UNIT), |plane| plane.frame);
         let center = frame.camera.center();
         let (unit_center, scale) = frame.camera.unit_view(unit, size.in_points());
         uniforms.plane_center = crate::view::split_point(unit_center);
@@ -113,12 +110,7 @@ impl PaneUniforms {
         let mut uniforms = Self {
             right: [1.0, 0.0, 0.0, size.pixels_per_point],
             plane_scale: [1.0, 1.0, width, height],
-            choice: [
-                style.shading as u32,
-                u32::from(style.normals == Normals::Flat),
-                style.hovered.map_or(u32::MAX, crate::mesh::FaceId::number),
-                0,
-            ],
+            choice: [style.shading as u32, u32::from(style.normals == Normals::Flat), 0, 0],
             colours: colours(palette),
             ..Self::zeroed()
         };
@@ -172,7 +164,7 @@ impl PaneUniforms {
 const WIRE: usize = 9;
 
 /// In the order of the fields of `Pane`.
-fn colours(palette: &Palette) -> [[f32; 4]; 12] {
+fn colours(palette: &Palette) -> [[f32; 4]; 11] {
     [
         palette.background,
         palette.grid,
@@ -185,7 +177,6 @@ fn colours(palette: &Palette) -> [[f32; 4]; 12] {
         palette.checker[1],
         palette.wire,
         palette.flipped,
-        palette.hover,
     ]
     .map(Srgb::to_linear)
 }

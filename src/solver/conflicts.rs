@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 
 use super::{PinPositions, Pins};
-use crate::geom::{Bounds, Orientation, orientation, segments_meet};
+use crate::geom::{Bounds, Orientation, folds_back, orientation, segments_meet};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 
 /// The greatest number of conflicts of each kind that are listed: more than anybody mends by hand.
@@ -133,10 +133,7 @@ impl PinnedEdge {
         };
         let [apex, a] = [self.segment[shared], self.segment[1 - shared]];
         let b = other.segment[usize::from(other.ends[0] == self.ends[shared])];
-        // On one line and on the same side of the shared end; comparing coordinates is exact.
-        let same_way = |a: f64, apex: f64, b: f64| (a > apex && b > apex) || (a < apex && b < apex);
-        orientation(a, apex, b) == Some(Orientation::Collinear)
-            && (same_way(a.x, apex.x, b.x) || same_way(a.y, apex.y, b.y))
+        folds_back(a, apex, b)
     }
 }
 

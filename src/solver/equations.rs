@@ -179,7 +179,7 @@ fn sum_corners<T: Scalar>(
     let mut coefficients = vec![T::ZERO; mesh.halfedge_count()];
     let mut bounded_corners = 0;
     for (side, corner) in corners.iter().enumerate() {
-        if !corner.shares.iter().all(|&share| share.is_finite_scalar()) {
+        if !corner.shares.iter().all(|&share| share.is_finite()) {
             return Err(SolveError::NotFinite { face: FaceId::from_index(side / 3) });
         }
         bounded_corners += usize::from(corner.bounded);

@@ -63,7 +63,6 @@ impl Offer {
         Self { enabled, ..self }
     }
 
-    /// Shows the button.
     pub(in crate::ui) fn show(self, ui: &mut Ui, requests: &mut Vec<Request>) {
         let button = ui.add_enabled(self.enabled, egui::Button::new(self.words).small());
         button.on_hover_text(self.tip).asks(self.request, requests);
@@ -95,7 +94,6 @@ pub(in crate::ui) fn number(ui: &mut Ui, name: &str, value: impl Into<String>) -
     label
 }
 
-/// A count and its noun.
 pub(in crate::ui) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }

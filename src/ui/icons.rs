@@ -11,13 +11,11 @@ fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {
     points.iter().map(|&(x, y)| rect.min + egui::vec2(x, y) * scale).collect()
 }
 
-/// An arrow as the mouse has it.
 pub(super) fn pointer(painter: &egui::Painter, rect: Rect, colour: Color32) {
     let outline = [(8.0, 5.0), (8.0, 17.5), (11.2, 14.6), (13.4, 19.4), (15.4, 18.5), (13.2, 13.8), (17.4, 13.4)];
     painter.add(Shape::closed_line(on_grid(rect, &outline), Stroke::new(1.6, colour)));
 }
 
-/// A drawing pin.
 pub(super) fn pin(painter: &egui::Painter, rect: Rect, colour: Color32) {
     let stroke = Stroke::new(1.6, colour);
     let head = [(9.0, 5.0), (15.0, 5.0), (14.2, 11.0), (16.6, 13.6), (7.4, 13.6), (9.8, 11.0)];
@@ -63,7 +61,6 @@ impl Sign {
     }
 }
 
-/// Draws a sign into a square.
 pub(super) fn sign(painter: &egui::Painter, rect: Rect, sign: Sign, theme: &Theme) {
     let colour = sign.colour(theme);
     let stroke = Stroke::new(1.8, colour);

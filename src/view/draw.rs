@@ -3,7 +3,8 @@
 //! Faces are drawn without an index buffer: corner `3 f + k` is corner `k` of face `f`. A vertex shader then knows
 //! face and corner from its running number, so flat colours and wireframes need neither a geometry shader nor a
 //! storage buffer, and runs on GLES 3. The price is that positions repeat about six times; in exchange the three
-//! streams (mesh, embedding, paint) change apart from each other, and only what changed is sent.
+//! streams (mesh, embedding, paint) change apart from each other, and only what changed is sent. Fields are there to be
+//! read: what is changed is made anew.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -28,13 +29,21 @@ impl Revision {
 /// The mesh in unit space. Made once per mesh; 100 k faces take some ten milliseconds, on any thread.
 #[derive(Debug)]
 pub struct MeshArrays {
-    revision: Revision,
-    frame: UnitFrame,
-    mean_normal: DVec3,
-    points: Vec<[f32; 3]>,
-    corner_positions: Vec<[f32; 3]>,
-    corner_normals: Vec<[i16; 4]>,
-    triangles: Vec<[VertexId; 3]>,
+    /// Which mesh this is.
+    pub revision: Revision,
+    /// Where unit space lies in the world.
+    pub frame: UnitFrame,
+    /// The mean of the faces' normals, weighted by area: the side that the surface shows. Its length is 1 for a plane
+    /// sheet and 0 for a closed surface.
+    pub mean_normal: DVec3,
+    /// Vertices in unit space.
+    pub points: Vec<[f32; 3]>,
+    /// Positions in unit space, corner by corner.
+    pub corner_positions: Vec<[f32; 3]>,
+    /// Normals, corner by corner, as 16-bit fractions; the fourth is nothing.
+    pub corner_normals: Vec<[i16; 4]>,
+    /// Corners of all faces.
+    pub triangles: Vec<[VertexId; 3]>,
 }
 
 impl MeshArrays {
@@ -64,42 +73,6 @@ impl MeshArrays {
             triangles: triangles.to_vec(),
         }
     }
-
-    /// Which mesh this is.
-    pub fn revision(&self) -> Revision {
-        self.revision
-    }
-
-    /// Where unit space lies in the world.
-    pub fn frame(&self) -> UnitFrame {
-        self.frame
-    }
-
-    /// The mean of the faces' normals, weighted by area: the side that the surface shows. Its length is 1 for a plane
-    /// sheet and 0 for a closed surface.
-    pub fn mean_normal(&self) -> DVec3 {
-        self.mean_normal
-    }
-
-    /// Corners of all faces.
-    pub fn triangles(&self) -> &[[VertexId; 3]] {
-        &self.triangles
-    }
-
-    /// Vertices in unit space.
-    pub fn points(&self) -> &[[f32; 3]] {
-        &self.points
-    }
-
-    /// Positions in unit space, corner by corner.
-    pub fn corner_positions(&self) -> &[[f32; 3]] {
-        &self.corner_positions
-    }
-
-    /// Normals, corner by corner, as 16-bit fractions; the fourth is nothing.
-    pub fn corner_normals(&self) -> &[[i16; 4]] {
-        &self.corner_normals
-    }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "components of a unit vector times 32767")]
@@ -111,11 +84,16 @@ fn packed_normal(normal: DVec3) -> [i16; 4] {
 /// An embedding in unit space, as sums of two f32, so that one can zoom in twelve decades. Made once per embedding.
 #[derive(Debug)]
 pub struct PlaneArrays {
-    revision: Revision,
-    frame: UnitPlane,
-    bounds: PlaneBox,
-    points: Vec<[f32; 4]>,
-    corners: Vec<[f32; 4]>,
+    /// Which embedding this is.
+    pub revision: Revision,
+    /// Where unit space lies in the plane.
+    pub frame: UnitPlane,
+    /// The smallest box around it.
+    pub bounds: PlaneBox,
+    /// Vertices: high parts, then low parts.
+    pub points: Vec<[f32; 4]>,
+    /// The same, corner by corner.
+    pub corners: Vec<[f32; 4]>,
 }
 
 impl PlaneArrays {
@@ -139,39 +117,17 @@ impl PlaneArrays {
         let corners = triangles.iter().flatten().map(|v| points[v.index()]).collect();
         Self { revision: Revision::fresh(), frame, bounds, points, corners }
     }
-
-    /// Which embedding this is.
-    pub fn revision(&self) -> Revision {
-        self.revision
-    }
-
-    /// Where unit space lies in the plane.
-    pub fn frame(&self) -> UnitPlane {
-        self.frame
-    }
-
-    /// The smallest box around it.
-    pub fn bounds(&self) -> PlaneBox {
-        self.bounds
-    }
-
-    /// Vertices: high parts, then low parts.
-    pub fn points(&self) -> &[[f32; 4]] {
-        &self.points
-    }
-
-    /// The same, corner by corner.
-    pub fn corners(&self) -> &[[f32; 4]] {
-        &self.corners
-    }
 }
 
 /// A colour and flags per face. Made anew when a quantity or the verdict changes.
 #[derive(Debug)]
 pub struct FacePaint {
-    revision: Revision,
-    corners: Vec<[u8; 4]>,
-    flipped: Vec<FaceId>,
+    /// Which colouring this is.
+    pub revision: Revision,
+    /// Red, green, blue and the flags, corner by corner.
+    pub corners: Vec<[u8; 4]>,
+    /// The flipped faces.
+    pub flipped: Vec<FaceId>,
 }
 
 impl FacePaint {
@@ -198,33 +154,15 @@ impl FacePaint {
         }
         Self { revision: Revision::fresh(), corners, flipped }
     }
-
-    /// Which colouring this is.
-    pub fn revision(&self) -> Revision {
-        self.revision
-    }
-
-    /// How many faces it colours.
-    pub fn face_count(&self) -> usize {
-        self.corners.len() / 3
-    }
-
-    /// Red, green, blue and the flags, corner by corner.
-    pub fn corners(&self) -> &[[u8; 4]] {
-        &self.corners
-    }
-
-    /// The flipped faces.
-    pub fn flipped(&self) -> &[FaceId] {
-        &self.flipped
-    }
 }
 
 /// Edges that are drawn as lines: the boundary, crossings, a path.
 #[derive(Debug)]
 pub struct EdgeList {
-    revision: Revision,
-    ends: Vec<[VertexId; 2]>,
+    /// Which list this is.
+    pub revision: Revision,
+    /// The ends of each edge.
+    pub ends: Vec<[VertexId; 2]>,
 }
 
 impl EdgeList {
@@ -238,23 +176,15 @@ impl EdgeList {
         let next = vertices.iter().cycle().skip(1);
         Self::new(vertices.iter().zip(next).map(|(&a, &b)| [a, b]).collect())
     }
-
-    /// Which list this is.
-    pub fn revision(&self) -> Revision {
-        self.revision
-    }
-
-    /// The ends of each edge.
-    pub fn ends(&self) -> &[[VertexId; 2]] {
-        &self.ends
-    }
 }
 
 /// Faces that are not the mesh's, filled with one colour: the pockets of a virtual boundary.
 #[derive(Debug)]
 pub struct FaceList {
-    revision: Revision,
-    triangles: Vec<[VertexId; 3]>,
+    /// Which list this is.
+    pub revision: Revision,
+    /// The corners of each face.
+    pub triangles: Vec<[VertexId; 3]>,
 }
 
 impl FaceList {
@@ -262,24 +192,17 @@ impl FaceList {
     pub fn new(triangles: Vec<[VertexId; 3]>) -> Self {
         Self { revision: Revision::fresh(), triangles }
     }
-
-    /// Which list this is.
-    pub fn revision(&self) -> Revision {
-        self.revision
-    }
-
-    /// The corners of each face.
-    pub fn triangles(&self) -> &[[VertexId; 3]] {
-        &self.triangles
-    }
 }
 
 /// A picture behind the embedding and on the faces.
 #[derive(Debug)]
 pub struct Picture {
-    revision: Revision,
-    size: [u32; 2],
-    pixels: Vec<u8>,
+    /// Which picture this is.
+    pub revision: Revision,
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// Four bytes per pixel, the upper row first.
+    pub pixels: Vec<u8>,
 }
 
 impl Picture {
@@ -287,20 +210,5 @@ impl Picture {
     pub fn new(size: [u32; 2], pixels: Vec<u8>) -> Option<Self> {
         let expected = 4 * size[0] as usize * size[1] as usize;
         (expected > 0 && pixels.len() == expected).then(|| Self { revision: Revision::fresh(), size, pixels })
-    }
-
-    /// Which picture this is.
-    pub fn revision(&self) -> Revision {
-        self.revision
-    }
-
-    /// Width and height, pixels.
-    pub fn size(&self) -> [u32; 2] {
-        self.size
-    }
-
-    /// Four bytes per pixel, the upper row first.
-    pub fn pixels(&self) -> &[u8] {
-        &self.pixels
     }
 }

@@ -53,6 +53,4 @@ pub struct Palette {
     pub wire: Srgb,
     /// Flipped faces.
     pub flipped: Srgb,
-    /// The face under the pointer, mixed in.
-    pub hover: Srgb,
 }

@@ -71,7 +71,7 @@ fn hermitian_agrees_with_dense<T: Draw>(seed: u64, n: usize, sign: f64) {
 }
 
 fn bits<T: Scalar>(x: &[T]) -> Vec<[u64; 2]> {
-    x.iter().map(|x| [x.real_part().to_bits(), x.squared_modulus().to_bits()]).collect()
+    x.iter().map(|x| [x.real().to_bits(), x.modulus_squared().to_bits()]).collect()
 }
 
 #[test]

@@ -64,7 +64,7 @@ pub(crate) fn hermitian<T: Draw>(pattern: &SparsityPattern, sign: f64, random: &
     let half: CscMatrix<T> = dominant(pattern, random);
     let adjoint = half.transpose();
     let pairs = half.values().iter().zip(adjoint.values());
-    let values = pairs.map(|(&value, mirrored)| (value + mirrored.conjugated()).scaled(0.5 * sign)).collect();
+    let values = pairs.map(|(&value, mirrored)| (value + mirrored.conjugate()).scale(0.5 * sign)).collect();
     CscMatrix::try_from_pattern_and_values(pattern.clone(), values).expect("one value an entry")
 }
 

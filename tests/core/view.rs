@@ -182,8 +182,8 @@ fn framing_shows_the_whole_mesh_at_any_scale_and_place() {
             let arrays = MeshArrays::new(&positions, &triangles);
             let mut camera = OrbitCamera::framing(Sphere::around(&positions), UpAxis::Y);
             camera.frame(Sphere::around(&positions), pane);
-            let clip_from_unit = camera.clip_from_unit(arrays.frame(), pane);
-            for &[x, y, z] in arrays.points() {
+            let clip_from_unit = camera.clip_from_unit(arrays.frame, pane);
+            for &[x, y, z] in &arrays.points {
                 let clip = clip_from_unit * Vec4::new(x, y, z, 1.0);
                 let ndc = clip.truncate() / clip.w;
                 assert!(
@@ -259,8 +259,8 @@ fn split_points_tell_apart_what_one_f32_cannot() {
     let triangles = [[id(0), id(1), id(2)]];
     let arrays =
         PlaneArrays::new(&[DVec2::new(0.3, 0.0), DVec2::new(0.3 + near, 0.0), DVec2::new(1.0, 1.0)], &triangles);
-    let x = |v: usize| f64::from(arrays.points()[v][0]) + f64::from(arrays.points()[v][2]);
-    let expected = near / arrays.frame().embedding_per_unit();
+    let x = |v: usize| f64::from(arrays.points[v][0]) + f64::from(arrays.points[v][2]);
+    let expected = near / arrays.frame.embedding_per_unit();
     assert!((x(1) - x(0) - expected).abs() < 0.01 * expected, "{}", x(1) - x(0));
 }
 
@@ -285,9 +285,9 @@ fn a_cube_has_edges_and_a_bent_sheet_has_none() {
 fn every_array_has_its_own_revision_and_flags_stay_with_their_faces() {
     let paint = FacePaint::plain(3, &[FaceId::new(1), FaceId::new(99)]);
     let other = FacePaint::plain(3, &[FaceId::new(1)]);
-    assert_ne!(paint.revision(), other.revision());
-    assert_eq!(paint.flipped(), [FaceId::new(1)]);
-    let flags: Vec<u8> = paint.corners().iter().map(|corner| corner[3]).collect();
+    assert_ne!(paint.revision, other.revision);
+    assert_eq!(paint.flipped, [FaceId::new(1)]);
+    let flags: Vec<u8> = paint.corners.iter().map(|corner| corner[3]).collect();
     assert_eq!(flags, [0, 0, 0, 1, 1, 1, 0, 0, 0]);
 }
 

@@ -240,7 +240,7 @@ fn arrows_nudge_selected_pins_and_only_them() {
     corners(&mut window);
     let before = pins(&window);
     window.editor_mut().selection.select([8, 40].map(VertexId::new));
-    let step = window.editor().plane.scene().expect("solved").arrays.bounds().extent() / 512.0;
+    let step = window.editor().plane.scene().expect("solved").arrays.bounds.extent() / 512.0;
     window.key(Key::ArrowRight);
     for (vertex, by) in [(8, step), (40, step), (0, 0.0)] {
         let moved = pins(&window)[&VertexId::new(vertex)].uv - before[&VertexId::new(vertex)].uv;

@@ -46,7 +46,7 @@ fn each_stage_shows_the_mesh_where_it_was_then() {
     let result = window.embedding();
     let stages = window.outcome().step.virtual_boundary.clone().expect("bent");
     window.key(Key::H);
-    let extent = window.editor().plane.drawn().expect("solved").arrays.bounds().extent();
+    let extent = window.editor().plane.drawn().expect("solved").arrays.bounds.extent();
     let gap = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / extent;
 
     let pockets = positions(&window);

@@ -40,7 +40,6 @@ const PALETTE: Palette = Palette {
     checker: [Srgb([255, 255, 255, 255]), Srgb([0, 0, 0, 255])],
     wire: Srgb([0, 0, 0, 255]),
     flipped: Srgb([255, 0, 0, 255]),
-    hover: Srgb([255, 255, 0, 128]),
 };
 
 fn id(v: u32) -> VertexId {
@@ -285,7 +284,7 @@ fn filled_faces_show_beside_the_mesh_and_under_it_mixed_with_what_is_behind() {
     let mut positions: Vec<DVec2> = sheet().0.iter().map(|p| p.truncate()).collect();
     positions[2] = DVec2::new(0.0, -1.0) + 1e-3;
     positions.push(DVec2::new(1.0, -1.0));
-    frame.plane = Some(Arc::new(PlaneArrays::new(&positions, frame.mesh.triangles())));
+    frame.plane = Some(Arc::new(PlaneArrays::new(&positions, &frame.mesh.triangles)));
     let faces = Arc::new(FaceList::new(vec![[id(1), id(9), id(5)], [id(3), id(4), id(7)]]));
     frame.fills.push(FillLayer { faces, colour: Srgb([0, 0, 255, 128]) });
     let picture = plane_picture(frame.clone());

@@ -7,7 +7,7 @@ use faer::Par;
 use nalgebra_sparse::CscMatrix;
 use rayon::Scope;
 
-use super::front::{Front, scatter};
+use super::front::Front;
 use super::pivot::Pivots;
 use super::symbolic::LuAnalysis;
 use crate::linalg::order::{NONE, Pattern, narrow};
@@ -26,9 +26,9 @@ const PARALLEL_WORK: f64 = 2e6;
 pub(crate) struct Lu<T> {
     pub(super) units: Vec<UnitFactor<T>>,
     /// 1/R, by the caller's rows.
-    pub(super) row_scale: Vec<f64>,
+    pub(crate) row_scale: Vec<f64>,
     /// The caller's rows whose pivot was replaced, in the order of elimination.
-    pub(super) replaced_rows: Vec<u32>,
+    pub(crate) replaced_rows: Vec<u32>,
     peak_bytes: usize,
 }
 
@@ -130,7 +130,7 @@ impl<T: Scalar> Job<'_, T> {
             if self.cancel.load(Ordering::Relaxed) {
                 return;
             }
-            let children = self.analysis.children(supernode).iter().map(|&child| {
+            let children = self.analysis.children.of(supernode).iter().map(|&child| {
                 let update = if (child as usize) < range.start {
                     let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
                     place.ok().map(|place| std::mem::take(&mut arrived[place].1))
@@ -171,9 +171,11 @@ impl<T: Scalar> Job<'_, T> {
         let start = factor.values.len();
         factor.values.resize(start + shape.kept_len(), T::ZERO);
         let block = &mut factor.values[start..];
-        scatter(block, analysis.entries(supernode), |source| {
-            self.values[source].scaled(self.row_scale[self.pattern.rows[source] as usize])
-        });
+        for entry in analysis.entries(supernode) {
+            let source = entry.source as usize;
+            let scale = self.row_scale[self.pattern.rows[source] as usize];
+            block[entry.target as usize] = self.values[source].scale(scale);
+        }
         self.memory.take(shape.update_len() * size_of::<T>());
         let mut update = vec![T::ZERO; shape.update_len()];
         let (left, right) = block.split_at_mut(shape.left_len());
@@ -205,16 +207,6 @@ impl<T> Lu<T> {
             factor_bytes: factor_nonzeros * size_of::<T>(),
             peak_bytes: self.peak_bytes,
         }
-    }
-
-    /// The caller's row of the first pivot that was replaced.
-    pub(crate) fn first_replaced_row(&self) -> Option<usize> {
-        self.replaced_rows.first().map(|&row| row as usize)
-    }
-
-    /// 1/R, by the caller's rows.
-    pub(crate) fn row_scale(&self) -> &[f64] {
-        &self.row_scale
     }
 }
 

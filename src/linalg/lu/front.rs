@@ -3,7 +3,7 @@
 use faer::{Accum, MatMut, MatRef, Par, linalg};
 
 use super::pivot::{Pivots, factor_block};
-use super::symbolic::{Entry, Shape};
+use super::symbolic::Shape;
 use crate::linalg::scalar::Scalar;
 
 /// A dense front under way. The two panels are the factor's own memory.
@@ -60,13 +60,6 @@ impl<T: Scalar> Front<'_, T> {
         );
         let update = mat_mut(self.update, below, below);
         linalg::matmul::matmul(update, Accum::Add, lower.as_ref(), right.as_ref(), -T::ONE, par);
-    }
-}
-
-/// Writes a supernode's entries of the scaled matrix into its block.
-pub(super) fn scatter<T: Scalar>(block: &mut [T], entries: &[Entry], scaled: impl Fn(usize) -> T) {
-    for entry in entries {
-        block[entry.target as usize] = scaled(entry.source as usize);
     }
 }
 

@@ -3,6 +3,7 @@
 use faer::{Accum, Par, linalg};
 
 use super::front::{mat, mat_mut};
+use crate::linalg::order::narrow;
 use crate::linalg::scalar::Scalar;
 
 /// The diagonal entry is taken as pivot when it is at least this share of the largest candidate. Systems with positive
@@ -22,14 +23,6 @@ pub(super) struct Pivots<'a> {
     pub(super) replaced: Vec<usize>,
 }
 
-impl Pivots<'_> {
-    /// Notes that two rows change places.
-    fn swap(&mut self, k: usize, row: usize) {
-        self.swaps[k] = u32::try_from(row).expect("fronts are smaller than that");
-        self.thresholds.swap(k, row);
-    }
-}
-
 /// Factors the top `columns` × `columns` block of `panel` (leading dimension `height`) and moves the rows of `right`
 /// along.
 pub(super) fn factor_block<T: Scalar>(panel: &mut [T], height: usize, right: &mut [T], pivots: &mut Pivots<'_>) {
@@ -38,7 +31,8 @@ pub(super) fn factor_block<T: Scalar>(panel: &mut [T], height: usize, right: &mu
         let last = (first + BLOCK).min(columns);
         for k in first..last {
             let row = choose(panel, height, k, pivots);
-            pivots.swap(k, row);
+            pivots.swaps[k] = narrow(row);
+            pivots.thresholds.swap(k, row);
             if row != k {
                 panel.chunks_exact_mut(height).for_each(|column| column.swap(k, row));
                 right.chunks_exact_mut(columns).for_each(|column| column.swap(k, row));
@@ -73,7 +67,7 @@ fn replace_if_tiny<T: Scalar>(panel: &mut [T], height: usize, k: usize, pivots: 
         return;
     }
     // A NaN comes here too.
-    *pivot = if size > 0.0 { pivot.scaled(threshold / size) } else { T::from_real(threshold) };
+    *pivot = if size > 0.0 { pivot.scale(threshold / size) } else { T::from_real(threshold) };
     pivots.replaced.push(k);
 }
 

@@ -45,7 +45,7 @@ impl<T: Scalar> Lu<T> {
 
     fn solve_group(&self, analysis: &LuAnalysis, operation: Operation, columns: &mut [T]) {
         let n = self.row_scale.len();
-        let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugated() } else { x };
+        let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugate() } else { x };
         let (before, after) = match operation {
             Operation::Plain => (Some(&self.row_scale), None),
             Operation::Adjoint => (None, Some(&self.row_scale)),
@@ -56,7 +56,7 @@ impl<T: Scalar> Lu<T> {
         for column in columns.chunks_exact(n) {
             x.extend(order.iter().map(|&old| {
                 let row = old as usize;
-                conjugate(column[row]).scaled(factor(before, row))
+                conjugate(column[row]).scale(factor(before, row))
             }));
         }
         let mut work = Work { x, order: n, outer: Vec::new() };
@@ -70,7 +70,7 @@ impl<T: Scalar> Lu<T> {
         for (x, column) in work.x.chunks_exact(n).zip(columns.chunks_exact_mut(n)) {
             for (&x, &old) in x.iter().zip(order) {
                 let row = old as usize;
-                column[row] = conjugate(x).scaled(factor(after, row));
+                column[row] = conjugate(x).scale(factor(after, row));
             }
         }
     }
@@ -89,7 +89,7 @@ impl<T: Scalar> Lu<T> {
                 let begin = analysis.begin[supernode] as usize;
                 let (left, right) = factor.values[start..start + shape.kept_len()].split_at(shape.left_len());
                 let swaps = &factor.swaps[begin - first_column..][..shape.columns];
-                Block { shape, begin, rows: analysis.rows(supernode), left, right, swaps }
+                Block { shape, begin, rows: analysis.rows.of(supernode), left, right, swaps }
             })
         })
     }

@@ -3,7 +3,7 @@
 //! A child is merged into its parent when the explicit zeros this stores are few for the size of the result (Ashcraft
 //! and Grimes 1989, "The influence of relaxed supernode partitions on the multifrontal method").
 
-use crate::linalg::order::{Elimination, NONE, narrow};
+use crate::linalg::order::{Elimination, NONE, narrow, postorder};
 
 /// Columns up to which a merged supernode may hold the given share of zeros. The steps are those of CHOLMOD and faer.
 const RELAXATION: [(u64, f64); 4] = [(4, 1.0), (16, 0.8), (48, 0.1), (u64::MAX, 0.05)];
@@ -44,7 +44,7 @@ pub(super) fn supernodes(elimination: &Elimination) -> Supernodes {
     let (first, mut parent, mut groups) = maximal(elimination);
     let merged_into = relax(&mut parent, &mut groups);
     let children_first = order_for_memory(&parent, &groups, &merged_into);
-    number(&Members::new(elimination, &first, &merged_into), &parent, &groups, &children_first)
+    number(&first, &merged_into, &parent, &groups, &children_first)
 }
 
 /// Runs of columns where each is the parent of the one before and has just its pattern.
@@ -130,41 +130,24 @@ fn order_for_memory(parent: &[u32], groups: &[Group], merged_into: &[u32]) -> Ve
             children[parent[node as usize] as usize].push(node);
         }
     }
-    // Parents first and siblings last to first: reversed, it is the postorder.
-    let mut sequence = Vec::with_capacity(standing.len());
-    let mut stack: Vec<u32> = standing.iter().copied().filter(|&node| parent[node as usize] == NONE).collect();
-    while let Some(node) = stack.pop() {
-        sequence.push(node);
-        stack.extend(&children[node as usize]);
+    let roots = standing.into_iter().filter(|&node| parent[node as usize] == NONE).collect();
+    postorder(roots, |node| &children[node as usize])
+}
+
+/// Renumbers the standing supernodes, `first` being the first columns of all.
+fn number(first: &[u32], merged_into: &[u32], parent: &[u32], groups: &[Group], sequence: &[u32]) -> Supernodes {
+    // The columns of every standing supernode, in elimination order.
+    let mut members = vec![Vec::new(); merged_into.len()];
+    for (node, pair) in first.windows(2).enumerate() {
+        members[merged_into[node] as usize].extend(pair[0]..pair[1]);
     }
-    sequence.reverse();
-    sequence
-}
-
-/// The columns of every standing supernode, in elimination order.
-struct Members {
-    columns: Vec<Vec<u32>>,
-}
-
-impl Members {
-    fn new(elimination: &Elimination, first: &[u32], merged_into: &[u32]) -> Self {
-        let mut columns = vec![Vec::new(); merged_into.len()];
-        for (node, pair) in first.windows(2).enumerate() {
-            columns[merged_into[node] as usize].extend(pair[0]..pair[1]);
-        }
-        debug_assert_eq!(columns.iter().map(Vec::len).sum::<usize>(), elimination.parent.len());
-        Self { columns }
-    }
-}
-
-fn number(members: &Members, parent: &[u32], groups: &[Group], sequence: &[u32]) -> Supernodes {
     let mut position = vec![NONE; groups.len()];
     for (place, &node) in sequence.iter().enumerate() {
         position[node as usize] = narrow(place);
     }
     let mut this = Supernodes { begin: vec![0], parent: Vec::new(), below: Vec::new(), columns: Vec::new() };
     for &node in sequence {
-        this.columns.extend(&members.columns[node as usize]);
+        this.columns.extend(&members[node as usize]);
         this.begin.push(narrow(this.columns.len()));
         this.below.push(u32::try_from(groups[node as usize].below).expect("at most the order of the matrix"));
         let above = parent[node as usize];

@@ -7,7 +7,7 @@
 use super::supernodes::{Supernodes, supernodes};
 use super::units::{Unit, units};
 use crate::linalg::LinalgError;
-use crate::linalg::order::{Elimination, NONE, Order, Pattern, narrow};
+use crate::linalg::order::{Elimination, Lists, NONE, Order, Pattern, children, narrow, running_sum};
 
 /// An entry of the caller's matrix and its place in the kept part of a front.
 #[derive(Clone, Copy, Debug)]
@@ -58,13 +58,13 @@ pub(crate) struct LuAnalysis {
     /// First column of each supernode, and the order of the matrix last.
     pub(super) begin: Vec<u32>,
     pub(super) parent: Vec<u32>,
-    row_offsets: Vec<u32>,
-    rows: Vec<u32>,
+    /// For each supernode the rows below its diagonal block, ascending, in the order of elimination.
+    pub(super) rows: Lists,
+    /// The same rows as positions in the parent's front.
     relative: Vec<u32>,
     entry_offsets: Vec<u32>,
     entries: Vec<Entry>,
-    child_offsets: Vec<u32>,
-    children: Vec<u32>,
+    pub(super) children: Lists,
     pub(super) units: Vec<Unit>,
     pub(super) unit_of: Vec<u32>,
 }
@@ -73,19 +73,16 @@ impl LuAnalysis {
     pub(crate) fn new(pattern: &Pattern, elimination: &Elimination) -> Result<Self, LinalgError> {
         let Supernodes { begin, parent, below, columns } = supernodes(elimination);
         let order = elimination.order.then(&columns);
-        let row_offsets = running_sum(&below);
-        let rows = front_rows(&pattern.permuted_upper(&order), &begin, &parent, &row_offsets);
-        let (child_offsets, children) = children(&parent);
+        let rows = front_rows(&pattern.permuted_upper(&order), &begin, &parent, running_sum(&below));
+        let children = children(&parent);
         let mut this = Self {
             order,
             begin,
             parent,
-            row_offsets,
             rows,
             relative: Vec::new(),
             entry_offsets: Vec::new(),
             entries: Vec::new(),
-            child_offsets,
             children,
             units: Vec::new(),
             unit_of: Vec::new(),
@@ -109,35 +106,26 @@ impl LuAnalysis {
 
     pub(super) fn shape(&self, supernode: usize) -> Shape {
         let columns = (self.begin[supernode + 1] - self.begin[supernode]) as usize;
-        Shape { columns, below: (self.row_offsets[supernode + 1] - self.row_offsets[supernode]) as usize }
-    }
-
-    /// Rows below the diagonal block, ascending, in the order of elimination.
-    pub(super) fn rows(&self, supernode: usize) -> &[u32] {
-        &self.rows[self.row_offsets[supernode] as usize..self.row_offsets[supernode + 1] as usize]
+        Shape { columns, below: self.rows.of(supernode).len() }
     }
 
     /// The same rows as positions in the parent's front.
     pub(super) fn relative(&self, supernode: usize) -> &[u32] {
-        &self.relative[self.row_offsets[supernode] as usize..self.row_offsets[supernode + 1] as usize]
+        &self.relative[self.rows.offsets[supernode] as usize..self.rows.offsets[supernode + 1] as usize]
     }
 
     pub(super) fn entries(&self, supernode: usize) -> &[Entry] {
         &self.entries[self.entry_offsets[supernode] as usize..self.entry_offsets[supernode + 1] as usize]
     }
 
-    pub(super) fn children(&self, supernode: usize) -> &[u32] {
-        &self.children[self.child_offsets[supernode] as usize..self.child_offsets[supernode + 1] as usize]
-    }
-
     fn relative_rows(&self) -> Vec<u32> {
-        let mut relative = Vec::with_capacity(self.rows.len());
+        let mut relative = Vec::with_capacity(self.rows.items.len());
         for supernode in 0..self.count() {
             let Some(&parent) = self.parent.get(supernode).filter(|&&parent| parent != NONE) else { continue };
             let parent = parent as usize;
             let (begin, end) = (self.begin[parent], self.begin[parent + 1]);
-            let mut parents_rows = self.rows(parent).iter().zip(end - begin..);
-            for &row in self.rows(supernode) {
+            let mut parents_rows = self.rows.of(parent).iter().zip(end - begin..);
+            for &row in self.rows.of(supernode) {
                 relative.push(if row < end {
                     row - begin
                 } else {
@@ -158,7 +146,7 @@ impl LuAnalysis {
             let Shape { columns, below } = self.shape(supernode);
             let (begin, end) = (self.begin[supernode], self.begin[supernode + 1]);
             let height = narrow(columns + below);
-            for (&row, place) in self.rows(supernode).iter().zip(0..) {
+            for (&row, place) in self.rows.of(supernode).iter().zip(0..) {
                 local[row as usize] = place;
             }
             for column in begin..end {
@@ -183,23 +171,14 @@ impl LuAnalysis {
     }
 }
 
-fn running_sum(counts: &[u32]) -> Vec<u32> {
-    let mut total = 0usize;
-    let later = counts.iter().map(|&count| {
-        total += count as usize;
-        narrow(total)
-    });
-    std::iter::once(0).chain(later).collect()
-}
-
 /// The rows of every front below its diagonal block: row k lies in the fronts on the way up the tree from each
 /// entry (k, i), i < k, of A to the supernode of k itself.
-fn front_rows(upper: &Pattern, begin: &[u32], parent: &[u32], offsets: &[u32]) -> Vec<u32> {
+fn front_rows(upper: &Pattern, begin: &[u32], parent: &[u32], offsets: Vec<u32>) -> Lists {
     let mut owner = Vec::with_capacity(upper.order());
     for (supernode, pair) in begin.windows(2).enumerate() {
         owner.resize(pair[1] as usize, narrow(supernode));
     }
-    let mut next = offsets.to_vec();
+    let mut next = offsets.clone();
     let mut rows = vec![0u32; next[parent.len()] as usize];
     let mut seen = vec![NONE; parent.len()];
     for row in 0..upper.order() {
@@ -214,21 +193,7 @@ fn front_rows(upper: &Pattern, begin: &[u32], parent: &[u32], offsets: &[u32]) -
         }
     }
     debug_assert!(next[..parent.len()] == offsets[1..], "counts and patterns agree");
-    rows
-}
-
-/// Children of every node, ascending.
-fn children(parent: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let mut counts = vec![0u32; parent.len()];
-    parent.iter().filter(|&&above| above != NONE).for_each(|&above| counts[above as usize] += 1);
-    let offsets = running_sum(&counts);
-    let mut next = offsets.clone();
-    let mut children = vec![0u32; offsets[parent.len()] as usize];
-    for (node, &above) in parent.iter().enumerate().filter(|(_, above)| **above != NONE) {
-        children[next[above as usize] as usize] = narrow(node);
-        next[above as usize] += 1;
-    }
-    (offsets, children)
+    Lists { offsets, items: rows }
 }
 
 /// For every entry (i, j) the position of the entry (j, i).

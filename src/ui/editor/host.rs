@@ -42,17 +42,14 @@ impl Host {
         Arc::new(move || context.request_repaint())
     }
 
-    /// Whether there is a graphics card to draw with.
     pub(in crate::ui) fn has_gpu(&self) -> bool {
         self.has_gpu
     }
 
-    /// Takes in that there is a graphics card to draw with.
     pub(crate) fn use_gpu(&mut self) {
         self.has_gpu = true;
     }
 
-    /// Gives the window its title.
     pub(in crate::ui) fn set_title(&mut self, title: String) {
         if self.title != title {
             self.context.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
@@ -60,7 +57,6 @@ impl Host {
         }
     }
 
-    /// Whether the person asked to quit.
     pub fn is_quitting(&self) -> bool {
         self.is_quitting
     }

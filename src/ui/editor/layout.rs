@@ -8,7 +8,6 @@ const PANELS_FROM: f32 = 820.0;
 /// Least share of the width that a pane has.
 const LEAST_SHARE: f32 = 0.15;
 
-/// What of the window is open.
 #[derive(Clone, Debug)]
 pub struct Layout {
     tab: Tab,
@@ -17,9 +16,7 @@ pub struct Layout {
     is_wide: bool,
     full: Option<Pane>,
     split: f32,
-    /// Whether the list of keys shows.
     pub keys_shown: bool,
-    /// Whether the list of exports shows.
     pub exports_shown: bool,
     /// What is typed into "go to", where it shows.
     pub go_to: Option<String>,
@@ -41,7 +38,6 @@ impl Default for Layout {
 }
 
 impl Layout {
-    /// The open tab.
     pub fn tab(&self) -> Tab {
         self.tab
     }
@@ -56,7 +52,6 @@ impl Layout {
         self.panels_wanted.unwrap_or(self.is_wide)
     }
 
-    /// Whether a tab shows.
     pub(in crate::ui) fn shows(&self, tab: Tab) -> bool {
         self.tab == tab && self.panels_shown()
     }
@@ -80,7 +75,6 @@ impl Layout {
         self.full = if self.full.is_some() { None } else { Some(pane) };
     }
 
-    /// Whether the mesh's pane does not show.
     pub fn mesh_hidden(&self) -> bool {
         self.full == Some(Pane::Plane)
     }

@@ -12,12 +12,9 @@ use crate::view::{self, PlaneBox};
 /// How strongly the picture shows behind the embedding at the start.
 const OPACITY: f32 = 0.55;
 
-/// How faces show.
 #[derive(Debug)]
 pub struct Look {
-    /// How faces are coloured.
     pub shading: Shading,
-    /// Whether the wireframe shows.
     pub wireframe: bool,
     /// Whether insets magnify a defect and a pair.
     pub magnifier: bool,
@@ -25,7 +22,6 @@ pub struct Look {
     pub glides: bool,
     /// How strongly the picture shows behind the embedding, 0 to 1.
     pub opacity: f32,
-    /// How the picture's pixels show.
     pub sampling: Sampling,
     /// The document's picture, and the same as the graphics card takes it.
     picture: Option<(Arc<geom::Picture>, Arc<view::Picture>)>,
@@ -48,7 +44,6 @@ impl Default for Look {
 }
 
 impl Look {
-    /// The faces' colours.
     pub fn paint(&self) -> Option<&Paint> {
         self.paint.as_ref()
     }
@@ -107,7 +102,6 @@ impl Look {
         }
     }
 
-    /// Forgets the colours of a mesh that is gone.
     pub(super) fn forget_paint(&mut self) {
         self.paint = None;
     }

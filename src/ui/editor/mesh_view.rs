@@ -7,7 +7,6 @@ use crate::session::{Background, Session, Wake};
 use crate::ui::panes::pane::{PaneArea, Viewport};
 use crate::view::{OrbitCamera, Sphere, UpAxis};
 
-/// The mesh's pane as the window has it.
 #[derive(Debug)]
 pub struct MeshView {
     area: PaneArea,
@@ -22,7 +21,6 @@ impl MeshView {
         Self { area: PaneArea::default(), camera: None, scene: None, job: Background::new("mesh scene", wake) }
     }
 
-    /// Where the pane lies.
     pub fn area(&self) -> &PaneArea {
         &self.area
     }
@@ -36,7 +34,6 @@ impl MeshView {
         self.camera
     }
 
-    /// The camera, to be moved.
     pub fn camera_mut(&mut self) -> Option<&mut OrbitCamera> {
         self.camera.as_mut()
     }
@@ -55,7 +52,6 @@ impl MeshView {
         self.scene.as_ref()
     }
 
-    /// Whether a scene is being made.
     pub(super) fn is_making_scene(&self) -> bool {
         self.job.is_busy()
     }
@@ -74,7 +70,7 @@ impl MeshView {
         let is_new = made.is_some();
         if let Some(scene) = made {
             // Another mesh, or the same one turned around, is seen from its outside.
-            self.camera = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal()));
+            self.camera = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal));
             self.frame(scene.sphere);
             self.scene = Some(Arc::new(scene));
         }

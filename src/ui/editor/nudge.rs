@@ -14,7 +14,6 @@ const LARGE: f64 = 10.0;
 /// Without a picture a nudge is this part of the embedding's extent.
 const PARTS: f64 = 512.0;
 
-/// Where the arrow keys push.
 const ARROWS: [(Key, DVec2); 4] = [
     (Key::ArrowLeft, DVec2::NEG_X),
     (Key::ArrowRight, DVec2::X),
@@ -63,7 +62,7 @@ impl Editor {
         let frame = document.frame();
         let step = match &document.picture {
             Some(picture) => 1.0 / f64::from(picture.pixels.height),
-            None => self.plane.scene().map_or(1.0, |scene| scene.arrays.bounds().extent()) / PARTS,
+            None => self.plane.scene().map_or(1.0, |scene| scene.arrays.bounds.extent()) / PARTS,
         };
         // The frame has no offset: it takes differences to differences.
         let by = frame.uv_from_plane(pixels * step);
@@ -76,7 +75,6 @@ impl Editor {
         self.session.handle(Action::MovePins(moves));
     }
 
-    /// Ends the gesture.
     pub(super) fn end_nudge(&mut self) {
         self.tools.set_nudging(false);
         self.session.handle(Action::EndGesture);

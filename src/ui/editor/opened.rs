@@ -8,7 +8,6 @@ use crate::session::Session;
 /// How old the view in a copy for recovery may be. A selection can be large, so that it is not taken every frame.
 const VIEW_INTERVAL: Duration = Duration::from_secs(1);
 
-/// What the window keeps of the open document.
 #[derive(Debug, Default)]
 pub struct Opened {
     /// What is on the screen, by the session's count of openings.
@@ -27,7 +26,6 @@ impl Opened {
         self.on_screen.replace(session.opening_revision()) != Some(session.opening_revision())
     }
 
-    /// Whether what the session has open is on the screen.
     pub(super) fn is_on_screen(&self, session: &Session) -> bool {
         self.on_screen == Some(session.opening_revision())
     }
@@ -41,12 +39,10 @@ impl Opened {
         is_due
     }
 
-    /// Leaves faces that point inward as they are.
     pub(super) fn leave_faces(&mut self, session: &Session) {
         self.faces_left = Some(session.model_revision());
     }
 
-    /// Leaves targets that look mirrored as they are.
     pub(super) fn leave_targets(&mut self, session: &Session) {
         self.targets_left = Some(session.opening_revision());
     }

@@ -20,7 +20,6 @@ use crate::view::{OrbitCamera, PlaneCamera};
 const PROBE: f64 = 100.0;
 
 impl Editor {
-    /// How the person looks at it now.
     fn view(&self) -> ProjectView {
         let shading = Some(self.look.shading.title().to_owned());
         ProjectView {

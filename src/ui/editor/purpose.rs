@@ -10,9 +10,7 @@ use crate::ui::{Dialogs, Pane, Unsaved};
 /// Files that are asked for, or about to be written.
 #[derive(Debug, Default)]
 pub struct Files {
-    /// File dialogs.
     pub dialogs: Dialogs,
-    /// The question about unsaved work.
     pub unsaved: Unsaved,
     /// Size of coordinates in files.
     pub fit: OutputFit,
@@ -24,13 +22,9 @@ pub struct Files {
 pub enum Purpose {
     /// A mesh or a project to open.
     Open,
-    /// A picture to map on the mesh.
     OpenPicture,
-    /// Constraints to take over.
     ImportConstraints,
-    /// Where to write the constraints.
     ExportConstraints,
-    /// Where to save the project.
     SaveProject,
     /// Where to write the flattening in a format, at a size of its own or at that of the editor.
     Export(OutputKind, Option<OutputFit>),
@@ -38,10 +32,8 @@ pub enum Purpose {
     PanePicture(Pane),
 }
 
-/// Files of one type.
 #[derive(Clone, Copy)]
 pub(in crate::ui) struct FileType {
-    /// What they are called.
     pub(in crate::ui) name: &'static str,
     /// How their names end, the first one where a name has no ending.
     pub(in crate::ui) extensions: &'static [&'static str],
@@ -61,7 +53,6 @@ impl FileType {
     }
 }
 
-/// The dialog of a purpose.
 pub(in crate::ui) struct DialogForm {
     /// Its first word is that of the button.
     pub(in crate::ui) title: &'static str,
@@ -71,7 +62,6 @@ pub(in crate::ui) struct DialogForm {
 }
 
 impl Purpose {
-    /// The dialog that asks for the file.
     pub(in crate::ui) fn form(self) -> DialogForm {
         let (title, files, ending) = match self {
             Self::Open => ("Open a mesh or a project", OPENED, ""),

@@ -60,7 +60,6 @@ impl Editor {
         }
     }
 
-    /// Asks for a file.
     pub(in crate::ui) fn ask(&mut self, purpose: Purpose) {
         self.layout.exports_shown = false;
         let project = self.session.project_path().filter(|_| purpose == Purpose::SaveProject);

@@ -19,18 +19,15 @@ pub struct MeshScene {
     pub model_revision: u64,
     /// The mesh with new vertices that it is of; none where it is of the mesh as given.
     pub refinement: Option<Arc<Refinement>>,
-    /// Draw arrays.
     pub arrays: Arc<MeshArrays>,
     /// The boundary, where it is a disk.
     pub boundary: Arc<EdgeList>,
-    /// Picks vertices and points of the surface.
     pub picker: SurfacePicker,
     /// A ball around it.
     pub sphere: Sphere,
 }
 
 impl MeshScene {
-    /// Makes the scene of a mesh as given.
     pub fn new(model: Arc<Model>, model_revision: u64) -> Self {
         Self::of(model, model_revision, None)
     }
@@ -74,12 +71,10 @@ impl MeshScene {
         }
     }
 
-    /// Its triangles.
     pub fn mesh(&self) -> &TriMesh {
         self.refinement.as_ref().map_or(self.model.mesh(), |refinement| refinement.disk().mesh())
     }
 
-    /// The same as a disk, where it is one.
     pub fn disk(&self) -> Option<&DiskMesh> {
         let given = self.model.disk().map(AsRef::as_ref);
         self.refinement.as_ref().map(|refinement| refinement.disk()).or(given)
@@ -95,15 +90,11 @@ impl MeshScene {
 /// An embedding, ready to be drawn and picked in.
 #[derive(Debug)]
 pub struct PlaneScene {
-    /// The mesh that it is an embedding of.
     pub mesh: Arc<MeshScene>,
     /// The solve that it was made from.
     pub outcome: Arc<Outcome>,
-    /// Which solve that was.
     pub outcome_revision: u64,
-    /// Draw arrays.
     pub arrays: Arc<PlaneArrays>,
-    /// Picks vertices.
     pub picker: Arc<PlanePicker>,
     /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
     positions: Option<Embedding>,
@@ -122,7 +113,6 @@ pub(in crate::ui) enum Part {
 }
 
 impl PlaneScene {
-    /// Makes the scene of an embedding of `mesh`.
     pub fn new(mesh: Arc<MeshScene>, outcome: Arc<Outcome>, outcome_revision: u64) -> Self {
         let embedding = &outcome.step.solution.embedding;
         Self {
@@ -163,24 +153,21 @@ impl PlaneScene {
             mesh: Arc::clone(mesh),
             outcome: Arc::clone(&self.outcome),
             outcome_revision: self.outcome_revision,
-            arrays: Arc::new(PlaneArrays::in_frame(&positions, &mesh.mesh().triangles, self.arrays.frame())),
+            arrays: Arc::new(PlaneArrays::in_frame(&positions, &mesh.mesh().triangles, self.arrays.frame)),
             picker,
             positions: Some(positions),
             part: Part::Result,
         }
     }
 
-    /// Where vertices lie.
     pub fn positions(&self) -> &Embedding {
         self.positions.as_ref().unwrap_or(&self.outcome.step.solution.embedding)
     }
 
-    /// Where a vertex lies.
     pub(in crate::ui) fn position_of(&self, vertex: VertexId) -> Option<DVec2> {
         self.positions().get(vertex.index()).copied()
     }
 
-    /// Whether this is a stage on the way to the result.
     pub fn is_stage(&self) -> bool {
         self.part == Part::Stage
     }
@@ -194,11 +181,8 @@ impl PlaneScene {
 /// Faces coloured by a shading, with what a legend needs.
 #[derive(Clone, Debug)]
 pub struct Paint {
-    /// What it was made for.
     pub key: PaintKey,
-    /// Colours and flags per face.
     pub faces: Arc<FacePaint>,
-    /// The scale of a shading by numbers.
     pub legend: Option<Legend>,
 }
 
@@ -209,7 +193,6 @@ pub struct PaintKey {
     pub model: u64,
     /// The outcome, by its revision.
     pub outcome: u64,
-    /// The shading.
     pub shading: Shading,
     /// The step that moves are measured from, where they are asked for.
     pub moved_from: Option<usize>,
@@ -218,15 +201,12 @@ pub struct PaintKey {
 /// A scale with its range and how many faces lie where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// The scale.
     pub scale: Scale,
-    /// Its range.
     pub range: Range,
     /// Faces in each of equal parts of the range; those beyond count at the ends.
     pub histogram: Vec<u32>,
 }
 
-/// Bars of a histogram.
 const BARS: usize = 40;
 
 impl Paint {
@@ -295,11 +275,8 @@ fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64>
 /// A part of the mesh that a defect or a person names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum Element {
-    /// A vertex.
     Vertex(VertexId),
-    /// An edge.
     Edge(EdgeId),
-    /// A face.
     Face(FaceId),
 }
 

@@ -8,7 +8,6 @@ use glam::DVec2;
 use super::Pane;
 use crate::mesh::VertexId;
 
-/// What is selected.
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
     vertices: BTreeSet<VertexId>,
@@ -16,12 +15,10 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// The selected vertices.
     pub fn vertices(&self) -> &BTreeSet<VertexId> {
         &self.vertices
     }
 
-    /// Whether a vertex is selected.
     pub fn contains(&self, vertex: VertexId) -> bool {
         self.vertices.contains(&vertex)
     }
@@ -43,7 +40,6 @@ impl Selection {
         }
     }
 
-    /// Selects nothing.
     pub fn clear(&mut self) {
         self.vertices.clear();
     }
@@ -58,7 +54,6 @@ impl Selection {
         self.defect
     }
 
-    /// Takes the defect that is shown.
     pub fn set_defect(&mut self, place: Option<usize>) {
         self.defect = place;
     }
@@ -75,12 +70,10 @@ pub struct Pointer {
 }
 
 impl Pointer {
-    /// The pane under the pointer.
     pub fn pane(&self) -> Option<Pane> {
         self.pane
     }
 
-    /// The vertex under the pointer, in whichever pane.
     pub fn vertex(&self) -> Option<VertexId> {
         self.vertex
     }
@@ -96,12 +89,10 @@ impl Pointer {
         (self.pane, self.in_embedding) = (None, None);
     }
 
-    /// Takes in the vertex under the pointer.
     pub(in crate::ui) fn set_vertex(&mut self, vertex: Option<VertexId>) {
         self.vertex = vertex;
     }
 
-    /// Takes in what is under the pointer in the mesh's pane.
     pub(in crate::ui) fn over_mesh(&mut self, vertex: Option<VertexId>) {
         (self.pane, self.vertex) = (Some(Pane::Mesh), vertex);
     }
@@ -116,12 +107,10 @@ impl Pointer {
         self.box_from.filter(|(of, _)| *of == pane).map(|(_, from)| from)
     }
 
-    /// Begins a box.
     pub(in crate::ui) fn begin_box(&mut self, pane: Pane, from: Option<egui::Pos2>) {
         self.box_from = from.map(|from| (pane, from));
     }
 
-    /// Ends the box. Returns whether there was one.
     pub(in crate::ui) fn end_box(&mut self) -> bool {
         self.box_from.take().is_some()
     }

@@ -6,7 +6,6 @@ use crate::solver::Hold;
 use crate::ui::panes::pin_drag::PinDrag;
 use crate::ui::panes::{Half, Intent};
 
-/// The tool in hand, and what it has begun.
 #[derive(Clone, Debug)]
 pub struct ToolState {
     tool: Tool,
@@ -31,7 +30,6 @@ impl Default for ToolState {
 }
 
 impl ToolState {
-    /// The tool in hand.
     pub fn tool(&self) -> Tool {
         self.tool
     }
@@ -46,7 +44,6 @@ impl ToolState {
         self.pair
     }
 
-    /// Takes the half of a pair that is placed, or none.
     pub fn set_pair(&mut self, pair: Option<Half>) {
         self.pair = pair;
     }
@@ -78,7 +75,6 @@ impl ToolState {
         self.hold = hold;
     }
 
-    /// The pin being dragged.
     pub fn dragged(&self) -> Option<VertexId> {
         self.drag.as_ref().map(PinDrag::vertex)
     }

@@ -66,7 +66,7 @@ impl Editor {
         let ball = around(&scene.mesh().positions, &selected, scene.sphere);
         self.mesh.frame(ball);
         let Some(plane) = self.plane.drawn().cloned() else { return };
-        let bounds = self.with_picture(plane.arrays.bounds());
+        let bounds = self.with_picture(plane.arrays.bounds);
         self.plane.frame(box_around(plane.positions(), &selected, bounds));
         if let Some(camera) = self.plane.camera().filter(|_| selected.is_empty() && plane.is_plain_result()) {
             self.plane.set_framed(camera);

@@ -12,7 +12,6 @@ use crate::ui::{Defect, Editor, Request, keys_of};
 /// Height of a row, points.
 const ROW: f32 = 22.0;
 
-/// Shows the panel.
 pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     if let Some(Surface::Faulty(_, diagnosis)) = editor.session.model().map(|model| &model.surface) {
@@ -82,7 +81,6 @@ fn unmet_list(ui: &mut egui::Ui, unmet: &[VertexId], requests: &mut Vec<Request>
     });
 }
 
-/// All defects, to jump from.
 fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     let defects = editor.defects();

@@ -13,12 +13,9 @@ use crate::ui::editor::purpose::{DialogForm, Purpose};
 /// A dialog that answers faster than this was not seen by a person: the system has none.
 const TOO_QUICK: Duration = Duration::from_millis(1200);
 
-/// A file that a person chose.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// What it was asked for.
     pub purpose: Purpose,
-    /// The file.
     pub path: PathBuf,
 }
 
@@ -44,7 +41,6 @@ impl Dialogs {
         Self { native_missing: true, ..Self::default() }
     }
 
-    /// Whether a dialog is open.
     pub fn is_open(&self) -> bool {
         self.native.is_some() || self.browser.is_some()
     }

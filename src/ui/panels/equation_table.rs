@@ -38,7 +38,6 @@ fn equation_of(
     (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, step, before, vertex))
 }
 
-/// Shows the equation in the panel.
 pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut Vec<Request>) {
     let Some(outcome) = editor.session.outcome() else { return };
     let Some(found) = equation_of(editor, outcome, vertex) else { return };

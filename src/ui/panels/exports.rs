@@ -44,7 +44,6 @@ pub(in crate::ui) struct PaneShot {
     answer: Receiver<Arc<egui::ColorImage>>,
 }
 
-/// Shows what can be exported.
 pub(super) fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     let solved = editor.session.outcome().is_some();
     let window = egui::Window::new("Export").open(&mut editor.layout.exports_shown).collapsible(false).resizable(false);

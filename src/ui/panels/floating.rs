@@ -7,7 +7,6 @@ use crate::ui::controls::pairs;
 use crate::ui::keys::{BINDINGS, Binding, MOUSE};
 use crate::ui::{Editor, Element, Request};
 
-/// Shows whatever is open.
 pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     if editor.layout.keys_shown {
         keys_window(context, editor);

@@ -12,7 +12,6 @@ use crate::ui::controls::Control;
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of};
 
-/// Shows the bar.
 pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let bar = ui.max_rect();
     ui.horizontal_centered(|ui| {

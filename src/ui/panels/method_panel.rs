@@ -12,7 +12,6 @@ use crate::ui::{Editor, Request};
 /// The slider's ends: beyond them weights grow wild.
 const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
 
-/// Shows the panel.
 pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let settings = editor.session.document().settings;
     let mut edit = Edit { settings, slides: false, ends: false };

@@ -9,7 +9,6 @@ use crate::ui::controls::{Control, Offer};
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Purpose, Request};
 
-/// Shows it.
 pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
     ui.horizontal(|ui| {

@@ -20,7 +20,6 @@ const BELOW: f32 = 250.0;
 /// Widths of a coordinate's and a weight's field, points.
 const FIELDS: [f32; 2] = [56.0, 44.0];
 
-/// Shows the panel.
 pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
     if !document.settings.method.uses_pins() {
@@ -67,7 +66,7 @@ struct Row {
 
 fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
-    let speed = editor.plane.scene().map_or(0.01, |plane| plane.arrays.bounds().extent() / 500.0);
+    let speed = editor.plane.scene().map_or(0.01, |plane| plane.arrays.bounds.extent() / 500.0);
     let height = (ui.available_height() - BELOW).max(80.0);
     egui::ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
         ui.spacing_mut().button_padding.x = 4.0;

@@ -5,7 +5,6 @@ use eframe::egui;
 use super::{defects_panel, method_panel, pins_panel, vertex_panel};
 use crate::ui::{Editor, Request, Tab};
 
-/// Shows the tabs and the open panel.
 pub(in crate::ui) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;

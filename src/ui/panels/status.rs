@@ -10,7 +10,6 @@ use crate::ui::theme::theme_of;
 use crate::ui::timeline::PRESS_SPACE;
 use crate::ui::{Editor, Tool};
 
-/// Shows the bar.
 pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
     let weak = theme_of(ui).weak_text;
     ui.horizontal_centered(|ui| {

@@ -11,7 +11,6 @@ use crate::ui::{Editor, Request, Tool};
 /// Side of a tool's button, points.
 const BUTTON: f32 = 32.0;
 
-/// Shows the tools.
 pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     ui.vertical_centered(|ui| {
         for tool in Tool::ALL {

@@ -10,20 +10,15 @@ use crate::ui::{Editor, Purpose, Request};
 /// What waits for the answer.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::ui) enum Wish {
-    /// Closing the window.
     Quit,
-    /// Opening something else.
     Do(Action),
 }
 
 /// The answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Save first.
     Save,
-    /// Let the work go.
     DontSave,
-    /// Stay.
     Cancel,
 }
 
@@ -37,7 +32,6 @@ pub struct Unsaved {
 }
 
 impl Unsaved {
-    /// Whether the question is on the screen.
     pub fn is_asked(&self) -> bool {
         self.asked.is_some()
     }
@@ -70,7 +64,6 @@ impl Editor {
         }
     }
 
-    /// Takes the answer.
     pub(in crate::ui) fn answer(&mut self, answer: Answer) {
         let Some(wish) = self.files.unsaved.asked.take() else { return };
         match answer {
@@ -122,7 +115,6 @@ pub(in crate::ui) fn hold_window(context: &egui::Context, editor: &mut Editor) {
     }
 }
 
-/// Shows the question where it is asked.
 pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(wish) = &editor.files.unsaved.asked else { return };
     let name = editor.document_name();

@@ -13,7 +13,6 @@ use crate::ui::{Editor, Request, Tab};
 /// Side of the sign in the pill, points.
 const SIGN: f32 = 11.0;
 
-/// What the pill says.
 struct Pill {
     sign: Sign,
     words: String,

@@ -12,7 +12,6 @@ use crate::solver::Embedding;
 use crate::ui::controls::{Control, number, pairs};
 use crate::ui::{Editor, Request};
 
-/// Shows the panel.
 pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(&vertex) = editor.selection.vertices().first() else {
         ui.label("Select a vertex: click one in either pane, or press G and type its number.");
@@ -70,7 +69,6 @@ pub(super) fn new_vertex_words(new: &NewVertex) -> String {
     format!("new vertex on edge {a}–{b}")
 }
 
-/// Why a new vertex takes no pin.
 pub(super) const NOT_TO_PIN: &str = "It belongs to this embedding alone, and cannot be pinned";
 
 /// An angle sum as a multiple of a full turn.

@@ -10,7 +10,6 @@ use crate::ui::icons::{self, Sign};
 use crate::ui::theme::theme_of;
 use crate::ui::{Editor, Pane, Request};
 
-/// Shows the bars of a pane.
 pub(super) fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     let place = match pane {
         Pane::Mesh => {

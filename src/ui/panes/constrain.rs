@@ -150,7 +150,6 @@ impl Editor {
         }
     }
 
-    /// Where a place in texture coordinates lies in the plane.
     fn in_plane(&self, target: DVec2) -> DVec2 {
         self.session.document().frame().plane_from_uv(target)
     }

@@ -185,7 +185,7 @@ fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<PlaneBox> {
         }
     };
     // A defect without any extent is shown as near as the camera goes.
-    let half = (REACH * reach).max(plane.arrays.bounds().extent() * 1e-9);
+    let half = (REACH * reach).max(plane.arrays.bounds.extent() * 1e-9);
     (center.is_finite() && half.is_finite()).then(|| PlaneBox { min: center - half, max: center + half })
 }
 
@@ -245,7 +245,7 @@ pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Edi
 pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
     let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
     let Some(inset) = pair_inset(view.rect, view.spot(target)) else { return };
-    let half = DVec2::splat(PART / 2.0 * editor.with_picture(plane.arrays.bounds()).extent());
+    let half = DVec2::splat(PART / 2.0 * editor.with_picture(plane.arrays.bounds).extent());
     let camera = PlaneCamera::framing(PlaneBox { min: target - half, max: target + half }, pane::size_of(inset));
     let enlarges = camera.points_per_unit() / view.camera.points_per_unit();
     if enlarges < LEAST_MAGNIFICATION {

@@ -19,7 +19,6 @@ use crate::view::{OrbitCamera, Visibility};
 /// Marks drawn at most for a large selection.
 const MARKS_SHOWN: usize = 2000;
 
-/// Shows the pane and takes its gestures.
 pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Mesh, requests);
     bars::bars(ui, editor, Pane::Mesh, requests);
@@ -121,7 +120,7 @@ pub(super) fn style(editor: &Editor) -> Style {
         Shading::Move if editor.plane.moved_from(&editor.session).is_none() => render::Shading::Plain,
         Shading::Angle | Shading::Area | Shading::Stretch | Shading::Move => render::Shading::Paint,
     };
-    let extent = editor.plane.scene().map_or(1.0, |plane| plane.arrays.bounds().extent());
+    let extent = editor.plane.scene().map_or(1.0, |plane| plane.arrays.bounds.extent());
     Style {
         shading,
         wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 },

@@ -22,7 +22,6 @@ const GRAB_SIZE: f32 = 18.0;
 /// A pointer that has not moved for so long in the middle of a drag rests, seconds.
 const REST: f64 = 0.2;
 
-/// A pin that is dragged.
 #[derive(Clone, Debug)]
 pub(in crate::ui) struct PinDrag {
     vertex: VertexId,
@@ -37,7 +36,6 @@ pub(in crate::ui) struct PinDrag {
 }
 
 impl PinDrag {
-    /// The pin that was grabbed.
     pub(in crate::ui) fn vertex(&self) -> VertexId {
         self.vertex
     }

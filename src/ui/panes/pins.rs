@@ -82,11 +82,9 @@ impl PinKind {
 /// A pin with its target in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PinShown {
-    /// The pinned vertex.
     pub vertex: VertexId,
     /// Where it is to be, in the plane.
     pub target: DVec2,
-    /// What kind it is.
     pub kind: PinKind,
 }
 
@@ -123,7 +121,6 @@ impl Editor {
 /// How a mark is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum Emphasis {
-    /// As any.
     Plain,
     /// Selected, or under the pointer.
     Strong,

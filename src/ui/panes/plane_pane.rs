@@ -23,7 +23,6 @@ use crate::view::PlaneCamera;
 /// Marks drawn at most for a large selection.
 const MARKS_SHOWN: usize = 2000;
 
-/// Shows the pane and takes its gestures.
 pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Plane, requests);
     bars::bars(ui, editor, Pane::Plane, requests);

@@ -13,7 +13,6 @@ use crate::ui::{Editor, Request, StepTarget};
 /// Side of a button with a drawing, points.
 const BUTTON: f32 = 24.0;
 
-/// The drawings on the buttons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Drawing {
     First,

@@ -170,7 +170,6 @@ fn title_of(record: &StepReport) -> String {
     format!("Step {}: {}", record.index, record.rung.as_short_rung())
 }
 
-/// Shows the steps.
 pub(in crate::ui) fn chips(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let timeline = editor.session.timeline();
     let places = places(ui, timeline);

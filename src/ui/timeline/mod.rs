@@ -36,9 +36,7 @@ const ROOMY: f32 = 720.0;
 /// How much there is to say in one row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Room {
-    /// All of it.
     Ample,
-    /// What is needed.
     Scarce,
 }
 
@@ -47,7 +45,6 @@ enum Room {
 pub struct TimelineView {
     /// Whether the curves show; where nobody said, a low window does without.
     pub curves_wanted: Option<bool>,
-    /// Whether the window is high enough for the curves.
     pub window_is_high: bool,
     /// The curves that a person has put away, by place.
     pub curves_hidden: [bool; CURVE_COUNT],
@@ -58,18 +55,15 @@ pub struct TimelineView {
 }
 
 impl TimelineView {
-    /// Whether the curves show.
     pub fn curves_shown(&self) -> bool {
         self.curves_wanted.unwrap_or(self.window_is_high)
     }
 
-    /// Height of the strip, points.
     pub(super) fn height(&self) -> f32 {
         if self.curves_shown() { STRIP_HEIGHT } else { ROW_HEIGHT }
     }
 }
 
-/// Shows the strip.
 pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let room = if ui.available_width() >= ROOMY { Room::Ample } else { Room::Scarce };
     ui.spacing_mut().item_spacing.y = 0.0;

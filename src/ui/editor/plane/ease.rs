@@ -36,7 +36,6 @@ struct Way {
     from: Embedding,
     /// Seconds of the window's clock.
     began: f64,
-    /// What is drawn in this frame.
     drawn: Arc<PlaneScene>,
     /// From where and to where the camera goes.
     cameras: Option<[PlaneCamera; 2]>,
@@ -48,14 +47,12 @@ impl Ease {
         self.under_way.as_ref().map(|way| &way.drawn)
     }
 
-    /// Ends the way where it is.
     pub(super) fn stop(&mut self) {
         self.under_way = None;
     }
 }
 
 impl PlaneView {
-    /// Whether vertices are on their way.
     pub fn is_easing(&self) -> bool {
         self.ease.under_way.is_some()
     }
@@ -87,7 +84,7 @@ impl PlaneView {
     fn camera_along(&self, target: &PlaneScene, around: Surroundings) -> Option<[PlaneCamera; 2]> {
         let stays = self.hull_shown() || around.is_dragging;
         let now = self.camera.filter(|_| self.is_framed() && !stays)?;
-        let bounds = around.framed_box(target.arrays.bounds());
+        let bounds = around.framed_box(target.arrays.bounds);
         let mut goal = now;
         goal.frame(bounds, self.area.size());
         let is_small = goal.points_per_unit() > SMALL * now.points_per_unit();

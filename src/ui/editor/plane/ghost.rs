@@ -54,7 +54,7 @@ impl PlaneView {
             let position_of = |v: &VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
             let boundary: Vec<DVec2> = loop_of_other.iter().map(position_of).collect();
             let vertices: Vec<VertexId> = (0..boundary.len()).map(VertexId::from_index).collect();
-            let arrays = Arc::new(PlaneArrays::in_frame(&boundary, &[], plane.arrays.frame()));
+            let arrays = Arc::new(PlaneArrays::in_frame(&boundary, &[], plane.arrays.frame));
             Some(Ghost { key, arrays, edges: Arc::new(EdgeList::closed_loop(&vertices)) })
         });
     }

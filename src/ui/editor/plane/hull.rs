@@ -54,12 +54,9 @@ impl Stage {
     }
 }
 
-/// Hull and pockets as the window has them.
 #[derive(Debug)]
 pub(super) struct HullView {
-    /// Whether they show.
     shown: bool,
-    /// The stage that is chosen.
     stage: Stage,
     scene: Option<HullScene>,
     /// The stage that is being made, with the outcome's revision.
@@ -80,9 +77,7 @@ pub struct HullScene {
     hull: Arc<EdgeList>,
     pocket_edges: Arc<EdgeList>,
     pockets: Arc<FaceList>,
-    /// What it shows, in numbers.
     pub caption: String,
-    /// Whether the step has stages at all.
     pub has_stages: bool,
 }
 
@@ -153,10 +148,9 @@ impl HullScene {
 
     /// Faces of the mesh that are turned over at a stage before the result.
     pub fn flipped_count(&self) -> usize {
-        self.paint.as_ref().map_or(0, |paint| paint.flipped().len())
+        self.paint.as_ref().map_or(0, |paint| paint.flipped.len())
     }
 
-    /// The mesh at this stage, or with its outside; none where it is the result alone.
     pub(super) fn plane(&self) -> Option<&Arc<PlaneScene>> {
         self.plane.as_ref()
     }
@@ -166,7 +160,6 @@ impl HullScene {
         self.paint.as_ref()
     }
 
-    /// The faces beside the mesh.
     pub(in crate::ui) fn fill(&self, theme: &Theme) -> FillLayer {
         FillLayer { faces: Arc::clone(&self.pockets), colour: theme.pocket_fill }
     }
@@ -227,19 +220,16 @@ impl HullView {
         Self { shown: false, stage, scene: None, job, cameras: None }
     }
 
-    /// Whether a stage is being made.
     pub(super) fn is_making_scene(&self) -> bool {
         self.job.is_busy()
     }
 }
 
 impl PlaneView {
-    /// Whether hull and pockets are wanted.
     pub fn hull_shown(&self) -> bool {
         self.hull.shown
     }
 
-    /// The stage of the virtual boundary that is chosen.
     pub fn stage(&self) -> Stage {
         self.hull.stage
     }
@@ -294,7 +284,7 @@ impl PlaneView {
     /// Shows all of the hull, once it is there for the first time.
     fn frame_hull(&mut self) {
         let (Some(plane), Some(before)) = (self.drawn(), self.camera) else { return };
-        let bounds = plane.arrays.bounds();
+        let bounds = plane.arrays.bounds;
         if self.hull.cameras.is_none() && !self.shows(before, bounds) && !plane.is_plain_result() {
             let mut framing = before;
             framing.frame(bounds, self.area.size());

@@ -33,7 +33,6 @@ use ghost::Ghost;
 use hull::HullView;
 use preview::PreviewScene;
 
-/// The embedding's pane as the window has it.
 #[derive(Debug)]
 pub struct PlaneView {
     area: PaneArea,
@@ -58,9 +57,7 @@ pub(super) struct Surroundings<'a> {
     pub(super) host: &'a Host,
     /// The mesh as given.
     pub(super) mesh: Option<&'a Arc<MeshScene>>,
-    /// Whether vertices glide from step to step.
     pub(super) glides: bool,
-    /// Whether a pin is dragged.
     pub(super) is_dragging: bool,
 }
 
@@ -89,7 +86,6 @@ impl PlaneView {
         }
     }
 
-    /// Where the pane lies.
     pub fn area(&self) -> &PaneArea {
         &self.area
     }
@@ -103,7 +99,6 @@ impl PlaneView {
         self.camera
     }
 
-    /// The camera, to be moved.
     pub fn camera_mut(&mut self) -> Option<&mut PlaneCamera> {
         self.camera.as_mut()
     }
@@ -141,7 +136,6 @@ impl PlaneView {
         }
     }
 
-    /// The camera that the document was saved with, while there is no embedding to look at.
     pub(super) fn saved_camera(&self) -> Option<&Vec<f64>> {
         self.saved.as_ref()
     }
@@ -183,7 +177,6 @@ impl PlaneView {
         self.ease.stop();
     }
 
-    /// Whether a scene is being made.
     pub(super) fn is_making_scene(&self) -> bool {
         self.job.is_busy() || self.hull.is_making_scene()
     }
@@ -226,7 +219,7 @@ impl PlaneView {
 
     /// Shows all of the first embedding, or what the document was saved with.
     fn look_at_first(&mut self, scene: &PlaneScene, around: Surroundings) {
-        let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds()), self.area.size());
+        let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds), self.area.size());
         self.set_framed(camera);
         if let Some(saved) = self.saved.take().and_then(|numbers| plane_of(&numbers, camera, self.area.size())) {
             self.camera = Some(saved);
@@ -239,7 +232,7 @@ impl PlaneView {
             return;
         }
         let plane = self.drawn().filter(|_| self.is_framed());
-        let bounds = plane.map(|plane| around.framed_box(plane.arrays.bounds()));
+        let bounds = plane.map(|plane| around.framed_box(plane.arrays.bounds));
         if let (Some(bounds), Some(mut camera)) = (bounds, self.camera) {
             camera.frame(bounds, self.area.size());
             self.set_framed(camera);

@@ -31,7 +31,6 @@ impl PreviewScene {
 }
 
 impl PlaneView {
-    /// Whether the pane shows what follows a dragged pin.
     pub(in crate::ui) fn shows_preview(&self) -> bool {
         self.preview.is_some()
     }

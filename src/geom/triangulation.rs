@@ -1,0 +1,79 @@
+//! Triangulations of points in the plane and of the outside of a simple polygon (spade, exact predicates).
+
+use glam::DVec2;
+use spade::{ConstrainedDelaunayTriangulation, DelaunayTriangulation, Point2, Triangulation};
+
+/// Coordinates nearer to zero than this, at a size near 1, are beyond what the triangulation can represent, and are taken
+/// as zero.
+const LEAST_COORDINATE: f64 = 1e-40;
+
+/// Triangulates the convex hull of points, triangles counter-clockwise, corners by their places in the list.
+///
+/// `None` where a coordinate is not finite or too large, and where two points coincide.
+///
+/// # Panics
+///
+/// If there are 2³² points or more.
+pub fn delaunay_triangles(points: &[DVec2]) -> Option<Vec<[u32; 3]>> {
+    let triangulation = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(spade_points(points.iter())).ok()?;
+    (triangulation.num_vertices() == points.len()).then(|| triangles_where(&triangulation, |_| true))
+}
+
+/// Triangulates the region between a simple polygon, counter-clockwise, and the convex hull of polygon and frame, without
+/// new points: a constrained Delaunay triangulation, whose triangles lie either inside the polygon or outside.
+///
+/// Corners of the frame, which must lie outside the polygon's hull, are numbered after those of the polygon. Triangles
+/// are counter-clockwise. `None` where a coordinate is not finite or beyond what the triangulation can represent, and
+/// where the polygon is not simple.
+///
+/// # Panics
+///
+/// If there are 2³² points or more.
+pub fn outside_triangles(polygon: &[DVec2], frame: &[DVec2]) -> Option<Vec<[u32; 3]>> {
+    let count = polygon.len();
+    let points = spade_points(polygon.iter().chain(frame));
+    let sides = (0..count).map(|k| [k, (k + 1) % count]).collect();
+    let (mut conflicts, total) = (0, points.len());
+    let triangulation =
+        ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(points, sides, |_| conflicts += 1).ok()?;
+    let is_sound = conflicts == 0 && triangulation.num_vertices() == total;
+    is_sound.then(|| triangles_where(&triangulation, |corners| !is_inside(corners, count)))
+}
+
+/// Some of the triangles, in the same order however the triangulation came about, each from its lowest corner.
+fn triangles_where(
+    triangulation: &impl Triangulation<Vertex = Point2<f64>>,
+    is_wanted: impl Fn([usize; 3]) -> bool,
+) -> Vec<[u32; 3]> {
+    let corners = triangulation.inner_faces().map(|face| face.vertices().map(|vertex| vertex.fix().index()));
+    let mut triangles: Vec<[u32; 3]> = corners
+        .filter(|&corners| is_wanted(corners))
+        .map(|mut corners| {
+            let least = (0..3).min_by_key(|&k| corners[k]).unwrap_or(0);
+            corners.rotate_left(least);
+            corners.map(|corner| u32::try_from(corner).expect("spade counts in 32 bits"))
+        })
+        .collect();
+    triangles.sort_unstable();
+    triangles
+}
+
+/// Whether a counter-clockwise triangle that crosses no side of the polygon lies inside: its corners then follow each
+/// other as they do along the polygon, and outside the other way round.
+fn is_inside([a, b, c]: [usize; 3], count: usize) -> bool {
+    let descents = usize::from(a > b) + usize::from(b > c) + usize::from(c > a);
+    a.max(b).max(c) < count && descents == 1
+}
+
+/// Points as the triangulation takes them: scaled by a power of two to a size near 1, which changes no orientation.
+fn spade_points<'a>(points: impl Iterator<Item = &'a DVec2> + Clone) -> Vec<Point2<f64>> {
+    let extent = points.clone().fold(0.0_f64, |most, z| most.max(z.abs().max_element()));
+    let is_usable = extent.is_finite() && extent > 0.0;
+    // In two factors, each of which is a normal number.
+    let half = if is_usable { (-0.5 * extent.log2()).floor().exp2() } else { 1.0 };
+    let seen = |x: f64| {
+        let x = x * half * half;
+        if x.abs() < LEAST_COORDINATE { 0.0 } else { x }
+    };
+    points.map(|z| Point2::new(seen(z.x), seen(z.y))).collect()
+}
