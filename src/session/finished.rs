@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use glam::DVec2;
 
-use super::{Model, Outcome, OutputFit, Problem};
+use super::{Model, Outcome, Problem};
 use crate::geom::VAxis;
 use crate::io::{
-    MeshReport, Output, OutputKind, PinsReport, Placement, Report, Seconds, StepReport, SvgPage, WeightedPinReport,
+    MeshReport, Output, OutputFit, OutputKind, PinsReport, Placement, Report, Seconds, StepReport, WeightedPinReport,
     verdict_as_in_file,
 };
 use crate::mesh::VertexId;
@@ -23,16 +23,6 @@ pub struct SaveRequest {
     pub kind: OutputKind,
     /// At which size, where the user's pins do not say.
     pub fit: OutputFit,
-}
-
-impl OutputFit {
-    /// The page of a drawing of this size, for a picture of this aspect.
-    pub const fn svg_page(self, aspect: f64) -> SvgPage {
-        match self {
-            Self::Unit => SvgPage::Picture { aspect },
-            Self::True => SvgPage::TrueArea { aspect },
-        }
-    }
 }
 
 impl Outcome {
@@ -83,7 +73,8 @@ impl Outcome {
             verdict,
             report,
             picture: None,
-            svg_page: fit.svg_page(if is_on_picture { frame.aspect } else { 1.0 }),
+            aspect: if is_on_picture { frame.aspect } else { 1.0 },
+            svg_fit: fit,
         }
     }
 }

@@ -66,7 +66,7 @@ pub use history::History;
 use messages::Messages;
 pub use messages::{Message, Place, Severity};
 pub use model::{Model, Surface};
-pub use outcome::{Outcome, OutputFit, Problem};
+pub use outcome::{Outcome, Problem};
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
 pub use state::Session;

@@ -50,10 +50,10 @@ impl Model {
     ///
     /// Where the file cannot be read as a mesh at all. A mesh with faults is no error here.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        Self::read_until(path, &|| false)
+        Ok(Self { stamp: FileStamp::read(path).ok(), ..Self::read_until(path, &|| false)? })
     }
 
-    /// As [`read`](Self::read), looking now and then whether to stop.
+    /// As [`read`](Self::read), without the file's stamp, looking now and then whether to stop.
     ///
     /// # Errors
     ///

@@ -1,25 +1,14 @@
 //! A step with its proof: what the screen shows and what files say.
 
-use clap::ValueEnum;
 use glam::DVec2;
 
 use crate::geom::{PictureFrame, VAxis};
-use crate::io::{Placement, Target, Targets, pins_in_plane};
+use crate::io::{OutputFit, Placement, Target, Targets, pins_in_plane};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
     Candidate, Distortion, Embedding, GaugeSize, Pins, Settings, Step, Verdict, are_held_alike, distortion,
     to_unit_box, to_unit_square, to_unit_square_by_power_of_two, verdict,
 };
-
-/// Size of an embedding that the user's pins do not fix. Its words are those of the command line's help.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum OutputFit {
-    /// Uniformly into the unit square
-    #[default]
-    Unit,
-    /// The area of the surface
-    True,
-}
 
 /// What a run is to solve.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use freebound::examples::Example;
-use freebound::io::{Placement, read_mesh};
+use freebound::io::{OutputFit, Placement, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::session::{Model, Outcome, OutputFit, Problem};
+use freebound::session::{Model, Outcome, Problem};
 use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;

@@ -5,8 +5,7 @@ use std::slice;
 use std::sync::mpsc::Receiver;
 
 use crate::geom::Picture;
-use crate::io::OutputKind;
-use crate::session::OutputFit;
+use crate::io::{OutputFit, OutputKind};
 use crate::ui::{Dialogs, Pane, Unsaved};
 
 /// Files that are asked for, or about to be written.

@@ -7,8 +7,7 @@ use eframe::egui;
 use egui::{Align2, Pos2, Rect};
 
 use crate::geom::Picture;
-use crate::io::OutputKind;
-use crate::session::OutputFit;
+use crate::io::{OutputFit, OutputKind};
 use crate::ui::controls::Control;
 use crate::ui::{Editor, Pane, Purpose, Request};
 
