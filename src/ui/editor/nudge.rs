@@ -1,7 +1,6 @@
 //! The arrow keys move the selected pins by pixels of the picture. While a key is held, that is one gesture.
 
-use eframe::egui;
-use egui::Key;
+use eframe::egui::{self, Key};
 use glam::DVec2;
 
 use crate::mesh::VertexId;

@@ -1,16 +1,13 @@
 //! The bar at the top: menus, what is open, and the verdict.
 
-use eframe::egui;
-use egui::{Button, RichText, Role, ThemePreference};
+use eframe::egui::{self, Button, RichText, Role, ThemePreference};
 
 use super::exports::EXPORTS;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::io::OutputFit;
 use crate::session::Action;
-use crate::ui::controls::Control;
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of};
+use crate::ui::{Control, Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of, theme_of};
 
 pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let bar = ui.max_rect();
