@@ -8,7 +8,7 @@
 //! | `panes/` | mesh and embedding |
 //! | `panels/` | menus, bars, panels, dialogs |
 //! | `timeline/` | the strip under the panes |
-//! | `keys.rs` | keys and what they ask for |
+//! | `keys.rs` | keys and what they ask for; pins moved by arrow keys |
 //! | `icons.rs` | signs of tools and verdicts |
 //! | `theme.rs` | colours and sizes |
 
