@@ -11,7 +11,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::{DVec2, DVec3};
 
 use super::space::split_point;
-use super::{PlaneBox, Range, Scale, Sphere, UnitFrame, UnitPlane, crease_normals};
+use super::{Range, Scale, Sphere, UnitPlane, bounds_of, crease_normals};
+use crate::geom::Bounds;
 use crate::mesh::{FaceId, VertexId};
 
 /// Says whether two arrays are the same: every array made in this process has its own.
@@ -32,7 +33,7 @@ pub struct MeshArrays {
     /// Which mesh this is.
     pub revision: Revision,
     /// Where unit space lies in the world.
-    pub frame: UnitFrame,
+    pub frame: Sphere,
     /// The mean of the faces' normals, weighted by area: the side that the surface shows. Its length is 1 for a plane
     /// sheet and 0 for a closed surface.
     pub mean_normal: DVec3,
@@ -53,7 +54,7 @@ impl MeshArrays {
     ///
     /// If a corner names a vertex that is not there.
     pub fn new(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Self {
-        let frame = UnitFrame::of(Sphere::around(positions));
+        let frame = Sphere::around(positions);
         let points: Vec<[f32; 3]> = positions.iter().map(|&p| frame.unit_from_world(p).to_array()).collect();
         let corner_positions = triangles.iter().flatten().map(|v| points[v.index()]).collect();
         let normals = crease_normals(positions, triangles);
@@ -89,7 +90,7 @@ pub struct PlaneArrays {
     /// Where unit space lies in the plane.
     pub frame: UnitPlane,
     /// The smallest box around it.
-    pub bounds: PlaneBox,
+    pub bounds: Bounds,
     /// Vertices: high parts, then low parts.
     pub points: Vec<[f32; 4]>,
     /// The same, corner by corner.
@@ -103,7 +104,7 @@ impl PlaneArrays {
     ///
     /// If a corner names a vertex that is not there.
     pub fn new(embedding: &[DVec2], triangles: &[[VertexId; 3]]) -> Self {
-        Self::in_frame(embedding, triangles, UnitPlane::of(PlaneBox::around(embedding)))
+        Self::in_frame(embedding, triangles, UnitPlane::of(bounds_of(embedding)))
     }
 
     /// The same in the unit space of another embedding, so that both can be drawn over each other.
@@ -112,7 +113,7 @@ impl PlaneArrays {
     ///
     /// If a corner names a vertex that is not there.
     pub fn in_frame(embedding: &[DVec2], triangles: &[[VertexId; 3]], frame: UnitPlane) -> Self {
-        let bounds = PlaneBox::around(embedding);
+        let bounds = bounds_of(embedding);
         let points: Vec<[f32; 4]> = embedding.iter().map(|&p| split_point(frame.unit_from_embedding(p))).collect();
         let corners = triangles.iter().flatten().map(|v| points[v.index()]).collect();
         Self { revision: Revision::fresh(), frame, bounds, points, corners }

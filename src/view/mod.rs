@@ -41,5 +41,5 @@ pub use pick::{PICK_RADIUS, PlanePicker, SurfaceHit, SurfacePicker, VertexPick, 
 pub use plane::{Grid, PlaneCamera};
 #[cfg(feature = "gui")]
 pub(crate) use space::split_point;
-pub use space::{PlaneBox, Sphere, UnitFrame, UnitPlane};
+pub use space::{Sphere, UnitPlane, bounds_of};
 pub use ticks::{Tick, nice_step_at_least};

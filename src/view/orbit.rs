@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
-use super::{Sphere, UnitFrame};
+use super::Sphere;
 
 /// Vertical angle of view, radians: about 35°, a portrait lens.
 const FIELD_OF_VIEW: f64 = 0.61;
@@ -108,7 +108,8 @@ impl OrbitCamera {
 
     /// Moves sideways, so that what lies at the pivot's depth follows a drag in points.
     pub fn pan(&mut self, drag_in_points: DVec2, pane_size: DVec2) {
-        let scale = self.world_per_point(pane_size);
+        // World units per point.
+        let scale = 2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / pane_size.y.max(1.0);
         let [right, up, _] = self.axes();
         self.pivot += scale * (drag_in_points.y * up - drag_in_points.x * right);
     }
@@ -183,11 +184,6 @@ impl OrbitCamera {
         self.distance
     }
 
-    /// World units per point at the depth of the pivot.
-    pub fn world_per_point(&self, pane_size: DVec2) -> f64 {
-        2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / pane_size.y.max(1.0)
-    }
-
     /// The way from the world to clip space, in full precision.
     pub fn clip_from_world(&self, pane_size: DVec2) -> DMat4 {
         let [near, far] = self.depth_range();
@@ -197,7 +193,7 @@ impl OrbitCamera {
     }
 
     /// The way from unit space to clip space, as the GPU takes it.
-    pub fn clip_from_unit(&self, frame: UnitFrame, pane_size: DVec2) -> Mat4 {
+    pub fn clip_from_unit(&self, frame: Sphere, pane_size: DVec2) -> Mat4 {
         (self.clip_from_world(pane_size) * frame.world_from_unit()).as_mat4()
     }
 

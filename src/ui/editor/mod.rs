@@ -185,7 +185,7 @@ impl Editor {
         self.plane.forget();
         self.look.forget_paint();
         if self.opened.put_on_screen(&self.session) {
-            self.selection.clear();
+            self.selection.select([]);
             self.put_on_view();
         }
         self.pointer.set_vertex(None);

@@ -6,6 +6,7 @@ use eframe::egui;
 use egui::RichText;
 
 use super::vertex_panel::new_vertex_words;
+use crate::session::Status;
 use crate::ui::theme::theme_of;
 use crate::ui::timeline::PRESS_SPACE;
 use crate::ui::{Editor, Tool};
@@ -40,7 +41,7 @@ fn fixed_hint(editor: &Editor) -> &'static str {
     if editor.session.model().is_none() {
         return "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.";
     }
-    if editor.session.is_held() && !editor.timeline.curves_shown() {
+    if matches!(editor.session.status(), Status::Held) && !editor.timeline.curves_shown() {
         return PRESS_SPACE;
     }
     if editor.tools.tool() != Tool::Select && editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex))

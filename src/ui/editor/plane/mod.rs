@@ -24,10 +24,11 @@ use super::host::Host;
 use super::project_view::plane_of;
 use super::scene::{MeshScene, PlaneScene};
 use super::views::picture_box;
+use crate::geom::Bounds;
 use crate::session::{Background, Session, Wake};
 use crate::solver::Verdict;
 use crate::ui::panes::pane::{PaneArea, Viewport};
-use crate::view::{PlaneBox, PlaneCamera};
+use crate::view::PlaneCamera;
 use ease::Ease;
 use ghost::Ghost;
 use hull::HullView;
@@ -64,7 +65,7 @@ pub(super) struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// What the window shows of the plane by itself: the picture where there is one, so that it stays where it is while
     /// the embedding changes; else the embedding.
-    fn framed_box(&self, embedding: PlaneBox) -> PlaneBox {
+    fn framed_box(&self, embedding: Bounds) -> Bounds {
         let document = self.session.document();
         if document.picture.is_some() { picture_box(document) } else { embedding }
     }
@@ -119,9 +120,9 @@ impl PlaneView {
     }
 
     /// Whether a camera shows all of a box.
-    fn shows(&self, camera: PlaneCamera, bounds: PlaneBox) -> bool {
+    fn shows(&self, camera: PlaneCamera, bounds: Bounds) -> bool {
         let seen = camera.visible(self.area.size());
-        seen.min.cmple(bounds.min).all() && seen.max.cmpge(bounds.max).all()
+        seen.low.cmple(bounds.low).all() && seen.high.cmpge(bounds.high).all()
     }
 
     /// What the window shows of it.
@@ -130,7 +131,7 @@ impl PlaneView {
     }
 
     /// Shows a box in full size.
-    pub(super) fn frame(&mut self, bounds: PlaneBox) {
+    pub(super) fn frame(&mut self, bounds: Bounds) {
         if let Some(camera) = &mut self.camera {
             camera.frame(bounds, self.area.size());
         }
