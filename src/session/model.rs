@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::examples::Example;
 use crate::io::{FileStamp, ObjMesh, PictureFile, ReadError, read_mesh_with};
-use crate::mesh::{Diagnosis, DiskMesh, PolygonMesh, TriMesh, relative_volume};
+use crate::mesh::{Diagnosis, DiskMesh, TriMesh, relative_volume};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
 /// it is high.
@@ -68,7 +68,7 @@ impl Model {
 
     /// A built-in mesh.
     pub fn example(example: Example) -> Self {
-        let source = ObjMesh::from(PolygonMesh::from(&example.mesh()));
+        let source = ObjMesh::from(&example.mesh());
         Self { example: Some(example), ..Self::new(example.title().to_owned(), None, source) }
     }
 
