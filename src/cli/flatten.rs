@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use super::args::FlattenArguments;
 use super::exit::conclude;
-use super::progress::{Progress, interrupted, is_interrupted, stop_on_interrupt};
+use super::progress::{INTERRUPTED, Progress, is_interrupted, stop_on_interrupt};
 use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, print_summary, step_words};
 use super::{Failure, Status};
 use crate::examples::Example;
@@ -168,7 +168,7 @@ impl HeadlessJob<'_> {
         progress: &Progress,
     ) -> Result<Solved, Failure> {
         let report_phase = |phase: Phase| progress.enter(phase.words());
-        let control = Control::new(interrupted(), &report_phase);
+        let control = Control::new(&INTERRUPTED, &report_phase);
         let document = &self.document;
         let settings = document.run_settings();
         let pins = document.pins();
