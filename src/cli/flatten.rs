@@ -13,7 +13,7 @@ use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, pri
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::{
-    Constraints, OutputFit, OutputKind, PictureFile, Report, StepReport, StepsFolder, Target, Targets, WriteError,
+    Constraints, OutputFit, OutputKind, PictureFile, StepReport, StepsFolder, Target, Targets, WriteError,
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Outcome, Surface};
@@ -157,7 +157,8 @@ impl HeadlessJob<'_> {
         if deliver(&output.report, self.report)? == StandardOutput::Free {
             print_summary(&output.report, &ending_words(&solved, &output));
         }
-        Ok(if output.verdict.planar && are_met(&output.report) { Status::Fine } else { Status::FallsShort })
+        let are_met = output.report.pins.is_none_or(|pins| pins.unmet.is_empty());
+        Ok(if output.verdict.planar && are_met { Status::Fine } else { Status::FallsShort })
     }
 
     /// Takes all steps of the method.
@@ -228,11 +229,6 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
             Err(Failure::NotADisk { path: model.path_words(), diagnosis: Box::new(diagnosis.as_ref().clone()) })
         }
     }
-}
-
-/// Whether every constraint that is to be met exactly is.
-fn are_met(report: &Report) -> bool {
-    report.pins.as_ref().is_none_or(|pins| pins.unmet.is_empty())
 }
 
 fn set_threads(threads: Option<u16>) -> Result<(), Failure> {

@@ -40,7 +40,12 @@ impl ObjMesh {
         let mut texture_vertex = vec![0_u32; corners.len()];
         let (mut positions, mut vertex_of, mut embedding) = (Vec::new(), Vec::new(), Vec::new());
         let mut first_places: Vec<u32> = Vec::new();
-        for places in &mut places_by_vertex(corners, self.polygons.positions.len()) {
+        // Places of the corners of each vertex; vertices without corners have none.
+        let mut places_of = vec![Vec::new(); self.polygons.positions.len()];
+        for (place, vertex) in (0_u32..).zip(corners) {
+            places_of[vertex.index()].push(place);
+        }
+        for places in &mut places_of {
             // Equal coordinates side by side, then the groups by their first corner.
             places.sort_unstable_by_key(|&place| (bits(place), place));
             first_places.clear();
@@ -74,13 +79,4 @@ impl ObjMesh {
         let faces: Vec<u32> = (0..face_count).filter(lacks).collect();
         if faces.is_empty() { Ok(()) } else { Err(TextureError::Missing(faces)) }
     }
-}
-
-/// Places of the corners of each vertex, ascending; vertices without corners have none.
-fn places_by_vertex(corners: &[VertexId], vertex_count: usize) -> Vec<Vec<u32>> {
-    let mut places = vec![Vec::new(); vertex_count];
-    for (place, vertex) in (0_u32..).zip(corners) {
-        places[vertex.index()].push(place);
-    }
-    places
 }
