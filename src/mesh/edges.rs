@@ -8,7 +8,7 @@ use super::VertexId;
 /// Sides of triangles grouped by the undirected edge that they lie on.
 ///
 /// Side `3 f + k` runs from corner `k` of triangle `f` to its corner `k + 1` (modulo 3).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct EdgeTable {
     /// All sides, those of one edge next to each other; within an edge in ascending order.
     sides: Vec<u32>,

@@ -36,7 +36,7 @@ impl Component {
 }
 
 /// Everything that the edge table says about a mesh.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Topology {
     pub(super) table: EdgeTable,
     /// Sides without a partner.
@@ -58,17 +58,7 @@ impl Topology {
     /// Explores the mesh that `table` was made from.
     pub(super) fn explore(table: EdgeTable, vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
         let mut fans = Fans::new(vertex_count, triangles);
-        let mut topology = Self {
-            table,
-            boundary: Vec::new(),
-            clashes: Vec::new(),
-            crowded_edges: Vec::new(),
-            split_vertices: Vec::new(),
-            unreferenced: Vec::new(),
-            components: Vec::new(),
-            loops: Vec::new(),
-            referenced_count: 0,
-        };
+        let mut topology = Self { table, ..Self::default() };
         for sides in topology.table.edges() {
             let (tail, head) = side_ends(triangles, sides[0]);
             match *sides {
@@ -171,10 +161,8 @@ fn head_corner(side: u32) -> u32 {
 /// Follows the boundary edges from fan to fan. On a manifold every walk is one loop, in order; elsewhere it is one
 /// connected part of the boundary.
 fn walk_boundary(boundary: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<'_>) -> Vec<Loop> {
-    let mut ends: Vec<[u32; 2]> = Vec::with_capacity(boundary.len());
-    for &side in boundary {
-        ends.push([fans.sets.find(side), fans.sets.find(head_corner(side))]);
-    }
+    let ends: Vec<[u32; 2]> =
+        boundary.iter().map(|&side| [side, head_corner(side)].map(|corner| fans.sets.find(corner))).collect();
     // Boundary edges by the fans at their ends.
     let mut at_fan: Vec<(u32, usize)> =
         ends.iter().enumerate().flat_map(|(edge, pair)| pair.map(|fan| (fan, edge))).collect();

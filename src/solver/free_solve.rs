@@ -23,6 +23,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 const GRADIENT_LIMIT: f64 = 1e-10;
 
 /// Equations, matrix and factors; for least squares also what the pins add.
+#[derive(Debug)]
 pub(super) struct FreeSolve {
     equations: Equations<Complex<f64>>,
     matrix: CscMatrix<Complex<f64>>,

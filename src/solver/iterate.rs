@@ -113,11 +113,7 @@ fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
 
 /// The answer to an embedding that meets its equations and that no pin pulls: itself.
 fn unmoved(embedding: &Embedding, pins: Pins, seconds: f64) -> Solution {
-    Solution {
-        embedding: embedding.clone(),
-        pins,
-        gauge_completed: false,
-        linear: Some(LinearSolve::default()),
-        seconds: PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() },
-    }
+    let seconds = PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() };
+    let linear = Some(LinearSolve::default());
+    Solution { embedding: embedding.clone(), pins, gauge_completed: false, linear, seconds }
 }

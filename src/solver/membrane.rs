@@ -47,6 +47,7 @@ pub(super) struct Spring {
 }
 
 /// The elements with what is free to move, and the plan of the Hessian.
+#[derive(Debug)]
 pub(super) struct Membrane {
     elements: Vec<Element>,
     springs: Vec<Spring>,
@@ -60,12 +61,6 @@ pub(super) struct Membrane {
     column_length: Vec<u32>,
     diagonal: Vec<u32>,
     analysis: Analysis,
-}
-
-impl std::fmt::Debug for Membrane {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Membrane of {} elements", self.elements.len())
-    }
 }
 
 /// When to stop.

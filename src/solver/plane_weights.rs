@@ -7,7 +7,7 @@
 //! the paper asks: a flipped face counts like its mirror image, and so all weights are positive. A planar embedding
 //! satisfies the equations that it gives (2D reproduction), and only planar ones do (Theorem 1).
 //!
-//! # What an embedding leaves
+//! # Residuals of an embedding
 //!
 //! At a corner of a positive face eq. (1) holds, and its share of A(x) x is zero. At a corner of a flipped face the
 //! unsigned angle turns the sign of one side around: its share is `2i(û₂ − û₁)`, with û₁, û₂ the directions of its edges.
@@ -110,8 +110,8 @@ pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &Embedding) 
     total / mesh.halfedge_count() as f64
 }
 
-/// A(x) x: what every vertex's equation leaves, the natural boundary's i-terms included, found without rounding where
-/// faces are positive.
+/// A(x) x: the residual of every vertex's equation, the natural boundary's i-terms included, found without rounding
+/// where faces are positive.
 pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
     let scale = scale_of(embedding, mesh.face_count());
     let is_upright = |face: &FaceId| {
@@ -119,19 +119,19 @@ pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex
         orientation(a, b, c) == Some(Orientation::CounterClockwise)
     };
     let folded: Vec<FaceId> = mesh.faces().collect::<Vec<_>>().into_par_iter().filter(|f| !is_upright(f)).collect();
-    let mut left = vec![Complex::ZERO; mesh.vertex_count()];
+    let mut residuals = vec![Complex::ZERO; mesh.vertex_count()];
     for face in folded {
         let vertices = mesh.face(face);
         let corners = vertices.map(|v| embedding[v] * scale);
-        for (vertex, share) in vertices.iter().zip(shares_left(corners)) {
-            left[vertex.index()] += share / scale;
+        for (vertex, share) in vertices.iter().zip(residual_shares(corners)) {
+            residuals[vertex.index()] += share / scale;
         }
     }
-    left
+    residuals
 }
 
-/// What a face that is not positive leaves at its corners.
-fn shares_left(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
+/// Shares of a face that is not positive in the residuals of its corners.
+fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
     let [a, b, c] = corners;
     let edges = [b - a, c - b, a - c];
     let (radii, _) = radii_of(edges, 1.0);
@@ -140,9 +140,9 @@ fn shares_left(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
         let previous = (k + 2) % 3;
         let (to_next, to_previous) = (edges[k], -edges[previous]);
         let turned = (to_previous / radii[previous] - to_next / radii[k]).perp();
-        let left =
+        let share =
             if degenerate { at_corner[k][0] * to_next + at_corner[k][1] * to_previous + turned } else { 2.0 * turned };
-        Complex::new(left.x, left.y)
+        Complex::new(share.x, share.y)
     })
 }
 

@@ -130,7 +130,7 @@ impl<T: Scalar> Job<'_, T> {
             if self.cancel.load(Ordering::Relaxed) {
                 return;
             }
-            let children = self.analysis.children.of(supernode).iter().map(|&child| {
+            let children = self.analysis.children.column(supernode).iter().map(|&child| {
                 let update = if (child as usize) < range.start {
                     let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
                     place.ok().map(|place| std::mem::take(&mut arrived[place].1))

@@ -89,7 +89,7 @@ impl<T: Scalar> Lu<T> {
                 let begin = analysis.begin[supernode] as usize;
                 let (left, right) = factor.values[start..start + shape.kept_len()].split_at(shape.left_len());
                 let swaps = &factor.swaps[begin - first_column..][..shape.columns];
-                Block { shape, begin, rows: analysis.rows.of(supernode), left, right, swaps }
+                Block { shape, begin, rows: analysis.rows.column(supernode), left, right, swaps }
             })
         })
     }

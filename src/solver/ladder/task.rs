@@ -3,11 +3,9 @@
 use super::gauge_in;
 use super::rung::Notes;
 use crate::mesh::DiskMesh;
+use crate::solver::pins::GAUGE_PINS;
 use crate::solver::scale::fit_gauge;
 use crate::solver::{Conflict, Method, Pins, Settings, Solution, SolveError, check_pins, conflicts};
-
-/// Fewest pins that fix the similarity, and the most that are no constraints.
-const GAUGE_PINS: usize = 2;
 
 /// Settings and the user's pins.
 #[derive(Debug)]
