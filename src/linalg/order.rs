@@ -41,17 +41,14 @@ impl Pattern {
         Ok(this)
     }
 
-    /// Order of the matrix.
     pub(super) fn order(&self) -> usize {
         self.offsets.len() - 1
     }
 
-    /// The rows of one column.
     pub(super) fn column(&self, column: usize) -> &[u32] {
         &self.rows[self.offsets[column] as usize..self.offsets[column + 1] as usize]
     }
 
-    /// The same pattern as faer sees it.
     pub(super) fn as_faer(&self) -> SymbolicSparseColMatRef<'_, u32> {
         let n = self.order();
         SymbolicSparseColMatRef::new_checked(n, n, &self.offsets, None, &self.rows)
@@ -140,7 +137,6 @@ impl Order {
         Self::from_new_to_old(later.iter().map(|&middle| self.new_to_old[middle as usize]).collect())
     }
 
-    /// The same as a faer permutation.
     pub(super) fn as_faer(&self) -> PermRef<'_, u32> {
         PermRef::new_checked(&self.new_to_old, &self.old_to_new, self.new_to_old.len())
     }

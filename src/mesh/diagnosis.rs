@@ -215,7 +215,6 @@ fn zero_area_faces(mesh: &TriMesh, sound: &Sound) -> FaceList {
     FaceList::new(mesh, (0..sound.triangles(mesh).len()).map(|f| sound.face(f)).filter(flat).collect())
 }
 
-/// Turns what the topology found into counts and faults.
 fn describe(diagnosis: &mut Diagnosis, mesh: &TriMesh, sound: &Sound, topology: &Topology) {
     let triangles = sound.triangles(mesh);
     let in_mesh = |faces: Vec<FaceId>| FaceList::new(mesh, faces.iter().map(|f| sound.face(f.index())).collect());

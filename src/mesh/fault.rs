@@ -17,7 +17,6 @@ pub struct FaceList {
 }
 
 impl FaceList {
-    /// Looks up the file's faces of triangles.
     pub(super) fn new(mesh: &TriMesh, triangles: Vec<FaceId>) -> Self {
         let mut polygons: Vec<u32> = triangles.iter().map(|&f| mesh.polygon(f)).collect();
         // Triangles of one polygon follow each other.
@@ -30,10 +29,8 @@ impl FaceList {
     }
 }
 
-/// One thing that keeps a mesh from being a disk.
-///
-/// Faces that name a missing vertex, that name a vertex twice, or that repeat an earlier face are set aside first: the
-/// other faults are those of the mesh without them, so that what is left to do after removing them is known at once.
+/// One thing that keeps a mesh from being a disk. Faces that name a missing vertex, name a vertex twice, or repeat an
+/// earlier face are set aside first: the other faults are those of the mesh without them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {

@@ -18,7 +18,6 @@ pub(super) struct FixedSolve {
 }
 
 impl FixedSolve {
-    /// Factors the matrix of the equations.
     pub(super) fn new(
         site: Site<'_>,
         equations: Equations<f64>,

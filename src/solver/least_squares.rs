@@ -185,7 +185,6 @@ fn add_adjoint(row: &Row, weight: C64, into: &mut [C64]) {
     }
 }
 
-/// A row times a column.
 fn along(row: &Row, column: &[C64]) -> C64 {
     row.iter().map(|&(at, value)| value * column[at]).sum()
 }

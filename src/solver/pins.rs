@@ -79,7 +79,6 @@ pub fn are_held_alike(a: &Pins, b: &Pins) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(alike)
 }
 
-/// Where pins want their vertices.
 pub(super) fn targets_of(pins: &Pins) -> PinPositions {
     pins.iter().map(|(&vertex, pin)| (vertex, pin.target)).collect()
 }
@@ -139,10 +138,8 @@ pub fn gauge_pins(mesh: &DiskMesh) -> PinPositions {
     BTreeMap::from([(a.min(b), DVec2::ZERO), (a.max(b), DVec2::new(distance, 0.0))])
 }
 
-/// The two boundary vertices farthest apart in space.
-///
-/// Pairs of boxes are compared, largest bound first; a pair whose boxes cannot hold a longer distance than the best
-/// one found is dropped, so that the work stays near linear even on a circle.
+/// The two boundary vertices farthest apart in space. Pairs of boxes are compared, largest bound first, and dropped
+/// where they cannot hold a longer distance than the best one found: near linear even on a circle.
 pub fn farthest_pair(mesh: &DiskMesh) -> [VertexId; 2] {
     let mut ids: Vec<VertexId> = mesh.boundary_loop().to_vec();
     ids.sort_unstable();

@@ -40,8 +40,7 @@ use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 /// surroundings alone, thick enough that the next solve can open it.
 const THIN: f64 = 1e-3;
 
-/// Shares of a face's three edges at both of their ends: `at_corner[k]` are those of the edges from corner k to the
-/// next corner and to the previous one.
+/// Shares of a face's edges: `at_corner[k]` are those of the edges from corner k to the next and the previous corner.
 struct FaceWeights {
     at_corner: [[f64; 2]; 3],
     degenerate: bool,
@@ -81,8 +80,7 @@ fn face_weights([a, b, c]: [DVec2; 3], mean_length: f64) -> FaceWeights {
     FaceWeights { at_corner, degenerate, bounded_corners }
 }
 
-/// What the first corner of a face gives to its edges to the next corner and to the previous one, in the embedding's own
-/// units: for one corner alone there is no overflow to be afraid of.
+/// What the first corner of a face gives to its edges to the next and to the previous one, in units of the embedding.
 pub(super) fn corner_weights(corners: [DVec2; 3]) -> [f64; 2] {
     face_weights(corners, 1.0).at_corner[0]
 }
@@ -93,8 +91,7 @@ pub(super) fn edge_radius(corners: [DVec2; 3], k: usize) -> f64 {
     radii_of([b - a, c - b, a - c], 1.0).0[k]
 }
 
-/// A power of two that brings an embedding to edges of a length near 1, and that length. Multiplying by it rounds
-/// nothing.
+/// A power of two, so that multiplying rounds nothing, that brings an embedding to edges of a length near 1.
 fn scale_of(embedding: &Embedding, face_count: usize) -> f64 {
     let first = embedding.first().copied().unwrap_or_default();
     let extent = embedding.iter().fold(0.0_f64, |m, z| m.max((*z - first).abs().max_element()));

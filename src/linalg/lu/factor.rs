@@ -21,7 +21,6 @@ const TINY_PIVOT: f64 = 1.490_116_119_384_765_6e-8;
 /// Fronts with less work than this, in multiplications, are not worth more than one thread.
 const PARALLEL_WORK: f64 = 2e6;
 
-/// The factors, unit by unit.
 #[derive(Debug)]
 pub(crate) struct Lu<T> {
     pub(super) units: Vec<UnitFactor<T>>,
@@ -58,7 +57,6 @@ struct Job<'a, T> {
     memory: Memory,
 }
 
-/// Bytes in use now, and at most so far.
 #[derive(Default)]
 struct Memory {
     now: AtomicUsize,
@@ -76,7 +74,6 @@ impl Memory {
 }
 
 impl LuAnalysis {
-    /// Factors a matrix of the analysed pattern.
     pub(crate) fn factor<T: Scalar>(
         &self,
         pattern: &Pattern,

@@ -110,7 +110,6 @@ impl<T: Scalar> Work<T> {
         self.x.len() / self.order
     }
 
-    /// Copies the block's outer rows into `outer`.
     fn gather(&mut self, rows: &[u32]) {
         self.outer.clear();
         for column in self.x.chunks_exact(self.order) {
@@ -118,7 +117,6 @@ impl<T: Scalar> Work<T> {
         }
     }
 
-    /// Subtracts `outer` from the block's outer rows.
     fn scatter_subtract(&mut self, rows: &[u32]) {
         if rows.is_empty() {
             return;

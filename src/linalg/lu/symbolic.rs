@@ -28,7 +28,6 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Order of the front.
     pub(super) fn height(self) -> usize {
         self.columns + self.below
     }
@@ -40,7 +39,6 @@ impl Shape {
     pub(super) fn kept_len(self) -> usize {
         self.left_len() + self.columns * self.below
     }
-    /// Entries of the update.
     pub(super) fn update_len(self) -> usize {
         self.below * self.below
     }
@@ -99,7 +97,6 @@ impl LuAnalysis {
         Ok(this)
     }
 
-    /// Number of supernodes.
     pub(super) fn count(&self) -> usize {
         self.parent.len()
     }

@@ -7,7 +7,6 @@ use crate::solver::pins::GAUGE_PINS;
 use crate::solver::scale::fit_gauge;
 use crate::solver::{Conflict, Method, Pins, Settings, Solution, SolveError, check_pins, conflicts};
 
-/// Settings and the user's pins.
 #[derive(Debug)]
 pub(super) struct Task {
     pub(super) settings: Settings,
@@ -31,17 +30,14 @@ impl Task {
         self.pins.len() > GAUGE_PINS || (self.pins.len() == GAUGE_PINS && !is_exact())
     }
 
-    /// Whether the pins leave the similarity open.
     pub(super) fn has_open_gauge(&self) -> bool {
         self.pins.len() < GAUGE_PINS
     }
 
-    /// The pins as the treatment holds them.
     pub(super) fn held(&self) -> Pins {
         self.settings.held(&self.pins)
     }
 
-    /// Whether springs pull some pins.
     pub(super) fn has_springs(&self) -> bool {
         self.held().values().any(|pin| !pin.hold.is_exact())
     }

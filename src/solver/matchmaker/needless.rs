@@ -11,8 +11,7 @@ use super::{Embedding, Matched};
 use crate::geom::{Orientation, orientation, segments_meet};
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
-/// Takes out new vertices that are not needed: those whose edges can be whole again with every face positive and the
-/// boundary simple.
+/// Takes out new vertices without which every face stays positive and the boundary simple.
 pub fn without_needless_vertices(mesh: &DiskMesh, matched: Matched) -> Matched {
     let mut removal = Removal::new(mesh, &matched);
     let old = matched.refinement.old_vertex_count();

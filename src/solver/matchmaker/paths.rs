@@ -13,7 +13,6 @@ use super::subdivision::{Role, Subdivision};
 use super::target_graph::TargetGraph;
 use crate::solver::{Control, Phase, SolveError};
 
-/// The paths that have been laid.
 #[derive(Debug)]
 pub(super) struct Paths<'a> {
     pub(super) cells: Subdivision,
@@ -55,7 +54,6 @@ impl<'a> Paths<'a> {
         paths
     }
 
-    /// Lays all paths.
     pub(super) fn lay_all(&mut self, router: &mut Router, control: Control<'_>) -> Result<(), SolveError> {
         let mut is_connected: Vec<bool> = (0..self.graph.points.len()).map(|end| end >= self.target_count).collect();
         let mut waiting = BinaryHeap::new();
@@ -99,8 +97,7 @@ impl<'a> Paths<'a> {
         Reverse(Waiting { bound: Length(a.distance(b)), edge })
     }
 
-    /// Lays the path of the first edge that waits, if it is no longer than the next may be; else it waits on. Paths in
-    /// its way can only make it longer.
+    /// Lays the path of the first edge that waits, if no longer than the next may be: paths in its way only add to it.
     fn lay_or_wait(
         &mut self,
         edge: u32,
@@ -119,7 +116,6 @@ impl<'a> Paths<'a> {
         is_shortest
     }
 
-    /// The shortest way for an edge from one of its ends.
     fn way(&self, edge: u32, from: u32, router: &mut Router) -> Option<Way> {
         let [a, b] = self.graph.edges[edge as usize];
         let to = if from == a { b } else { a };

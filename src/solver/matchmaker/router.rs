@@ -32,7 +32,6 @@ pub(super) struct Sector {
 }
 
 impl Sector {
-    /// Everything around a vertex.
     pub(super) fn around(cells: &Subdivision, vertex: u32) -> Self {
         let all: Vec<u32> = cells.around(vertex).collect();
         Self { corners: all.clone(), edges: all }
@@ -58,7 +57,6 @@ pub(super) struct Terminal {
     pub(super) sector: Sector,
 }
 
-/// A way from one end to another.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Way {
     pub(super) length: f64,
@@ -101,7 +99,6 @@ struct Known {
     by: Move,
 }
 
-/// A move from one node to another.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     node: u32,
@@ -208,7 +205,6 @@ impl Router {
         self.heap.push(Reverse(Reached { bound, node, length: Length(length) }));
     }
 
-    /// The moves to a node, in order.
     fn moves(&self, begin: u32, mut node: u32) -> Vec<Move> {
         let mut moves = Vec::new();
         while node != begin {

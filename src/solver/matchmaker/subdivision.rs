@@ -26,7 +26,6 @@ pub(super) enum Role {
     Within(u32),
 }
 
-/// A halfedge of the subdivision.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Halfedge {
     pub(super) next: u32,
@@ -41,7 +40,6 @@ pub(super) struct Halfedge {
     path: u32,
 }
 
-/// A subdivision of the plane into cells.
 #[derive(Debug)]
 pub(super) struct Subdivision {
     halfedges: Vec<Halfedge>,
@@ -116,7 +114,6 @@ impl Subdivision {
         self[self[h].twin].tail
     }
 
-    /// The path along a halfedge.
     pub(super) fn path(&self, h: u32) -> Option<u32> {
         let path = self[h].path;
         (path != NONE).then_some(path)
@@ -171,7 +168,6 @@ impl Subdivision {
         self.cell(cell).find(|&h| self[h].tail == vertex)
     }
 
-    /// Says that a path runs along a halfedge.
     pub(super) fn set_path(&mut self, h: u32, path: u32) {
         let twin = self[h].twin;
         self[h].path = path;

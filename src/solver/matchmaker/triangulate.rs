@@ -37,7 +37,6 @@ pub(super) fn split_collapsing_edges(cells: &mut Subdivision, graph: &TargetGrap
     }
 }
 
-/// Cuts all cells into triangles.
 pub(super) fn triangulate(cells: &mut Subdivision, graph: &TargetGraph, mesh: &DiskMesh) -> Parts {
     let mut of_cell: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
     let mut waiting: Vec<u32> = (0..).take(cells.halfedge_count()).filter(|&h| is_first(cells, h)).collect();
@@ -98,8 +97,7 @@ fn sides_of_corners(cells: &Subdivision, mesh: &DiskMesh, face: FaceId, corners:
     corners.iter().map(|&v| (0..3).map(|k| u8::from(is_on(v, k)) << k).sum()).collect()
 }
 
-/// The triangulation of a convex polygon whose diagonals have the least sum, without flat triangles (dynamic
-/// programming). `None` where the sum is infinite.
+/// The triangulation of a convex polygon with the least finite sum of lengths, no triangle bad (dynamic programming).
 pub(super) fn shortest_triangulation(
     count: usize,
     length: impl Fn(usize, usize) -> f64,
