@@ -17,7 +17,7 @@ use freebound::io::{ObjMesh, Target, write_obj};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, RecentFiles, Session};
 use freebound::solver::{Embedding, Family, Hold, Method, Settings, verdict};
-use freebound::view::{PlaneArrays, PlaneBox, UnitPlane};
+use freebound::view::{PlaneArrays, UnitPlane, bounds_of};
 use glam::DVec2;
 
 use common::machine::print_machine;
@@ -75,7 +75,7 @@ fn drag(vertices: usize) -> [String; 7] {
     settle(&mut session);
     let mesh = Arc::clone(session.model().and_then(|model| model.disk()).expect("the sheet is a disk"));
     let flat = session.outcome().expect("solved").step.solution.embedding.clone();
-    let extent = PlaneBox::around(&flat).extent();
+    let extent = bounds_of(&flat).extent();
     for k in 0..CONSTRAINTS {
         let vertex = VertexId::from_index((2 * k + 1) * mesh.vertex_count() / (2 * CONSTRAINTS));
         let hold = if k % 6 == 5 { Hold::Weighted(10.0) } else { Hold::Hard };
@@ -95,7 +95,7 @@ fn drag(vertices: usize) -> [String; 7] {
             std::thread::sleep(Duration::from_micros(50));
         }
         first.add(begin.elapsed().as_secs_f64());
-        let frame = UnitPlane::of(PlaneBox::around(&flat));
+        let frame = UnitPlane::of(bounds_of(&flat));
         for k in 0..MOVES {
             let target = from + DVec2::new(f64::from(k), 1.0) * (1e-4 * extent);
             move_.run(|| session.handle(Action::MovePin { vertex, target }));

@@ -7,9 +7,8 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use glam::DVec2;
 
-use crate::io::{OutputKind, Target};
+use crate::io::{OutputFit, OutputKind, Target};
 use crate::mesh::VertexId;
-use crate::session::OutputFit;
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.

@@ -12,9 +12,11 @@ use super::progress::{Progress, interrupted, is_interrupted, stop_on_interrupt};
 use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, print_summary, step_words};
 use super::{Failure, Status};
 use crate::examples::Example;
-use crate::io::{Constraints, OutputKind, PictureFile, Report, StepReport, StepsFolder, Target, Targets, WriteError};
+use crate::io::{
+    Constraints, OutputFit, OutputKind, PictureFile, Report, StepReport, StepsFolder, Target, Targets, WriteError,
+};
 use crate::mesh::{DiskMesh, VertexId};
-use crate::session::{Document, Model, Outcome, OutputFit, Surface};
+use crate::session::{Document, Model, Outcome, Surface};
 use crate::solver::{Choice as _, Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
 
 /// Folder that the example is written into, in the current one.
@@ -139,7 +141,7 @@ impl HeadlessJob<'_> {
         let mut output = solved.outcome.finished(model, records, self.fit);
         output.report.seconds.read = read_seconds;
         output.picture = self.document.picture.as_deref();
-        output.svg_page = self.svg_fit.svg_page(output.svg_page.aspect());
+        output.svg_fit = self.svg_fit;
         progress.enter("writing");
         let before_writing = Instant::now();
         go_on()?;

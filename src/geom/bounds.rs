@@ -15,6 +15,9 @@ impl Bounds {
     /// The box of no points.
     pub const EMPTY: Self = Self { low: DVec2::INFINITY, high: DVec2::NEG_INFINITY };
 
+    /// The unit square.
+    pub const UNIT: Self = Self { low: DVec2::ZERO, high: DVec2::ONE };
+
     /// The smallest box around points.
     pub fn of(points: impl IntoIterator<Item = DVec2>) -> Self {
         let with = |Self { low, high }: Self, z| Self { low: low.min(z), high: high.max(z) };
@@ -43,6 +46,12 @@ impl Bounds {
     /// Width and height.
     pub fn size(self) -> DVec2 {
         self.high - self.low
+    }
+
+    /// The longer of width and height; 1 where the box is a single point.
+    pub fn extent(self) -> f64 {
+        let extent = self.size().max_element();
+        if extent > 0.0 && extent.is_finite() { extent } else { 1.0 }
     }
 
     /// The point in its middle.

@@ -3,14 +3,15 @@
 //! | file | what |
 //! |---|---|
 //! | `orient.rs` | the side of a line that a point lies on, exactly |
-//! | `bounds.rs` | boxes |
+//! | `bounds.rs`, `clip.rs` | boxes; segments and polygons cut to one |
 //! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; where it meets itself |
 //! | `hull.rs` | the convex hull |
 //! | `triangulation.rs` | triangulations of points, and of what lies outside a polygon |
-//! | `similarity.rs` | the similarity that fits pairs of points best |
+//! | `similarity.rs` | the similarity that fits pairs of points best; whether pairs look mirrored |
 //! | `picture.rs`, `picture_frame.rs` | a picture, and how texture coordinates lie in the plane |
 
 mod bounds;
+mod clip;
 mod crossings;
 mod hull;
 mod orient;
@@ -21,11 +22,12 @@ mod similarity;
 mod triangulation;
 
 pub use bounds::Bounds;
+pub use clip::{clip_polygon, clip_segment};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, segments_meet};
 pub use hull::convex_hull;
 pub use orient::{Orientation, orientation};
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};
 pub use polygon::{turning_number, winding_number};
-pub use similarity::Similarity;
+pub use similarity::{Similarity, look_mirrored};
 pub use triangulation::{delaunay_triangles, outside_triangles};

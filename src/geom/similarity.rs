@@ -2,6 +2,9 @@
 
 use glam::DVec2;
 
+/// A reflection fits much better where its error is less than this part of the rotation's.
+const MUCH_BETTER: f64 = 0.5;
+
 /// z ↦ turn · (z − from) + to, in complex numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Similarity {
@@ -37,4 +40,20 @@ impl Similarity {
         let sum: f64 = pairs.iter().map(|[a, b]| self.apply(*a).distance_squared(*b)).sum();
         (sum / pairs.len() as f64).sqrt()
     }
+}
+
+/// Whether a reflection takes the first of each pair much nearer to the second than a rotation does.
+pub fn look_mirrored(pairs: &[[DVec2; 2]]) -> bool {
+    let mirrored: Vec<[DVec2; 2]> = pairs.iter().map(|[z, target]| [DVec2::new(-z.x, z.y), *target]).collect();
+    Similarity::fitting(&mirrored).is_some_and(|best| best.error(&mirrored) < MUCH_BETTER * error_of(pairs))
+}
+
+/// Error of the similarity without reflection that fits best; where none fits, of one point for all.
+fn error_of(pairs: &[[DVec2; 2]]) -> f64 {
+    if let Some(best) = Similarity::fitting(pairs) {
+        return best.error(pairs);
+    }
+    let middle = pairs.iter().map(|[_, target]| *target).sum::<DVec2>() / pairs.len() as f64;
+    let squares: f64 = pairs.iter().map(|[_, target]| target.distance_squared(middle)).sum();
+    (squares / pairs.len() as f64).sqrt()
 }

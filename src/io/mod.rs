@@ -37,7 +37,7 @@ pub use obj::{
     TextureError, TextureMesh, material_picture, read_mesh, read_mesh_with, read_obj, read_obj_with, refined_obj,
     write_obj,
 };
-pub use output::{EXTENSIONS, Format, Output, OutputKind, ProvedEmbedding};
+pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};
 pub use picture::{PictureError, PictureFile, decode_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
@@ -48,5 +48,4 @@ pub use report::{
 };
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;
-pub use svg::SvgPage;
 pub use targets::{Target, Targets, hard_targets, pins_in_plane};

@@ -3,11 +3,12 @@
 use std::io;
 use std::path::Path;
 
+use clap::ValueEnum;
 use glam::{DVec2, DVec3};
 
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::Report;
-use super::svg::{SvgPage, write_svg};
+use super::svg::write_svg;
 use super::{ObjMesh, PictureFile, WriteError, refined_obj, write_atomically, write_obj};
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement};
@@ -30,6 +31,16 @@ pub enum OutputKind {
     Png,
     /// The report.
     Json,
+}
+
+/// Size of an embedding that the user's pins do not fix. Its words are those of the command line's help.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum OutputFit {
+    /// Uniformly into the unit square
+    #[default]
+    Unit,
+    /// The area of the surface
+    True,
 }
 
 /// What the command line and the window know of a kind of file.
@@ -68,7 +79,9 @@ static FORMATS: [Format; 4] = [
         ending: "-flat.svg",
         title: "Export a drawing of the layout",
         write: |output, path| {
-            write_atomically(path, |out| write_svg(out, output.proved(&output.coordinates), output.svg_page))
+            write_atomically(path, |out| {
+                write_svg(out, output.proved(&output.coordinates), output.aspect, output.svg_fit)
+            })
         },
     },
     Format {
@@ -136,8 +149,10 @@ pub struct Output<'a> {
     pub report: Report,
     /// The picture, where there is one: it goes beside an OBJ file, and on the mesh in a PNG file.
     pub picture: Option<&'a PictureFile>,
-    /// What the page of a drawing is.
-    pub svg_page: SvgPage,
+    /// Width over height of the picture that the coordinates are for; 1 where there is none.
+    pub aspect: f64,
+    /// Size of a drawing.
+    pub svg_fit: OutputFit,
 }
 
 impl Output<'_> {
@@ -148,7 +163,7 @@ impl Output<'_> {
         let mesh = self.mesh.mesh();
         let eye = self.mesh.faces().map(|face| mesh.double_area_vector(face)).sum();
         let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
-        let scale = DVec2::new(self.svg_page.aspect(), 1.0);
+        let scale = DVec2::new(self.aspect, 1.0);
         let layout: Embedding = self.coordinates.iter().map(|uv| *uv * scale).collect();
         let extent = layout.iter().fold(0.0_f64, |m, z| m.max((*z - layout[0]).abs().max_element()));
         let paint = match self.picture {

@@ -97,19 +97,3 @@ fn is_drawing_of_a_step(name: &str) -> bool {
     let is_number = number.len() >= 3 && number.bytes().all(|b| b.is_ascii_digit());
     is_number && rung.bytes().all(|b| b.is_ascii_lowercase() || b == b'-')
 }
-
-#[cfg(test)]
-mod tests {
-    use super::is_drawing_of_a_step;
-
-    #[test]
-    fn only_drawings_of_steps_are_replaced() {
-        for name in ["step-000-natural.svg", "step-1234-virtual-boundary.svg"] {
-            assert!(is_drawing_of_a_step(name), "{name}");
-        }
-        for name in ["steps.csv", "step-1-natural.svg", "step-001.svg", "step-001-my drawing.svg", "my-step-001-a.svg"]
-        {
-            assert!(!is_drawing_of_a_step(name), "{name}");
-        }
-    }
-}

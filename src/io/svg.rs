@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use glam::DVec2;
 
-use super::ProvedEmbedding;
+use super::{OutputFit, ProvedEmbedding};
 use crate::geom::{Bounds, Similarity};
 use crate::mesh::{DiskMesh, EdgeId, VertexId};
 use crate::solver::{Embedding, Step, VirtualBoundary, to_true_area};
@@ -15,39 +15,20 @@ const SIZE: f64 = 1000.0;
 /// Free space around it.
 const MARGIN: f64 = 20.0;
 
-/// What the page of a drawing is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SvgPage {
-    /// The unit square of texture coordinates, where a picture of this aspect (width over height) lies; larger where the
-    /// embedding leaves it.
-    Picture {
-        /// Width of the picture over its height.
-        aspect: f64,
-    },
-    /// The embedding as large as the surface: a unit of the drawing is a unit of the mesh.
-    TrueArea {
-        /// Width over height of the picture that the texture coordinates are for.
-        aspect: f64,
-    },
-}
-
-impl SvgPage {
-    /// Width over height of the picture that the texture coordinates are for; 1 where there is none.
-    pub const fn aspect(self) -> f64 {
-        match self {
-            Self::Picture { aspect } | Self::TrueArea { aspect } => aspect,
-        }
-    }
-}
-
-/// Draws texture coordinates, v upwards. Flipped faces are red, crossing boundary edges orange, overwound vertices
-/// magenta.
-pub(super) fn write_svg(out: &mut impl Write, shown: ProvedEmbedding<'_>, page: SvgPage) -> io::Result<()> {
-    let scale = DVec2::new(page.aspect(), 1.0);
+/// Draws texture coordinates, v upwards, for a picture of this aspect (width over height). Flipped faces are red, crossing
+/// boundary edges orange, overwound vertices magenta. The page is the unit square where the picture lies, larger where
+/// the embedding leaves it; or a unit of the drawing is a unit of the mesh.
+pub(super) fn write_svg(
+    out: &mut impl Write,
+    shown: ProvedEmbedding<'_>,
+    aspect: f64,
+    fit: OutputFit,
+) -> io::Result<()> {
+    let scale = DVec2::new(aspect, 1.0);
     let mut embedding: Embedding = shown.embedding.iter().map(|uv| uv * scale).collect();
-    let frame = match page {
-        SvgPage::Picture { aspect } => Frame::of_picture(aspect, &embedding),
-        SvgPage::TrueArea { .. } => {
+    let frame = match fit {
+        OutputFit::Unit => Frame::of_picture(aspect, &embedding),
+        OutputFit::True => {
             to_true_area(shown.mesh, &mut embedding);
             Frame::at_scale(&embedding)
         }

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::geom::Bounds;
 use crate::view::{
-    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera, Srgb,
+    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneCamera, Srgb,
 };
 
 /// Tells panes apart, so that each keeps its own target. Two panes in one window must not share a name.
@@ -106,7 +107,7 @@ pub struct PictureLayer {
     /// The pixels.
     pub picture: Arc<Picture>,
     /// Where the picture lies, embedding units: the unit square, unless the embedding is kept otherwise.
-    pub bounds: PlaneBox,
+    pub bounds: Bounds,
     /// Opacity behind the embedding, 0 to 1. On faces it is opaque.
     pub opacity: f32,
     /// How its pixels show.
@@ -152,7 +153,7 @@ pub struct PlaneFrame {
     /// The picture behind the embedding.
     pub picture: Option<PictureLayer>,
     /// What is outlined: the unit square of texture coordinates, as it lies in the plane.
-    pub outlined: PlaneBox,
+    pub outlined: Bounds,
     /// What part of the plane is seen.
     pub camera: PlaneCamera,
     /// How it looks.

@@ -4,7 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, Vec3};
 
 use super::frame::{MeshFrame, Normals, PictureLayer, PlaneFrame, Shading, Style};
-use crate::view::{OrbitCamera, Palette, PlaneBox, PlaneCamera, Srgb, UnitFrame, UnitPlane};
+use crate::geom::Bounds;
+use crate::view::{OrbitCamera, Palette, PlaneCamera, Sphere, Srgb, UnitPlane};
 
 /// Pixel coordinates beyond this are far outside any pane and need no digits.
 const FAR_PIXEL: f64 = 1e7;
@@ -70,7 +71,7 @@ impl PaneUniforms {
         let mut uniforms = Self::common(&frame.style, &frame.palette, size);
         uniforms.set_orbit(&frame.camera, frame.mesh.frame, size);
         if let Some(plane) = &frame.plane {
-            let origin = plane.frame.center();
+            let origin = plane.frame.center;
             uniforms.set_checker(plane.frame, origin, frame.style.check_size);
             if let Some(layer) = &frame.picture {
                 uniforms.set_picture(plane.frame, origin, layer);
@@ -86,7 +87,7 @@ impl PaneUniforms {
 
     pub(super) fn of_plane(frame: &PlaneFrame, size: PaneSize) -> Self {
         let mut uniforms = Self::common(&frame.style, &frame.palette, size);
-        let unit = frame.plane.as_ref().map_or_else(|| UnitPlane::of(PlaneBox::UNIT), |plane| plane.frame);
+        let unit = frame.plane.as_ref().map_or_else(|| UnitPlane::of(Bounds::UNIT), |plane| plane.frame);
         let center = frame.camera.center();
         let (unit_center, scale) = frame.camera.unit_view(unit, size.in_points());
         uniforms.plane_center = crate::view::split_point(unit_center);
@@ -121,7 +122,7 @@ impl PaneUniforms {
         uniforms
     }
 
-    fn set_orbit(&mut self, camera: &OrbitCamera, frame: UnitFrame, size: PaneSize) {
+    fn set_orbit(&mut self, camera: &OrbitCamera, frame: Sphere, size: PaneSize) {
         self.clip_from_unit = camera.clip_from_unit(frame, size.in_points()).to_cols_array_2d();
         // Unit space is the world moved and scaled: directions are the same.
         let axis = |k: usize| camera.view_from_world().row(k).truncate().as_vec3();
@@ -136,14 +137,14 @@ impl PaneUniforms {
         let size = if check_size.is_normal() && check_size > 0.0 { check_size } else { 1.0 };
         // Two checks make a period.
         let offset = (origin / size).rem_euclid(DVec2::splat(2.0)).as_vec2();
-        self.checker = [single(unit.embedding_per_unit() / size), offset.x, offset.y, 0.0];
+        self.checker = [single(unit.embedding_per_unit / size), offset.x, offset.y, 0.0];
     }
 
     fn set_picture(&mut self, unit: UnitPlane, origin: DVec2, layer: &PictureLayer) {
         // The picture's rows run downwards.
         let size = layer.bounds.size() * DVec2::new(1.0, -1.0);
-        let corner = DVec2::new(layer.bounds.min.x, layer.bounds.max.y);
-        let scale = (DVec2::splat(unit.embedding_per_unit()) / size).as_vec2();
+        let corner = DVec2::new(layer.bounds.low.x, layer.bounds.high.y);
+        let scale = (DVec2::splat(unit.embedding_per_unit) / size).as_vec2();
         let offset = ((origin - corner) / size).as_vec2();
         self.picture = [scale.x, scale.y, offset.x, offset.y];
     }
@@ -182,8 +183,8 @@ fn colours(palette: &Palette) -> [[f32; 4]; 11] {
 }
 
 /// Left, top, right, bottom of a box of the plane, pixels of the pane.
-fn pixel_box(bounds: PlaneBox, camera: &PlaneCamera, size: PaneSize) -> [f32; 4] {
-    let corners = [DVec2::new(bounds.min.x, bounds.max.y), DVec2::new(bounds.max.x, bounds.min.y)];
+fn pixel_box(bounds: Bounds, camera: &PlaneCamera, size: PaneSize) -> [f32; 4] {
+    let corners = [DVec2::new(bounds.low.x, bounds.high.y), DVec2::new(bounds.high.x, bounds.low.y)];
     let [a, b] = corners.map(|corner| {
         let pixel = camera.pane_from_embedding(corner, size.in_points()) * f64::from(size.pixels_per_point);
         pixel.clamp(DVec2::splat(-FAR_PIXEL), DVec2::splat(FAR_PIXEL)).as_vec2()

@@ -4,12 +4,23 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use super::{SaveRequest, StopConditions};
+use super::StopConditions;
 use crate::examples::Example;
 use crate::geom::VAxis;
-use crate::io::Target;
+use crate::io::{OutputFit, OutputKind, Target};
 use crate::mesh::VertexId;
 use crate::solver::{Hold, Settings};
+
+/// A file to write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SaveRequest {
+    /// Where.
+    pub path: PathBuf,
+    /// What.
+    pub kind: OutputKind,
+    /// At which size, where the user's pins do not say.
+    pub fit: OutputFit,
+}
 
 /// One request.
 #[derive(Clone, Debug, PartialEq)]

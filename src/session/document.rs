@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use super::Problem;
 use super::model::example_picture;
-use super::{Outcome, Problem};
 use crate::examples::Example;
 use crate::geom::{PictureFrame, VAxis};
 use crate::io::{PictureFile, Target, Targets, hard_targets, pins_in_plane};
@@ -60,11 +60,6 @@ impl Document {
     /// The user's pins in that plane.
     pub fn pins(&self) -> Pins {
         pins_in_plane(&self.targets, self.frame())
-    }
-
-    /// Whether an outcome is one of this document.
-    pub(super) fn is_solved_in(&self, outcome: &Outcome) -> bool {
-        outcome.problem.has_steps_of(&self.problem())
     }
 }
 

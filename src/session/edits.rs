@@ -39,11 +39,16 @@ impl Session {
         }
     }
 
+    /// The same as part of a drag of a slider.
+    fn slide(&mut self, command: Command) {
+        self.history.apply_in_gesture(command, &mut self.document);
+        self.solve();
+    }
+
     /// Chooses method and weights as part of a drag of a slider.
     pub(super) fn slide_settings(&mut self, settings: Settings) {
         if settings != self.document.settings {
-            self.history.apply_in_gesture(Command::SetSettings(settings), &mut self.document);
-            self.solve();
+            self.slide(Command::SetSettings(settings));
         }
     }
 
@@ -87,7 +92,7 @@ impl Session {
         let is_valid =
             vertex.index() < self.vertex_count() && target.uv.is_finite() && target.hold.invalid_weight().is_none();
         if is_valid && self.takes_pins() {
-            self.edit(vec![Command::SetPin { vertex, target: Some(target) }]);
+            self.edit(vec![pin(vertex, target)]);
         }
     }
 
@@ -101,11 +106,12 @@ impl Session {
             if !moves.iter().all(|(vertex, _)| adopted.contains_key(vertex)) {
                 return;
             }
-            self.history.apply_in_gesture(pinned(adopted), &mut self.document);
+            let commands = adopted.into_iter().map(|(vertex, target)| pin(vertex, target)).collect();
+            self.history.apply_in_gesture(Command::Together(commands), &mut self.document);
         }
         let command = |&(vertex, uv): &(VertexId, DVec2)| {
             let before = self.document.targets.get(&vertex).filter(|before| uv.is_finite() && before.uv != uv)?;
-            Some(Command::SetPin { vertex, target: Some(Target { uv, ..*before }) })
+            Some(pin(vertex, Target { uv, ..*before }))
         };
         let commands: Vec<Command> = moves.iter().filter_map(command).collect();
         if commands.is_empty() {
@@ -129,28 +135,22 @@ impl Session {
     pub(super) fn slide_hold(&mut self, vertices: &[VertexId], hold: Hold) {
         let commands = self.holds(vertices, hold);
         if !commands.is_empty() {
-            self.history.apply_in_gesture(Command::Together(commands), &mut self.document);
-            self.solve();
+            self.slide(Command::Together(commands));
         }
     }
 
     fn holds(&self, vertices: &[VertexId], hold: Hold) -> Vec<Command> {
         let command = |&vertex: &VertexId| {
-            let before = self
-                .document
-                .targets
-                .get(&vertex)
-                .filter(|before| before.hold != hold && hold.invalid_weight().is_none())?;
-            Some(Command::SetPin { vertex, target: Some(Target { hold, ..*before }) })
+            let before = self.document.targets.get(&vertex).filter(|before| before.hold != hold)?;
+            Some(pin(vertex, Target { hold, ..*before }))
         };
-        vertices.iter().filter_map(command).collect()
+        vertices.iter().filter(|_| hold.invalid_weight().is_none()).filter_map(command).collect()
     }
 
     /// Frees vertices.
     pub(super) fn unpin(&mut self, vertices: &[VertexId]) {
         let pinned = vertices.iter().filter(|v| self.document.targets.contains_key(v));
-        let commands = pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect();
-        self.edit(commands);
+        self.edit(pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect());
     }
 }
 
@@ -198,9 +198,8 @@ impl Session {
         }
         let pairs: Vec<[DVec2; 2]> =
             (self.document.pins().into_iter()).map(|(vertex, pin)| [pin.target, embedding[vertex]]).collect();
-        let fitted = Similarity::fitting(&pairs).map(|similarity| {
-            let targets = pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target)));
-            targets.collect::<Vec<_>>()
+        let fitted = Similarity::fitting(&pairs).map(|similarity| -> Vec<DVec2> {
+            pairs.iter().map(|[target, _]| flat.frame.uv_from_plane(similarity.apply(*target))).collect()
         });
         match fitted.filter(|targets| targets.iter().all(|target| target.is_finite())) {
             Some(targets) => self.move_targets(&targets),
@@ -211,12 +210,7 @@ impl Session {
     /// Gives the pins other targets, in their order, as one edit.
     fn move_targets(&mut self, targets: &[DVec2]) {
         let moved = self.document.targets.iter().zip(targets).filter(|((_, before), uv)| before.uv != **uv);
-        let command = |((&vertex, before), &uv): ((&VertexId, &Target), &DVec2)| Command::SetPin {
-            vertex,
-            target: Some(Target { uv, ..*before }),
-        };
-        let commands = moved.map(command).collect();
-        self.edit(commands);
+        self.edit(moved.map(|((&vertex, before), &uv)| pin(vertex, Target { uv, ..*before })).collect());
     }
 }
 
@@ -265,8 +259,7 @@ impl Session {
         if self.takes_pins() {
             let known = &self.document.targets;
             let fresh = targets.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
-            let commands = fresh.map(|(vertex, target)| Command::SetPin { vertex, target: Some(target) }).collect();
-            self.edit(commands);
+            self.edit(fresh.map(|(vertex, target)| pin(vertex, target)).collect());
         }
     }
 
@@ -291,10 +284,8 @@ impl Session {
     }
 }
 
-/// Targets as one command.
-fn pinned(targets: Targets) -> Command {
-    let command = |(vertex, target)| Command::SetPin { vertex, target: Some(target) };
-    Command::Together(targets.into_iter().map(command).collect())
+fn pin(vertex: VertexId, target: Target) -> Command {
+    Command::SetPin { vertex, target: Some(target) }
 }
 
 /// The gauge pins as targets of the user's, each where it lies; the user's own stay what they are.

@@ -76,19 +76,16 @@ impl Files {
 
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
-        Some(ProjectFile {
-            mesh: source_of(model)?,
-            faces_turned: document.faces_turned,
-            picture: match &document.picture {
-                Some(picture) => picture_source(picture, model),
-                None => self.table.missing_picture.clone(),
-            },
-            v_axis: document.v_axis,
-            settings: document.settings,
-            targets: document.targets.clone(),
-            view: self.table.view.clone(),
-            recovery: None,
-        })
+        let mut project = ProjectFile::new(source_of(model)?, &document.settings);
+        project.faces_turned = document.faces_turned;
+        project.picture = match &document.picture {
+            Some(picture) => picture_source(picture, model),
+            None => self.table.missing_picture.clone(),
+        };
+        project.v_axis = document.v_axis;
+        project.targets.clone_from(&document.targets);
+        project.view.clone_from(&self.table.view);
+        Some(project)
     }
 }
 
@@ -202,12 +199,12 @@ impl Files {
         self.autosave.poll(messages);
         let Some(model) = model.filter(|_| !self.has_saved(document)) else { return self.autosave.leave_slot() };
         if self.autosave.is_due(now, document)
-            && let Some(project) = self.project_file(model, document)
+            && let Some(mut project) = self.project_file(model, document)
         {
             let name = self.name(Some(model)).unwrap_or_default();
             let at = self.table.project.as_ref().map(|path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
-            let recovery = Some(RecoveryNote { name, project: at });
-            self.autosave.begin_copy(now, ProjectFile { recovery, ..project }, document, messages);
+            project.recovery = Some(RecoveryNote { name, project: at });
+            self.autosave.begin_copy(now, project, document, messages);
         }
     }
 }

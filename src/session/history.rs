@@ -119,6 +119,7 @@ impl History {
 /// Two inverses as one. What sets the same things again is dropped: only the state before the gesture matters.
 fn joined(later: Command, earlier: Command) -> Command {
     let earlier = parts(earlier);
+    let vertex_of = |command: &Command| if let Command::SetPin { vertex, .. } = command { Some(*vertex) } else { None };
     let vertices: BTreeSet<VertexId> = earlier.iter().filter_map(vertex_of).collect();
     let sets_settings = earlier.iter().any(|command| matches!(command, Command::SetSettings(_)));
     let is_new = |command: &Command| match command {
@@ -131,13 +132,6 @@ fn joined(later: Command, earlier: Command) -> Command {
     if commands.len() == 1 { commands.remove(0) } else { Command::Together(commands) }
 }
 
-fn vertex_of(command: &Command) -> Option<VertexId> {
-    match command {
-        Command::SetPin { vertex, .. } => Some(*vertex),
-        _ => None,
-    }
-}
-
 /// A command's single edits, in their order.
 fn parts(command: Command) -> Vec<Command> {
     match command {
@@ -147,9 +141,7 @@ fn parts(command: Command) -> Vec<Command> {
 }
 
 fn replay(from: &mut Vec<Command>, to: &mut Vec<Command>, document: &mut Document) -> bool {
-    let Some(command) = from.pop() else {
-        return false;
-    };
+    let Some(command) = from.pop() else { return false };
     to.push(command.apply(document));
     true
 }

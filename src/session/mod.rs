@@ -17,7 +17,7 @@
 //! | `solving/`      | part: a run, its timeline, and where it comes to rest                      |
 //! | `timeline`      | the steps of a run                                                         |
 //! | `stop`          | where a run comes to rest                                                  |
-//! | `outcome`       | a step with its proof; the problem that it solves                          |
+//! | `outcome`       | a step with its proof, ready to be written; the problem that it solves     |
 //! | `drag`          | part: what follows the pointer                                             |
 //! | `errands`       | part: small work for the document that takes time                          |
 //! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
@@ -25,7 +25,6 @@
 //! | `opened`        | what opening brings                                                        |
 //! | `model`         | a mesh as it was opened                                                    |
 //! | `saving`        | projects on their way to the disk                                          |
-//! | `finished`      | a result ready to be written                                               |
 //! | `recovery`      | copies for recovery                                                        |
 //! | `recent`        | the files opened last                                                      |
 //! | `messages`      | part: what there is to tell a person                                       |
@@ -39,7 +38,6 @@ mod edits;
 mod errands;
 mod files;
 mod filing;
-mod finished;
 mod history;
 mod messages;
 mod model;
@@ -57,16 +55,15 @@ mod stop;
 mod target_checks;
 mod timeline;
 
-pub use action::Action;
+pub use action::{Action, SaveRequest};
 pub use background::{Background, Failure, Wake};
 pub use document::{Command, Document};
 pub use drag::Preview;
-pub use finished::SaveRequest;
 pub use history::History;
 use messages::Messages;
 pub use messages::{Message, Place, Severity};
 pub use model::{Model, Surface};
-pub use outcome::{Outcome, OutputFit, Problem};
+pub use outcome::{Outcome, Problem};
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
 pub use state::Session;

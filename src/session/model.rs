@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::examples::Example;
 use crate::io::{FileStamp, ObjMesh, PictureFile, ReadError, read_mesh_with};
-use crate::mesh::{Diagnosis, DiskMesh, PolygonMesh, TriMesh, relative_volume};
+use crate::mesh::{Diagnosis, DiskMesh, TriMesh, relative_volume};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
 /// it is high.
@@ -50,10 +50,10 @@ impl Model {
     ///
     /// Where the file cannot be read as a mesh at all. A mesh with faults is no error here.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        Self::read_until(path, &|| false)
+        Ok(Self { stamp: FileStamp::read(path).ok(), ..Self::read_until(path, &|| false)? })
     }
 
-    /// As [`read`](Self::read), looking now and then whether to stop.
+    /// As [`read`](Self::read), without the file's stamp, looking now and then whether to stop.
     ///
     /// # Errors
     ///
@@ -68,7 +68,7 @@ impl Model {
 
     /// A built-in mesh.
     pub fn example(example: Example) -> Self {
-        let source = ObjMesh::from(PolygonMesh::from(&example.mesh()));
+        let source = ObjMesh::from(&example.mesh());
         Self { example: Some(example), ..Self::new(example.title().to_owned(), None, source) }
     }
 

@@ -69,22 +69,14 @@ impl Opened {
         if is_project {
             return Self::project(ProjectFile::read(path)?, Origin::Project(path.to_owned()));
         }
-        let model = stamped(path)?;
+        let model = Model::read(path)?;
         let mut remarks = Vec::new();
         let picture = material_picture(&model.source, path).and_then(|picture| {
             let found = PictureFile::read(&picture);
             found.map_err(|error| remarks.push(picture_remark(error.to_string(), "open another picture"))).ok()
         });
         let document = Document { picture: picture.map(Arc::new), ..Document::default() };
-        Ok(Self {
-            model,
-            document,
-            view: ProjectView::default(),
-            origin: Origin::Mesh,
-            remarks,
-            missing_picture: None,
-            lost_pins: false,
-        })
+        Ok(Self { remarks, ..Self::mesh(model, document) })
     }
 
     /// Opens what a session before has left.
@@ -96,7 +88,10 @@ impl Opened {
 
     /// A built-in mesh, with the picture and the constraints that belong to it.
     pub(super) fn example(example: Example) -> Self {
-        let (model, document) = (Model::example(example), Document::of_example(example));
+        Self::mesh(Model::example(example), Document::of_example(example))
+    }
+
+    fn mesh(model: Model, document: Document) -> Self {
         Self {
             model,
             document,
@@ -115,12 +110,12 @@ impl Opened {
             model = model.turned();
         }
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
-        let pin_count = project.targets.len();
+        let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);
         let lost_pins = targets.len() < pin_count;
         let document = Document {
             targets,
-            settings: project.settings,
+            settings,
             picture,
             v_axis: project.v_axis,
             faces_turned: project.faces_turned,
@@ -134,11 +129,6 @@ impl Opened {
     }
 }
 
-/// A mesh file, with its stamp.
-fn stamped(path: &Path) -> Result<Model, ReadError> {
-    Ok(Model { stamp: FileStamp::read(path).ok(), ..Model::read(path)? })
-}
-
 fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Message>) -> Result<Model, OpenError> {
     match source {
         ProjectSource::Example(name) => {
@@ -149,7 +139,7 @@ fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Message>) -> Result<Mo
             if !path.exists() {
                 return Err(OpenError::NoMesh { mesh: path.clone() });
             }
-            let model = stamped(path)?;
+            let model = Model::read(path)?;
             if has_changed(stamp.as_ref(), model.stamp.as_ref()) {
                 let text = format!("the mesh has changed since the project was saved: {}", path.display());
                 let remedy = "check that the pins are on the right vertices, then save the project";

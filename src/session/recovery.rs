@@ -187,16 +187,13 @@ impl Autosave {
     ) {
         let Some(folder) = &self.folder else { return };
         self.begun = Some(now);
-        if self.slot.is_none() {
-            match Slot::new(folder) {
-                Ok(slot) => self.slot = Some(slot),
-                Err(error) => {
-                    let reason = format!("{error}: {}", folder.display());
-                    return self.tell_no_copy(&reason, messages);
-                }
+        let path = match self.slot.take().map_or_else(|| Slot::new(folder), Ok) {
+            Ok(slot) => self.slot.insert(slot).path.clone(),
+            Err(error) => {
+                let reason = format!("{error}: {}", folder.display());
+                return self.tell_no_copy(&reason, messages);
             }
-        }
-        let Some(path) = self.slot.as_ref().map(|slot| slot.path.clone()) else { return };
+        };
         self.under_way.start(document.clone(), move |_| project.write(&path, PathStyle::Absolute));
     }
 

@@ -28,7 +28,6 @@ impl Session {
 
     /// Begins a run, or lets the first step that is under way finish where only targets differ.
     pub(super) fn begin(&mut self, goal: Goal) {
-        self.solving.give_up_resting();
         if let Some(task) = self.task() {
             self.solving.begin(task, goal);
         }
@@ -45,7 +44,8 @@ impl Session {
     /// the step that it is taking.
     pub(super) fn step(&mut self) {
         self.solving.follow_newest();
-        if !self.solving.add_step() {
+        let one_more = |goal| if let Goal::Steps(left) = goal { Goal::Steps(left + 1) } else { Goal::Steps(1) };
+        if !self.solving.change_goal(one_more) {
             self.go_on(Goal::Steps(1));
         }
     }
@@ -53,8 +53,9 @@ impl Session {
     /// Goes on until something stops it.
     pub(super) fn run_on(&mut self) {
         self.solving.follow_newest();
-        if !self.solving.run_on() && self.can_run() {
-            self.go_on(Goal::Until(self.stop_conditions()));
+        let goal = Goal::Until(self.stop_conditions());
+        if !self.solving.change_goal(|_| goal) && self.can_run() {
+            self.go_on(goal);
         }
     }
 

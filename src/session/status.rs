@@ -1,6 +1,8 @@
 //! The state of the work on the screen, in one word, and the questions that it is made of.
 
-use super::{Preview, Session};
+use std::sync::Arc;
+
+use super::{Outcome, Preview, Session};
 use crate::solver::Phase;
 
 /// What goes on in the background.
@@ -70,7 +72,8 @@ impl Session {
 
     /// Whether the outcome on the screen belongs to the document as it is now.
     pub fn is_current(&self) -> bool {
-        self.has_faces_as_wanted() && self.outcome().is_some_and(|outcome| self.document.is_solved_in(outcome))
+        let is_solved = |outcome: &Arc<Outcome>| outcome.problem.has_steps_of(&self.document.problem());
+        self.has_faces_as_wanted() && self.outcome().is_some_and(is_solved)
     }
 
     /// Whether the screen shows the first solve alone, because a gesture goes on or its run has only begun.

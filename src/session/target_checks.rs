@@ -5,18 +5,13 @@
 //! fits them much better than a rotation. They are compared with the mesh flattened without pins, once, in the
 //! background.
 
-use glam::DVec2;
-
 use super::{Background, Session, Wake};
-use crate::geom::Similarity;
+use crate::geom::look_mirrored;
 use crate::mesh::VertexId;
 use crate::solver::{Conflict, Control, Embedding, Family, Method, Pins, Settings, SolveError, conflicts, flatten};
 
 /// With fewer pins either fits.
 const LEAST_PINS: usize = 3;
-
-/// A reflection fits much better where its error is less than this part of the rotation's.
-const MUCH_BETTER: f64 = 0.5;
 
 /// What is known of the targets.
 pub(super) struct TargetChecks {
@@ -87,56 +82,5 @@ impl Session {
         }
         let pairs = pins.iter().filter_map(|(vertex, pin)| Some([*embedding.get(vertex.index())?, pin.target]));
         look_mirrored(&pairs.collect::<Vec<_>>())
-    }
-}
-
-/// Whether a reflection takes the first of each pair much nearer to the second than a rotation does.
-fn look_mirrored(pairs: &[[DVec2; 2]]) -> bool {
-    let mirrored: Vec<[DVec2; 2]> = pairs.iter().map(|[z, target]| [DVec2::new(-z.x, z.y), *target]).collect();
-    Similarity::fitting(&mirrored).is_some_and(|best| best.error(&mirrored) < MUCH_BETTER * error_of(pairs))
-}
-
-/// Error of the similarity without reflection that fits best; where none fits, of one point for all.
-fn error_of(pairs: &[[DVec2; 2]]) -> f64 {
-    if let Some(best) = Similarity::fitting(pairs) {
-        return best.error(pairs);
-    }
-    let middle = pairs.iter().map(|[_, target]| *target).sum::<DVec2>() / pairs.len() as f64;
-    let squares: f64 = pairs.iter().map(|[_, target]| target.distance_squared(middle)).sum();
-    (squares / pairs.len() as f64).sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const CORNERS: [DVec2; 4] = [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(1.9, 1.0), DVec2::new(-0.2, 1.3)];
-
-    fn to(map: impl Fn(DVec2) -> DVec2) -> Vec<[DVec2; 2]> {
-        CORNERS.iter().map(|&z| [z, map(z)]).collect()
-    }
-
-    #[test]
-    fn what_is_turned_does_not_look_mirrored() {
-        let turn = DVec2::new(0.3, -1.2);
-        assert!(!look_mirrored(&to(|z| turn.rotate(z) + DVec2::ONE)));
-    }
-
-    #[test]
-    fn what_is_mirrored_does() {
-        let turn = DVec2::new(0.3, -1.2);
-        assert!(look_mirrored(&to(|z| turn.rotate(DVec2::new(z.x, -z.y)))));
-    }
-
-    #[test]
-    fn a_square_in_the_mirror_does_though_no_rotation_fits_it_at_all() {
-        let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-        assert!(look_mirrored(&square.map(|z| [z, DVec2::new(-z.x, z.y)])));
-    }
-
-    #[test]
-    fn a_line_fits_both_ways() {
-        let line = [0.0, 1.0, 2.5].map(|x| [DVec2::new(x, 0.0), DVec2::new(1.0, x)]);
-        assert!(!look_mirrored(&line));
     }
 }

@@ -37,7 +37,7 @@ pub struct Timeline {
     budget: usize,
     records: Vec<StepReport>,
     standings: Vec<Standing>,
-    kept: BTreeMap<usize, Kept>,
+    kept: BTreeMap<usize, Arc<Outcome>>,
     /// Sum over `kept`.
     bytes: usize,
     /// The first step with the fewest defects.
@@ -46,13 +46,6 @@ pub struct Timeline {
     compared: Option<usize>,
     /// Whether the step shown is always the newest one.
     follows_newest: bool,
-}
-
-/// A step kept whole.
-#[derive(Debug)]
-struct Kept {
-    outcome: Arc<Outcome>,
-    bytes: usize,
 }
 
 impl Default for Timeline {
@@ -89,12 +82,12 @@ impl Timeline {
 
     /// A step, where it is kept whole.
     pub fn outcome(&self, index: usize) -> Option<&Arc<Outcome>> {
-        self.kept.get(&index).map(|kept| &kept.outcome)
+        self.kept.get(&index)
     }
 
     /// The steps kept whole, in order.
     pub fn kept(&self) -> impl DoubleEndedIterator<Item = (usize, &Arc<Outcome>)> {
-        self.kept.iter().map(|(&index, kept)| (index, &kept.outcome))
+        self.kept.iter().map(|(&index, outcome)| (index, outcome))
     }
 
     /// The newest step.
@@ -146,9 +139,8 @@ impl Timeline {
         }
         self.records.push(record);
         self.standings.push(Standing::of(&outcome.step));
-        let bytes = outcome.bytes();
-        self.bytes += bytes;
-        self.kept.insert(index, Kept { outcome, bytes });
+        self.bytes += outcome.bytes();
+        self.kept.insert(index, outcome);
         if self.follows_newest {
             self.shown = Some(index);
         }
@@ -183,8 +175,8 @@ impl Timeline {
         while self.bytes > self.budget {
             let expendable = self.most_expendable(|outcome| !outcome.step.verdict.planar);
             let Some(index) = expendable.or_else(|| self.most_expendable(|_| true)) else { return };
-            if let Some(kept) = self.kept.remove(&index) {
-                self.bytes -= kept.bytes;
+            if let Some(outcome) = self.kept.remove(&index) {
+                self.bytes -= outcome.bytes();
             }
         }
     }
@@ -192,18 +184,8 @@ impl Timeline {
     /// Of the steps of some kind, the one whose neighbours are nearest to each other: what remains is even.
     fn most_expendable(&self, is_of_kind: impl Fn(&Outcome) -> bool) -> Option<usize> {
         let needed = [Some(0), self.newest(), self.best, self.shown, self.compared];
-        let mut before = 0;
-        let mut found: Option<(usize, usize)> = None;
-        let mut steps = self.kept.iter().peekable();
-        while let Some((&index, kept)) = steps.next() {
-            let Some((after, _)) = steps.peek() else { break };
-            let gap = *after - before;
-            let is_expendable = !needed.contains(&Some(index)) && is_of_kind(&kept.outcome);
-            if is_expendable && found.is_none_or(|(least, _)| gap < least) {
-                found = Some((gap, index));
-            }
-            before = index;
-        }
-        found.map(|(_, index)| index)
+        let kept: Vec<(usize, &Arc<Outcome>)> = self.kept().collect();
+        let inner = kept.windows(3).filter(|three| !needed.contains(&Some(three[1].0)) && is_of_kind(three[1].1));
+        inner.min_by_key(|three| three[2].0 - three[0].0).map(|three| three[1].0)
     }
 }

@@ -1,8 +1,8 @@
 //! Small drawings for the tools.
 
-use eframe::egui;
-use egui::{Color32, Pos2, Rect, Shape, Stroke};
+use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke};
 
+use super::Tool;
 use super::theme::Theme;
 
 /// Points given on a grid of 24 × 24.
@@ -11,26 +11,27 @@ fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {
     points.iter().map(|&(x, y)| rect.min + egui::vec2(x, y) * scale).collect()
 }
 
-pub(super) fn pointer(painter: &egui::Painter, rect: Rect, colour: Color32) {
-    let outline = [(8.0, 5.0), (8.0, 17.5), (11.2, 14.6), (13.4, 19.4), (15.4, 18.5), (13.2, 13.8), (17.4, 13.4)];
-    painter.add(Shape::closed_line(on_grid(rect, &outline), Stroke::new(1.6, colour)));
-}
-
-pub(super) fn pin(painter: &egui::Painter, rect: Rect, colour: Color32) {
+/// Draws a tool into a square: an arrow as the mouse has it; a drawing pin; a dot, and a diamond that it is joined with.
+pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Color32) {
     let stroke = Stroke::new(1.6, colour);
-    let head = [(9.0, 5.0), (15.0, 5.0), (14.2, 11.0), (16.6, 13.6), (7.4, 13.6), (9.8, 11.0)];
-    painter.add(Shape::closed_line(on_grid(rect, &head), stroke));
-    painter.add(Shape::line(on_grid(rect, &[(12.0, 13.6), (12.0, 19.5)]), stroke));
-}
-
-/// A dot, and a diamond that it is joined with.
-pub(super) fn pair(painter: &egui::Painter, rect: Rect, colour: Color32) {
-    let stroke = Stroke::new(1.6, colour);
-    let diamond = [(16.5, 4.5), (20.0, 8.0), (16.5, 11.5), (13.0, 8.0)];
-    painter.add(Shape::closed_line(on_grid(rect, &diamond), stroke));
-    let ends = on_grid(rect, &[(7.5, 16.5), (14.2, 10.0)]);
-    painter.add(Shape::line(ends.clone(), stroke));
-    painter.circle_filled(ends[0], 2.8 * rect.width() / 24.0, colour);
+    let outline: &[(f32, f32)] = match tool {
+        Tool::Select => {
+            &[(8.0, 5.0), (8.0, 17.5), (11.2, 14.6), (13.4, 19.4), (15.4, 18.5), (13.2, 13.8), (17.4, 13.4)]
+        }
+        Tool::Fix => &[(9.0, 5.0), (15.0, 5.0), (14.2, 11.0), (16.6, 13.6), (7.4, 13.6), (9.8, 11.0)],
+        Tool::Constrain => &[(16.5, 4.5), (20.0, 8.0), (16.5, 11.5), (13.0, 8.0)],
+    };
+    painter.add(Shape::closed_line(on_grid(rect, outline), stroke));
+    let line: &[(f32, f32)] = match tool {
+        Tool::Select => &[],
+        Tool::Fix => &[(12.0, 13.6), (12.0, 19.5)],
+        Tool::Constrain => &[(7.5, 16.5), (14.2, 10.0)],
+    };
+    let line = on_grid(rect, line);
+    if tool == Tool::Constrain {
+        painter.circle_filled(line[0], 2.8 * rect.width() / 24.0, colour);
+    }
+    painter.add(Shape::line(line, stroke));
 }
 
 /// What a sign says at a glance. Good, bad and doubtful differ in form too, so that colour is never the only difference.

@@ -1,13 +1,12 @@
 //! The window as a whole: bars, panels, panes, and the keyboard.
 
-use eframe::egui;
-use egui::{Frame, Margin, Panel, Rect, Sense, Vec2};
+use eframe::egui::{self, Frame, Margin, Panel, Rect, Sense, Vec2};
 
 use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
 use super::{Editor, Intent, Pane, Request};
 use crate::session::Action;
-use crate::ui::panels::{floating, menu, side_panel, status, tools, unsaved};
+use crate::ui::panels::{self, floating, menu, status, tools, unsaved};
 use crate::ui::panes::constrain;
 use crate::ui::panes::mesh_pane::mesh_pane_ui;
 use crate::ui::panes::plane_pane::plane_pane_ui;
@@ -38,7 +37,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
             .default_size(PANEL_WIDTH)
             .size_range(220.0..=420.0)
             .frame(frame)
-            .show(ui, |ui| side_panel::side_panel(ui, editor, &mut requests));
+            .show(ui, |ui| panels::side_panel(ui, editor, &mut requests));
     }
     if editor.has_disk() {
         Panel::bottom("timeline")
@@ -66,7 +65,10 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     for request in requests {
         editor.handle(request);
     }
-    carry_out_for_window(ui.ctx(), editor);
+    unsaved::title_of_window(editor);
+    if editor.host.is_quitting() {
+        ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+    }
 }
 
 /// The two panes with the splitter between them, or one of them alone.
@@ -114,18 +116,10 @@ fn splitter(ui: &egui::Ui, editor: &mut Editor, all: Rect, middle: f32) {
 
 /// Files dropped on the window are opened: a mesh or project alone, since the others would belong to the one before.
 fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
-    let paths = ui.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect::<Vec<_>>());
-    let asked: Vec<Request> = paths.into_iter().map(Editor::dropped).collect();
-    match asked.iter().find(|request| matches!(request, Request::Do(Action::Open(_)))) {
-        Some(open) => vec![open.clone()],
-        None => asked,
-    }
-}
-
-/// What only the window itself can do.
-fn carry_out_for_window(context: &egui::Context, editor: &mut Editor) {
-    unsaved::title_of_window(editor);
-    if editor.host.is_quitting() {
-        context.send_viewport_cmd(egui::ViewportCommand::Close);
-    }
+    let dropped = |input: &egui::InputState| {
+        input.raw.dropped_files.iter().map(|file| Editor::dropped(file.path().to_owned())).collect()
+    };
+    let asked: Vec<Request> = ui.input(dropped);
+    let open = asked.iter().find(|request| matches!(request, Request::Do(Action::Open(_)))).cloned();
+    open.map_or(asked, |open| vec![open])
 }

@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DMat4, DVec2, DVec3, DVec4, Mat4};
 
-use super::{Sphere, UnitFrame};
+use super::Sphere;
 
 /// Vertical angle of view, radians: about 35°, a portrait lens.
 const FIELD_OF_VIEW: f64 = 0.61;
@@ -108,7 +108,8 @@ impl OrbitCamera {
 
     /// Moves sideways, so that what lies at the pivot's depth follows a drag in points.
     pub fn pan(&mut self, drag_in_points: DVec2, pane_size: DVec2) {
-        let scale = self.world_per_point(pane_size);
+        // World units per point.
+        let scale = 2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / pane_size.y.max(1.0);
         let [right, up, _] = self.axes();
         self.pivot += scale * (drag_in_points.y * up - drag_in_points.x * right);
     }
@@ -120,8 +121,7 @@ impl OrbitCamera {
         if !(factor.is_finite() && factor > 0.0) {
             return;
         }
-        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
-        let wanted = (self.distance * factor).clamp(nearest, farthest);
+        let wanted = self.within_limits(self.distance * factor);
         let factor = wanted / self.distance;
         self.pivot = anchor + factor * (self.pivot - anchor);
         self.distance = wanted;
@@ -137,9 +137,7 @@ impl OrbitCamera {
     /// Makes a point the one to turn about, and brings it to the middle of the pane.
     pub fn set_pivot(&mut self, pivot: DVec3) {
         let [_, _, back] = self.axes();
-        let depth = (self.eye() - pivot).dot(back);
-        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
-        self.distance = depth.clamp(nearest, farthest);
+        self.distance = self.within_limits((self.eye() - pivot).dot(back));
         self.pivot = pivot;
     }
 
@@ -148,9 +146,8 @@ impl OrbitCamera {
         let half = FIELD_OF_VIEW / 2.0;
         let aspect = aspect_ratio(pane_size);
         let half_across = (half.tan() * aspect).atan();
-        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
         self.pivot = ball.center;
-        self.distance = (FRAME_MARGIN * ball.radius / half.min(half_across).sin()).clamp(nearest, farthest);
+        self.distance = self.within_limits(FRAME_MARGIN * ball.radius / half.min(half_across).sin());
     }
 
     /// Part of the way to another camera: `share` 0 is this one, 1 the other.
@@ -183,11 +180,6 @@ impl OrbitCamera {
         self.distance
     }
 
-    /// World units per point at the depth of the pivot.
-    pub fn world_per_point(&self, pane_size: DVec2) -> f64 {
-        2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / pane_size.y.max(1.0)
-    }
-
     /// The way from the world to clip space, in full precision.
     pub fn clip_from_world(&self, pane_size: DVec2) -> DMat4 {
         let [near, far] = self.depth_range();
@@ -197,7 +189,7 @@ impl OrbitCamera {
     }
 
     /// The way from unit space to clip space, as the GPU takes it.
-    pub fn clip_from_unit(&self, frame: UnitFrame, pane_size: DVec2) -> Mat4 {
+    pub fn clip_from_unit(&self, frame: Sphere, pane_size: DVec2) -> Mat4 {
         (self.clip_from_world(pane_size) * frame.world_from_unit()).as_mat4()
     }
 
@@ -220,6 +212,11 @@ impl OrbitCamera {
     /// Where a world point shows in the pane; `None` behind the eye. It may lie outside the pane.
     pub fn pane_from_world(&self, position_in_world: DVec3, pane_size: DVec2) -> Option<DVec2> {
         pane_from_clip(self.clip_from_world(pane_size) * position_in_world.extend(1.0), pane_size)
+    }
+
+    fn within_limits(&self, distance: f64) -> f64 {
+        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
+        distance.clamp(nearest, farthest)
     }
 
     /// Right, up and backwards (from the pivot to the eye), each of length 1.

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
+use super::UnitPlane;
 use super::ticks::nice_step_at_least;
-use super::{PlaneBox, UnitPlane};
+use crate::geom::Bounds;
 
 /// The share of a pane that a framed box fills.
 const FRAME_SHARE: f64 = 0.9;
@@ -31,14 +32,14 @@ pub struct Grid {
 
 impl PlaneCamera {
     /// A camera that shows a whole box in a pane of this size, in points.
-    pub fn framing(bounds: PlaneBox, pane_size: DVec2) -> Self {
+    pub fn framing(bounds: Bounds, pane_size: DVec2) -> Self {
         let scale = frame_scale(bounds, pane_size);
-        Self { center: bounds.center(), points_per_unit: scale, scale_limits: ZOOM_LIMITS.map(|limit| limit * scale) }
+        Self { center: bounds.middle(), points_per_unit: scale, scale_limits: ZOOM_LIMITS.map(|limit| limit * scale) }
     }
 
     /// Shows a whole box. The limits of zooming stay those of the scene.
-    pub fn frame(&mut self, bounds: PlaneBox, pane_size: DVec2) {
-        self.center = bounds.center();
+    pub fn frame(&mut self, bounds: Bounds, pane_size: DVec2) {
+        self.center = bounds.middle();
         self.points_per_unit = frame_scale(bounds, pane_size).clamp(self.scale_limits[0], self.scale_limits[1]);
     }
 
@@ -91,14 +92,14 @@ impl PlaneCamera {
 
     /// The pane's middle in an embedding's unit space, and clip units per unit of that space.
     pub fn unit_view(&self, frame: UnitPlane, pane_size: DVec2) -> (DVec2, DVec2) {
-        let scale = 2.0 * self.points_per_unit * frame.embedding_per_unit() / pane_size.max(DVec2::ONE);
+        let scale = 2.0 * self.points_per_unit * frame.embedding_per_unit / pane_size.max(DVec2::ONE);
         (frame.unit_from_embedding(self.center), scale)
     }
 
     /// The part of the plane that the pane shows.
-    pub fn visible(&self, pane_size: DVec2) -> PlaneBox {
+    pub fn visible(&self, pane_size: DVec2) -> Bounds {
         let half = pane_size / 2.0 / self.points_per_unit;
-        PlaneBox { min: self.center - half, max: self.center + half }
+        Bounds { low: self.center - half, high: self.center + half }
     }
 
     /// The background grid for the present scale.
@@ -114,7 +115,7 @@ impl PlaneCamera {
     }
 }
 
-fn frame_scale(bounds: PlaneBox, pane_size: DVec2) -> f64 {
+fn frame_scale(bounds: Bounds, pane_size: DVec2) -> f64 {
     let extent = bounds.extent();
     // A side without length does not limit the scale.
     let size = bounds.size().max(DVec2::splat(extent * 1e-9));

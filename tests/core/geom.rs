@@ -1,7 +1,8 @@
 //! The plane: orientation, hulls, triangulations, similarities and the picture's frame.
 
 use freebound::geom::{
-    Orientation, PictureFrame, Similarity, VAxis, convex_hull, delaunay_triangles, orientation, outside_triangles,
+    Bounds, Orientation, PictureFrame, Similarity, VAxis, clip_polygon, clip_segment, convex_hull, delaunay_triangles,
+    look_mirrored, orientation, outside_triangles,
 };
 use glam::DVec2;
 
@@ -174,4 +175,56 @@ fn a_coordinate_that_is_no_number_has_no_orientation() {
     let (o, x) = (DVec2::ZERO, DVec2::X);
     assert_eq!(orientation(o, x, DVec2::new(f64::NAN, 0.0)), None);
     assert_eq!(orientation(o, x, DVec2::new(0.0, f64::INFINITY)), None);
+}
+
+const CORNERS: [DVec2; 4] = [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(1.9, 1.0), DVec2::new(-0.2, 1.3)];
+
+fn pairs_to(map: impl Fn(DVec2) -> DVec2) -> Vec<[DVec2; 2]> {
+    CORNERS.iter().map(|&z| [z, map(z)]).collect()
+}
+
+#[test]
+fn what_is_turned_does_not_look_mirrored() {
+    let turn = DVec2::new(0.3, -1.2);
+    assert!(!look_mirrored(&pairs_to(|z| turn.rotate(z) + DVec2::ONE)));
+}
+
+#[test]
+fn what_is_mirrored_does() {
+    let turn = DVec2::new(0.3, -1.2);
+    assert!(look_mirrored(&pairs_to(|z| turn.rotate(DVec2::new(z.x, -z.y)))));
+}
+
+#[test]
+fn a_square_in_the_mirror_does_though_no_rotation_fits_it_at_all() {
+    let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    assert!(look_mirrored(&square.map(|z| [z, DVec2::new(-z.x, z.y)])));
+}
+
+#[test]
+fn a_line_fits_both_ways() {
+    let line = [0.0, 1.0, 2.5].map(|x| [DVec2::new(x, 0.0), DVec2::new(1.0, x)]);
+    assert!(!look_mirrored(&line));
+}
+
+const UNIT: Bounds = Bounds { low: DVec2::ZERO, high: DVec2::ONE };
+
+#[test]
+fn a_segment_is_cut_on_both_sides_or_left_out() {
+    let segment = |a: [f64; 2], b: [f64; 2]| clip_segment([a, b].map(DVec2::from), UNIT);
+    assert_eq!(segment([-1.0, 0.5], [3.0, 0.5]), Some([DVec2::new(0.0, 0.5), DVec2::new(1.0, 0.5)]));
+    assert_eq!(segment([0.25, 0.25], [0.5, 0.5]), Some([DVec2::splat(0.25), DVec2::splat(0.5)]));
+    assert_eq!(segment([-1.0, 0.5], [0.5, 3.0]), None);
+    assert_eq!(segment([2.0, 0.0], [2.0, 1.0]), None);
+}
+
+#[test]
+fn a_polygon_is_cut_to_its_part_inside() {
+    let area = |p: &[DVec2]| p.iter().zip(p.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b)).sum::<f64>() / 2.0;
+    let around = [[-1.0, -1.0], [2.0, -1.0], [2.0, 2.0], [-1.0, 2.0]].map(DVec2::from);
+    assert!((area(&clip_polygon(&around, UNIT)) - 1.0).abs() < 1e-12);
+    let half = [[-1.0, 0.0], [0.5, 0.0], [0.5, 1.0], [-1.0, 1.0]].map(DVec2::from);
+    assert!((area(&clip_polygon(&half, UNIT)) - 0.5).abs() < 1e-12);
+    let beside = [[2.0, 0.0], [3.0, 0.0], [3.0, 1.0]].map(DVec2::from);
+    assert!(clip_polygon(&beside, UNIT).is_empty());
 }

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use freebound::examples::Example;
 use freebound::geom::{Picture, PictureFrame, VAxis};
-use freebound::io::{OutputKind, PictureFile, hard_targets, material_picture, read_mesh};
+use freebound::io::{OutputFit, OutputKind, PictureFile, hard_targets, material_picture, read_mesh};
 use freebound::mesh::DiskMesh;
-use freebound::session::{Model, Outcome, OutputFit, Problem};
+use freebound::session::{Model, Outcome, Problem};
 use freebound::solver::{Control, Ladder, Pins, Settings};
 use glam::DVec2;
 

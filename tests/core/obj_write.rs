@@ -62,11 +62,11 @@ fn any_mesh() -> impl Strategy<Value = (ObjMesh, Embedding)> {
         }
         statements.sort_by_key(|&(face, _)| face);
         let face_count = u32::try_from(polygons.len()).expect("small");
-        let mut obj = ObjMesh::from(mesh);
-        obj.statements = statements
+        let statements = statements
             .into_iter()
             .map(|(face, text)| Statement { before_face: face.min(face_count), text: text.into_bytes() })
             .collect();
+        let obj = ObjMesh { polygons: mesh, texture: None, statements };
         (obj, points.iter().map(|&(.., u, v)| DVec2::new(u, v)).collect())
     })
 }

@@ -5,11 +5,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use freebound::examples::Example;
-use freebound::io::{OutputKind, Target, read_mesh};
+use freebound::io::{OutputFit, OutputKind, Target, read_mesh};
 use freebound::mesh::VertexId;
-use freebound::session::{
-    Action, Document, OutputFit, Place, RecentFiles, SaveRequest, Session, Severity, StopConditions,
-};
+use freebound::session::{Action, Document, Place, RecentFiles, SaveRequest, Session, Severity, StopConditions};
 use freebound::solver::{BoundaryShape, Control, Family, Method, Settings, flatten};
 use glam::DVec2;
 use tempfile::TempDir;

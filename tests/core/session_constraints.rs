@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::io::Target;
+use freebound::io::{OutputFit, Target};
 use freebound::mesh::{DiskMesh, NewVertex, Refinement, VertexId};
-use freebound::session::{Action, Outcome, OutputFit, Problem, Session, Stop};
+use freebound::session::{Action, Outcome, Problem, Session, Stop};
 use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
 use glam::DVec2;
 

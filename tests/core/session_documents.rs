@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use freebound::geom::{Picture, VAxis};
-use freebound::io::{Target, read_mesh};
+use freebound::io::{OutputFit, Target, read_mesh};
 use freebound::mesh::VertexId;
-use freebound::session::{Action, OutputFit, Place, SaveRequest, Session, Severity};
+use freebound::session::{Action, Place, SaveRequest, Session, Severity};
 use freebound::solver::Hold;
 use glam::{DVec2, DVec3};
 use tempfile::TempDir;

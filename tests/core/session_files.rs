@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
 use freebound::geom::PictureFrame;
-use freebound::io::hard_targets;
+use freebound::io::{OutputFit, hard_targets};
 use freebound::mesh::VertexId;
-use freebound::session::{Model, Outcome, OutputFit, Problem, RecentFiles};
+use freebound::session::{Model, Outcome, Problem, RecentFiles};
 use freebound::solver::{Control, Ladder, Settings};
 use glam::DVec2;
 

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use freebound::examples::Example;
 use freebound::geom::VAxis;
-use freebound::io::{OutputKind, ProjectFile, Target};
+use freebound::io::{OutputFit, OutputKind, ProjectFile, Target};
 use freebound::mesh::VertexId;
-use freebound::session::{Action, Document, OutputFit, SaveRequest, Session};
+use freebound::session::{Action, Document, SaveRequest, Session};
 use freebound::solver::{BoundaryShape, Family, Hold, Method, Settings, Treatment};
 use glam::DVec2;
 use tempfile::TempDir;

@@ -98,17 +98,19 @@ fn every_choice_of_method_comes_back() {
     ];
     let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
     for (index, method) in methods.into_iter().enumerate() {
-        let mut project = ProjectFile::of_mesh(ProjectSource::Example("dome".to_owned()));
         let family = families[index % families.len()];
         let (treatment, new_vertices) = (treatments[index % 4], index % 3 != 1);
-        project.settings = Settings {
+        let settings = Settings {
             treatment,
             new_vertices,
             relax_rounds: (index > 0).then_some(index),
             ..Settings::new(method, family)
         };
+        let project = ProjectFile::new(ProjectSource::Example("dome".to_owned()), &settings);
         project.write(&path, PathStyle::Relative).unwrap();
-        assert_eq!(ProjectFile::read(&path).unwrap(), project);
+        let read = ProjectFile::read(&path).unwrap();
+        assert_eq!(read, project);
+        assert_eq!(read.settings(), settings);
     }
 }
 

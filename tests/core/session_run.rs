@@ -5,9 +5,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use freebound::examples::Example;
-use freebound::io::OutputKind;
+use freebound::io::{OutputFit, OutputKind};
 use freebound::mesh::VertexId;
-use freebound::session::{Action, OutputFit, SaveRequest, Session, Severity, Stop, StopConditions};
+use freebound::session::{Action, SaveRequest, Session, Severity, Stop, StopConditions};
 use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 

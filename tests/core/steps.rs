@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use freebound::examples::Example;
-use freebound::io::{Placement, read_mesh};
+use freebound::io::{OutputFit, Placement, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::session::{Model, Outcome, OutputFit, Problem};
+use freebound::session::{Model, Outcome, Problem};
 use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
 use serde_json::Value;
@@ -120,11 +120,22 @@ fn the_steps_of_an_earlier_run_go_and_other_files_stay() {
     let program = Program::new();
     example_file(&program, Example::Dome);
     fs::create_dir(program.path("steps")).unwrap();
-    for name in ["steps/step-041-iterate.svg", "steps/steps.csv", "steps/notes.txt", "steps/step-one.svg"] {
-        program.write(name, "mine");
+    let replaced = ["step-041-iterate.svg", "step-007-natural.svg", "step-1234-virtual-boundary.svg", "steps.csv"];
+    let kept = [
+        "my-step-001-a.svg",
+        "notes.txt",
+        "step-001-my drawing.svg",
+        "step-001.svg",
+        "step-1-natural.svg",
+        "step-one.svg",
+    ];
+    for name in replaced.iter().chain(&kept) {
+        program.write(&format!("steps/{name}"), "mine");
     }
     flatten(&program, &["--steps", "steps"], 0);
-    assert_eq!(files_in(&program, "steps"), ["notes.txt", "step-000-natural.svg", "step-one.svg", "steps.csv"]);
+    let mut expected = [&kept[..], &["step-000-natural.svg", "steps.csv"]].concat();
+    expected.sort_unstable();
+    assert_eq!(files_in(&program, "steps"), expected);
     assert_eq!(table(&program, "steps").len(), 1);
     assert_eq!(fs::read_to_string(program.path("steps/notes.txt")).unwrap(), "mine");
 }

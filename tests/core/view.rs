@@ -1,10 +1,11 @@
 //! Cameras, picking, draw arrays and colour scales.
 
+use freebound::geom::Bounds;
 use freebound::mesh::{FaceId, VertexId};
 use freebound::solver::Embedding;
 use freebound::view::{
-    FacePaint, MeshArrays, OrbitCamera, PICK_RADIUS, PlaneArrays, PlaneBox, PlaneCamera, PlanePicker, Range, Scale,
-    Sphere, SurfacePicker, UnitPlane, UpAxis, Visibility, crease_normals, nice_step_at_least,
+    FacePaint, MeshArrays, OrbitCamera, PICK_RADIUS, PlaneArrays, PlaneCamera, PlanePicker, Range, Scale, Sphere,
+    SurfacePicker, UnitPlane, UpAxis, Visibility, crease_normals, nice_step_at_least,
 };
 use glam::{DVec2, DVec3, Vec4};
 use proptest::prelude::*;
@@ -97,7 +98,7 @@ proptest! {
         x in 0.0..640.0, y in 0.0..480.0, factor in 0.01..100.0_f64,
     ) {
         let pointer = DVec2::new(x, y);
-        let mut camera = PlaneCamera::framing(PlaneBox { min: DVec2::new(-3.0, 2.0), max: DVec2::new(5.0, 9.0) }, PANE);
+        let mut camera = PlaneCamera::framing(Bounds { low: DVec2::new(-3.0, 2.0), high: DVec2::new(5.0, 9.0) }, PANE);
         let under = camera.embedding_from_pane(pointer, PANE);
         camera.zoom_at(pointer, factor, PANE);
         prop_assert!(camera.pane_from_embedding(under, PANE).distance(pointer) < POINT_TOLERANCE);
@@ -105,8 +106,8 @@ proptest! {
 
     #[test]
     fn the_planes_clip_transform_agrees_with_its_pane(x in -9.0..9.0, y in -9.0..9.0) {
-        let camera = PlaneCamera::framing(PlaneBox::UNIT, PANE);
-        let unit = UnitPlane::of(PlaneBox { min: DVec2::new(-3.0, 2.0), max: DVec2::new(5.0, 9.0) });
+        let camera = PlaneCamera::framing(Bounds::UNIT, PANE);
+        let unit = UnitPlane::of(Bounds { low: DVec2::new(-3.0, 2.0), high: DVec2::new(5.0, 9.0) });
         let (center, scale) = camera.unit_view(unit, PANE);
         let clip = (unit.unit_from_embedding(DVec2::new(x, y)) - center) * scale;
         let from_clip = (clip * DVec2::new(1.0, -1.0) + 1.0) / 2.0 * PANE;
@@ -124,7 +125,7 @@ proptest! {
             .enumerate()
             .map(|(k, &(x, y))| DVec2::new(x, y) * if k % 2 == 0 { 1.0 } else { squeeze })
             .collect();
-        let camera = PlaneCamera::framing(PlaneBox::UNIT, PANE);
+        let camera = PlaneCamera::framing(Bounds::UNIT, PANE);
         let pointer = DVec2::new(x, y);
         let expected = embedding
             .iter()
@@ -260,7 +261,7 @@ fn split_points_tell_apart_what_one_f32_cannot() {
     let arrays =
         PlaneArrays::new(&[DVec2::new(0.3, 0.0), DVec2::new(0.3 + near, 0.0), DVec2::new(1.0, 1.0)], &triangles);
     let x = |v: usize| f64::from(arrays.points[v][0]) + f64::from(arrays.points[v][2]);
-    let expected = near / arrays.frame.embedding_per_unit();
+    let expected = near / arrays.frame.embedding_per_unit;
     assert!((x(1) - x(0) - expected).abs() < 0.01 * expected, "{}", x(1) - x(0));
 }
 
@@ -350,7 +351,7 @@ fn nice_steps_are_one_two_or_five() {
 
 #[test]
 fn grid_lines_keep_a_readable_distance_through_all_zooms() {
-    let mut camera = PlaneCamera::framing(PlaneBox::UNIT, PANE);
+    let mut camera = PlaneCamera::framing(Bounds::UNIT, PANE);
     for _ in 0..200 {
         let grid = camera.grid();
         let spacing = grid.step * camera.points_per_unit();

@@ -141,7 +141,7 @@ fn an_embedding_that_was_framed_stays_framed_when_the_pane_changes() {
     window.settle();
     let width = window.plane_view().size();
     let bounds = window.editor().plane.drawn().expect("solved").arrays.bounds;
-    let shown = window.place_in_plane(bounds.max) - window.place_in_plane(bounds.min);
+    let shown = window.place_in_plane(bounds.high) - window.place_in_plane(bounds.low);
     assert!((shown.x / width.x).max(-shown.y / width.y) > 0.85, "it fills the pane: {shown} of {width}");
 }
 

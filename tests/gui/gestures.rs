@@ -130,7 +130,7 @@ fn a_box_drawn_with_ctrl_selects_what_is_in_it() {
     assert_eq!(selected, expected);
     assert_eq!(window.editor().mesh.camera(), orbit);
     let view = window.mesh_view();
-    window.editor_mut().selection.clear();
+    window.editor_mut().selection.select([]);
     window.drag(view.min + Vec2::splat(2.0), view.max - Vec2::splat(2.0), Modifiers::COMMAND);
     assert_eq!(window.editor().selection.vertices().len(), embedding.len(), "all of the mesh from the front");
     assert_eq!(window.editor().mesh.camera(), orbit, "a box does not turn the mesh");

@@ -104,7 +104,7 @@ fn what_the_pane_shows_as_large_is_not_magnified() {
     let corner = window.editor().session.model().expect("open").mesh().triangles[face.index()][0];
     let at = window.embedding()[corner.index()];
     let camera = window.editor_mut().plane.camera_mut().expect("framed");
-    camera.frame(freebound::view::PlaneBox { min: at - 1e-3, max: at + 1e-3 }, glam::DVec2::splat(400.0));
+    camera.frame(freebound::geom::Bounds { low: at - 1e-3, high: at + 1e-3 }, glam::DVec2::splat(400.0));
     window.settle();
     assert_eq!(inset(&window), None);
 }

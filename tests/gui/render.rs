@@ -9,6 +9,7 @@ use eframe::egui;
 use eframe::egui_wgpu::{RenderState, RendererOptions};
 use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
+use freebound::geom::Bounds;
 use freebound::mesh::{FaceId, VertexId};
 use freebound::render::{
     FillLayer, LineLayer, MeshFrame, Normals, PaneId, PictureLayer, PlaneFrame, Sampling, Shading, Style, install,
@@ -16,8 +17,8 @@ use freebound::render::{
 };
 use freebound::solver::Embedding;
 use freebound::view::{
-    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneBox, PlaneCamera,
-    Sphere, Srgb, UpAxis,
+    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneCamera, Sphere, Srgb,
+    UpAxis,
 };
 use glam::{DVec2, DVec3};
 use image::RgbaImage;
@@ -108,7 +109,7 @@ pub(crate) fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
     let (positions, triangles) = sheet();
     let mut embedding: Embedding = positions.iter().map(|p| p.truncate()).collect();
     embedding[2] = corner;
-    let box_of_sheet = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
+    let box_of_sheet = Bounds { low: DVec2::NEG_ONE, high: DVec2::ONE };
     PlaneFrame {
         plane: Some(Arc::new(PlaneArrays::new(&embedding, &triangles))),
         paint: Some(Arc::new(FacePaint::plain(triangles.len(), flipped))),
@@ -116,7 +117,7 @@ pub(crate) fn plane_frame(corner: DVec2, flipped: &[FaceId]) -> PlaneFrame {
         ghost: None,
         lines: Vec::new(),
         picture: None,
-        outlined: PlaneBox::UNIT,
+        outlined: Bounds::UNIT,
         camera: PlaneCamera::framing(box_of_sheet, PANE_SIZE),
         style: Style { flipped_outline_in_points: 0.0, ..Style::default() },
         palette: PALETTE,
@@ -299,7 +300,7 @@ fn filled_faces_show_beside_the_mesh_and_under_it_mixed_with_what_is_behind() {
 fn the_picture_lies_in_its_box_upper_row_up() {
     let pixels = [[255, 0, 0, 255], [0, 0, 255, 255]].concat();
     let picture = Arc::new(Picture::new([1, 2], pixels).expect("two pixels"));
-    let bounds = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
+    let bounds = Bounds { low: DVec2::NEG_ONE, high: DVec2::ONE };
     let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
     frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0, sampling: Sampling::Smooth });
     frame.style.shading = Shading::Picture;
@@ -321,7 +322,7 @@ fn a_picture_larger_than_the_card_takes_shows_all_the_same() {
     let rows = 40_000_usize;
     let pixels = [[255_u8, 0, 0, 255].repeat(rows / 2), [0, 0, 255, 255].repeat(rows / 2)].concat();
     let picture = Arc::new(Picture::new([1, 40_000], pixels).expect("as many pixels"));
-    let bounds = PlaneBox { min: DVec2::NEG_ONE, max: DVec2::ONE };
+    let bounds = Bounds { low: DVec2::NEG_ONE, high: DVec2::ONE };
     let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
     frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0, sampling: Sampling::Smooth });
     frame.style.shading = Shading::Picture;
@@ -339,7 +340,7 @@ fn a_detail_of_a_billionth_still_has_a_shape() {
     // both at the same place, and the boundary as the straight line y = x − 1.
     let near = 2e-9;
     let mut frame = plane_frame(DVec2::new(1.0, -near), &[]);
-    let corner = PlaneBox { min: DVec2::new(1.0 - near, -2.0 * near), max: DVec2::new(1.0 + near, 0.0) };
+    let corner = Bounds { low: DVec2::new(1.0 - near, -2.0 * near), high: DVec2::new(1.0 + near, 0.0) };
     frame.camera.frame(corner, PANE_SIZE);
     let picture = plane_picture(frame.clone());
     let [r, g, _] = plane_pixel(&picture, &frame, DVec2::new(1.0 - 0.25 * near, -0.75 * near));

@@ -194,7 +194,7 @@ fn a_pocket_is_filled_with_a_quarter_of_its_green() {
         };
         let widest = stages.pockets.iter().max_by(|s, t| area(s).total_cmp(&area(t))).expect("a pocket");
         let (corners, size) = (corners(widest), window.editor().plane.area().size());
-        let bounds = freebound::view::PlaneBox::around(&corners);
+        let bounds = freebound::view::bounds_of(&corners);
         window.editor_mut().plane.camera_mut().expect("framed").frame(bounds, size);
         let picture = picture(&mut window);
         let middle = window.place_in_plane(corners.iter().sum::<DVec2>() / 3.0);

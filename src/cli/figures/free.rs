@@ -64,10 +64,6 @@ pub(super) struct FreeEmbedding {
 }
 
 impl FreeEmbedding {
-    pub(super) fn settings(self) -> Settings {
-        settings(self.weights)
-    }
-
     /// The pair on the x-axis, as far apart as in space.
     pub(super) fn pins(self, mesh: &DiskMesh) -> Pins {
         let [a, b] = self.pair.vertices;
@@ -76,7 +72,7 @@ impl FreeEmbedding {
     }
 
     pub(super) fn solve(self, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
-        Ladder::new(self.settings(), self.pins(mesh)).step(mesh, control)
+        Ladder::new(settings(self.weights), self.pins(mesh)).step(mesh, control)
     }
 }
 

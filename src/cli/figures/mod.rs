@@ -135,22 +135,21 @@ fn compute(progress: &Progress) -> Result<Vec<Figure>, SolveError> {
     let control = Control::new(interrupted(), &quiet);
     let disk = |example: Example| Arc::new(DiskMesh::try_from(example.mesh()).expect("built-in meshes are disks"));
     let (ell, cube) = (disk(Example::Ell), disk(Example::Cube));
-    progress.enter("figure 1");
-    let mut figures = vec![free::figure_1(&ell, control)?];
-    progress.enter("figure 3");
-    figures.push(free::figure_3(&cube));
-    progress.enter("figure 4");
-    figures.push(free::figure_4(&cube, control)?);
-    progress.enter("figure 5");
-    figures.push(repaired::figure_5(&cube, control)?);
-    progress.enter("figure 6");
-    figures.push(repaired::figure_6(&cube, control)?);
-    progress.enter("figure 8");
     let face = textured::Subject::face();
-    figures.push(textured::figure_8(&face, control)?);
-    progress.enter("figure 9");
-    figures.push(textured::figure_9(&face, control)?);
-    Ok(figures)
+    let figures: [(&'static str, &dyn Fn() -> Result<Figure, SolveError>); 7] = [
+        ("figure 1", &|| free::figure_1(&ell, control)),
+        ("figure 3", &|| Ok(free::figure_3(&cube))),
+        ("figure 4", &|| free::figure_4(&cube, control)),
+        ("figure 5", &|| repaired::figure_5(&cube, control)),
+        ("figure 6", &|| repaired::figure_6(&cube, control)),
+        ("figure 8", &|| textured::figure_8(&face, control)),
+        ("figure 9", &|| textured::figure_9(&face, control)),
+    ];
+    let made = figures.into_iter().map(|(name, make)| {
+        progress.enter(name);
+        make()
+    });
+    made.collect()
 }
 
 /// Drawing and picture of a figure, by their names.

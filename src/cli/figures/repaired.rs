@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::free::FreeEmbedding;
-use super::pairs::TOP_AND_BOUNDARY;
+use super::pairs::{TOP_AND_BOUNDARY, settings};
 use super::{Figure, flips_in_words, iterations_in_words};
 use crate::io::figure::{Drawing, Outside, PlaneDrawing, Pockets, Window, zones_of};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
@@ -32,7 +32,7 @@ impl<'a> Repair<'a> {
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
         let input = free.solve(mesh, control)?;
-        let settings = Settings { method, ..free.settings() };
+        let settings = Settings { method, ..settings(free.weights) };
         let mut run = Ladder::new(settings, free.pins(mesh)).after(&input);
         let mut output = input.clone();
         run.finish(mesh, control, |step| output = step)?;

@@ -32,15 +32,9 @@ impl Subject {
         Self { mesh: Arc::new(mesh), portrait, landmarks: Example::Face.landmarks() }
     }
 
-    /// The landmarks as constraints that are met exactly.
-    fn hard_pins(&self) -> Pins {
-        self.landmarks.iter().map(|landmark| (landmark.vertex, Pin::hard(landmark.target.into()))).collect()
-    }
-
-    /// The landmarks as constraints by weight.
-    fn weighted_pins(&self, weight: f64) -> Pins {
-        let pin = |landmark: &Landmark| (landmark.vertex, Pin::weighted(landmark.target.into(), weight));
-        self.landmarks.iter().map(pin).collect()
+    /// The landmarks as constraints, each made of its target.
+    fn pins(&self, pin: impl Fn(DVec2) -> Pin) -> Pins {
+        self.landmarks.iter().map(|landmark| (landmark.vertex, pin(landmark.target.into()))).collect()
     }
 
     /// The first solve, and where the iteration ends.
@@ -80,7 +74,7 @@ pub(super) fn figure_8(face: &Subject, control: Control<'_>) -> Result<Figure, S
                    picture, of the same number; (c) the mesh with the picture. Each landmark lies on its place exactly, and \
                    no face is flipped.";
     let mut figure = Figure::new(8, 3, caption);
-    let [first, last] = face.solved(face.hard_pins(), control)?;
+    let [first, last] = face.solved(face.pins(Pin::hard), control)?;
     let mesh = face.mesh.mesh();
     let points = mesh_places(&mesh.positions, &View::FRONT, &Canvas::clay(PIXELS, PIXELS));
     let on_mesh = face.landmarks.iter().map(|landmark| points[landmark.vertex.index()]).collect();
@@ -104,7 +98,7 @@ pub(super) fn figure_9(face: &Subject, control: Control<'_>) -> Result<Figure, S
     );
     let mut figure = Figure::new(9, 3, caption);
     for (name, weight) in WEIGHTS {
-        let [first, last] = face.solved(face.weighted_pins(weight), control)?;
+        let [first, last] = face.solved(face.pins(|target| Pin::weighted(target, weight)), control)?;
         let words = format!("{name} weights: {}", flips_in_words(&first));
         figure.panel(&words, face.layout(&first)).measure(&first);
         let words = format!("after {}: {}", iterations_in_words(last.index), flips_in_words(&last));

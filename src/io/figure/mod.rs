@@ -13,9 +13,7 @@
 //! | `svg`   | a page as a drawing                                                    |
 //! | `ink`   | a page as a picture                                                    |
 //! | `font`  | letters made of strokes                                                |
-//! | `clip`  | lines and polygons cut to a rectangle                                  |
 
-mod clip;
 mod font;
 mod ink;
 mod panel;
@@ -26,9 +24,8 @@ mod svg;
 
 use glam::DVec2;
 
-use self::clip::{clip_polygon, clip_segment};
 use super::raster::Colour;
-use crate::geom::{Bounds, Picture};
+use crate::geom::{Bounds, Picture, clip_polygon, clip_segment};
 
 pub use font::has_glyph;
 pub use panel::{Outside, PlaneDrawing, Pockets, Window, zones_of};

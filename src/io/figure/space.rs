@@ -33,9 +33,7 @@ pub struct SpaceDrawing {
 impl SpaceDrawing {
     /// Draws into an area.
     pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
-        let [right, up, towards] = self.view.axes();
-        let seen: Vec<DVec3> =
-            self.mesh.mesh().positions.iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect();
+        let seen = self.view.see(&self.mesh.mesh().positions);
         let low = seen.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = seen.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         let (centre, extent) = (low.midpoint(high), high - low);

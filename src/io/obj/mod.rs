@@ -104,14 +104,8 @@ impl ObjMesh {
     }
 }
 
-impl From<PolygonMesh> for ObjMesh {
-    fn from(polygons: PolygonMesh) -> Self {
-        Self { polygons, ..Self::default() }
-    }
-}
-
 impl From<&TriMesh> for ObjMesh {
     fn from(mesh: &TriMesh) -> Self {
-        PolygonMesh::from(mesh).into()
+        Self { polygons: mesh.into(), ..Self::default() }
     }
 }

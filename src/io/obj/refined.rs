@@ -15,61 +15,41 @@ use crate::mesh::{PolygonMesh, Refinement, VertexId};
 pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
     let disk = refinement.disk();
     let old_count = refinement.old_vertex_count();
-    let mut polygons = Polygons::default();
+    let (mut corners, mut starts) = (Vec::new(), vec![0]);
+    let mut push = |polygon: &[VertexId]| {
+        corners.extend_from_slice(polygon);
+        starts.push(u32::try_from(corners.len()).expect("a mesh has fewer than 2^32 corners"));
+        u32::try_from(starts.len() - 1).expect("a mesh has fewer than 2^32 faces")
+    };
+    let mut face_count = 0;
     // First of the faces that stand for a polygon of the file.
     let mut first_face = Vec::with_capacity(source.polygons.face_count());
     let mut faces = disk.faces().peekable();
     for polygon in 0..source.polygons.face_count() {
-        first_face.push(polygons.count());
+        first_face.push(face_count);
         let mut triangles = Vec::new();
         while let Some(face) = faces.next_if(|&face| disk.mesh().polygon(face) as usize == polygon) {
             triangles.push(disk.face(face));
         }
         if triangles.as_flattened().iter().any(|corner| corner.index() >= old_count) {
             for triangle in &triangles {
-                polygons.push(triangle);
+                face_count = push(triangle);
             }
         } else {
-            polygons.push(source.polygons.face(polygon));
+            face_count = push(source.polygons.face(polygon));
         }
     }
     assert!(faces.next().is_none(), "a refinement of this mesh");
-    let face_count = polygons.count();
     let moved = |statement: &Statement| {
         let before_face = first_face.get(statement.before_face as usize).copied().unwrap_or(face_count);
         Statement { before_face, text: statement.text.clone() }
     };
     let mut positions = source.polygons.positions.clone();
     positions.extend_from_slice(&disk.mesh().positions[old_count..]);
-    let Polygons { corners, starts } = polygons;
     let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
     ObjMesh {
         polygons: PolygonMesh { positions, corners, starts: (!are_triangles).then_some(starts) },
         statements: source.statements.iter().map(moved).collect(),
         ..ObjMesh::default()
-    }
-}
-
-/// Polygons that are being gathered.
-struct Polygons {
-    corners: Vec<VertexId>,
-    /// Where each begins, and the end of the last.
-    starts: Vec<u32>,
-}
-
-impl Default for Polygons {
-    fn default() -> Self {
-        Self { corners: Vec::new(), starts: vec![0] }
-    }
-}
-
-impl Polygons {
-    fn push(&mut self, corners: &[VertexId]) {
-        self.corners.extend_from_slice(corners);
-        self.starts.push(u32::try_from(self.corners.len()).expect("a mesh has fewer than 2^32 corners"));
-    }
-
-    fn count(&self) -> u32 {
-        u32::try_from(self.starts.len() - 1).expect("a mesh has fewer than 2^32 faces")
     }
 }

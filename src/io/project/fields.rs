@@ -1,4 +1,4 @@
-//! The fields of a project file: names, order and defaults.
+//! How sources and pins stand in a project file.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -7,54 +7,10 @@ use glam::DVec2;
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{PROJECT_VERSION, ProjectFile, ProjectSource, ProjectView, RecoveryNote};
-use crate::geom::VAxis;
+use super::ProjectSource;
 use crate::io::{FileStamp, Target, Targets};
 use crate::mesh::VertexId;
-use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Hold, Method, Pin, Settings, Treatment};
-
-/// The fields of a project file, in their order.
-#[derive(Serialize, Deserialize)]
-pub(super) struct ProjectFields {
-    freebound_project: u64,
-    mesh: ProjectSource,
-    #[serde(default)]
-    faces_turned: bool,
-    #[serde(default)]
-    picture: Option<ProjectSource>,
-    #[serde(default)]
-    v_axis: VAxis,
-    #[serde(default)]
-    method: Method,
-    #[serde(default)]
-    boundary: BoundaryShape,
-    #[serde(default)]
-    family: Family,
-    #[serde(default)]
-    treatment: Option<Treatment>,
-    #[serde(default)]
-    growth: Growth,
-    #[serde(default = "default_max_steps")]
-    max_steps: usize,
-    #[serde(default)]
-    relax_rounds: Option<usize>,
-    #[serde(default = "default_new_vertices")]
-    new_vertices: bool,
-    #[serde(default, with = "pin_list")]
-    pins: Targets,
-    #[serde(default)]
-    view: ProjectView,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    recovery: Option<RecoveryNote>,
-}
-
-fn default_max_steps() -> usize {
-    Settings::default().max_steps
-}
-
-fn default_new_vertices() -> bool {
-    Settings::default().new_vertices
-}
+use crate::solver::{Hold, Pin};
 
 /// A mesh or a picture: of an example or of a file, perhaps with its stamp.
 #[derive(Default, Serialize, Deserialize)]
@@ -134,14 +90,14 @@ impl PinFields {
 }
 
 /// Pins as a list.
-mod pin_list {
+pub(super) mod pin_list {
     use super::{Deserialize, Deserializer, Error, PinFields, Serializer, Targets, VertexId};
 
-    pub(super) fn serialize<S: Serializer>(targets: &Targets, serializer: S) -> Result<S::Ok, S::Error> {
+    pub(in super::super) fn serialize<S: Serializer>(targets: &Targets, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(targets.iter().map(|(&vertex, target)| PinFields::of(vertex, target)))
     }
 
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Targets, D::Error> {
+    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Targets, D::Error> {
         let mut targets = Targets::new();
         for fields in Vec::<PinFields>::deserialize(deserializer)? {
             let vertex = VertexId::new(fields.vertex);
@@ -182,61 +138,5 @@ impl Visitor<'_> for WeightVisitor {
 
     fn visit_i64<E: Error>(self, weight: i64) -> Result<Option<f64>, E> {
         self.visit_f64(weight as f64)
-    }
-}
-
-impl From<ProjectFields> for ProjectFile {
-    fn from(fields: ProjectFields) -> Self {
-        let settings = Settings {
-            method: match fields.method {
-                Method::Convex(_) => Method::Convex(fields.boundary),
-                other => other,
-            },
-            family: fields.family,
-            treatment: fields.treatment,
-            max_steps: fields.max_steps,
-            growth: fields.growth,
-            size: GaugeSize::default(),
-            relax_rounds: fields.relax_rounds,
-            new_vertices: fields.new_vertices,
-        };
-        Self {
-            mesh: fields.mesh,
-            faces_turned: fields.faces_turned,
-            picture: fields.picture,
-            v_axis: fields.v_axis,
-            settings,
-            targets: fields.pins,
-            view: fields.view,
-            recovery: fields.recovery,
-        }
-    }
-}
-
-impl From<ProjectFile> for ProjectFields {
-    fn from(project: ProjectFile) -> Self {
-        let settings = project.settings;
-        let boundary = match settings.method {
-            Method::Convex(shape) => shape,
-            _ => BoundaryShape::default(),
-        };
-        Self {
-            freebound_project: PROJECT_VERSION,
-            mesh: project.mesh,
-            faces_turned: project.faces_turned,
-            picture: project.picture,
-            v_axis: project.v_axis,
-            method: settings.method,
-            boundary,
-            family: settings.family,
-            treatment: settings.treatment,
-            growth: settings.growth,
-            max_steps: settings.max_steps,
-            relax_rounds: settings.relax_rounds,
-            new_vertices: settings.new_vertices,
-            pins: project.targets,
-            view: project.view,
-            recovery: project.recovery,
-        }
     }
 }

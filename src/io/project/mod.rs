@@ -4,7 +4,7 @@
 //! |----------|--------------------------------------------------|
 //! | `mod`    | a project, read and written; paths in it         |
 //! | `error`  | why a file did not become a project              |
-//! | `fields` | the fields of the file: names, order, defaults   |
+//! | `fields` | how sources and pins stand in the file           |
 //!
 //! A project names mesh and picture and holds everything else. Fields that this version does not know are ignored, so
 //! that a later version can add some; one that changes what fields mean takes the next [`PROJECT_VERSION`].
@@ -18,10 +18,10 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 pub use self::error::ProjectError;
-use self::fields::{ProjectFields, SourceFields};
+use self::fields::{SourceFields, pin_list};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::VAxis;
-use crate::solver::Settings;
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
 pub const PROJECT_VERSION: u64 = 1;
@@ -29,25 +29,57 @@ pub const PROJECT_VERSION: u64 = 1;
 /// Extension of a project file's name.
 pub const PROJECT_EXTENSION: &str = "freebound";
 
-/// A project as a file holds it. Paths are whole; the file has them relative to itself.
-#[derive(Clone, Debug, PartialEq)]
+/// A project as a file holds it, field by field in the file's order. Paths are whole; the file has them relative to
+/// itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProjectFile {
+    /// Version of the format.
+    freebound_project: u64,
     /// The mesh.
     pub mesh: ProjectSource,
     /// Whether the mesh's faces are turned around.
+    #[serde(default)]
     pub faces_turned: bool,
     /// The picture.
+    #[serde(default)]
     pub picture: Option<ProjectSource>,
     /// Where v = 0 is on the picture.
+    #[serde(default)]
     pub v_axis: VAxis,
-    /// Method and weights. Their size follows from the picture, so that it is not in the file.
-    pub settings: Settings,
+    /// Of [`Method::Convex`] the default; its shape stands in the next field.
+    #[serde(default)]
+    method: Method,
+    #[serde(default)]
+    boundary: BoundaryShape,
+    #[serde(default)]
+    family: Family,
+    #[serde(default)]
+    treatment: Option<Treatment>,
+    #[serde(default)]
+    growth: Growth,
+    #[serde(default = "default_max_steps")]
+    max_steps: usize,
+    #[serde(default)]
+    relax_rounds: Option<usize>,
+    #[serde(default = "default_new_vertices")]
+    new_vertices: bool,
     /// The targets of the user's pins.
+    #[serde(default, rename = "pins", with = "pin_list")]
     pub targets: Targets,
     /// How the person looked at it.
+    #[serde(default)]
     pub view: ProjectView,
     /// What only a copy for recovery has.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recovery: Option<RecoveryNote>,
+}
+
+fn default_max_steps() -> usize {
+    Settings::default().max_steps
+}
+
+fn default_new_vertices() -> bool {
+    Settings::default().new_vertices
 }
 
 /// Where a mesh or a picture is.
@@ -109,17 +141,46 @@ struct Head {
 }
 
 impl ProjectFile {
-    /// A project of a mesh, with nothing made of it yet.
-    pub fn of_mesh(mesh: ProjectSource) -> Self {
+    /// A project of a mesh, with nothing but settings made of it yet.
+    pub fn new(mesh: ProjectSource, settings: &Settings) -> Self {
+        let (method, boundary) = match settings.method {
+            Method::Convex(shape) => (Method::Convex(BoundaryShape::default()), shape),
+            other => (other, BoundaryShape::default()),
+        };
         Self {
+            freebound_project: PROJECT_VERSION,
             mesh,
             faces_turned: false,
             picture: None,
-            v_axis: VAxis::Up,
-            settings: Settings::default(),
+            v_axis: VAxis::default(),
+            method,
+            boundary,
+            family: settings.family,
+            treatment: settings.treatment,
+            growth: settings.growth,
+            max_steps: settings.max_steps,
+            relax_rounds: settings.relax_rounds,
+            new_vertices: settings.new_vertices,
             targets: Targets::new(),
             view: ProjectView::default(),
             recovery: None,
+        }
+    }
+
+    /// Method and weights. Their size follows from the picture, so that it is not in the file.
+    pub fn settings(&self) -> Settings {
+        Settings {
+            method: match self.method {
+                Method::Convex(_) => Method::Convex(self.boundary),
+                other => other,
+            },
+            family: self.family,
+            treatment: self.treatment,
+            max_steps: self.max_steps,
+            growth: self.growth,
+            size: GaugeSize::default(),
+            relax_rounds: self.relax_rounds,
+            new_vertices: self.new_vertices,
         }
     }
 
@@ -141,7 +202,7 @@ impl ProjectFile {
             Err(error) if text.contains("\"freebound_project\"") => return Err(error),
             Err(_) => return Err(not_a_project()),
         }
-        let mut project = Self::from(parse::<ProjectFields>(path, text)?);
+        let mut project: Self = parse(path, text)?;
         let folder = whole_folder_of(path);
         for source in [Some(&mut project.mesh), project.picture.as_mut()].into_iter().flatten() {
             if let ProjectSource::File { path, .. } = source {
@@ -165,9 +226,8 @@ impl ProjectFile {
                 *path = named(path, &folder, style).map_err(failed)?;
             }
         }
-        let fields = ProjectFields::from(project);
         write_durably(path, |out| {
-            serde_json::to_writer_pretty(&mut *out, &fields)?;
+            serde_json::to_writer_pretty(&mut *out, &project)?;
             writeln!(out)
         })
     }

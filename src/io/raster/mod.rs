@@ -63,8 +63,14 @@ impl View {
         Self { eye: DVec3::new(angle.sin(), 0.0, angle.cos()), up: DVec3::Y }
     }
 
+    /// Points in the axes of the view: right, up and towards the eye.
+    pub(super) fn see(&self, positions: &[DVec3]) -> Vec<DVec3> {
+        let [right, up, towards] = self.axes();
+        positions.par_iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect()
+    }
+
     /// Right, up and towards the eye, orthonormal for any input.
-    pub(super) fn axes(&self) -> [DVec3; 3] {
+    fn axes(&self) -> [DVec3; 3] {
         let towards = self.eye.try_normalize().unwrap_or(DVec3::Z);
         let right = self.up.cross(towards).try_normalize().unwrap_or_else(|| towards.any_orthonormal_vector());
         [right, towards.cross(right), towards]
@@ -140,7 +146,7 @@ pub fn mesh_picture(
     canvas: &Canvas,
     paint: Paint,
 ) -> Picture {
-    let seen = seen_from(positions, view);
+    let seen = view.see(positions);
     let normals = vertex_normals(&seen, triangles);
     let scene = Scene::new(&seen, triangles, canvas, paint, &normals);
     scene.picture(&[])
@@ -148,7 +154,7 @@ pub fn mesh_picture(
 
 /// Where points of a mesh lie in [`mesh_picture`]: shares of its width and height, from its lower left corner.
 pub fn mesh_places(positions: &[DVec3], view: &View, canvas: &Canvas) -> Vec<DVec2> {
-    let seen = seen_from(positions, view);
+    let seen = view.see(positions);
     let samples = f64::from(canvas.samples.max(1));
     let size = DVec2::new(f64::from(canvas.width), f64::from(canvas.height)) * samples;
     let scene = Scene::new(&seen, &[], canvas, Paint::Clay, &[]);
@@ -157,12 +163,6 @@ pub fn mesh_places(positions: &[DVec3], view: &View, canvas: &Canvas) -> Vec<DVe
         DVec2::new(share.x, 1.0 - share.y)
     };
     scene.points.iter().map(place).collect()
-}
-
-/// Points in the axes of a view.
-fn seen_from(positions: &[DVec3], view: &View) -> Vec<DVec3> {
-    let [right, up, towards] = view.axes();
-    positions.par_iter().map(|p| DVec3::new(p.dot(right), p.dot(up), p.dot(towards))).collect()
 }
 
 /// A picture of an embedding: thin edges, the boundary as a darker line. The caller paints the faces that its verdict

@@ -155,23 +155,10 @@ impl Solving {
         self.timeline.follow_newest();
     }
 
-    /// Takes one further step after the one under way, whether or not the method has ended. Returns whether a run is
-    /// under way; otherwise somebody has to [`go_on`](Self::go_on).
-    pub(super) fn add_step(&mut self) -> bool {
-        let Some(running) = &mut self.running else { return false };
-        running.set_goal(|goal| match goal {
-            Goal::Steps(left) => Goal::Steps(left + 1),
-            Goal::Until(_) | Goal::End => Goal::Steps(1),
-        });
-        true
-    }
-
-    /// Lets the run under way go on until something stops it. Returns whether there is one.
-    pub(super) fn run_on(&mut self) -> bool {
-        let goal = Goal::Until(self.stop);
-        let Some(running) = &mut self.running else { return false };
-        running.set_goal(|_| goal);
-        true
+    /// Asks the run under way for another goal. Returns whether there is one; otherwise somebody has to
+    /// [`go_on`](Self::go_on).
+    pub(super) fn change_goal(&mut self, change: impl FnOnce(Goal) -> Goal) -> bool {
+        self.running.as_mut().map(|running| running.set_goal(change)).is_some()
     }
 
     /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained.
@@ -190,9 +177,7 @@ impl Solving {
     /// Chooses where a run that goes on by itself comes to rest.
     pub(super) fn set_stop(&mut self, stop: StopConditions) {
         self.stop = stop;
-        if let Some(running) = &mut self.running {
-            running.set_goal(|goal| if matches!(goal, Goal::Until(_)) { Goal::Until(stop) } else { goal });
-        }
+        self.change_goal(|goal| if matches!(goal, Goal::Until(_)) { Goal::Until(stop) } else { goal });
     }
 
     /// Pauses the run: it comes to rest with the steps that it has.
@@ -212,11 +197,6 @@ impl Solving {
     /// Gives up the run, under way or at rest.
     pub(super) fn give_up_all(&mut self) {
         self.give_up();
-        self.resting = None;
-    }
-
-    /// Gives up the run at rest.
-    pub(super) fn give_up_resting(&mut self) {
         self.resting = None;
     }
 

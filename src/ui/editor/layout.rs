@@ -8,33 +8,19 @@ const PANELS_FROM: f32 = 820.0;
 /// Least share of the width that a pane has.
 const LEAST_SHARE: f32 = 0.15;
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Layout {
     tab: Tab,
     /// Whether the panels at the right show, where a person said so.
     panels_wanted: Option<bool>,
-    is_wide: bool,
+    is_narrow: bool,
     full: Option<Pane>,
-    split: f32,
+    /// Share of the width that the mesh's pane has; half of it where nobody said.
+    split: Option<f32>,
     pub keys_shown: bool,
     pub exports_shown: bool,
     /// What is typed into "go to", where it shows.
     pub go_to: Option<String>,
-}
-
-impl Default for Layout {
-    fn default() -> Self {
-        Self {
-            tab: Tab::default(),
-            panels_wanted: None,
-            is_wide: true,
-            full: None,
-            split: 0.5,
-            keys_shown: false,
-            exports_shown: false,
-            go_to: None,
-        }
-    }
 }
 
 impl Layout {
@@ -49,7 +35,7 @@ impl Layout {
 
     /// Whether the panels at the right show. Where nobody said, a narrow window does without.
     pub fn panels_shown(&self) -> bool {
-        self.panels_wanted.unwrap_or(self.is_wide)
+        self.panels_wanted.unwrap_or(!self.is_narrow)
     }
 
     pub(in crate::ui) fn shows(&self, tab: Tab) -> bool {
@@ -62,7 +48,7 @@ impl Layout {
 
     /// Takes the width that panels and panes have together, points.
     pub(in crate::ui) fn set_width(&mut self, width: f32) {
-        self.is_wide = width >= PANELS_FROM;
+        self.is_narrow = width < PANELS_FROM;
     }
 
     /// The pane in full size, if one is.
@@ -79,13 +65,12 @@ impl Layout {
         self.full == Some(Pane::Plane)
     }
 
-    /// Share of the width that the mesh's pane has.
     pub(in crate::ui) fn split(&self) -> f32 {
-        self.split
+        self.split.unwrap_or(0.5)
     }
 
     pub(in crate::ui) fn set_split(&mut self, share: f32) {
-        self.split = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+        self.split = Some(share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE));
     }
 
     /// Closes one of the floating windows. Returns whether one was open.

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::Shading;
 use super::scene::{Legend, MeshScene, Paint, PaintKey, PlaneScene};
 use crate::geom;
+use crate::geom::Bounds;
 use crate::render::{PictureLayer, Sampling};
 use crate::session::{Document, Outcome};
-use crate::view::{self, PlaneBox};
+use crate::view::{self};
 
 /// How strongly the picture shows behind the embedding at the start.
 const OPACITY: f32 = 0.55;
@@ -63,7 +64,7 @@ impl Look {
     }
 
     /// The picture as panes draw it, in its box in the plane.
-    pub(super) fn picture_layer(&self, bounds: PlaneBox) -> Option<PictureLayer> {
+    pub(super) fn picture_layer(&self, bounds: Bounds) -> Option<PictureLayer> {
         let (_, picture) = self.picture.as_ref()?;
         Some(PictureLayer { picture: Arc::clone(picture), bounds, opacity: self.opacity, sampling: self.sampling })
     }

@@ -17,13 +17,11 @@
 //! | `steps.rs` | moves along the timeline |
 //! | `views.rs` | what the cameras look at; defects |
 //! | `project_view.rs` | how the window looks, for the project file |
-//! | `nudge.rs` | pins moved by arrow keys |
 
 mod host;
 mod layout;
 mod look;
 mod mesh_view;
-pub(super) mod nudge;
 mod opened;
 mod plane;
 mod project_view;
@@ -185,7 +183,7 @@ impl Editor {
         self.plane.forget();
         self.look.forget_paint();
         if self.opened.put_on_screen(&self.session) {
-            self.selection.clear();
+            self.selection.select([]);
             self.put_on_view();
         }
         self.pointer.set_vertex(None);

@@ -136,7 +136,8 @@ pub(super) fn plane_of(numbers: &[f64], mut camera: PlaneCamera, pane_size: DVec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::{PlaneBox, Sphere, UpAxis};
+    use crate::geom::Bounds;
+    use crate::view::{Sphere, UpAxis};
 
     const PANE: DVec2 = DVec2::new(400.0, 300.0);
 
@@ -145,7 +146,7 @@ mod tests {
     }
 
     fn plane() -> PlaneCamera {
-        PlaneCamera::framing(PlaneBox { min: DVec2::ZERO, max: DVec2::ONE }, PANE)
+        PlaneCamera::framing(Bounds { low: DVec2::ZERO, high: DVec2::ONE }, PANE)
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! What files are asked for, and what such files are called.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::slice;
+use std::sync::mpsc::Receiver;
 
-use crate::io::OutputKind;
-use crate::session::OutputFit;
-use crate::ui::panels::exports::PaneShot;
+use crate::geom::Picture;
+use crate::io::{OutputFit, OutputKind};
 use crate::ui::{Dialogs, Pane, Unsaved};
 
 /// Files that are asked for, or about to be written.
@@ -15,7 +15,8 @@ pub struct Files {
     pub unsaved: Unsaved,
     /// Size of coordinates in files.
     pub fit: OutputFit,
-    pub(in crate::ui) shot: Option<PaneShot>,
+    /// A picture of a pane that was asked for, and where to write it.
+    pub(in crate::ui) shot: Option<(PathBuf, Receiver<Picture>)>,
 }
 
 /// What a file is asked for.

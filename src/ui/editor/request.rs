@@ -3,8 +3,9 @@
 use eframe::egui;
 use glam::DVec2;
 
+use crate::io::OutputFit;
 use crate::mesh::VertexId;
-use crate::session::{Action, OutputFit};
+use crate::session::Action;
 use crate::solver::Hold;
 use crate::ui::{Answer, Purpose, Stage};
 

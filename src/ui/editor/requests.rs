@@ -139,7 +139,7 @@ impl Editor {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
         } else {
-            self.selection.clear();
+            self.selection.select([]);
         }
     }
 }

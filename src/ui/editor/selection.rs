@@ -40,10 +40,6 @@ impl Selection {
         }
     }
 
-    pub fn clear(&mut self) {
-        self.vertices.clear();
-    }
-
     /// Keeps the vertices of a mesh with so many.
     pub(super) fn keep_below(&mut self, vertex_count: usize) {
         self.vertices.retain(|vertex| vertex.index() < vertex_count);

@@ -6,27 +6,15 @@ use crate::solver::Hold;
 use crate::ui::panes::pin_drag::PinDrag;
 use crate::ui::panes::{Half, Intent};
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct ToolState {
     tool: Tool,
     pair: Option<Half>,
     intent: Intent,
-    hold: Hold,
+    /// How the next constraint is held, where a person chose.
+    hold: Option<Hold>,
     drag: Option<PinDrag>,
     is_nudging: bool,
-}
-
-impl Default for ToolState {
-    fn default() -> Self {
-        Self {
-            tool: Tool::default(),
-            pair: None,
-            intent: Intent::default(),
-            hold: Hold::Hard,
-            drag: None,
-            is_nudging: false,
-        }
-    }
 }
 
 impl ToolState {
@@ -68,11 +56,11 @@ impl ToolState {
 
     /// How the next constraint is held.
     pub(in crate::ui) fn hold(&self) -> Hold {
-        self.hold
+        self.hold.unwrap_or(Hold::Hard)
     }
 
     pub(super) fn set_hold(&mut self, hold: Hold) {
-        self.hold = hold;
+        self.hold = Some(hold);
     }
 
     pub fn dragged(&self) -> Option<VertexId> {
@@ -98,7 +86,7 @@ impl ToolState {
         self.is_nudging
     }
 
-    pub(super) fn set_nudging(&mut self, is_nudging: bool) {
+    pub(in crate::ui) fn set_nudging(&mut self, is_nudging: bool) {
         self.is_nudging = is_nudging;
     }
 }

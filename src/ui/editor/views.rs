@@ -2,12 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::geom::Bounds;
 use crate::mesh::{EdgeId, FaceId, VertexId};
 use crate::render::PictureLayer;
 use crate::session::Document;
 use crate::solver::{Embedding, Verdict};
 use crate::ui::{Editor, Element};
-use crate::view::{PlaneBox, Sphere};
+use crate::view::{Sphere, bounds_of};
 
 /// Half the width of what `Request::GoTo` shows, in lengths of the element's longest edge.
 const GO_TO_MARGIN: f64 = 7.0;
@@ -54,9 +55,9 @@ impl Defect {
 }
 
 /// Where a document's picture lies in the plane.
-pub(super) fn picture_box(document: &Document) -> PlaneBox {
-    let [min, max] = document.frame().corners();
-    PlaneBox { min, max }
+pub(super) fn picture_box(document: &Document) -> Bounds {
+    let [low, high] = document.frame().corners();
+    Bounds { low, high }
 }
 
 impl Editor {
@@ -79,12 +80,12 @@ impl Editor {
     }
 
     /// Where the picture lies in the plane; without one, the unit square of texture coordinates.
-    pub(in crate::ui) fn picture_box(&self) -> PlaneBox {
+    pub(in crate::ui) fn picture_box(&self) -> Bounds {
         picture_box(self.session.document())
     }
 
     /// All that there is in the plane: the embedding, and the picture where there is one.
-    pub(in crate::ui) fn with_picture(&self, embedding: PlaneBox) -> PlaneBox {
+    pub(in crate::ui) fn with_picture(&self, embedding: Bounds) -> Bounds {
         if self.has_picture() { embedding.union(self.picture_box()) } else { embedding }
     }
 
@@ -143,16 +144,16 @@ fn around(positions: &[DVec3], vertices: &[VertexId], all: Sphere) -> Sphere {
 }
 
 /// A box around a few vertices of the embedding with some of it around; all of it where there are none.
-fn box_around(embedding: &Embedding, vertices: &[VertexId], all: PlaneBox) -> PlaneBox {
+fn box_around(embedding: &Embedding, vertices: &[VertexId], all: Bounds) -> Bounds {
     if vertices.is_empty() {
         return all;
     }
     let points: Vec<DVec2> = vertices.iter().filter_map(|v| embedding.get(v.index()).copied()).collect();
-    let tight = PlaneBox::around(&points);
+    let tight = bounds_of(&points);
     let reach = tight.size().max_element();
     let half = (reach * GO_TO_MARGIN / 2.0).max(all.extent() / LEAST_PART).min(all.extent());
-    let center = tight.center();
-    PlaneBox { min: center - half, max: center + half }
+    let center = tight.middle();
+    Bounds { low: center - half, high: center + half }
 }
 
 #[cfg(test)]
@@ -164,9 +165,9 @@ mod tests {
         let all = Sphere { center: DVec3::ZERO, radius: 2.0 };
         let near = around(&[DVec3::X], &[VertexId::new(0)], all);
         assert!(near.center == DVec3::X && near.radius < 0.2 * all.radius, "{near:?}");
-        let whole = PlaneBox { min: DVec2::ZERO, max: DVec2::splat(3.0) };
+        let whole = Bounds { low: DVec2::ZERO, high: DVec2::splat(3.0) };
         let part = box_around(&vec![DVec2::ONE].into(), &[VertexId::new(0)], whole);
-        assert!(part.center() == DVec2::ONE && part.extent() < 0.2 * whole.extent(), "{part:?}");
+        assert!(part.middle() == DVec2::ONE && part.extent() < 0.2 * whole.extent(), "{part:?}");
     }
 
     #[test]

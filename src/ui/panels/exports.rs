@@ -1,49 +1,33 @@
 //! What can be exported, to choose from; and pictures of the panes, cut out of the window as it shows.
 
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::mpsc::sync_channel;
 
-use eframe::egui;
-use egui::{Align2, Pos2, Rect};
+use eframe::egui::{self, Align2, Pos2, Rect};
 
 use crate::geom::Picture;
-use crate::io::OutputKind;
-use crate::session::OutputFit;
-use crate::ui::controls::Control;
-use crate::ui::{Editor, Pane, Purpose, Request};
+use crate::io::{OutputFit, OutputKind};
+use crate::ui::{Control, Editor, Pane, Purpose, Request};
 
 /// Everything that can be exported: what it is, and what it is good for.
-pub(super) const EXPORTS: [(Purpose, &str, &str); 7] = [
-    (
-        Purpose::Export(OutputKind::Obj, None),
-        "Mesh with texture coordinates…",
-        "OBJ, with its material and the picture where there is one",
-    ),
-    (
-        Purpose::Export(OutputKind::Svg, Some(OutputFit::Unit)),
-        "Layout in the unit square…",
-        "SVG, as texture coordinates lie",
-    ),
-    (
-        Purpose::Export(OutputKind::Svg, Some(OutputFit::True)),
-        "Layout at true scale…",
-        "SVG in the mesh's own units, to cut out",
-    ),
-    (Purpose::PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as the pane shows"),
-    (Purpose::PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as the pane shows"),
-    (Purpose::Export(OutputKind::Png, None), "Mesh and layout side by side…", "PNG, drawn anew"),
-    (Purpose::Export(OutputKind::Json, None), "Report…", "JSON: method, steps, verdict, distortion"),
-];
-
-/// A picture of the window that was asked for.
-#[derive(Debug)]
-pub(in crate::ui) struct PaneShot {
-    path: PathBuf,
-    /// The part to cut out, points.
-    part: Rect,
-    answer: Receiver<Arc<egui::ColorImage>>,
-}
+pub(super) const EXPORTS: [(Purpose, &str, &str); 7] = {
+    use OutputKind::{Json, Obj, Png, Svg};
+    use Purpose::{Export, PanePicture};
+    let (unit, true_scale) = (Some(OutputFit::Unit), Some(OutputFit::True));
+    [
+        (
+            Export(Obj, None),
+            "Mesh with texture coordinates…",
+            "OBJ, with its material and the picture where there is one",
+        ),
+        (Export(Svg, unit), "Layout in the unit square…", "SVG, as texture coordinates lie"),
+        (Export(Svg, true_scale), "Layout at true scale…", "SVG in the mesh's own units, to cut out"),
+        (PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as the pane shows"),
+        (PanePicture(Pane::Plane), "Picture of the embedding's pane…", "PNG, as the pane shows"),
+        (Export(Png, None), "Mesh and layout side by side…", "PNG, drawn anew"),
+        (Export(Json, None), "Report…", "JSON: method, steps, verdict, distortion"),
+    ]
+};
 
 pub(super) fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     let solved = editor.session.outcome().is_some();
@@ -64,23 +48,22 @@ impl Editor {
     pub(in crate::ui) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
         let area = if pane == Pane::Plane { self.plane.area() } else { self.mesh.area() };
         let Some(part) = area.rect() else { return };
-        let (sender, answer) = sync_channel(1);
+        let (sender, picture) = sync_channel(1);
         let wake = self.host.wake();
+        let scale = self.host.context().pixels_per_point();
         self.host.context().request_screenshot(move |image| {
-            sender.send(image).ok();
+            sender.send(cut(&image, part * scale)).ok();
             wake();
         });
-        self.files.shot = Some(PaneShot { path, part, answer });
+        self.files.shot = Some((path, picture));
     }
 
     /// Takes in the picture of the window, and has the pane's part of it written. Call once per frame.
     pub(in crate::ui) fn poll_shot(&mut self) {
-        let Some(shot) = &self.files.shot else { return };
-        let Ok(image) = shot.answer.try_recv() else { return };
-        let scale = self.host.context().pixels_per_point();
-        let part = cut(&image, shot.part * scale);
-        if let Some(shot) = self.files.shot.take() {
-            self.session.save_picture(shot.path, part);
+        let Some((path, shot)) = &self.files.shot else { return };
+        if let Ok(picture) = shot.try_recv() {
+            self.session.save_picture(path.clone(), picture);
+            self.files.shot = None;
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `side_panel.rs` | the panel at the right with its tabs |
+//! | `mod.rs` | the panel at the right with its tabs |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
 //! | `picture_panel.rs` | the picture's part of the pins' tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding's pane |
@@ -23,12 +23,43 @@ pub(super) mod menu;
 pub(super) mod method_panel;
 mod picture_panel;
 mod pins_panel;
-pub(super) mod side_panel;
 pub(super) mod status;
 pub(super) mod tools;
 pub(super) mod unsaved;
 mod verdict_pill;
 mod vertex_panel;
 
+use eframe::egui;
+
+use super::controls::Control;
+use super::{Editor, Request, Tab};
 pub(crate) use dialogs::Dialogs;
 pub(super) use unsaved::{Answer, Unsaved};
+
+/// The panels at the right: a row of tabs and what the open one shows.
+pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for tab in Tab::ALL {
+            let count = match tab {
+                Tab::Pins => editor.session.document().targets.len(),
+                Tab::Defects => editor.defect_count(),
+                Tab::Method | Tab::Vertex => 0,
+            };
+            let words = if count > 0 { format!("{} {count}", tab.title()) } else { tab.title().to_owned() };
+            ui.selectable_label(editor.layout.tab() == tab, words).asks(Request::ShowTab(tab), requests);
+        }
+    });
+    ui.separator();
+    match editor.layout.tab() {
+        Tab::Method => scrolled(ui, |ui| method_panel::method_panel(ui, editor, requests)),
+        Tab::Pins => pins_panel::pins_panel(ui, editor, requests),
+        Tab::Defects => defects_panel::defects_panel(ui, editor, requests),
+        Tab::Vertex => scrolled(ui, |ui| vertex_panel::vertex_panel(ui, editor, requests)),
+    }
+}
+
+/// A panel that may be higher than the window.
+fn scrolled(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, add);
+}

@@ -2,13 +2,12 @@
 
 use std::borrow::Cow;
 
-use eframe::egui;
-use egui::RichText;
+use eframe::egui::{self, RichText};
 
 use super::vertex_panel::new_vertex_words;
-use crate::ui::theme::theme_of;
+use crate::session::Status;
 use crate::ui::timeline::PRESS_SPACE;
-use crate::ui::{Editor, Tool};
+use crate::ui::{Editor, Tool, theme_of};
 
 pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
     let weak = theme_of(ui).weak_text;
@@ -40,7 +39,7 @@ fn fixed_hint(editor: &Editor) -> &'static str {
     if editor.session.model().is_none() {
         return "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.";
     }
-    if editor.session.is_held() && !editor.timeline.curves_shown() {
+    if matches!(editor.session.status(), Status::Held) && !editor.timeline.curves_shown() {
         return PRESS_SPACE;
     }
     if editor.tools.tool() != Tool::Select && editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex))

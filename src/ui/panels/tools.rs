@@ -1,11 +1,8 @@
 //! The tool bar at the left.
 
-use eframe::egui;
-use egui::{Role, Sense, Vec2, WidgetInfo};
+use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};
 
-use crate::ui::controls::{Control, tip_with_keys};
-use crate::ui::icons;
-use crate::ui::theme::theme_of;
+use crate::ui::{Control, icons, theme_of, tip_with_keys};
 use crate::ui::{Editor, Request, Tool};
 
 /// Side of a tool's button, points.
@@ -27,11 +24,7 @@ pub(in crate::ui) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut
                 ui.painter().rect_stroke(rect, 5.0, egui::Stroke::new(1.0, theme.accent), egui::StrokeKind::Inside);
             }
             let colour = if on { theme.accent } else { theme.text };
-            match tool {
-                Tool::Select => icons::pointer(ui.painter(), rect, colour),
-                Tool::Fix => icons::pin(ui.painter(), rect, colour),
-                Tool::Constrain => icons::pair(ui.painter(), rect, colour),
-            }
+            icons::tool(ui.painter(), rect, tool, colour);
             let request = Request::SetTool(tool);
             response.on_hover_text(tip_with_keys(ui, about, &request)).asks(request, requests);
         }

@@ -4,20 +4,18 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-use egui::{Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2};
+use eframe::egui::{self, Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2};
 use glam::DVec2;
 
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis};
 use super::{defect_marks, mesh_pane, plane_pane};
+use crate::geom::Bounds;
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame, Shading};
-use crate::ui::controls::Control;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
-use crate::ui::theme::{Theme, theme_of};
-use crate::ui::{Defect, Editor, Element, Request, keys_of};
-use crate::view::{OrbitCamera, PlaneBox, PlaneCamera, Sphere};
+use crate::ui::{Control, Defect, Editor, Element, Request, Theme, keys_of, theme_of};
+use crate::view::{OrbitCamera, PlaneCamera, Sphere, bounds_of};
 
 /// Distance of insets from the pane's edges, points.
 const GAP: f32 = 12.0;
@@ -87,7 +85,7 @@ impl Magnifier {
         let side = DEFECT.side_in(pane)?;
         let shown = neighbourhood(scene, defect)?;
         let camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
-        let looks_at = Rect::from_two_pos(view.spot(shown.min), view.spot(shown.max));
+        let looks_at = Rect::from_two_pos(view.spot(shown.low), view.spot(shown.high));
         let magnification = camera.points_per_unit() / view.camera.points_per_unit();
         let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at.center(), GAP);
         (magnification > 1.0).then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
@@ -164,10 +162,10 @@ impl Magnifier {
 }
 
 /// The part of the plane around a defect.
-fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<PlaneBox> {
+fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<Bounds> {
     let disk = plane.mesh.disk()?;
     let around = |vertices: Vec<VertexId>| {
-        PlaneBox::around(&vertices.into_iter().filter_map(|v| plane.position_of(v)).collect::<Vec<DVec2>>())
+        bounds_of(&vertices.into_iter().filter_map(|v| plane.position_of(v)).collect::<Vec<DVec2>>())
     };
     let (center, reach) = match defect {
         Defect::Crossing(edges) => {
@@ -181,12 +179,12 @@ fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<PlaneBox> {
         }
         Defect::Flipped(face) => {
             let bounds = around(plane.mesh.vertices_of(Element::Face(face)));
-            (bounds.center(), bounds.size().max_element())
+            (bounds.middle(), bounds.size().max_element())
         }
     };
     // A defect without any extent is shown as near as the camera goes.
     let half = (REACH * reach).max(plane.arrays.bounds.extent() * 1e-9);
-    (center.is_finite() && half.is_finite()).then(|| PlaneBox { min: center - half, max: center + half })
+    (center.is_finite() && half.is_finite()).then(|| Bounds { low: center - half, high: center + half })
 }
 
 impl Editor {
@@ -246,7 +244,7 @@ pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Ed
     let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
     let Some(inset) = pair_inset(view.rect, view.spot(target)) else { return };
     let half = DVec2::splat(PART / 2.0 * editor.with_picture(plane.arrays.bounds).extent());
-    let camera = PlaneCamera::framing(PlaneBox { min: target - half, max: target + half }, pane::size_of(inset));
+    let camera = PlaneCamera::framing(Bounds { low: target - half, high: target + half }, pane::size_of(inset));
     let enlarges = camera.points_per_unit() / view.camera.points_per_unit();
     if enlarges < LEAST_MAGNIFICATION {
         return;

@@ -5,10 +5,8 @@ use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, Color32, PopupCloseBehavior, Rect, RichText, Role, Sense, Shape, Stroke, Vec2};
 
 use super::Room;
-use crate::session::{Action, StopConditions};
-use crate::ui::controls::{Control, tip_with_keys};
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request, StepTarget};
+use crate::session::{Action, Status, Stop, StopConditions};
+use crate::ui::{Control, Editor, Request, StepTarget, theme_of, tip_with_keys};
 
 /// Side of a button with a drawing, points.
 const BUTTON: f32 = 24.0;
@@ -32,12 +30,13 @@ pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mu
     let is_playing = editor.timeline.playing_since.is_some();
     let (play, play_name) =
         if is_playing { (Drawing::Pause, "Stop playing") } else { (Drawing::Play, "Play the steps") };
+    let to = Request::GoToStep;
     let buttons = [
-        (Drawing::First, "First step", has_previous, Request::GoToStep(StepTarget::First)),
-        (Drawing::Previous, "Previous step", has_previous, Request::GoToStep(StepTarget::Previous)),
+        (Drawing::First, "First step", has_previous, to(StepTarget::First)),
+        (Drawing::Previous, "Previous step", has_previous, to(StepTarget::Previous)),
         (play, play_name, has_previous || has_next, Request::TogglePlay),
-        (Drawing::Next, "Next step", has_next, Request::GoToStep(StepTarget::Next)),
-        (Drawing::Last, "Last step", has_next, Request::GoToStep(StepTarget::Last)),
+        (Drawing::Next, "Next step", has_next, to(StepTarget::Next)),
+        (Drawing::Last, "Last step", has_next, to(StepTarget::Last)),
     ];
     for (drawing, name, enabled, request) in buttons {
         ui.add_enabled_ui(enabled, |ui| drawn_button(ui, drawing, name, request, requests));
@@ -115,23 +114,21 @@ pub(super) fn run_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec
     ui.spacing_mut().item_spacing.x = 4.0;
     let session = &editor.session;
     let theme = theme_of(ui);
-    let is_disk = editor.has_disk();
-    let button = if session.is_held() {
+    let button = match session.status() {
         // The one thing to do for whoever has just begun.
-        Button::new(RichText::new("Step").color(theme.panel)).fill(theme.accent)
-    } else {
-        Button::new("Step")
+        Status::Held => Button::new(RichText::new("Step").color(theme.panel)).fill(theme.accent),
+        _ => Button::new("Step"),
     };
     let step = Action::Step.into();
     let tip = tip_with_keys(ui, "Take one further step", &step);
-    ui.add_enabled(is_disk, button).on_hover_text(tip).asks(step, requests);
+    ui.add_enabled(editor.has_disk(), button).on_hover_text(tip).asks(step, requests);
     let (words, enabled, tip) = if session.is_running() {
         ("Pause", true, "Rest after the steps that there are")
     } else {
         ("Run", session.can_run(), "Go on until something stops it")
     };
     let tip = tip_with_keys(ui, tip, &Request::RunOrPause);
-    let at_rest = session.stopped().map_or("", crate::session::Stop::words);
+    let at_rest = session.stopped().map_or("", Stop::words);
     let response = ui.add_enabled(enabled, Button::new(words).min_size(Vec2::new(50.0, 0.0)));
     let response = response.on_disabled_hover_text(format!("At rest: {at_rest}. A single step goes on all the same."));
     response.on_hover_text(tip).asks(Request::RunOrPause, requests);

@@ -10,13 +10,10 @@ mod buttons;
 pub(super) mod chips;
 mod curves;
 
-use eframe::egui;
-use egui::{Align, Layout, RichText};
+use eframe::egui::{self, Align, Layout, RichText};
 
-use crate::session::Stop;
-use crate::ui::controls::remark;
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request};
+use crate::session::{Status, Stop};
+use crate::ui::{Editor, Request, remark, theme_of};
 use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
 use chips::chips;
 use curves::{CURVE_COUNT, curves, curves_menu};
@@ -67,28 +64,27 @@ impl TimelineView {
 pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let room = if ui.available_width() >= ROOMY { Room::Ample } else { Room::Scarce };
     ui.spacing_mut().item_spacing.y = 0.0;
-    ui.allocate_ui_with_layout(
-        egui::vec2(ui.available_width(), ROW_HEIGHT),
-        Layout::left_to_right(Align::Center),
-        |ui| {
-            ui.set_min_height(ROW_HEIGHT);
-            playback_buttons(ui, editor, requests);
-            ui.separator();
-            run_buttons(ui, editor, requests);
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                fold_button(ui, editor, requests);
-                if editor.timeline.curves_shown() && room == Room::Ample {
-                    curves_menu(ui, &mut editor.timeline);
-                }
-                stop_menu(ui, editor, room, requests);
-                if let Some(words) = rest_words(editor).filter(|_| room == Room::Ample) {
-                    remark(ui, words);
-                }
-                ui.add_space(6.0);
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| chips(ui, editor, requests));
-            });
-        },
-    );
+    let row = egui::vec2(ui.available_width(), ROW_HEIGHT);
+    ui.allocate_ui_with_layout(row, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_height(ROW_HEIGHT);
+        playback_buttons(ui, editor, requests);
+        ui.separator();
+        run_buttons(ui, editor, requests);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            fold_button(ui, editor, requests);
+            if editor.timeline.curves_shown() && room == Room::Ample {
+                curves_menu(ui, &mut editor.timeline);
+            }
+            stop_menu(ui, editor, room, requests);
+            // Why the run is at rest, where the verdict does not say it.
+            let stop = editor.session.stopped().filter(|stop| !matches!(stop, Stop::Planar | Stop::Done));
+            if let Some(stop) = stop.filter(|_| room == Room::Ample) {
+                remark(ui, stop.words());
+            }
+            ui.add_space(6.0);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| chips(ui, editor, requests));
+        });
+    });
     if editor.timeline.curves_shown() {
         if let Some(words) = notice(editor) {
             let theme = theme_of(ui);
@@ -100,33 +96,21 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
     }
 }
 
-/// Why the run is at rest, where the verdict does not say it.
-fn rest_words(editor: &Editor) -> Option<&'static str> {
-    match editor.session.stopped()? {
-        Stop::Planar | Stop::Done => None,
-        stop => Some(stop.words()),
-    }
-}
-
 /// What stands in the place of curves as long as there is only one step.
 fn notice(editor: &Editor) -> Option<&'static str> {
     let session = &editor.session;
-    let count = session.timeline().records().len();
-    if count > 1 {
-        None
-    } else if count == 0 {
-        Some(if session.is_running() { "The first step is on its way." } else { "There is no step yet." })
-    } else if session.is_held() {
-        Some(PRESS_SPACE)
-    } else if session.is_preview() {
-        Some("The other steps follow when the gesture ends.")
-    } else if session.is_running() {
-        Some("The first step is there, the others follow.")
-    } else if session.stopped() == Some(Stop::Planar) {
-        Some("Planar at the first step: nothing to repair. Space takes one more.")
-    } else {
-        Some("This method is a single solve. Space goes on with a mean-value iteration.")
-    }
+    Some(match (session.timeline().records().len(), session.status()) {
+        (0, _) if session.is_running() => "The first step is on its way.",
+        (0, _) => "There is no step yet.",
+        (1, Status::Held) => PRESS_SPACE,
+        (1, Status::Preview(_)) => "The other steps follow when the gesture ends.",
+        (1, Status::Solving) => "The first step is there, the others follow.",
+        (1, _) if session.stopped() == Some(Stop::Planar) => {
+            "Planar at the first step: nothing to repair. Space takes one more."
+        }
+        (1, _) => "This method is a single solve. Space goes on with a mean-value iteration.",
+        _ => return None,
+    })
 }
 
 /// The hint for whoever has just begun.

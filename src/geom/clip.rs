@@ -1,0 +1,51 @@
+//! Segments and polygons cut to a box.
+
+use glam::DVec2;
+
+use super::Bounds;
+
+/// The part of a segment inside a box, if there is any (Liang and Barsky 1984).
+pub fn clip_segment([a, b]: [DVec2; 2], bounds: Bounds) -> Option<[DVec2; 2]> {
+    let along = b - a;
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        let (low, high) = (bounds.low[axis] - a[axis], bounds.high[axis] - a[axis]);
+        if along[axis] == 0.0 {
+            if low > 0.0 || high < 0.0 {
+                return None;
+            }
+            continue;
+        }
+        let (enter, leave) = (low / along[axis], high / along[axis]);
+        from = from.max(enter.min(leave));
+        to = to.min(enter.max(leave));
+    }
+    (from <= to).then(|| [from, to].map(|share| a + share * along))
+}
+
+/// The part of a polygon inside a box (Sutherland and Hodgman 1974). Where the polygon leaves and comes back, its
+/// parts hang together along the box's side.
+pub fn clip_polygon(polygon: &[DVec2], bounds: Bounds) -> Vec<DVec2> {
+    let sides = [
+        (DVec2::X, bounds.low.x),
+        (DVec2::NEG_X, -bounds.high.x),
+        (DVec2::Y, bounds.low.y),
+        (DVec2::NEG_Y, -bounds.high.y),
+    ];
+    let mut kept = polygon.to_vec();
+    for (inwards, limit) in sides {
+        let mut cut = Vec::with_capacity(kept.len() + 4);
+        for (k, &b) in kept.iter().enumerate() {
+            let a = kept[(k + kept.len() - 1) % kept.len()];
+            let (depth_a, depth_b) = (a.dot(inwards) - limit, b.dot(inwards) - limit);
+            if (depth_a < 0.0) != (depth_b < 0.0) {
+                cut.push(a.lerp(b, depth_a / (depth_a - depth_b)));
+            }
+            if depth_b >= 0.0 {
+                cut.push(b);
+            }
+        }
+        kept = cut;
+    }
+    kept
+}
