@@ -1,7 +1,6 @@
 //! What panels are put together from: controls that ask for something, lists to choose from, and rows of numbers.
 
-use eframe::egui;
-use egui::{ComboBox, Grid, Response, RichText, Role, Ui, WidgetInfo};
+use eframe::egui::{self, ComboBox, Grid, Response, RichText, Role, Ui, WidgetInfo};
 
 use super::theme::theme_of;
 use super::{Request, keys_of};

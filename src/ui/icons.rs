@@ -1,7 +1,6 @@
 //! Small drawings for the tools.
 
-use eframe::egui;
-use egui::{Color32, Pos2, Rect, Shape, Stroke};
+use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke};
 
 use super::Tool;
 use super::theme::Theme;

@@ -8,7 +8,7 @@
 //! | `panes/` | mesh and embedding |
 //! | `panels/` | menus, bars, panels, dialogs |
 //! | `timeline/` | the strip under the panes |
-//! | `keys.rs` | keys and what they ask for |
+//! | `keys.rs` | keys and what they ask for; pins moved by arrow keys |
 //! | `icons.rs` | signs of tools and verdicts |
 //! | `theme.rs` | colours and sizes |
 
@@ -23,6 +23,7 @@ mod timeline;
 mod window;
 
 pub use controls::sentence;
+use controls::{Control, Offer, counted, list, number, pairs, remark, tip_with_keys};
 pub use editor::{Defect, Editor, Pane, Request, Shading, Stage, StepTarget, Tab, Tool};
 use editor::{Element, HullScene, Purpose};
 use keys::keys_of;
@@ -30,6 +31,7 @@ pub use keys::{BINDINGS, Binding};
 pub(crate) use panels::Dialogs;
 use panels::{Answer, Unsaved};
 pub use panes::{Half, Intent, PinKind};
+use theme::{Theme, theme_of};
 use timeline::TimelineView;
 pub use window::window_ui;
 

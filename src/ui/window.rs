@@ -1,7 +1,6 @@
 //! The window as a whole: bars, panels, panes, and the keyboard.
 
-use eframe::egui;
-use egui::{Frame, Margin, Panel, Rect, Sense, Vec2};
+use eframe::egui::{self, Frame, Margin, Panel, Rect, Sense, Vec2};
 
 use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};

@@ -28,13 +28,6 @@ pub(super) struct Bvh {
     order: Vec<u32>,
 }
 
-/// Whether a search goes on below a box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Visit {
-    Enter,
-    Skip,
-}
-
 impl Bvh {
     /// A hierarchy over triangles given by their corners.
     pub(super) fn new(triangles: &[[DVec3; 3]]) -> Self {
@@ -72,10 +65,10 @@ impl Bvh {
     }
 
     /// Calls `leaf` with every triangle whose boxes `enter` lets pass.
-    pub(super) fn visit(&self, mut enter: impl FnMut(DVec3, DVec3) -> Visit, mut leaf: impl FnMut(u32)) {
+    pub(super) fn visit(&self, mut enter: impl FnMut(DVec3, DVec3) -> bool, mut leaf: impl FnMut(u32)) {
         let mut at = 0;
         while let Some(node) = self.nodes.get(at) {
-            if enter(node.low, node.high) == Visit::Skip {
+            if !enter(node.low, node.high) {
                 at = node.skip as usize;
                 continue;
             }
@@ -99,7 +92,7 @@ impl Bvh {
         let best = std::cell::Cell::new(limit);
         let mut found = None;
         self.visit(
-            |low, high| if enters(ray, inverse, [low, high], best.get()) { Visit::Enter } else { Visit::Skip },
+            |low, high| enters(ray, inverse, [low, high], best.get()),
             |number| {
                 let hit = meet(ray, triangle(number)).filter(|hit| hit[0] < best.get());
                 if let Some(hit) = hit.filter(|_| accept(number)) {

@@ -1,12 +1,16 @@
-//! Nearest point of the plane, by a balanced k-d tree in one array.
+//! What lies under the pointer in the embedding's pane: the nearest point, by a balanced k-d tree in one array.
 //!
 //! A grid would be simpler, but embeddings squeeze parts of a mesh over ten decades: all of it would fall into a cell.
 
 use glam::DVec2;
 
-/// Points in the order of a balanced tree: the middle of a range is its root, its halves are the subtrees.
+use super::{PICK_RADIUS, PlaneCamera, VertexPick};
+use crate::mesh::VertexId;
+
+/// Picks in the embedding's pane. Made once per embedding. Points are in the order of a balanced tree: the middle of a
+/// range is its root, its halves are the subtrees.
 #[derive(Clone, Debug)]
-pub(super) struct KdTree {
+pub struct PlanePicker {
     points: Vec<DVec2>,
     numbers: Vec<u32>,
 }
@@ -17,19 +21,22 @@ struct Nearest {
     distance: f64,
 }
 
-impl KdTree {
-    /// Takes O(n log n). Points that are not finite are left out.
-    pub(super) fn new(points: &[DVec2]) -> Self {
-        let mut entries: Vec<(DVec2, u32)> = points.iter().copied().zip(0..).filter(|(p, _)| p.is_finite()).collect();
+impl PlanePicker {
+    /// Prepares picking of the vertices of an embedding, in O(n log n). Points that are not finite are left out.
+    pub fn new(embedding: &[DVec2]) -> Self {
+        let mut entries: Vec<(DVec2, u32)> =
+            embedding.iter().copied().zip(0..).filter(|(p, _)| p.is_finite()).collect();
         arrange(&mut entries, 0);
         Self { points: entries.iter().map(|e| e.0).collect(), numbers: entries.iter().map(|e| e.1).collect() }
     }
 
-    /// Number and distance of the point nearest to `query`, no farther than `radius`.
-    pub(super) fn nearest(&self, query: DVec2, radius: f64) -> Option<(u32, f64)> {
-        let mut best = Nearest { place: None, distance: radius };
+    /// The vertex nearest to the pointer, among those within [`PICK_RADIUS`].
+    pub fn nearest_vertex(&self, camera: &PlaneCamera, pane_size: DVec2, pointer: DVec2) -> Option<VertexPick> {
+        let query = camera.embedding_from_pane(pointer, pane_size);
+        let mut best = Nearest { place: None, distance: PICK_RADIUS / camera.points_per_unit() };
         self.search(0..self.points.len(), 0, query, &mut best);
-        best.place.map(|place| (self.numbers[place], best.distance))
+        let vertex = VertexId::new(self.numbers[best.place?]);
+        Some(VertexPick { vertex, distance_in_points: best.distance * camera.points_per_unit() })
     }
 
     fn search(&self, range: std::ops::Range<usize>, axis: usize, query: DVec2, best: &mut Nearest) {

@@ -7,7 +7,7 @@
 //! | `space.rs` | extents, and unit space |
 //! | `orbit.rs`, `plane.rs` | the cameras of the two panes |
 //! | `pick.rs`, `bvh.rs`, `kdtree.rs` | what lies under the pointer, and how it is found fast |
-//! | `draw.rs`, `corners.rs` | arrays for the graphics card, and normals |
+//! | `draw.rs` | arrays for the graphics card, and normals |
 //! | `colour.rs`, `ticks.rs`, `palette.rs` | scales of colours with their legends; the colours of the panes |
 //!
 //! Spaces, as they appear in names:
@@ -22,7 +22,6 @@
 
 mod bvh;
 mod colour;
-mod corners;
 mod draw;
 mod kdtree;
 mod orbit;
@@ -33,11 +32,11 @@ mod space;
 mod ticks;
 
 pub use colour::{Range, Scale};
-pub use corners::crease_normals;
-pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, Picture, PlaneArrays, Revision};
+pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, Picture, PlaneArrays, Revision, crease_normals};
+pub use kdtree::PlanePicker;
 pub use orbit::{OrbitCamera, Ray, UpAxis};
 pub use palette::{Palette, Srgb};
-pub use pick::{PICK_RADIUS, PlanePicker, SurfaceHit, SurfacePicker, VertexPick, Visibility};
+pub use pick::{PICK_RADIUS, SurfaceHit, SurfacePicker, VertexPick, Visibility};
 pub use plane::{Grid, PlaneCamera};
 #[cfg(feature = "gui")]
 pub(crate) use space::split_point;

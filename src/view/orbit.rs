@@ -121,8 +121,7 @@ impl OrbitCamera {
         if !(factor.is_finite() && factor > 0.0) {
             return;
         }
-        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
-        let wanted = (self.distance * factor).clamp(nearest, farthest);
+        let wanted = self.within_limits(self.distance * factor);
         let factor = wanted / self.distance;
         self.pivot = anchor + factor * (self.pivot - anchor);
         self.distance = wanted;
@@ -138,9 +137,7 @@ impl OrbitCamera {
     /// Makes a point the one to turn about, and brings it to the middle of the pane.
     pub fn set_pivot(&mut self, pivot: DVec3) {
         let [_, _, back] = self.axes();
-        let depth = (self.eye() - pivot).dot(back);
-        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
-        self.distance = depth.clamp(nearest, farthest);
+        self.distance = self.within_limits((self.eye() - pivot).dot(back));
         self.pivot = pivot;
     }
 
@@ -149,9 +146,8 @@ impl OrbitCamera {
         let half = FIELD_OF_VIEW / 2.0;
         let aspect = aspect_ratio(pane_size);
         let half_across = (half.tan() * aspect).atan();
-        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
         self.pivot = ball.center;
-        self.distance = (FRAME_MARGIN * ball.radius / half.min(half_across).sin()).clamp(nearest, farthest);
+        self.distance = self.within_limits(FRAME_MARGIN * ball.radius / half.min(half_across).sin());
     }
 
     /// Part of the way to another camera: `share` 0 is this one, 1 the other.
@@ -216,6 +212,11 @@ impl OrbitCamera {
     /// Where a world point shows in the pane; `None` behind the eye. It may lie outside the pane.
     pub fn pane_from_world(&self, position_in_world: DVec3, pane_size: DVec2) -> Option<DVec2> {
         pane_from_clip(self.clip_from_world(pane_size) * position_in_world.extend(1.0), pane_size)
+    }
+
+    fn within_limits(&self, distance: f64) -> f64 {
+        let [nearest, farthest] = DISTANCE_LIMITS.map(|limit| limit * self.scene.radius);
+        distance.clamp(nearest, farthest)
     }
 
     /// Right, up and backwards (from the pivot to the eye), each of length 1.

@@ -2,10 +2,9 @@
 
 use glam::{DMat4, DVec2, DVec3};
 
-use super::bvh::{Bvh, Visit};
-use super::kdtree::KdTree;
+use super::bvh::Bvh;
 use super::orbit::pane_from_clip;
-use super::{OrbitCamera, PlaneCamera, Ray};
+use super::{OrbitCamera, Ray};
 use crate::mesh::{FaceId, VertexId};
 
 /// How far from the pointer a vertex can be picked, points.
@@ -102,9 +101,7 @@ impl SurfacePicker {
     /// Whether no face lies between the eye and a vertex.
     pub fn is_visible(&self, vertex: VertexId, eye: DVec3) -> bool {
         let to_vertex = self.positions[vertex.index()] - eye;
-        let Some(direction) = to_vertex.try_normalize() else {
-            return true;
-        };
+        let Some(direction) = to_vertex.try_normalize() else { return true };
         let limit = to_vertex.length() * (1.0 - HIDING_MARGIN);
         let other = |number: u32| !self.triangles[number as usize].contains(&vertex);
         self.bvh.first_hit(Ray { origin: eye, direction }, limit, |number| self.corners(number), other).is_none()
@@ -118,7 +115,7 @@ impl SurfacePicker {
     fn vertices_near(&self, clip_from_world: &DMat4, pane_size: DVec2, pointer: DVec2) -> Vec<VertexPick> {
         let mut near = Vec::new();
         self.bvh.visit(
-            |low, high| box_visit([low, high], clip_from_world, pane_size, pointer),
+            |low, high| may_show_near([low, high], clip_from_world, pane_size, pointer),
             |number| {
                 let corners = self.triangles[number as usize];
                 for vertex in corners.into_iter().filter(|v| self.first_face[v.index()] == number) {
@@ -137,37 +134,15 @@ impl SurfacePicker {
 }
 
 /// Whether a box may show within the pick radius of the pointer.
-fn box_visit([low, high]: [DVec3; 2], clip_from_world: &DMat4, pane_size: DVec2, pointer: DVec2) -> Visit {
+fn may_show_near([low, high]: [DVec3; 2], clip_from_world: &DMat4, pane_size: DVec2, pointer: DVec2) -> bool {
     let mut shown = [DVec2::INFINITY, DVec2::NEG_INFINITY];
     for corner in 0..8 {
         let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
         let clip = *clip_from_world * DVec3::new(pick(0), pick(1), pick(2)).extend(1.0);
         // A box that reaches behind the eye may show anywhere.
-        let Some(point) = pane_from_clip(clip, pane_size) else {
-            return Visit::Enter;
-        };
+        let Some(point) = pane_from_clip(clip, pane_size) else { return true };
         shown = [shown[0].min(point), shown[1].max(point)];
     }
     let nearest = pointer.clamp(shown[0], shown[1]);
-    if nearest.distance_squared(pointer) <= PICK_RADIUS * PICK_RADIUS { Visit::Enter } else { Visit::Skip }
-}
-
-/// Picks in the embedding's pane. Made once per embedding.
-#[derive(Clone, Debug)]
-pub struct PlanePicker {
-    tree: KdTree,
-}
-
-impl PlanePicker {
-    /// Prepares picking of the vertices of an embedding.
-    pub fn new(embedding: &[DVec2]) -> Self {
-        Self { tree: KdTree::new(embedding) }
-    }
-
-    /// The vertex nearest to the pointer, among those within [`PICK_RADIUS`].
-    pub fn nearest_vertex(&self, camera: &PlaneCamera, pane_size: DVec2, pointer: DVec2) -> Option<VertexPick> {
-        let query = camera.embedding_from_pane(pointer, pane_size);
-        let (number, distance) = self.tree.nearest(query, PICK_RADIUS / camera.points_per_unit())?;
-        Some(VertexPick { vertex: VertexId::new(number), distance_in_points: distance * camera.points_per_unit() })
-    }
+    nearest.distance_squared(pointer) <= PICK_RADIUS * PICK_RADIUS
 }

@@ -17,13 +17,11 @@
 //! | `steps.rs` | moves along the timeline |
 //! | `views.rs` | what the cameras look at; defects |
 //! | `project_view.rs` | how the window looks, for the project file |
-//! | `nudge.rs` | pins moved by arrow keys |
 
 mod host;
 mod layout;
 mod look;
 mod mesh_view;
-pub(super) mod nudge;
 mod opened;
 mod plane;
 mod project_view;

@@ -130,15 +130,9 @@ impl PlaneScene {
     /// Points beyond the mesh's are drawn with, and not picked.
     pub(in crate::ui) fn of_part(&self, part: Part, positions: Embedding) -> Self {
         let mesh = self.mesh.mesh();
-        Self {
-            mesh: Arc::clone(&self.mesh),
-            outcome: Arc::clone(&self.outcome),
-            outcome_revision: self.outcome_revision,
-            arrays: Arc::new(PlaneArrays::new(&positions, &mesh.triangles)),
-            picker: Arc::new(PlanePicker::new(&positions[..mesh.vertex_count()])),
-            positions: Some(positions),
-            part,
-        }
+        let arrays = PlaneArrays::new(&positions, &mesh.triangles);
+        let picker = PlanePicker::new(&positions[..mesh.vertex_count()]);
+        Self { part, ..self.moved(&self.mesh, positions, arrays, Arc::new(picker)) }
     }
 
     /// The vertices of `mesh`, this one's or the one as given, on their way to where they will lie. Picks them where they
@@ -149,15 +143,20 @@ impl PlaneScene {
         } else {
             Arc::new(PlanePicker::new(&self.positions()[..mesh.mesh().vertex_count()]))
         };
-        Self {
-            mesh: Arc::clone(mesh),
-            outcome: Arc::clone(&self.outcome),
-            outcome_revision: self.outcome_revision,
-            arrays: Arc::new(PlaneArrays::in_frame(&positions, &mesh.mesh().triangles, self.arrays.frame)),
-            picker,
-            positions: Some(positions),
-            part: Part::Result,
-        }
+        let arrays = PlaneArrays::in_frame(&positions, &mesh.mesh().triangles, self.arrays.frame);
+        self.moved(mesh, positions, arrays, picker)
+    }
+
+    fn moved(
+        &self,
+        mesh: &Arc<MeshScene>,
+        positions: Embedding,
+        arrays: PlaneArrays,
+        picker: Arc<PlanePicker>,
+    ) -> Self {
+        let (mesh, arrays, outcome) = (Arc::clone(mesh), Arc::new(arrays), Arc::clone(&self.outcome));
+        let (outcome_revision, positions, part) = (self.outcome_revision, Some(positions), Part::Result);
+        Self { mesh, outcome, outcome_revision, arrays, picker, positions, part }
     }
 
     pub fn positions(&self) -> &Embedding {

@@ -86,7 +86,7 @@ impl ToolState {
         self.is_nudging
     }
 
-    pub(super) fn set_nudging(&mut self, is_nudging: bool) {
+    pub(in crate::ui) fn set_nudging(&mut self, is_nudging: bool) {
         self.is_nudging = is_nudging;
     }
 }

@@ -1,13 +1,10 @@
 //! What is wrong with the embedding, as a list to jump from; or with the mesh.
 
-use eframe::egui;
-use egui::RichText;
+use eframe::egui::{self, RichText};
 
 use crate::mesh::VertexId;
 use crate::session::Surface;
-use crate::ui::controls::{Control, counted, sentence};
-use crate::ui::theme::theme_of;
-use crate::ui::{Defect, Editor, Request, keys_of};
+use crate::ui::{Control, Defect, Editor, Request, counted, keys_of, sentence, theme_of};
 
 /// Height of a row, points.
 const ROW: f32 = 22.0;

@@ -2,19 +2,16 @@
 //! pane. The drawing is the paper's picture of eq. (3): a vertex lies at the barycentre of its neighbours, plus an offset
 //! that points outwards on the boundary.
 
-use eframe::egui;
-use egui::{Pos2, RichText, Stroke, Vec2};
+use eframe::egui::{self, Pos2, RichText, Stroke, Vec2};
 use glam::DVec2;
 
 use super::status::short;
 use crate::mesh::VertexId;
 use crate::session::Outcome;
 use crate::solver::{NoEquation, VertexEquation, WeightSource, equation_of_step};
-use crate::ui::controls::{Control, number, pairs, remark};
 use crate::ui::editor::scene::PlaneScene;
 use crate::ui::panes::pane::Viewport;
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request, Tab};
+use crate::ui::{Control, Editor, Request, Tab, number, pairs, remark, theme_of};
 use crate::view::PlaneCamera;
 
 /// An equation counts as met below this residual: a solve leaves some rounding.

@@ -3,13 +3,11 @@
 use std::path::PathBuf;
 use std::sync::mpsc::sync_channel;
 
-use eframe::egui;
-use egui::{Align2, Pos2, Rect};
+use eframe::egui::{self, Align2, Pos2, Rect};
 
 use crate::geom::Picture;
 use crate::io::{OutputFit, OutputKind};
-use crate::ui::controls::Control;
-use crate::ui::{Editor, Pane, Purpose, Request};
+use crate::ui::{Control, Editor, Pane, Purpose, Request};
 
 /// Everything that can be exported: what it is, and what it is good for.
 pub(super) const EXPORTS: [(Purpose, &str, &str); 7] = {

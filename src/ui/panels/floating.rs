@@ -1,11 +1,9 @@
 //! What floats over the panes: the list of keys, "go to", the file dialog inside the window.
 
-use eframe::egui;
-use egui::{Align2, Key};
+use eframe::egui::{self, Align2, Key};
 
-use crate::ui::controls::pairs;
 use crate::ui::keys::{BINDINGS, Binding, MOUSE};
-use crate::ui::{Editor, Element, Request};
+use crate::ui::{Editor, Element, Request, pairs};
 
 pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     if editor.layout.keys_shown {

@@ -1,16 +1,13 @@
 //! The bar at the top: menus, what is open, and the verdict.
 
-use eframe::egui;
-use egui::{Button, RichText, Role, ThemePreference};
+use eframe::egui::{self, Button, RichText, Role, ThemePreference};
 
 use super::exports::EXPORTS;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::io::OutputFit;
 use crate::session::Action;
-use crate::ui::controls::Control;
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of};
+use crate::ui::{Control, Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of, theme_of};
 
 pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let bar = ui.max_rect();
@@ -89,10 +86,6 @@ impl Menu<'_> {
             self.ui.close();
         }
     }
-
-    fn separator(&mut self) {
-        self.ui.separator();
-    }
 }
 
 fn file_menu(menu: &mut Menu<'_>) {
@@ -106,7 +99,7 @@ fn file_menu(menu: &mut Menu<'_>) {
         if paths.is_empty() {
             menu.ui.weak("No files yet");
         } else {
-            menu.separator();
+            menu.ui.separator();
             menu.item(true, "Forget these", Action::ClearRecent);
         }
     });
@@ -115,11 +108,11 @@ fn file_menu(menu: &mut Menu<'_>) {
             menu.explained(true, [example.title(), example.about()], Action::OpenExample(example));
         }
     });
-    menu.separator();
+    menu.ui.separator();
     let has_model = editor.session.model().is_some();
     menu.item(has_model, "Save project", Request::SaveProject);
     menu.item(has_model, "Save project as…", Request::Ask(Purpose::SaveProject));
-    menu.separator();
+    menu.ui.separator();
     // Picture and constraints come from files and go to files.
     let has_disk = editor.has_disk();
     menu.item(has_disk, "Open picture…", Request::Ask(Purpose::OpenPicture));
@@ -127,7 +120,7 @@ fn file_menu(menu: &mut Menu<'_>) {
     menu.item(has_disk, "Import constraints…", Request::Ask(Purpose::ImportConstraints));
     let has_pins = !editor.session.document().targets.is_empty();
     menu.item(has_pins, "Export constraints…", Request::Ask(Purpose::ExportConstraints));
-    menu.separator();
+    menu.ui.separator();
     menu.part("Export", |menu| {
         for (purpose, words, about) in EXPORTS {
             menu.explained(editor.session.outcome().is_some(), [words, about], Request::Ask(purpose));
@@ -137,10 +130,10 @@ fn file_menu(menu: &mut Menu<'_>) {
         let (unit, true_size) = (OutputFit::Unit, OutputFit::True);
         menu.choice(editor.files.fit == unit, "Fit into the unit square", Request::SetFit(unit));
         menu.choice(editor.files.fit == true_size, "True scale: the mesh's own area", Request::SetFit(true_size));
-        menu.separator();
+        menu.ui.separator();
         menu.ui.weak("With pins, coordinates stay as they are.");
     });
-    menu.separator();
+    menu.ui.separator();
     menu.item(true, "Quit", Request::Quit);
 }
 
@@ -148,17 +141,17 @@ fn edit_menu(menu: &mut Menu<'_>) {
     let (editor, session) = (menu.editor, &menu.editor.session);
     menu.item(session.history().can_undo(), "Undo", Action::Undo);
     menu.item(session.history().can_redo(), "Redo", Action::Redo);
-    menu.separator();
+    menu.ui.separator();
     for tool in Tool::ALL {
         menu.choice(editor.tools.tool() == tool, tool.words()[1], Request::SetTool(tool));
     }
-    menu.separator();
+    menu.ui.separator();
     let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
     menu.item(fixable, "Fix the selection", Action::Fix(editor.selection.vertices().iter().copied().collect()));
     menu.item(editor.pins_selected().next().is_some(), "Free the selected pins", Request::UnpinSelected);
     let pin_count = session.document().targets.len();
     menu.item(pin_count > 0, "Free all pins", Action::UnpinAll);
-    menu.separator();
+    menu.ui.separator();
     menu.item(pin_count > 0, "Mirror the targets", Action::MirrorTargets);
     menu.item(pin_count > 1, "Fit the targets to the mesh", Action::FitTargets);
     menu.item(session.model().is_some(), "Turn the faces around", Action::TurnFaces);
@@ -178,20 +171,17 @@ fn view_menu(menu: &mut Menu<'_>) {
     menu.choice(editor.look.glides, "Glide from step to step", Request::ToggleEase);
     menu.choice(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
     menu.choice(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
-    menu.separator();
+    menu.ui.separator();
     menu.item(true, "Frame the selection, or all", Request::Frame);
     menu.item(true, "Go to…", Request::AskGoTo);
     let has_defects = editor.defect_count() > 0;
     menu.item(has_defects, "Next defect", Request::StepDefect(1));
     menu.item(has_defects, "Previous defect", Request::StepDefect(-1));
-    menu.separator();
+    menu.ui.separator();
     menu.part("Theme", |menu| {
         let now = menu.ui.ctx().options(|options| options.theme_preference);
-        for (theme, words) in [
-            (ThemePreference::System, "As the system"),
-            (ThemePreference::Light, "Light"),
-            (ThemePreference::Dark, "Dark"),
-        ] {
+        use ThemePreference::{Dark, Light, System};
+        for (theme, words) in [(System, "As the system"), (Light, "Light"), (Dark, "Dark")] {
             menu.choice(now == theme, words, Request::SetTheme(theme));
         }
     });
@@ -203,7 +193,7 @@ fn solve_menu(menu: &mut Menu<'_>) {
     let (run, can_run) = if session.is_running() { ("Pause the run", true) } else { ("Run on", session.can_run()) };
     menu.item(can_run, run, Request::RunOrPause);
     menu.item(session.can_relax(), "Relax", Action::Relax);
-    menu.separator();
+    menu.ui.separator();
     let [has_previous, has_next] = editor.steps_around();
     menu.item(has_previous, "First step", Request::GoToStep(StepTarget::First));
     menu.item(has_previous, "Previous step", Request::GoToStep(StepTarget::Previous));
@@ -211,10 +201,10 @@ fn solve_menu(menu: &mut Menu<'_>) {
     menu.item(has_next, "Last step", Request::GoToStep(StepTarget::Last));
     let play = if editor.timeline.playing_since.is_some() { "Stop the play" } else { "Play all steps" };
     menu.item(has_previous || has_next, play, Request::TogglePlay);
-    menu.separator();
+    menu.ui.separator();
     menu.item(editor.has_disk(), "Solve again", Action::Solve);
     menu.item(session.busy().is_some(), "Cancel", Action::Cancel);
-    menu.separator();
+    menu.ui.separator();
     menu.item(true, "Method and weights", Request::ShowTab(Tab::Method));
 }
 

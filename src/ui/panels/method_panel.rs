@@ -1,13 +1,11 @@
 //! Method and weights, and the numbers of the last solve.
 
-use eframe::egui;
-use egui::{Role, WidgetInfo};
+use eframe::egui::{self, Role, WidgetInfo};
 
 use crate::session::{Action, Outcome};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
-use crate::ui::controls::{Control, list, pairs, remark, sentence, tip_with_keys};
 use crate::ui::timeline::chips::residual_words;
-use crate::ui::{Editor, Request};
+use crate::ui::{Control, Editor, Request, list, pairs, remark, sentence, tip_with_keys};
 
 /// The slider's ends: beyond them weights grow wild.
 const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;

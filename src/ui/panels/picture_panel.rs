@@ -1,13 +1,10 @@
 //! The picture's part of the pins panel: which it is, where v = 0 is on it, and how it shows.
 
-use eframe::egui;
-use egui::RichText;
+use eframe::egui::{self, RichText};
 
 use crate::geom::VAxis;
 use crate::session::Action;
-use crate::ui::controls::{Control, Offer};
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Purpose, Request};
+use crate::ui::{Control, Editor, Offer, Purpose, Request, theme_of};
 
 pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();

@@ -1,18 +1,15 @@
 //! The pins as a table: select, move by typing, choose how each is held, free. Below it what concerns all of them.
 
-use eframe::egui;
-use egui::{DragValue, RichText, Role, Sense, Vec2};
+use eframe::egui::{self, DragValue, RichText, Role, Sense, Vec2};
 
 use super::picture_panel;
 use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::{Hold, Pin};
-use crate::ui::controls::{Control, Offer, counted, remark};
 use crate::ui::panes::pin_drag::conflict_words;
 use crate::ui::panes::pins::{Emphasis, PinKind};
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Purpose, Request, Tool, keys_of};
+use crate::ui::{Control, Editor, Offer, Purpose, Request, Tool, counted, keys_of, remark, theme_of};
 
 /// Height that is kept free below the table, points.
 const BELOW: f32 = 250.0;

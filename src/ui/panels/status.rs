@@ -2,14 +2,12 @@
 
 use std::borrow::Cow;
 
-use eframe::egui;
-use egui::RichText;
+use eframe::egui::{self, RichText};
 
 use super::vertex_panel::new_vertex_words;
 use crate::session::Status;
-use crate::ui::theme::theme_of;
 use crate::ui::timeline::PRESS_SPACE;
-use crate::ui::{Editor, Tool};
+use crate::ui::{Editor, Tool, theme_of};
 
 pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
     let weak = theme_of(ui).weak_text;

@@ -1,11 +1,8 @@
 //! The tool bar at the left.
 
-use eframe::egui;
-use egui::{Role, Sense, Vec2, WidgetInfo};
+use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};
 
-use crate::ui::controls::{Control, tip_with_keys};
-use crate::ui::icons;
-use crate::ui::theme::theme_of;
+use crate::ui::{Control, icons, theme_of, tip_with_keys};
 use crate::ui::{Editor, Request, Tool};
 
 /// Side of a tool's button, points.

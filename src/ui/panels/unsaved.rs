@@ -4,8 +4,7 @@
 use eframe::egui;
 
 use crate::session::Action;
-use crate::ui::controls::Control;
-use crate::ui::{Editor, Purpose, Request};
+use crate::ui::{Control, Editor, Purpose, Request};
 
 /// What waits for the answer.
 #[derive(Clone, Debug, PartialEq)]

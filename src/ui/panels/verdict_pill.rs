@@ -1,14 +1,11 @@
 //! The verdict at one glance, in the bar at the top; beside it, or in its place, what goes on in the background.
 
-use eframe::egui;
-use egui::{RichText, Role};
+use eframe::egui::{self, RichText, Role};
 
 use crate::session::{Action, Busy, Preview, Status, Surface};
 use crate::solver::{Phase, Step, Verdict};
-use crate::ui::controls::{Control, Offer, counted};
 use crate::ui::icons::{self, Sign};
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request, Tab};
+use crate::ui::{Control, Editor, Offer, Request, Tab, counted, theme_of};
 
 /// Side of the sign in the pill, points.
 const SIGN: f32 = 11.0;

@@ -9,8 +9,7 @@ use super::status::short;
 use crate::mesh::{DiskMesh, NewVertex, VertexId};
 use crate::session::Action;
 use crate::solver::Embedding;
-use crate::ui::controls::{Control, number, pairs};
-use crate::ui::{Editor, Request};
+use crate::ui::{Control, Editor, Request, number, pairs};
 
 pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(&vertex) = editor.selection.vertices().first() else {

@@ -1,14 +1,11 @@
 //! Bars over a pane: messages, and what the window asks by itself: about work that a session before left, faces that
 //! point inward, targets that look mirrored.
 
-use eframe::egui;
-use egui::{Label, RichText, Sense, Vec2};
+use eframe::egui::{self, Label, RichText, Sense, Vec2};
 
 use crate::session::{Action, Message, Place, Severity};
-use crate::ui::controls::{Control, Offer, sentence};
 use crate::ui::icons::{self, Sign};
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Pane, Request};
+use crate::ui::{Control, Editor, Offer, Pane, Request, sentence, theme_of};
 
 pub(super) fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     let place = match pane {

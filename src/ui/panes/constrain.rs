@@ -1,8 +1,7 @@
 //! The tool that joins a vertex with its place on the picture: vertex first, or place first. One function says what a
 //! click would do; the preview, the words in the status bar and the click itself all ask it.
 
-use eframe::egui;
-use egui::Stroke;
+use eframe::egui::{self, Stroke};
 use glam::DVec2;
 
 use super::pane::Viewport;
@@ -11,8 +10,7 @@ use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::ui::editor::scene::PlaneScene;
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Pane, Request, Tool};
+use crate::ui::{Editor, Pane, Request, Tool, theme_of};
 use crate::view::PlaneCamera;
 
 /// Targets snap to pixels that are larger than this, points.

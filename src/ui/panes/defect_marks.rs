@@ -1,15 +1,13 @@
 //! Marks of defects over both panes: crossings orange, overwound vertices magenta. Flipped faces are drawn with the
 //! faces.
 
-use eframe::egui;
-use egui::{Pos2, Stroke};
+use eframe::egui::{self, Pos2, Stroke};
 use glam::DVec2;
 
 use super::pane::Viewport;
 use crate::mesh::VertexId;
-use crate::ui::Editor;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
-use crate::ui::theme::{Theme, theme_of};
+use crate::ui::{Editor, Theme, theme_of};
 use crate::view::PlaneCamera;
 
 /// Crossings and overwound vertices marked at most; the list in the panel has them all.

@@ -1,7 +1,6 @@
 //! The legend of a shading, and words in the panes about two steps that are compared.
 
-use eframe::egui;
-use egui::{Align2, FontId, Pos2, Rect, RichText, Stroke, Vec2};
+use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Stroke, Vec2};
 
 use crate::ui::theme::{on_screen, rgb, theme_of};
 use crate::ui::{Editor, Shading};

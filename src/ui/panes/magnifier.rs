@@ -4,8 +4,7 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-use egui::{Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2};
+use eframe::egui::{self, Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2};
 use glam::DVec2;
 
 use super::pane::{self, Viewport};
@@ -14,10 +13,8 @@ use super::{defect_marks, mesh_pane, plane_pane};
 use crate::geom::Bounds;
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame, Shading};
-use crate::ui::controls::Control;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
-use crate::ui::theme::{Theme, theme_of};
-use crate::ui::{Defect, Editor, Element, Request, keys_of};
+use crate::ui::{Control, Defect, Editor, Element, Request, Theme, keys_of, theme_of};
 use crate::view::{OrbitCamera, PlaneCamera, Sphere, bounds_of};
 
 /// Distance of insets from the pane's edges, points.

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-use egui::{Pos2, Response};
+use eframe::egui::{self, Pos2, Response};
 use glam::DVec2;
 
 use super::pane::{self, Viewport};
@@ -12,8 +11,7 @@ use super::{bars, defect_marks, legend, magnifier};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, Style};
 use crate::ui::editor::scene::MeshScene;
-use crate::ui::theme::{Theme, theme_of};
-use crate::ui::{Editor, Pane, Request, Shading, Tool};
+use crate::ui::{Editor, Pane, Request, Shading, Theme, Tool, theme_of};
 use crate::view::{OrbitCamera, Visibility};
 
 /// Marks drawn at most for a large selection.

@@ -1,13 +1,10 @@
 //! What both panes share: places on the screen, header, clicks and boxes, marks, the wheel.
 
-use eframe::egui;
-use egui::{Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
+use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
 use glam::{DVec2, DVec3};
 
 use crate::session::Action;
-use crate::ui::controls::{Control, list, tip_with_keys};
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Pane, Request, Shading, Tool};
+use crate::ui::{Control, Editor, Pane, Request, Shading, Tool, list, theme_of, tip_with_keys};
 use crate::view::{OrbitCamera, PlaneCamera};
 
 /// A point of the screen as the camera takes it, relative to the pane.

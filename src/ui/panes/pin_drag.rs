@@ -1,8 +1,7 @@
 //! Pins in the embedding's pane: each is a widget of its own, with a name, that can be grabbed. Where several are
 //! selected, they go together.
 
-use eframe::egui;
-use egui::{CursorIcon, Rect, Response, Role, Sense, Vec2};
+use eframe::egui::{self, CursorIcon, Rect, Response, Role, Sense, Vec2};
 use glam::DVec2;
 
 use super::pane::Viewport;
@@ -11,9 +10,7 @@ use crate::geom::PictureFrame;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::Conflict;
-use crate::ui::controls::Control;
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request};
+use crate::ui::{Control, Editor, Request, theme_of};
 use crate::view::PlaneCamera;
 
 /// Side of the square around a pin that can be grabbed, points.

@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use eframe::egui;
-use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2};
+use eframe::egui::{self, Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use glam::DVec2;
 
 use crate::mesh::VertexId;
 use crate::solver::Hold;
-use crate::ui::Editor;
-use crate::ui::theme::Theme;
+use crate::ui::{Editor, Theme};
 
 /// Side of a pin's square, points.
 const SQUARE: f32 = 9.0;

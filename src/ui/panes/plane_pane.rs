@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-use egui::{Pos2, Rect, Response};
+use eframe::egui::{self, Pos2, Rect, Response};
 use glam::DVec2;
 
 use super::magnifier::Magnifier;
@@ -13,11 +12,9 @@ use super::{bars, constrain, defect_marks, legend, magnifier, pin_drag, pins};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::Surface;
-use crate::ui::controls::Control;
 use crate::ui::editor::scene::PlaneScene;
 use crate::ui::panels::equation_table;
-use crate::ui::theme::{Theme, theme_of};
-use crate::ui::{Editor, HullScene, Pane, Request, Stage};
+use crate::ui::{Control, Editor, HullScene, Pane, Request, Stage, Theme, theme_of};
 use crate::view::PlaneCamera;
 
 /// Marks drawn at most for a large selection.

@@ -6,9 +6,7 @@ use egui::{Button, Color32, PopupCloseBehavior, Rect, RichText, Role, Sense, Sha
 
 use super::Room;
 use crate::session::{Action, Status, Stop, StopConditions};
-use crate::ui::controls::{Control, tip_with_keys};
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request, StepTarget};
+use crate::ui::{Control, Editor, Request, StepTarget, theme_of, tip_with_keys};
 
 /// Side of a button with a drawing, points.
 const BUTTON: f32 = 24.0;

@@ -7,11 +7,9 @@ use super::ROW_HEIGHT;
 use crate::io::StepReport;
 use crate::session::{Action, Standing, Timeline};
 use crate::solver::Progress;
-use crate::ui::controls::{Control, counted, number, pairs, remark, sentence};
 use crate::ui::icons::{self, Sign};
 use crate::ui::panels::status::short;
-use crate::ui::theme::{Theme, theme_of};
-use crate::ui::{Editor, Request};
+use crate::ui::{Control, Editor, Request, Theme, counted, number, pairs, remark, sentence, theme_of};
 
 /// Height of a step, points.
 const CHIP: f32 = 22.0;

@@ -1,17 +1,14 @@
 //! The numbers of the steps as curves, side by side. A click goes to the step under the pointer.
 
-use eframe::egui;
-use egui::{Align, Color32, Layout, Rect, RichText, Role, Sense};
+use eframe::egui::{self, Align, Color32, Layout, Rect, RichText, Role, Sense};
 use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoints, PlotResponse, Points, VLine};
 
 use super::TimelineView;
 use super::buttons::lasting_menu;
 use crate::io::StepReport;
 use crate::session::{Action, Standing, Timeline};
-use crate::ui::controls::{Control, remark};
 use crate::ui::panels::status::short;
-use crate::ui::theme::{Theme, theme_of};
-use crate::ui::{Editor, Request};
+use crate::ui::{Control, Editor, Request, Theme, remark, theme_of};
 
 /// How many curves there are.
 pub(super) const CURVE_COUNT: usize = 9;

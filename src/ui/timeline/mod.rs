@@ -10,13 +10,10 @@ mod buttons;
 pub(super) mod chips;
 mod curves;
 
-use eframe::egui;
-use egui::{Align, Layout, RichText};
+use eframe::egui::{self, Align, Layout, RichText};
 
 use crate::session::{Status, Stop};
-use crate::ui::controls::remark;
-use crate::ui::theme::theme_of;
-use crate::ui::{Editor, Request};
+use crate::ui::{Editor, Request, remark, theme_of};
 use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
 use chips::chips;
 use curves::{CURVE_COUNT, curves, curves_menu};

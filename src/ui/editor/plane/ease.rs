@@ -25,14 +25,14 @@ const SMALL: f64 = 2.0;
 /// The way between two steps, while it is shown.
 #[derive(Debug, Default)]
 pub(super) struct Ease {
-    under_way: Option<Way>,
+    pub(super) under_way: Option<Way>,
     /// The mesh that is too large, by its revision.
     too_large: Option<u64>,
 }
 
 /// A way under way.
 #[derive(Debug)]
-struct Way {
+pub(super) struct Way {
     from: Embedding,
     /// Seconds of the window's clock.
     began: f64,
@@ -45,10 +45,6 @@ impl Ease {
     /// Vertices on their way, as drawn in this frame.
     pub(super) fn drawn(&self) -> Option<&Arc<PlaneScene>> {
         self.under_way.as_ref().map(|way| &way.drawn)
-    }
-
-    pub(super) fn stop(&mut self) {
-        self.under_way = None;
     }
 }
 

@@ -2,16 +2,14 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | camera, and the scene of the step on the screen |
+//! | `mod.rs` | camera, the scene of the step on the screen, the embedding that follows a dragged pin |
 //! | `ease.rs` | the way between two steps |
-//! | `preview.rs` | the embedding that follows a dragged pin |
 //! | `hull.rs` | hull and pockets of the virtual boundary |
 //! | `ghost.rs` | the outline of the compared step |
 
 mod ease;
 mod ghost;
 mod hull;
-mod preview;
 
 use std::sync::Arc;
 
@@ -26,13 +24,12 @@ use super::scene::{MeshScene, PlaneScene};
 use super::views::picture_box;
 use crate::geom::Bounds;
 use crate::session::{Background, Session, Wake};
-use crate::solver::Verdict;
+use crate::solver::{Embedding, Verdict};
 use crate::ui::panes::pane::{PaneArea, Viewport};
-use crate::view::PlaneCamera;
+use crate::view::{FacePaint, PlaneCamera};
 use ease::Ease;
 use ghost::Ghost;
 use hull::HullView;
-use preview::PreviewScene;
 
 #[derive(Debug)]
 pub struct PlaneView {
@@ -49,6 +46,18 @@ pub struct PlaneView {
     preview: Option<PreviewScene>,
     hull: HullView,
     ghost: Option<Ghost>,
+}
+
+/// What follows a pin that is dragged: the first solve's embedding, drawn at once. It is not repaired, and what is wrong
+/// with it shows only once a verdict on this very embedding is there.
+#[derive(Debug)]
+struct PreviewScene {
+    /// The mesh, and the session's count of moves.
+    key: (u64, u64),
+    scene: Arc<PlaneScene>,
+    /// The faces with those flipped that the verdict names; none where there is none yet.
+    faces: Arc<FacePaint>,
+    verdict: Option<Arc<Verdict>>,
 }
 
 /// What the pane is told of the rest of the window in each frame.
@@ -152,7 +161,7 @@ impl PlaneView {
 
     /// The embedding on the screen, or where vertices are on their way to it.
     pub fn result(&self) -> Option<&Arc<PlaneScene>> {
-        let preview = self.preview.as_ref().map(PreviewScene::scene);
+        let preview = self.preview.as_ref().map(|preview| &preview.scene);
         preview.or(self.ease.drawn()).or(self.scene.as_ref())
     }
 
@@ -164,7 +173,7 @@ impl PlaneView {
     /// The verdict on what is drawn, where there is one.
     pub(in crate::ui) fn verdict(&self) -> Option<&Verdict> {
         match &self.preview {
-            Some(preview) => preview.verdict(),
+            Some(preview) => preview.verdict.as_deref(),
             None => self.scene.as_ref().map(|scene| &scene.outcome.step.verdict),
         }
     }
@@ -175,7 +184,7 @@ impl PlaneView {
     pub(super) fn forget(&mut self) {
         (self.camera, self.scene, self.preview) = (None, None, None);
         self.job.cancel();
-        self.ease.stop();
+        self.ease.under_way = None;
     }
 
     pub(super) fn is_making_scene(&self) -> bool {
@@ -238,5 +247,48 @@ impl PlaneView {
             camera.frame(bounds, self.area.size());
             self.set_framed(camera);
         }
+    }
+}
+
+impl PlaneView {
+    pub(in crate::ui) fn shows_preview(&self) -> bool {
+        self.preview.is_some()
+    }
+
+    /// The faces' flags on what follows a dragged pin.
+    pub(in crate::ui) fn preview_paint(&self) -> Option<&Arc<FacePaint>> {
+        self.preview.as_ref().map(|preview| &preview.faces)
+    }
+
+    /// Makes what is drawn where the session's preview has moved on. Call once per frame.
+    fn refresh_preview(&mut self, around: Surroundings) {
+        let before = self.preview.take();
+        let (Some(preview), Some(base), Some(mesh)) = (around.session.preview(), &self.scene, around.mesh) else {
+            return;
+        };
+        // What follows the pointer is of the mesh as given, whatever the step on the screen is of.
+        let triangles = mesh.mesh();
+        if preview.embedding.len() != triangles.vertex_count() {
+            return;
+        }
+        let key = (mesh.model_revision, preview.revision);
+        let verdict = preview.verdict().cloned();
+        let before = before.filter(|before| before.key.0 == key.0);
+        let scene = match &before {
+            Some(before) if before.key == key => Arc::clone(&before.scene),
+            Some(before) if before.scene.outcome_revision == base.outcome_revision => {
+                Arc::new(before.scene.with_positions(mesh, Embedding::clone(&preview.embedding)))
+            }
+            _ => Arc::new(base.with_positions(mesh, Embedding::clone(&preview.embedding))),
+        };
+        let known = verdict.as_ref().map(Arc::as_ptr);
+        let faces = match before.filter(|before| before.verdict.as_ref().map(Arc::as_ptr) == known) {
+            Some(before) => before.faces,
+            None => {
+                let flipped = verdict.as_ref().map_or(&[] as &[_], |verdict| &verdict.flipped_faces);
+                Arc::new(FacePaint::plain(triangles.face_count(), flipped))
+            }
+        };
+        self.preview = Some(PreviewScene { key, scene, faces, verdict });
     }
 }
