@@ -19,8 +19,7 @@ use rayon::prelude::*;
 
 use super::{Bounds, Orientation, orientation};
 
-/// The greatest number of pairs that [`Crossings::pairs`] lists: what a person or a program can still use, in less
-/// than a megabyte. All are counted.
+/// The most pairs that [`Crossings::pairs`] lists, in less than a megabyte; all are counted.
 pub const CROSSINGS_LISTED: usize = 100_000;
 
 /// Edges that share the work of one task.
@@ -59,8 +58,7 @@ pub fn crossings(polygon: &[DVec2]) -> Crossings {
     Crossings { pairs, count }
 }
 
-/// Whether two closed segments have a point in common. Segments of length zero are points; a segment with an end
-/// that is not finite meets nothing.
+/// Whether two closed segments meet: points where their length is zero; none where an end is not finite.
 pub fn segments_meet(first: [DVec2; 2], second: [DVec2; 2]) -> bool {
     box_around(first).meets(box_around(second)) && straddles(first, second) && straddles(second, first)
 }
@@ -85,8 +83,7 @@ fn box_around([a, b]: [DVec2; 2]) -> Bounds {
     if a.is_finite() && b.is_finite() { Bounds::of([a, b]) } else { Bounds::EMPTY }
 }
 
-/// Boxes over ranges of edges. Node 1 is the root, node k has the children 2k and 2k + 1; the leaves, one an edge,
-/// are the last half of the nodes.
+/// Boxes over ranges of edges: node 1 is the root, node k has the children 2k and 2k + 1, the leaves come last.
 struct BoxTree<'a> {
     polygon: &'a [DVec2],
     boxes: Vec<Bounds>,

@@ -6,9 +6,8 @@ use glam::DVec2;
 
 use super::{Orientation, orientation};
 
-/// The corners of the convex hull by their places among the points, counter-clockwise from the leftmost. Points on a
-/// side are no corners. Points that are not finite are left out; without three that span an area the hull has fewer
-/// than three corners.
+/// The corners of the convex hull as places among the points, counter-clockwise from the leftmost, none within a side.
+/// Points that are not finite are left out; there are fewer than three corners where no area is spanned.
 pub fn convex_hull(points: &[DVec2]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).filter(|&i| points[i].is_finite()).collect();
     order.sort_by(|&i, &j| points[i].x.total_cmp(&points[j].x).then(points[i].y.total_cmp(&points[j].y)));

@@ -3,8 +3,7 @@
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, DelaunayTriangulation, Point2, Triangulation};
 
-/// Coordinates nearer to zero than this, at a size near 1, are beyond what the triangulation can represent, and are taken
-/// as zero.
+/// Coordinates nearer to zero than this, at a size near 1, are beyond spade's range and are taken as zero.
 const LEAST_COORDINATE: f64 = 1e-40;
 
 /// Triangulates the convex hull of points, triangles counter-clockwise, corners by their places in the list.

@@ -172,8 +172,7 @@ impl<T: Scalar> Factor<T> {
         self.run(matrix, Operation::Plain, Accept::BackwardError, rhs)
     }
 
-    /// Solves A x = b by substitution alone, without refinement: for directions of descent, where any answer near to the
-    /// system's will do.
+    /// Solves A x = b by substitution alone, without refinement: good enough for directions of descent.
     ///
     /// # Panics
     ///

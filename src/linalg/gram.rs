@@ -5,8 +5,7 @@ use faer::{Accum, Mat, MatRef, Par};
 
 use super::Scalar;
 
-/// Wᴴ W of the columns of W, `n` entries each, one after another. The answer is Hermitian to the last bit, column by
-/// column.
+/// Wᴴ W of the columns of W, `n` entries each, one after another: Hermitian to the last bit, column by column.
 pub fn gram<T: Scalar>(columns: &[T], n: usize) -> Vec<T> {
     let k = columns.len().checked_div(n).unwrap_or(0);
     let w = MatRef::from_column_major_slice(columns, n, k);

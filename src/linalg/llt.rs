@@ -51,7 +51,6 @@ impl LltAnalysis {
         Ok(Self { symbolic })
     }
 
-    /// The order of elimination.
     pub(super) fn order(&self) -> Order {
         let natural = || (0..).take(self.symbolic.nrows()).collect();
         Order::from_new_to_old(self.symbolic.perm().map_or_else(natural, |perm| perm.arrays().0.to_vec()))

@@ -16,9 +16,10 @@ use super::LinalgError;
 /// "No parent" in a tree of `u32`.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A symmetric pattern with 32-bit indices, columns sorted.
+/// Lists of 32-bit indices, one after another: the sorted columns of a symmetric pattern, the children of a tree's nodes.
 #[derive(Clone, Debug)]
 pub(super) struct Pattern {
+    /// Where each list begins, and the end of the last.
     pub(super) offsets: Vec<u32>,
     pub(super) rows: Vec<u32>,
 }
@@ -40,17 +41,14 @@ impl Pattern {
         Ok(this)
     }
 
-    /// Order of the matrix.
     pub(super) fn order(&self) -> usize {
         self.offsets.len() - 1
     }
 
-    /// The rows of one column.
     pub(super) fn column(&self, column: usize) -> &[u32] {
         &self.rows[self.offsets[column] as usize..self.offsets[column + 1] as usize]
     }
 
-    /// The same pattern as faer sees it.
     pub(super) fn as_faer(&self) -> SymbolicSparseColMatRef<'_, u32> {
         let n = self.order();
         SymbolicSparseColMatRef::new_checked(n, n, &self.offsets, None, &self.rows)
@@ -139,7 +137,6 @@ impl Order {
         Self::from_new_to_old(later.iter().map(|&middle| self.new_to_old[middle as usize]).collect())
     }
 
-    /// The same as a faer permutation.
     pub(super) fn as_faer(&self) -> PermRef<'_, u32> {
         PermRef::new_checked(&self.new_to_old, &self.old_to_new, self.new_to_old.len())
     }
@@ -161,7 +158,7 @@ pub(super) fn order(pattern: &Pattern) -> Result<Elimination, LinalgError> {
     let (parent, counts) = elimination_tree(&upper);
     let children = children(&parent);
     let roots = (0..).zip(&parent).filter(|&(_, &above)| above == NONE).map(|(node, _)| node).collect();
-    let post = postorder(roots, |node| children.of(node as usize));
+    let post = postorder(roots, |node| children.column(node as usize));
     let mut position = vec![0u32; n];
     for (new, &old) in post.iter().enumerate() {
         position[old as usize] = narrow(new);
@@ -210,20 +207,6 @@ pub(super) fn postorder<'a>(roots: Vec<u32>, children: impl Fn(u32) -> &'a [u32]
     sequence
 }
 
-/// Lists of numbers, one after another.
-#[derive(Debug)]
-pub(super) struct Lists {
-    /// Where each list begins, and the end of the last.
-    pub(super) offsets: Vec<u32>,
-    pub(super) items: Vec<u32>,
-}
-
-impl Lists {
-    pub(super) fn of(&self, index: usize) -> &[u32] {
-        &self.items[self.offsets[index] as usize..self.offsets[index + 1] as usize]
-    }
-}
-
 /// Where lists of these lengths begin, and the end of the last.
 pub(super) fn running_sum(counts: &[u32]) -> Vec<u32> {
     let mut total = 0usize;
@@ -235,15 +218,15 @@ pub(super) fn running_sum(counts: &[u32]) -> Vec<u32> {
 }
 
 /// Children of every node, ascending.
-pub(super) fn children(parent: &[u32]) -> Lists {
+pub(super) fn children(parent: &[u32]) -> Pattern {
     let mut counts = vec![0u32; parent.len()];
     parent.iter().filter(|&&above| above != NONE).for_each(|&above| counts[above as usize] += 1);
     let offsets = running_sum(&counts);
     let mut next = offsets.clone();
-    let mut items = vec![0u32; offsets[parent.len()] as usize];
+    let mut rows = vec![0u32; offsets[parent.len()] as usize];
     for (node, &above) in parent.iter().enumerate().filter(|(_, above)| **above != NONE) {
-        items[next[above as usize] as usize] = narrow(node);
+        rows[next[above as usize] as usize] = narrow(node);
         next[above as usize] += 1;
     }
-    Lists { offsets, items }
+    Pattern { offsets, rows }
 }

@@ -65,7 +65,6 @@ pub(super) enum Accept {
     BackwardError,
 }
 
-/// A system, its scaling, and an approximate solver for it.
 pub(super) struct System<'a, T> {
     pub(super) matrix: &'a CscMatrix<T>,
     pub(super) operation: Operation,
@@ -73,7 +72,6 @@ pub(super) struct System<'a, T> {
     pub(super) row_scale: Option<&'a [f64]>,
     /// Whether the factors are those of the matrix up to rounding: no pivot was replaced.
     pub(super) is_faithful: bool,
-    /// What makes an answer good.
     pub(super) accept: Accept,
     /// Solves in place, column by column.
     pub(super) solve: &'a (dyn Fn(&mut [T]) + Sync),

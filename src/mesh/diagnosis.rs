@@ -63,13 +63,8 @@ impl fmt::Display for Diagnosis {
         if self.is_disk() {
             return write!(f, "the mesh is a disk");
         }
-        for (place, fault) in self.faults.iter().enumerate() {
-            if place > 0 {
-                writeln!(f)?;
-            }
-            write!(f, "{fault}")?;
-        }
-        Ok(())
+        let faults: Vec<String> = self.faults.iter().map(Fault::to_string).collect();
+        f.write_str(&faults.join("\n"))
     }
 }
 
@@ -89,12 +84,7 @@ impl TryFrom<TriMesh> for DiskMesh {
     ///
     /// The diagnosis, if there are faults.
     fn try_from(mesh: TriMesh) -> Result<Self, Self::Error> {
-        match examine(&mesh) {
-            (diagnosis, Some(table)) if diagnosis.is_disk() => {
-                Ok(Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears))
-            }
-            (diagnosis, _) => Err(Box::new(diagnosis)),
-        }
+        Self::unless(mesh, |_| true)
     }
 }
 
@@ -105,9 +95,12 @@ impl DiskMesh {
     ///
     /// The diagnosis, if there are other faults than faces without area.
     pub fn of_topology(mesh: TriMesh) -> Result<Self, Box<Diagnosis>> {
-        let is_harmless = |fault: &Fault| matches!(fault, Fault::ZeroArea(_));
+        Self::unless(mesh, |fault| !matches!(fault, Fault::ZeroArea(_)))
+    }
+
+    fn unless(mesh: TriMesh, is_grave: impl Fn(&Fault) -> bool) -> Result<Self, Box<Diagnosis>> {
         match examine(&mesh) {
-            (diagnosis, Some(table)) if diagnosis.faults.iter().all(is_harmless) => {
+            (diagnosis, Some(table)) if !diagnosis.faults.iter().any(is_grave) => {
                 Ok(Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears))
             }
             (diagnosis, _) => Err(Box::new(diagnosis)),
@@ -222,7 +215,6 @@ fn zero_area_faces(mesh: &TriMesh, sound: &Sound) -> FaceList {
     FaceList::new(mesh, (0..sound.triangles(mesh).len()).map(|f| sound.face(f)).filter(flat).collect())
 }
 
-/// Turns what the topology found into counts and faults.
 fn describe(diagnosis: &mut Diagnosis, mesh: &TriMesh, sound: &Sound, topology: &Topology) {
     let triangles = sound.triangles(mesh);
     let in_mesh = |faces: Vec<FaceId>| FaceList::new(mesh, faces.iter().map(|f| sound.face(f.index())).collect());

@@ -8,9 +8,7 @@ use glam::DVec3;
 use super::edges::{EdgeTable, side_ends};
 use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
 
-/// A connected, consistently oriented 2-manifold with one boundary loop and Euler number 1.
-///
-/// The only way to one is the diagnosis, so whatever takes a `DiskMesh` need not check it again.
+/// A connected, consistently oriented 2-manifold with one boundary loop and Euler number 1, made by the diagnosis alone.
 #[derive(Clone, Debug)]
 pub struct DiskMesh {
     mesh: TriMesh,

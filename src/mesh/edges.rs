@@ -5,10 +5,8 @@
 
 use super::VertexId;
 
-/// Sides of triangles grouped by the undirected edge that they lie on.
-///
-/// Side `3 f + k` runs from corner `k` of triangle `f` to its corner `k + 1` (modulo 3).
-#[derive(Clone, Debug)]
+/// Sides of triangles by undirected edge. Side `3 f + k` runs from corner `k` of triangle `f` to the next.
+#[derive(Clone, Debug, Default)]
 pub struct EdgeTable {
     /// All sides, those of one edge next to each other; within an edge in ascending order.
     sides: Vec<u32>,
@@ -16,7 +14,6 @@ pub struct EdgeTable {
     starts: Vec<u32>,
 }
 
-/// Tail and head of a side.
 pub(super) fn side_ends(triangles: &[[VertexId; 3]], side: u32) -> (VertexId, VertexId) {
     let (face, corner) = (side as usize / 3, side as usize % 3);
     (triangles[face][corner], triangles[face][(corner + 1) % 3])

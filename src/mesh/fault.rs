@@ -17,7 +17,6 @@ pub struct FaceList {
 }
 
 impl FaceList {
-    /// Looks up the file's faces of triangles.
     pub(super) fn new(mesh: &TriMesh, triangles: Vec<FaceId>) -> Self {
         let mut polygons: Vec<u32> = triangles.iter().map(|&f| mesh.polygon(f)).collect();
         // Triangles of one polygon follow each other.
@@ -30,10 +29,8 @@ impl FaceList {
     }
 }
 
-/// One thing that keeps a mesh from being a disk.
-///
-/// Faces that name a missing vertex, that name a vertex twice, or that repeat an earlier face are set aside first: the
-/// other faults are those of the mesh without them, so that what is left to do after removing them is known at once.
+/// One thing that keeps a mesh from being a disk. Faces that name a missing vertex, name a vertex twice, or repeat an
+/// earlier face are set aside first: the other faults are those of the mesh without them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {
@@ -130,22 +127,46 @@ impl Fault {
 
     /// A fixed lower-case name, for reports and tests.
     pub const fn name(&self) -> &'static str {
+        self.words()[0]
+    }
+
+    /// What to do about it.
+    pub const fn remedy(&self) -> &'static str {
+        self.words()[1]
+    }
+
+    /// Name and remedy.
+    const fn words(&self) -> [&'static str; 2] {
         match self {
-            Self::NoFaces => "no-faces",
-            Self::MissingVertices(_) => "missing-vertices",
-            Self::NotFinite(_) => "not-finite",
-            Self::RepeatedVertices(_) => "repeated-vertices",
-            Self::DuplicateFaces(_) => "duplicate-faces",
-            Self::UnreferencedVertices(_) => "unreferenced-vertices",
-            Self::ZeroArea(_) => "zero-area",
-            Self::NonManifoldEdges(_) => "non-manifold-edges",
-            Self::NonManifoldVertices(_) => "non-manifold-vertices",
-            Self::MixedOrientation { .. } => "mixed-orientation",
-            Self::NonOrientable(_) => "non-orientable",
-            Self::SeveralComponents { .. } => "several-components",
-            Self::Closed { .. } => "closed",
-            Self::SeveralBoundaryLoops(_) => "several-boundary-loops",
-            Self::Handles { .. } => "handles",
+            Self::NoFaces => ["no-faces", "export the surface with its faces"],
+            Self::MissingVertices(_) => {
+                ["missing-vertices", "export the file again: it is cut short or its indices are wrong"]
+            }
+            Self::NotFinite(_) => ["not-finite", "give these vertices real positions, or delete them with their faces"],
+            Self::RepeatedVertices(_) => ["repeated-vertices", "delete these faces"],
+            Self::DuplicateFaces(_) => ["duplicate-faces", "delete these faces and keep the first of each"],
+            Self::UnreferencedVertices(_) => ["unreferenced-vertices", "delete these vertices"],
+            Self::ZeroArea(_) => {
+                ["zero-area", "merge coincident vertices, or collapse the shortest edge of each of these faces"]
+            }
+            Self::NonManifoldEdges(_) => {
+                ["non-manifold-edges", "delete or detach faces until two are left at each of these edges"]
+            }
+            Self::NonManifoldVertices(_) => {
+                ["non-manifold-vertices", "split each of these vertices, one for each fan of faces"]
+            }
+            Self::MixedOrientation { .. } => ["mixed-orientation", "turn these faces over"],
+            Self::NonOrientable(_) => {
+                ["non-orientable", "cut the surface along a chain of edges, so that it gets two sides"]
+            }
+            Self::SeveralComponents { .. } => ["several-components", "keep one component, or flatten each by itself"],
+            Self::Closed { .. } => {
+                ["closed", "cut the surface open along a chain of edges, or delete a part that is not needed"]
+            }
+            Self::SeveralBoundaryLoops(_) => {
+                ["several-boundary-loops", "fill the holes, or cut the surface from one loop to another"]
+            }
+            Self::Handles { .. } => ["handles", "cut each handle open, and join the cuts to the boundary"],
         }
     }
 
@@ -213,27 +234,6 @@ impl Fault {
                 if *genus == 1 { "handle" } else { "handles" },
                 listed(&first_faces.polygons)
             ),
-        }
-    }
-
-    /// What to do about it.
-    pub const fn remedy(&self) -> &'static str {
-        match self {
-            Self::NoFaces => "export the surface with its faces",
-            Self::MissingVertices(_) => "export the file again: it is cut short or its indices are wrong",
-            Self::NotFinite(_) => "give these vertices real positions, or delete them with their faces",
-            Self::RepeatedVertices(_) => "delete these faces",
-            Self::DuplicateFaces(_) => "delete these faces and keep the first of each",
-            Self::UnreferencedVertices(_) => "delete these vertices",
-            Self::ZeroArea(_) => "merge coincident vertices, or collapse the shortest edge of each of these faces",
-            Self::NonManifoldEdges(_) => "delete or detach faces until two are left at each of these edges",
-            Self::NonManifoldVertices(_) => "split each of these vertices, one for each fan of faces",
-            Self::MixedOrientation { .. } => "turn these faces over",
-            Self::NonOrientable(_) => "cut the surface along a chain of edges, so that it gets two sides",
-            Self::SeveralComponents { .. } => "keep one component, or flatten each by itself",
-            Self::Closed { .. } => "cut the surface open along a chain of edges, or delete a part that is not needed",
-            Self::SeveralBoundaryLoops(_) => "fill the holes, or cut the surface from one loop to another",
-            Self::Handles { .. } => "cut each handle open, and join the cuts to the boundary",
         }
     }
 }

@@ -8,7 +8,6 @@ use super::topology::Topology;
 use super::union::ParitySets;
 use super::{FaceId, VertexId};
 
-/// What is wrong with the orientation.
 #[derive(Debug, Default)]
 pub(super) struct Orientation {
     /// Edges with a clash in patches that can be oriented.

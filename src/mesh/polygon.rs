@@ -35,9 +35,8 @@ impl PolygonMesh {
         &self.corners[self.corner_range(polygon)]
     }
 
-    /// Cuts every polygon into triangles, in file order; see the module `triangulate` for how.
-    ///
-    /// Polygons with fewer than three corners vanish. A corner beyond the last vertex is kept for the diagnosis to name.
+    /// Cuts every polygon into triangles, in file order; those with fewer than three corners vanish. A corner beyond
+    /// the last vertex is kept for the diagnosis to name.
     pub fn triangulate(&self) -> TriMesh {
         let (places, polygon_of) = self.triangle_places();
         let triangles = places.iter().map(|triangle| triangle.map(|place| self.corners[place as usize])).collect();

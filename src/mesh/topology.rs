@@ -18,7 +18,6 @@ pub(super) struct Loop {
     first_side: u32,
 }
 
-/// One component and its counts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Component {
     pub(super) first_face: FaceId,
@@ -35,8 +34,7 @@ impl Component {
     }
 }
 
-/// Everything that the edge table says about a mesh.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Topology {
     pub(super) table: EdgeTable,
     /// Sides without a partner.
@@ -45,9 +43,7 @@ pub(super) struct Topology {
     pub(super) clashes: Vec<[u32; 2]>,
     /// Ends of the edges with three faces or more.
     pub(super) crowded_edges: Vec<[VertexId; 2]>,
-    /// Vertices with more than one fan.
     pub(super) split_vertices: Vec<VertexId>,
-    /// Vertices of no face.
     pub(super) unreferenced: Vec<VertexId>,
     pub(super) components: Vec<Component>,
     pub(super) loops: Vec<Loop>,
@@ -55,20 +51,9 @@ pub(super) struct Topology {
 }
 
 impl Topology {
-    /// Explores the mesh that `table` was made from.
     pub(super) fn explore(table: EdgeTable, vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
         let mut fans = Fans::new(vertex_count, triangles);
-        let mut topology = Self {
-            table,
-            boundary: Vec::new(),
-            clashes: Vec::new(),
-            crowded_edges: Vec::new(),
-            split_vertices: Vec::new(),
-            unreferenced: Vec::new(),
-            components: Vec::new(),
-            loops: Vec::new(),
-            referenced_count: 0,
-        };
+        let mut topology = Self { table, ..Self::default() };
         for sides in topology.table.edges() {
             let (tail, head) = side_ends(triangles, sides[0]);
             match *sides {
@@ -163,18 +148,14 @@ impl<'a> Fans<'a> {
     }
 }
 
-/// The corner that a side runs to.
 fn head_corner(side: u32) -> u32 {
     side - side % 3 + (side + 1) % 3
 }
 
-/// Follows the boundary edges from fan to fan. On a manifold every walk is one loop, in order; elsewhere it is one
-/// connected part of the boundary.
+/// Follows the boundary edges from fan to fan: a loop a walk on a manifold, elsewhere a connected part of the boundary.
 fn walk_boundary(boundary: &[u32], triangles: &[[VertexId; 3]], fans: &mut Fans<'_>) -> Vec<Loop> {
-    let mut ends: Vec<[u32; 2]> = Vec::with_capacity(boundary.len());
-    for &side in boundary {
-        ends.push([fans.sets.find(side), fans.sets.find(head_corner(side))]);
-    }
+    let ends: Vec<[u32; 2]> =
+        boundary.iter().map(|&side| [side, head_corner(side)].map(|corner| fans.sets.find(corner))).collect();
     // Boundary edges by the fans at their ends.
     let mut at_fan: Vec<(u32, usize)> =
         ends.iter().enumerate().flat_map(|(edge, pair)| pair.map(|fan| (fan, edge))).collect();

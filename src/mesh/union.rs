@@ -7,12 +7,10 @@ pub(super) struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// Every member by itself.
     pub(super) fn new(len: usize) -> Self {
         Self { parent: (0..u32::try_from(len).expect("fewer than 2^32 members")).collect() }
     }
 
-    /// The member that stands for a set.
     pub(super) fn find(&mut self, member: u32) -> u32 {
         let mut at = member as usize;
         loop {
@@ -48,7 +46,6 @@ pub(super) struct ParitySets {
 }
 
 impl ParitySets {
-    /// Every member by itself.
     pub(super) fn new(len: usize) -> Self {
         Self { parent: (0..u32::try_from(len).expect("fewer than 2^32 members")).collect(), odd: vec![false; len] }
     }

@@ -48,16 +48,11 @@ impl Neighbours {
         packed
     }
 
-    /// Entries of each unknown's columns.
     pub(super) fn column_lengths(&self) -> Vec<u32> {
         self.starts.windows(2).map(|pair| number(2 * (pair[1] - pair[0]))).collect()
     }
 
-    /// The place among the matrix's values of a block's first entry.
-    ///
-    /// # Panics
-    ///
-    /// If the two unknowns share no element.
+    /// The place among the matrix's values of the first entry of the block of two unknowns that share an element.
     pub(super) fn slot(&self, row: u32, column: u32) -> u32 {
         let (from, to) = (self.starts[column as usize], self.starts[column as usize + 1]);
         let at = self.list[from..to].binary_search(&row).expect("corners of one element are neighbours");

@@ -114,7 +114,6 @@ fn turned_faces(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
     pinned.into_iter().filter_map(turned).take(CONFLICTS_LISTED).collect()
 }
 
-/// An edge between two targets.
 struct PinnedEdge {
     ends: [VertexId; 2],
     segment: [DVec2; 2],

@@ -64,7 +64,6 @@ const TIGHTENING: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 /// An embedding whose energy is more than so many times the lowest is crushed: no step continues from it.
 const CRUSHED: f64 = 10.0;
 
-/// A one-to-one embedding on its way.
 #[derive(Debug)]
 pub(super) struct Continuation {
     rest: Rest,
@@ -124,7 +123,6 @@ impl Continuation {
         is_crushed
     }
 
-    /// The present embedding, one-to-one.
     pub(super) fn embedding(&self) -> &Embedding {
         &self.embedding
     }
@@ -144,14 +142,12 @@ impl Continuation {
         z
     }
 
-    /// How far it has come.
     pub(super) fn progress(&self, mesh: &DiskMesh) -> Progress {
         let distances = self.targets.iter().map(|(v, target)| self.embedding[v].distance(*target));
         self.rest.progress(mesh, &self.embedding, distances.fold(0.0, f64::max))
     }
 
-    /// Advances as far as possible at once; where it is stuck, once again from the beginning with springs that are tightened
-    /// step by step, which find other ways around each other.
+    /// Advances as far as possible; where it is stuck, once more from the start with springs, tightened step by step.
     pub(super) fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
         match (self.go_on(mesh, control), &self.start) {
             (Ok(candidate), _) => Ok(candidate),
@@ -257,8 +253,7 @@ impl Continuation {
         Ok(is_planar)
     }
 
-    /// Triangulates the outside of an embedding, and plans the energy of both with these pins. `None` where its boundary
-    /// is not simple.
+    /// An embedding with its outside, and the energy of both with these pins; `None` where its boundary is not simple.
     fn surround(
         &self,
         mesh: &DiskMesh,

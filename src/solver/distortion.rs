@@ -139,7 +139,6 @@ struct FaceMap {
 /// Faces that share the work of one task.
 const FACES_PER_TASK: usize = 4096;
 
-/// The maps of all faces.
 fn face_maps(mesh: &TriMesh, embedding: &Embedding) -> Vec<FaceMap> {
     let extent = |greatest: f64, size: f64| if size.is_finite() { greatest.max(size) } else { greatest };
     let in_space =
@@ -200,7 +199,6 @@ impl FaceMap {
     }
 }
 
-/// Sums up the distortion of faces, each counted by its weight.
 fn summary(faces: &[FaceDistortion], weights: &[f64]) -> DistortionSummary {
     let weighted = |of: fn(&FaceDistortion) -> f64| -> Vec<(f64, f64)> {
         faces.iter().zip(weights).filter(|&(_, &weight)| weight > 0.0).map(|(face, &w)| (of(face), w)).collect()

@@ -34,7 +34,7 @@ impl<T> Equations<T>
 where
     T: Copy + Mul<Complex<f64>, Output = Complex<f64>>,
 {
-    /// What a vertex's equation leaves: `Σ a_h (z_head(h) − z_v)`.
+    /// Residual of a vertex's equation: `Σ a_h (z_head(h) − z_v)`.
     pub fn residual_of(&self, mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> Complex<f64> {
         let term = |h: HalfedgeId| {
             let along = embedding[mesh.head(h)] - embedding[vertex];
@@ -56,11 +56,12 @@ impl Equations<Complex<f64>> {
             *sum += term;
             *size += term.norm();
         }
-        let (left, whole) = mesh.vertices().filter(|&v| has_equation(v)).fold((0.0, 0.0), |(left, whole), v| {
-            let (sum, size) = sums[v.index()];
-            (left + sum.norm_sqr(), whole + size * size)
-        });
-        if whole > 0.0 { f64::sqrt(left / whole) } else { 0.0 }
+        let (residual, whole) =
+            mesh.vertices().filter(|&v| has_equation(v)).fold((0.0, 0.0), |(residual, whole), v| {
+                let (sum, size) = sums[v.index()];
+                (residual + sum.norm_sqr(), whole + size * size)
+            });
+        if whole > 0.0 { f64::sqrt(residual / whole) } else { 0.0 }
     }
 }
 

@@ -3,9 +3,7 @@
 use crate::linalg::LinalgError;
 use crate::mesh::{FaceId, VertexId};
 
-/// Why no embedding was produced.
-///
-/// An embedding with flipped faces is *not* an error: it is a result, described by its verdict.
+/// Why no embedding was produced. One with flipped faces is no error: it is a result, described by its verdict.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {

@@ -10,6 +10,7 @@ use crate::linalg::{Analysis, Answer, Factor};
 use crate::mesh::VertexId;
 
 /// Equations, matrix and factors.
+#[derive(Debug)]
 pub(super) struct FixedSolve {
     equations: Equations<f64>,
     matrix: CscMatrix<f64>,
@@ -17,7 +18,6 @@ pub(super) struct FixedSolve {
 }
 
 impl FixedSolve {
-    /// Factors the matrix of the equations.
     pub(super) fn new(
         site: Site<'_>,
         equations: Equations<f64>,

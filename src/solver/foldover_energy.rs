@@ -175,8 +175,7 @@ impl Element {
         Model { gradient: flat(gradient), hessian }
     }
 
-    /// The longest step along a direction that leaves the triangle unfolded, in multiples of the direction; it must be
-    /// unfolded before.
+    /// The longest step, in multiples of the direction, that leaves an unfolded triangle unfolded.
     pub fn longest_step(z: [DVec2; 3], direction: [DVec2; 3]) -> f64 {
         let (u, v) = (z[1] - z[0], z[2] - z[0]);
         let (du, dv) = (direction[1] - direction[0], direction[2] - direction[0]);

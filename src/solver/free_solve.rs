@@ -23,6 +23,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 const GRADIENT_LIMIT: f64 = 1e-10;
 
 /// Equations, matrix and factors; for least squares also what the pins add.
+#[derive(Debug)]
 pub(super) struct FreeSolve {
     equations: Equations<Complex<f64>>,
     matrix: CscMatrix<Complex<f64>>,
@@ -32,7 +33,6 @@ pub(super) struct FreeSolve {
     eliminated: Vec<VertexId>,
 }
 
-/// What a system is made of.
 pub(super) struct Setup<'a> {
     pub(super) equations: Equations<Complex<f64>>,
     /// What the rows are to be multiplied by so that they are those of a geometry whose edges have length 1 on average.
@@ -57,7 +57,6 @@ pub(super) struct Layout {
     pub(super) left_out: Vec<VertexId>,
     /// Whether the equations of those are kept beside the factors; otherwise they are pins, eliminated.
     pub(super) keeps_equations: bool,
-    /// The pins.
     pub(super) holds: BTreeMap<VertexId, Hold>,
 }
 
@@ -86,8 +85,7 @@ impl Layout {
         FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok())
     }
 
-    /// What least squares has to treat, if anything. `unit` is what the rows are to be multiplied by so that they
-    /// are those of a geometry whose edges have length 1 on average.
+    /// What least squares has to treat, if anything. For `unit` see [`Setup::unit`].
     fn rest(&self, unit: f64) -> Option<Rest> {
         let spring = |(&vertex, hold): (&VertexId, &Hold)| match hold {
             Hold::Fixed | Hold::Hard => None,
@@ -125,8 +123,7 @@ impl FreeSolve {
         Ok(Self { equations, matrix, factor, least_squares, eliminated })
     }
 
-    /// The embedding with the pins on their targets, or as near as their weights bring them, and how well the system is
-    /// solved. It is linear in the targets.
+    /// The embedding with the pins on their targets, or as near as weights bring them, linear in these; and its residual.
     pub(super) fn solve(&self, site: Site<'_>, targets: &PinPositions) -> Result<(Embedding, f64), SolveError> {
         let mut start = Embedding::from(vec![DVec2::ZERO; site.mesh.vertex_count()]);
         for (&vertex, target) in targets {
@@ -230,13 +227,11 @@ impl FreeSolve {
         if gradient > 0.0 { f64::sqrt(gradient / whole) } else { 0.0 }
     }
 
-    /// The residuals of all equations.
     fn residuals(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
         let at = |v: usize| self.equations.residual_of(mesh, embedding, VertexId::from_index(v));
         (0..mesh.vertex_count()).into_par_iter().map(at).collect()
     }
 
-    /// The numbers of a solve.
     pub(super) fn numbers(&self, mesh: &DiskMesh, embedding: &Embedding, residual: f64) -> LinearSolve {
         let Equations { bounded_corners, .. } = self.equations;
         let equation_residual = self.equations.residual(mesh, embedding, |_| true);

@@ -61,8 +61,7 @@ impl Iteration {
         Ok(Self { pins: pins.clone(), layout, system, analysis, analyze_seconds })
     }
 
-    /// One step: the embedding that solves the mean-value equations of `embedding`. Its pinned vertices stay where they
-    /// are.
+    /// One step: solves the mean-value equations of `embedding`. Its pinned vertices stay where they are.
     ///
     /// # Errors
     ///
@@ -91,8 +90,7 @@ impl Iteration {
         Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds })
     }
 
-    /// Whether this iteration serves these pins: the same vertices, held in the same way, weighted ones with the same
-    /// targets.
+    /// Whether it serves these pins: the same vertices, held in the same way, weighted ones with the same targets.
     pub fn serves(&self, pins: &Pins) -> bool {
         let pulls_alike = |(a, b): (&Pin, &Pin)| a.hold.is_exact() || a.target == b.target;
         are_held_alike(&self.pins, pins) && self.pins.values().zip(pins.values()).all(pulls_alike)
@@ -113,11 +111,7 @@ fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
 
 /// The answer to an embedding that meets its equations and that no pin pulls: itself.
 fn unmoved(embedding: &Embedding, pins: Pins, seconds: f64) -> Solution {
-    Solution {
-        embedding: embedding.clone(),
-        pins,
-        gauge_completed: false,
-        linear: Some(LinearSolve::default()),
-        seconds: PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() },
-    }
+    let seconds = PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() };
+    let linear = Some(LinearSolve::default());
+    Solution { embedding: embedding.clone(), pins, gauge_completed: false, linear, seconds }
 }

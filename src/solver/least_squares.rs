@@ -2,18 +2,18 @@
 //!
 //! # Problem
 //!
-//! A move δ from positions that leave D of the equations, with the exact pins on their targets already, minimises
+//! A move δ from positions with the residuals D, with the exact pins on their targets already, minimises
 //!
 //! ```text
 //! ‖A δ + D‖² + Σ w_j² |δ_j − τ_j|²      over the weighted pins j,   with δ = 0 on the exact ones
 //! ```
 //!
-//! where τ is the way from a pin to its target.
+//! where τ is the vector from a pin to its target.
 //!
 //! # Method
 //!
 //! The factors leave out the unknowns *and* the equations of a few vertices g, and these equations are kept apart: g are
-//! all pins, which makes what is left well-conditioned, and two vertices where the equations depend on each other
+//! all pins, which makes the rest well-conditioned, and two vertices where the equations depend on each other
 //! (`left_kernel.rs`). Of g those that are not pinned exactly can move: m. With N = −A without the rows and columns of g, s = δ on m, and e the (negated)
 //! residual of the other rows:
 //!
@@ -85,6 +85,7 @@ pub(super) struct Rest {
 }
 
 /// A problem made ready: everything that does not depend on where the pins are to go.
+#[derive(Debug)]
 pub(super) struct LeastSquares {
     rest: Rest,
     /// The equations of g and the unit rows of P, over the unknowns of the factors.
@@ -132,14 +133,14 @@ impl LeastSquares {
         Ok(Self { rest, rows, from_movers, dense })
     }
 
-    /// The moves of all vertices that make the equations' residuals least, which are `residuals` before. `ways` are those
-    /// from the weighted pins to their targets.
+    /// The moves of all vertices that make the equations' residuals least, which are `residuals` before. `to_targets` are
+    /// the vectors from the weighted pins to their targets.
     pub(super) fn moves(
         &self,
         site: Site<'_>,
         factored: &Factored<'_>,
         residuals: &[C64],
-        ways: &[C64],
+        to_targets: &[C64],
     ) -> Result<Vec<C64>, LinalgError> {
         let free = site.system.free();
         let mut terms: Vec<C64> = free.iter().map(|v| residuals[v.index()]).collect();
@@ -147,7 +148,8 @@ impl LeastSquares {
         let (k, g) = (self.rows.len(), self.rest.left_out.len());
         let mut rhs = DVector::zeros(k + self.rest.movers.len());
         for (i, row) in self.rows.iter().enumerate() {
-            rhs[i] = along(row, &still) + if i < g { residuals[self.rest.left_out[i].index()] } else { -ways[i - g] };
+            rhs[i] =
+                along(row, &still) + if i < g { residuals[self.rest.left_out[i].index()] } else { -to_targets[i - g] };
         }
         let answer = self.dense.solve(&rhs).ok_or(LinalgError::Singular { row: 0 })?;
         let mut forces = vec![C64::ZERO; free.len()];
@@ -170,7 +172,7 @@ impl LeastSquares {
         Ok(all)
     }
 
-    /// The weighted pins, in the order of the ways.
+    /// The weighted pins, in the order of the vectors to their targets.
     pub(super) fn springs(&self) -> &[Spring] {
         &self.rest.springs
     }
@@ -183,7 +185,6 @@ fn add_adjoint(row: &Row, weight: C64, into: &mut [C64]) {
     }
 }
 
-/// A row times a column.
 fn along(row: &Row, column: &[C64]) -> C64 {
     row.iter().map(|&(at, value)| value * column[at]).sum()
 }

@@ -21,10 +21,6 @@ const SHIFT: f64 = 1e-8;
 const ROUNDS: usize = 2;
 
 /// The two vertices whose equations depend most on all others: where the left kernel of the equations is largest.
-///
-/// # Errors
-///
-/// A shifted system that cannot be solved, or the caller's wish to stop.
 fn gauge_of(mesh: &DiskMesh, equations: &Equations<C64>, control: Control<'_>) -> Result<[VertexId; 2], SolveError> {
     let system = FreeSystem::new(mesh, |_| false);
     let named = |error| system.named(error);

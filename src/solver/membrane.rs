@@ -47,6 +47,7 @@ pub(super) struct Spring {
 }
 
 /// The elements with what is free to move, and the plan of the Hessian.
+#[derive(Debug)]
 pub(super) struct Membrane {
     elements: Vec<Element>,
     springs: Vec<Spring>,
@@ -62,13 +63,6 @@ pub(super) struct Membrane {
     analysis: Analysis,
 }
 
-impl std::fmt::Debug for Membrane {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Membrane of {} elements", self.elements.len())
-    }
-}
-
-/// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
     /// The most Newton steps.
@@ -81,10 +75,8 @@ pub(super) struct Limits {
     pub(super) tolerance: f64,
 }
 
-/// What a descent came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Descent {
-    /// Smallest determinant.
     pub(super) least_determinant: f64,
     /// The share of the energy that was gained since the triangles were unfolded.
     pub(super) gain: f64,
@@ -131,7 +123,6 @@ impl Membrane {
         Ok(Self { elements, springs, unknown_of, unknowns, pattern, slots, column_length, diagonal, analysis })
     }
 
-    /// Corners of an element.
     fn corners(element: &Element, z: &[DVec2]) -> [DVec2; 3] {
         element.corners.map(|corner| z[corner as usize])
     }
@@ -147,7 +138,6 @@ impl Membrane {
         sums.iter().sum::<f64>() + self.springs.iter().map(pulled).sum::<f64>()
     }
 
-    /// The smallest determinant of an element.
     pub(super) fn least_determinant(&self, z: &[DVec2]) -> f64 {
         let of = |element: &Element| element.determinant(Self::corners(element, z));
         self.elements.par_iter().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
@@ -191,7 +181,6 @@ impl Membrane {
         (gradient, hessian)
     }
 
-    /// Adds an element's part of the gradient and of the Hessian.
     fn add(
         &self,
         element: &Element,

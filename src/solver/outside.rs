@@ -16,8 +16,7 @@ pub(super) const FRAME_POINTS: u32 = 8;
 /// Size of the frame, relative to everything within.
 const FRAME_SIZE: f64 = 2.0;
 
-/// Triangles that are thinner, height to longest side, are measured as if they were so thick: their size counts, not
-/// their shape.
+/// Triangles thinner than this, height to longest side, count as so thick: their size matters, not their shape.
 const THINNEST: f64 = 0.1;
 
 /// The outside of an embedding up to a frame, triangulated: what keeps the boundary simple while vertices move.
@@ -41,8 +40,7 @@ fn frame_around(points: impl Iterator<Item = DVec2>, per_side: u32) -> Vec<DVec2
     (0..4).flat_map(side).map(|z| centre + half * z).collect()
 }
 
-/// The outside of an embedding with a simple boundary, up to a frame around it and further points, which has so many
-/// points on each side.
+/// The outside of an embedding with a simple boundary, up to a frame around it and further points.
 pub(super) fn outside_of(
     mesh: &DiskMesh,
     embedding: &Embedding,

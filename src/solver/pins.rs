@@ -13,6 +13,9 @@ pub type PinPositions = BTreeMap<VertexId, DVec2>;
 /// Pinned vertices with their targets.
 pub type Pins = BTreeMap<VertexId, Pin>;
 
+/// Fewest pins that fix the similarity of a free boundary, and the most that are no constraints.
+pub(super) const GAUGE_PINS: usize = 2;
+
 /// A vertex's prescribed position, and how it is held there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
@@ -76,7 +79,6 @@ pub fn are_held_alike(a: &Pins, b: &Pins) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(alike)
 }
 
-/// Where pins want their vertices.
 pub(super) fn targets_of(pins: &Pins) -> PinPositions {
     pins.iter().map(|(&vertex, pin)| (vertex, pin.target)).collect()
 }
@@ -136,16 +138,14 @@ pub fn gauge_pins(mesh: &DiskMesh) -> PinPositions {
     BTreeMap::from([(a.min(b), DVec2::ZERO), (a.max(b), DVec2::new(distance, 0.0))])
 }
 
-/// The two boundary vertices farthest apart in space.
-///
-/// Pairs of boxes are compared, largest bound first; a pair whose boxes cannot hold a longer distance than the best
-/// one found is dropped, so that the work stays near linear even on a circle.
+/// The two boundary vertices farthest apart in space. Pairs of boxes are compared, largest bound first, and dropped
+/// where they cannot hold a longer distance than the best one found: near linear even on a circle.
 pub fn farthest_pair(mesh: &DiskMesh) -> [VertexId; 2] {
     let mut ids: Vec<VertexId> = mesh.boundary_loop().to_vec();
     ids.sort_unstable();
     let points: Vec<DVec3> = ids.iter().map(|&v| mesh.position(v)).collect();
     let mut order: Vec<u32> = (0..).take(ids.len()).collect();
-    let tree = BoxTree::new(&points, &mut order);
+    let tree = BoxTree::over(&points, &mut order, 0);
     let mut search = FarthestSearch { points: &points, order: &order, best: (-1.0, [0, 0]) };
     search.descend(&tree, &tree);
     let (_, [a, b]) = search.best;
@@ -164,10 +164,6 @@ struct BoxTree {
 }
 
 impl BoxTree {
-    fn new(points: &[DVec3], order: &mut [u32]) -> Self {
-        Self::over(points, order, 0)
-    }
-
     fn over(points: &[DVec3], order: &mut [u32], begin: usize) -> Self {
         let at = |i: u32| points[i as usize];
         let (low, high) = order

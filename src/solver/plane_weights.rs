@@ -7,7 +7,7 @@
 //! the paper asks: a flipped face counts like its mirror image, and so all weights are positive. A planar embedding
 //! satisfies the equations that it gives (2D reproduction), and only planar ones do (Theorem 1).
 //!
-//! # What an embedding leaves
+//! # Residuals of an embedding
 //!
 //! At a corner of a positive face eq. (1) holds, and its share of A(x) x is zero. At a corner of a flipped face the
 //! unsigned angle turns the sign of one side around: its share is `2i(û₂ − û₁)`, with û₁, û₂ the directions of its edges.
@@ -40,8 +40,7 @@ use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
 /// surroundings alone, thick enough that the next solve can open it.
 const THIN: f64 = 1e-3;
 
-/// Shares of a face's three edges at both of their ends: `at_corner[k]` are those of the edges from corner k to the
-/// next corner and to the previous one.
+/// Shares of a face's edges: `at_corner[k]` are those of the edges from corner k to the next and the previous corner.
 struct FaceWeights {
     at_corner: [[f64; 2]; 3],
     degenerate: bool,
@@ -81,8 +80,7 @@ fn face_weights([a, b, c]: [DVec2; 3], mean_length: f64) -> FaceWeights {
     FaceWeights { at_corner, degenerate, bounded_corners }
 }
 
-/// What the first corner of a face gives to its edges to the next corner and to the previous one, in the embedding's own
-/// units: for one corner alone there is no overflow to be afraid of.
+/// What the first corner of a face gives to its edges to the next and to the previous one, in units of the embedding.
 pub(super) fn corner_weights(corners: [DVec2; 3]) -> [f64; 2] {
     face_weights(corners, 1.0).at_corner[0]
 }
@@ -93,8 +91,7 @@ pub(super) fn edge_radius(corners: [DVec2; 3], k: usize) -> f64 {
     radii_of([b - a, c - b, a - c], 1.0).0[k]
 }
 
-/// A power of two that brings an embedding to edges of a length near 1, and that length. Multiplying by it rounds
-/// nothing.
+/// A power of two, so that multiplying rounds nothing, that brings an embedding to edges of a length near 1.
 fn scale_of(embedding: &Embedding, face_count: usize) -> f64 {
     let first = embedding.first().copied().unwrap_or_default();
     let extent = embedding.iter().fold(0.0_f64, |m, z| m.max((*z - first).abs().max_element()));
@@ -110,8 +107,8 @@ pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &Embedding) 
     total / mesh.halfedge_count() as f64
 }
 
-/// A(x) x: what every vertex's equation leaves, the natural boundary's i-terms included, found without rounding where
-/// faces are positive.
+/// A(x) x: the residual of every vertex's equation, the natural boundary's i-terms included, found without rounding
+/// where faces are positive.
 pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
     let scale = scale_of(embedding, mesh.face_count());
     let is_upright = |face: &FaceId| {
@@ -119,19 +116,19 @@ pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex
         orientation(a, b, c) == Some(Orientation::CounterClockwise)
     };
     let folded: Vec<FaceId> = mesh.faces().collect::<Vec<_>>().into_par_iter().filter(|f| !is_upright(f)).collect();
-    let mut left = vec![Complex::ZERO; mesh.vertex_count()];
+    let mut residuals = vec![Complex::ZERO; mesh.vertex_count()];
     for face in folded {
         let vertices = mesh.face(face);
         let corners = vertices.map(|v| embedding[v] * scale);
-        for (vertex, share) in vertices.iter().zip(shares_left(corners)) {
-            left[vertex.index()] += share / scale;
+        for (vertex, share) in vertices.iter().zip(residual_shares(corners)) {
+            residuals[vertex.index()] += share / scale;
         }
     }
-    left
+    residuals
 }
 
-/// What a face that is not positive leaves at its corners.
-fn shares_left(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
+/// Shares of a face that is not positive in the residuals of its corners.
+fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
     let [a, b, c] = corners;
     let edges = [b - a, c - b, a - c];
     let (radii, _) = radii_of(edges, 1.0);
@@ -140,9 +137,9 @@ fn shares_left(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
         let previous = (k + 2) % 3;
         let (to_next, to_previous) = (edges[k], -edges[previous]);
         let turned = (to_previous / radii[previous] - to_next / radii[k]).perp();
-        let left =
+        let share =
             if degenerate { at_corner[k][0] * to_next + at_corner[k][1] * to_previous + turned } else { 2.0 * turned };
-        Complex::new(left.x, left.y)
+        Complex::new(share.x, share.y)
     })
 }
 

@@ -13,7 +13,9 @@ use super::equations::{self, Equations};
 use super::fixed_solve::FixedSolve;
 use super::free_solve::{FreeSolve, Layout, Setup};
 use super::left_kernel::gauge_or_farthest;
-use super::pins::{PinPositions, Pins, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of};
+use super::pins::{
+    GAUGE_PINS, PinPositions, Pins, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of,
+};
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::{FreeSystem, Site};
@@ -21,10 +23,8 @@ use super::{BoundaryShape, Choice as _, Control, Family, Method, Phase, PhaseSec
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
-/// Fewest pins that fix the similarity of a free boundary.
-const PINS_NEEDED: usize = 2;
-
 /// Everything about a solve that does not depend on where the pins are to go.
+#[derive(Debug)]
 pub struct Prepared {
     settings: Settings,
     /// The user's pins that it was made for: whether it fits others is asked of these.
@@ -36,12 +36,7 @@ pub struct Prepared {
     seconds: PhaseSeconds,
 }
 
-impl std::fmt::Debug for Prepared {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Prepared").field("settings", &self.settings).field("asked", &self.asked).finish_non_exhaustive()
-    }
-}
-
+#[derive(Debug)]
 enum Values {
     /// A free boundary couples x and y: one complex unknown per vertex.
     Free(Box<FreeSolve>),
@@ -78,7 +73,7 @@ impl Prepared {
         let start = Instant::now();
         let own_places = match settings.method {
             Method::Convex(shape) => Some(convex_boundary(mesh, shape)?),
-            _ if pins.len() < PINS_NEEDED => Some(gauge_pins(mesh)),
+            _ if pins.len() < GAUGE_PINS => Some(gauge_pins(mesh)),
             _ => None,
         };
         let asked = settings.held(pins);
@@ -106,7 +101,7 @@ impl Prepared {
                         return gauge_or_farthest(mesh, &equations, control);
                     }
                     // Conformal equations depend on each other all over the mesh: those of any pins will do.
-                    Ok(if pinned.len() < PINS_NEEDED { farthest_pair(mesh).to_vec() } else { Vec::new() })
+                    Ok(if pinned.len() < GAUGE_PINS { farthest_pair(mesh).to_vec() } else { Vec::new() })
                 })?;
                 let system = layout.system(mesh);
                 seconds.assemble = start.elapsed().as_secs_f64();

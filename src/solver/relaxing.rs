@@ -27,7 +27,6 @@ const TOLERANCE: f64 = 1e-3;
 /// Below this determinant the symmetric Dirichlet energy is too steep to begin with.
 const STEEP: f64 = 1e-3;
 
-/// A planar embedding that relaxes.
 #[derive(Debug)]
 pub(super) struct Relaxing {
     rest: Rest,

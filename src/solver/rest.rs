@@ -21,7 +21,6 @@ pub(super) struct Rest {
     area: f64,
 }
 
-/// An embedding with its outside.
 #[derive(Clone, Copy)]
 pub(super) struct Surrounded<'a> {
     pub(super) embedding: &'a Embedding,
@@ -31,7 +30,6 @@ pub(super) struct Surrounded<'a> {
 }
 
 impl Rest {
-    /// Lays every face into the plane.
     pub(super) fn new(mesh: &DiskMesh) -> Self {
         let scale = length_scale(mesh);
         let flat = |face| laid_flat(mesh.mesh().corners(face).map(|x| scale * x));
@@ -104,7 +102,6 @@ fn spring_unit(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     1.0 / (mean * mean * mesh.vertex_count() as f64)
 }
 
-/// Mean length of an edge in an embedding.
 pub(super) fn mean_edge_length(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let length = |edge| {
         let [a, b] = mesh.ends(edge).map(|v| embedding[v]);

@@ -7,10 +7,8 @@ use super::{Embedding, GaugeSize, Pin, Pins};
 use crate::geom::Bounds;
 use crate::mesh::DiskMesh;
 
-/// Scales an embedding about the origin so that its faces have the total area of the surface.
-///
-/// Both areas are summed at a size near 1, so that no square of a length overflows or vanishes. An embedding without
-/// area, or with one that is not finite, is left as it is.
+/// Scales an embedding about the origin to the total area of the surface; one without a finite area stays as it is.
+/// Both areas are summed at a size near 1, so that no square of a length overflows or vanishes.
 pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
     let (in_space, in_plane) = (length_scale(mesh), 1.0 / extent_of(embedding));
     let surface: f64 = mesh
@@ -75,8 +73,7 @@ pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins,
     true
 }
 
-/// Scales an embedding uniformly into a box and moves it to the box's middle. An embedding without extent, or with one
-/// that is not finite, is left as it is.
+/// Scales an embedding uniformly into the middle of a box; one without a finite extent stays as it is.
 fn to_middle_of(low: DVec2, high: DVec2, embedding: &mut Embedding) {
     let bounds = embedding.bounds();
     let factor = ((high - low) / bounds.size()).min_element();
@@ -114,9 +111,8 @@ pub fn to_unit_box(embedding: &mut Embedding) {
     }
 }
 
-/// Moves and scales an embedding uniformly so that it fills the unit square's width or height from the origin on.
-///
-/// An embedding without extent, or with one that is not finite, is left as it is.
+/// Moves and scales an embedding uniformly to fill the unit square's width or height from the origin on; one without a
+/// finite extent stays as it is.
 pub fn to_unit_square(embedding: &mut Embedding) {
     let bounds = embedding.bounds();
     let extent = bounds.size().max_element();

@@ -4,7 +4,7 @@ use super::{Embedding, Pins};
 use crate::linalg::FactorStats;
 
 /// An embedding and the numbers of the solve that made it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solution {
     /// One position per vertex of the mesh, in the plane.
     pub embedding: Embedding,

@@ -37,8 +37,7 @@ pub struct Verdict {
     pub planar: bool,
     /// Faces that are turned over, have area zero, or have a corner that is not finite.
     pub flipped_faces: Vec<FaceId>,
-    /// Pairs of boundary edges that meet other than at a shared end, the lower id first; at most
-    /// [`crate::geom::CROSSINGS_LISTED`].
+    /// Pairs of boundary edges that meet other than at a shared end, the lower id first; at most `CROSSINGS_LISTED`.
     pub boundary_crossings: Vec<[EdgeId; 2]>,
     /// Crossings beyond those listed. The report shows this field only where there are any.
     #[serde(skip_serializing_if = "is_zero")]

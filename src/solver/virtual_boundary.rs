@@ -90,14 +90,12 @@ pub struct Start<'a> {
 }
 
 impl Extended {
-    /// Extends an embedding whose boundary is simple and runs counter-clockwise: up to the hull, or up to a frame where
-    /// the hull would not do. `None` where neither is possible.
+    /// Extends an embedding with a simple upright boundary up to the hull, else up to a frame; `None` where neither can be.
     pub fn new(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
         Self::up_to_hull(mesh, embedding).or_else(|| Self::up_to_frame(mesh, embedding))
     }
 
-    /// Extends an embedding up to its convex hull. `None` where its boundary is not simple, and where Tutte's theorem does
-    /// not cover the extended mesh.
+    /// Extends an embedding up to its hull; `None` where its boundary is not simple or Tutte's theorem does not hold.
     pub fn up_to_hull(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
         let triangles = outside_triangles(&embedding.boundary(mesh), &[])?;
         let boundary = mesh.boundary_loop();
@@ -173,8 +171,7 @@ impl Extended {
     }
 }
 
-/// Splits every edge of the pockets that the mesh has as well, other than the boundary's own, by a vertex at its
-/// middle.
+/// Splits every edge of the pockets that the mesh has as well, other than the boundary's own, at its middle.
 fn split_doubled_edges(mesh: &DiskMesh, positions: &mut Vec<DVec2>, pockets: &mut Vec<[VertexId; 3]>) {
     let key = |a: VertexId, b: VertexId| [a.min(b), a.max(b)];
     let sides = |t: [VertexId; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];

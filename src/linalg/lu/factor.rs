@@ -21,7 +21,6 @@ const TINY_PIVOT: f64 = 1.490_116_119_384_765_6e-8;
 /// Fronts with less work than this, in multiplications, are not worth more than one thread.
 const PARALLEL_WORK: f64 = 2e6;
 
-/// The factors, unit by unit.
 #[derive(Debug)]
 pub(crate) struct Lu<T> {
     pub(super) units: Vec<UnitFactor<T>>,
@@ -58,7 +57,6 @@ struct Job<'a, T> {
     memory: Memory,
 }
 
-/// Bytes in use now, and at most so far.
 #[derive(Default)]
 struct Memory {
     now: AtomicUsize,
@@ -76,7 +74,6 @@ impl Memory {
 }
 
 impl LuAnalysis {
-    /// Factors a matrix of the analysed pattern.
     pub(crate) fn factor<T: Scalar>(
         &self,
         pattern: &Pattern,
@@ -130,7 +127,7 @@ impl<T: Scalar> Job<'_, T> {
             if self.cancel.load(Ordering::Relaxed) {
                 return;
             }
-            let children = self.analysis.children.of(supernode).iter().map(|&child| {
+            let children = self.analysis.children.column(supernode).iter().map(|&child| {
                 let update = if (child as usize) < range.start {
                     let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
                     place.ok().map(|place| std::mem::take(&mut arrived[place].1))

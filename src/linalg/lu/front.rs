@@ -69,12 +69,10 @@ fn scatter_add<T: Scalar>(target: &mut [T], rows: &[u32], first: usize, source: 
     }
 }
 
-/// A column-major slice as a matrix.
 pub(super) fn mat<T>(values: &[T], rows: usize, columns: usize) -> MatRef<'_, T> {
     MatRef::from_column_major_slice(values, rows, columns)
 }
 
-/// A column-major slice as a matrix to be changed.
 pub(super) fn mat_mut<T>(values: &mut [T], rows: usize, columns: usize) -> MatMut<'_, T> {
     MatMut::from_column_major_slice_mut(values, rows, columns)
 }

@@ -23,8 +23,7 @@ pub(super) struct Pivots<'a> {
     pub(super) replaced: Vec<usize>,
 }
 
-/// Factors the top `columns` × `columns` block of `panel` (leading dimension `height`) and moves the rows of `right`
-/// along.
+/// Factors the top `columns` × `columns` block of `panel` (leading dimension `height`); the rows of `right` move along.
 pub(super) fn factor_block<T: Scalar>(panel: &mut [T], height: usize, right: &mut [T], pivots: &mut Pivots<'_>) {
     let columns = pivots.swaps.len();
     for first in (0..columns).step_by(BLOCK) {
@@ -46,7 +45,6 @@ pub(super) fn factor_block<T: Scalar>(panel: &mut [T], height: usize, right: &mu
     }
 }
 
-/// The pivot's row for column `k`.
 fn choose<T: Scalar>(panel: &[T], height: usize, k: usize, pivots: &Pivots<'_>) -> usize {
     let candidates = &panel[k * height..][k..pivots.swaps.len()];
     let (mut best, mut largest) = (0, candidates[0].size());

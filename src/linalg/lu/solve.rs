@@ -89,7 +89,7 @@ impl<T: Scalar> Lu<T> {
                 let begin = analysis.begin[supernode] as usize;
                 let (left, right) = factor.values[start..start + shape.kept_len()].split_at(shape.left_len());
                 let swaps = &factor.swaps[begin - first_column..][..shape.columns];
-                Block { shape, begin, rows: analysis.rows.of(supernode), left, right, swaps }
+                Block { shape, begin, rows: analysis.rows.column(supernode), left, right, swaps }
             })
         })
     }
@@ -110,7 +110,6 @@ impl<T: Scalar> Work<T> {
         self.x.len() / self.order
     }
 
-    /// Copies the block's outer rows into `outer`.
     fn gather(&mut self, rows: &[u32]) {
         self.outer.clear();
         for column in self.x.chunks_exact(self.order) {
@@ -118,7 +117,6 @@ impl<T: Scalar> Work<T> {
         }
     }
 
-    /// Subtracts `outer` from the block's outer rows.
     fn scatter_subtract(&mut self, rows: &[u32]) {
         if rows.is_empty() {
             return;

@@ -12,7 +12,6 @@ const RELAXATION: [(u64, f64); 4] = [(4, 1.0), (16, 0.8), (48, 0.1), (u64::MAX, 
 pub(super) struct Supernodes {
     /// First column of each supernode, and the order of the matrix last.
     pub(super) begin: Vec<u32>,
-    /// Parent supernode, or [`NONE`].
     pub(super) parent: Vec<u32>,
     /// Rows below the diagonal block.
     pub(super) below: Vec<u32>,

@@ -7,7 +7,7 @@
 use super::supernodes::{Supernodes, supernodes};
 use super::units::{Unit, units};
 use crate::linalg::LinalgError;
-use crate::linalg::order::{Elimination, Lists, NONE, Order, Pattern, children, narrow, running_sum};
+use crate::linalg::order::{Elimination, NONE, Order, Pattern, children, narrow, running_sum};
 
 /// An entry of the caller's matrix and its place in the kept part of a front.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,6 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Order of the front.
     pub(super) fn height(self) -> usize {
         self.columns + self.below
     }
@@ -40,7 +39,6 @@ impl Shape {
     pub(super) fn kept_len(self) -> usize {
         self.left_len() + self.columns * self.below
     }
-    /// Entries of the update.
     pub(super) fn update_len(self) -> usize {
         self.below * self.below
     }
@@ -59,12 +57,12 @@ pub(crate) struct LuAnalysis {
     pub(super) begin: Vec<u32>,
     pub(super) parent: Vec<u32>,
     /// For each supernode the rows below its diagonal block, ascending, in the order of elimination.
-    pub(super) rows: Lists,
+    pub(super) rows: Pattern,
     /// The same rows as positions in the parent's front.
     relative: Vec<u32>,
     entry_offsets: Vec<u32>,
     entries: Vec<Entry>,
-    pub(super) children: Lists,
+    pub(super) children: Pattern,
     pub(super) units: Vec<Unit>,
     pub(super) unit_of: Vec<u32>,
 }
@@ -99,14 +97,13 @@ impl LuAnalysis {
         Ok(this)
     }
 
-    /// Number of supernodes.
     pub(super) fn count(&self) -> usize {
         self.parent.len()
     }
 
     pub(super) fn shape(&self, supernode: usize) -> Shape {
         let columns = (self.begin[supernode + 1] - self.begin[supernode]) as usize;
-        Shape { columns, below: self.rows.of(supernode).len() }
+        Shape { columns, below: self.rows.column(supernode).len() }
     }
 
     /// The same rows as positions in the parent's front.
@@ -119,13 +116,13 @@ impl LuAnalysis {
     }
 
     fn relative_rows(&self) -> Vec<u32> {
-        let mut relative = Vec::with_capacity(self.rows.items.len());
+        let mut relative = Vec::with_capacity(self.rows.rows.len());
         for supernode in 0..self.count() {
             let Some(&parent) = self.parent.get(supernode).filter(|&&parent| parent != NONE) else { continue };
             let parent = parent as usize;
             let (begin, end) = (self.begin[parent], self.begin[parent + 1]);
-            let mut parents_rows = self.rows.of(parent).iter().zip(end - begin..);
-            for &row in self.rows.of(supernode) {
+            let mut parents_rows = self.rows.column(parent).iter().zip(end - begin..);
+            for &row in self.rows.column(supernode) {
                 relative.push(if row < end {
                     row - begin
                 } else {
@@ -146,7 +143,7 @@ impl LuAnalysis {
             let Shape { columns, below } = self.shape(supernode);
             let (begin, end) = (self.begin[supernode], self.begin[supernode + 1]);
             let height = narrow(columns + below);
-            for (&row, place) in self.rows.of(supernode).iter().zip(0..) {
+            for (&row, place) in self.rows.column(supernode).iter().zip(0..) {
                 local[row as usize] = place;
             }
             for column in begin..end {
@@ -173,7 +170,7 @@ impl LuAnalysis {
 
 /// The rows of every front below its diagonal block: row k lies in the fronts on the way up the tree from each
 /// entry (k, i), i < k, of A to the supernode of k itself.
-fn front_rows(upper: &Pattern, begin: &[u32], parent: &[u32], offsets: Vec<u32>) -> Lists {
+fn front_rows(upper: &Pattern, begin: &[u32], parent: &[u32], offsets: Vec<u32>) -> Pattern {
     let mut owner = Vec::with_capacity(upper.order());
     for (supernode, pair) in begin.windows(2).enumerate() {
         owner.resize(pair[1] as usize, narrow(supernode));
@@ -193,7 +190,7 @@ fn front_rows(upper: &Pattern, begin: &[u32], parent: &[u32], offsets: Vec<u32>)
         }
     }
     debug_assert!(next[..parent.len()] == offsets[1..], "counts and patterns agree");
-    Lists { offsets, items: rows }
+    Pattern { offsets, rows }
 }
 
 /// For every entry (i, j) the position of the entry (j, i).

@@ -8,8 +8,7 @@ use std::ops::Range;
 
 use crate::linalg::order::{NONE, narrow};
 
-/// A unit of subtrees does at most this share of all work: enough units to keep 16 threads busy, few enough that their
-/// updates, which wait for the top of the tree, stay small.
+/// The most of all work in a unit of subtrees: enough units for 16 threads, few enough that waiting updates stay small.
 const LARGEST_SHARE: f64 = 1.0 / 64.0;
 
 /// A run of supernodes and the number of updates it awaits from other units.

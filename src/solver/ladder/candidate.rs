@@ -5,13 +5,12 @@ use std::time::Instant;
 
 use super::{PlanarStart, Progress};
 use crate::mesh::{DiskMesh, Refinement};
-use crate::solver::{Embedding, Family, Method, Outside, PhaseSeconds, Pins, Prepared, Solution, VirtualBoundary};
+use crate::solver::{Embedding, Family, Method, Outside, Pins, Prepared, Solution, VirtualBoundary};
 
 /// An embedding, and what made it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Candidate {
-    /// The rung of the ladder, as the method that it is by itself: natural, iterate, virtual boundary, or the linear
-    /// method that was asked for.
+    /// The rung, as the method that it is by itself; for a linear solve the method that was asked for.
     pub rung: Method,
     /// The family of its weights, where its method has a choice.
     pub family: Family,
@@ -23,8 +22,7 @@ pub struct Candidate {
     pub progress: Option<Progress>,
     /// The outside that it was made with, where there was one.
     pub outside: Option<Arc<Outside>>,
-    /// Boundary vertices that were bent to a convex polygon to make the boundary simple (paper §5, k); none where it is
-    /// free, or was convex by the method.
+    /// Boundary vertices bent to a convex polygon (paper §5, k); none where it is free, or convex by the method.
     pub bent_vertices: usize,
     /// The stages of §5, where it has any.
     pub virtual_boundary: Option<Arc<VirtualBoundary>>,
@@ -37,32 +35,14 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// A solution of a rung, and nothing else.
     pub(super) fn new(rung: Method, family: Family, solution: Solution) -> Self {
-        Self {
-            rung,
-            family,
-            solution,
-            refinement: None,
-            progress: None,
-            outside: None,
-            bent_vertices: 0,
-            virtual_boundary: None,
-            note: None,
-            prepared: None,
-            planar_start: None,
-        }
+        Self { rung, family, solution, ..Self::default() }
     }
 
     /// An embedding that minimises an energy: no linear system has it as its solution.
     pub(in crate::solver) fn one_to_one(rung: Method, embedding: Embedding, pins: &Pins) -> Self {
-        let solution = Solution {
-            embedding,
-            pins: pins.clone(),
-            gauge_completed: pins.len() < 2,
-            linear: None,
-            seconds: PhaseSeconds::default(),
-        };
+        let gauge_completed = pins.len() < 2;
+        let solution = Solution { embedding, pins: pins.clone(), gauge_completed, ..Solution::default() };
         Self::new(rung, Family::default(), solution)
     }
 

@@ -69,7 +69,6 @@ fn fitted(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Embedding {
     if is_planar(&shifted) { shifted } else { embedding }
 }
 
-/// On the way.
 #[derive(Debug, Default)]
 pub(super) struct Continue {
     stage: Stage,

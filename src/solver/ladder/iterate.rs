@@ -102,7 +102,6 @@ struct Stall {
 }
 
 impl Stall {
-    /// Takes in a step.
     fn look_at(&mut self, step: &Step) {
         let count = step.verdict.defect_count();
         self.is_slow = self.best.is_some_and(|best| count as f64 > SLOW * best as f64);
@@ -116,7 +115,6 @@ impl Stall {
         self.is_still = step.max_move.is_some_and(|moved| moved <= limit);
     }
 
-    /// Whether the iteration gets no better.
     fn is_reached(&self) -> bool {
         self.steps_since >= LONG_PATIENCE || (self.steps_since >= PATIENCE && self.is_still)
     }

@@ -221,8 +221,7 @@ impl Ladder {
         Ok(())
     }
 
-    /// A candidate with its verdict. What is solved is handed over, even where the caller has meanwhile asked to stop:
-    /// the ladder has moved on.
+    /// A candidate with its verdict, handed over even where the caller has asked to stop: the rung has moved on.
     fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Step {
         control.enter(Phase::Verify).ok();
         let start = Instant::now();

@@ -117,7 +117,6 @@ impl Plan {
         Self { parts }
     }
 
-    /// The part under way.
     pub(super) fn part(&self) -> &Part {
         &self.parts[0]
     }

@@ -7,7 +7,6 @@ use super::{Candidate, Ending, Step};
 use crate::mesh::{DiskMesh, Refinement};
 use crate::solver::{Control, Embedding, Pins, SolveError};
 
-/// A way to one embedding after another.
 pub(super) trait Rung: std::fmt::Debug + Send {
     /// The next candidate. A step that is cancelled leaves the rung as it was.
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure>;
@@ -39,7 +38,6 @@ pub(super) trait Rung: std::fmt::Debug + Send {
 pub(super) struct Footing<'a> {
     /// What the part of the plan is asked for.
     pub(super) task: &'a Task,
-    /// The mesh as given.
     pub(super) mesh: &'a DiskMesh,
     /// The latest step of the same part of the plan; of the part before, where that leads here.
     pub(super) latest: Option<&'a Latest>,
@@ -54,7 +52,6 @@ pub(super) struct Latest {
     /// The pins in force.
     pub(super) pins: Pins,
     pub(super) has_simple_boundary: bool,
-    /// Whether it is proved planar.
     pub(super) is_planar: bool,
     /// Whether it is all that its part of the plan is for.
     pub(super) is_solved: bool,
@@ -69,7 +66,6 @@ impl Latest {
     }
 }
 
-/// Why a rung gave no candidate.
 #[derive(Debug)]
 pub(super) struct Failure {
     pub(super) error: SolveError,
@@ -108,14 +104,12 @@ impl Failure {
 pub(super) struct Notes(Vec<String>);
 
 impl Notes {
-    /// Adds a note.
     pub(super) fn say(&mut self, note: String) {
         if !self.0.contains(&note) {
             self.0.push(note);
         }
     }
 
-    /// Adds a note, where there is one.
     pub(super) fn extend(&mut self, note: Option<String>) {
         if let Some(note) = note {
             self.say(note);

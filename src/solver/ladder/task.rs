@@ -3,13 +3,10 @@
 use super::gauge_in;
 use super::rung::Notes;
 use crate::mesh::DiskMesh;
+use crate::solver::pins::GAUGE_PINS;
 use crate::solver::scale::fit_gauge;
 use crate::solver::{Conflict, Method, Pins, Settings, Solution, SolveError, check_pins, conflicts};
 
-/// Fewest pins that fix the similarity, and the most that are no constraints.
-const GAUGE_PINS: usize = 2;
-
-/// Settings and the user's pins.
 #[derive(Debug)]
 pub(super) struct Task {
     pub(super) settings: Settings,
@@ -33,17 +30,14 @@ impl Task {
         self.pins.len() > GAUGE_PINS || (self.pins.len() == GAUGE_PINS && !is_exact())
     }
 
-    /// Whether the pins leave the similarity open.
     pub(super) fn has_open_gauge(&self) -> bool {
         self.pins.len() < GAUGE_PINS
     }
 
-    /// The pins as the treatment holds them.
     pub(super) fn held(&self) -> Pins {
         self.settings.held(&self.pins)
     }
 
-    /// Whether springs pull some pins.
     pub(super) fn has_springs(&self) -> bool {
         self.held().values().any(|pin| !pin.hold.is_exact())
     }

@@ -208,8 +208,7 @@ impl Bend {
     }
 }
 
-/// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, at distances that follow the
-/// lengths between them.
+/// Boundary vertices on a circle as long as the boundary, evenly chosen along the loop, spaced by their lengths.
 fn on_circle(mesh: &DiskMesh, count: usize) -> PinPositions {
     let boundary = mesh.boundary_loop();
     let chosen: Vec<usize> = (0..count).map(|j| j * boundary.len() / count).collect();

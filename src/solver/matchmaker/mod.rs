@@ -63,9 +63,7 @@ struct Surroundings {
     frame: Vec<DVec2>,
 }
 
-/// Finds new vertices and an embedding with which all exact pins are met.
-///
-/// `start` is a planar embedding of the mesh, as near to the targets as can be: paths are short there.
+/// Finds new vertices and an embedding with which all exact pins are met, from a planar embedding near to the targets.
 ///
 /// # Errors
 ///

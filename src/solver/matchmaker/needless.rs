@@ -6,15 +6,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::DVec2;
-
 use super::triangulate::shortest_triangulation;
 use super::{Embedding, Matched};
 use crate::geom::{Orientation, orientation, segments_meet};
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
-/// Takes out new vertices that are not needed: those whose edges can be whole again with every face positive and the
-/// boundary simple.
+/// Takes out new vertices without which every face stays positive and the boundary simple.
 pub fn without_needless_vertices(mesh: &DiskMesh, matched: Matched) -> Matched {
     let mut removal = Removal::new(mesh, &matched);
     let old = matched.refinement.old_vertex_count();
@@ -81,10 +78,6 @@ impl<'a> Removal<'a> {
         }
     }
 
-    fn place(&self, vertex: VertexId) -> DVec2 {
-        self.embedding[vertex]
-    }
-
     /// Takes out a new vertex if that can be. Returns its neighbours, for which more may be possible now.
     fn remove(&mut self, vertex: VertexId) -> Option<Vec<VertexId>> {
         let side = self.sides[&self.new_vertices[vertex.index() - self.mesh.vertex_count()].edge];
@@ -128,7 +121,7 @@ impl<'a> Removal<'a> {
         let position = |i: usize| self.refined.position(corners[i]);
         let length = |i: usize, j: usize| position(i).distance_squared(position(j));
         let is_bad = |i: usize, j: usize, k: usize| {
-            let [a, b, c] = [i, j, k].map(|corner| self.place(corners[corner]));
+            let [a, b, c] = [i, j, k].map(|corner| self.embedding[corners[corner]]);
             on[i] & on[j] & on[k] != 0 || orientation(a, b, c) != Some(Orientation::CounterClockwise)
         };
         let triangles = shortest_triangulation(corners.len(), length, is_bad)?;
@@ -150,9 +143,9 @@ impl<'a> Removal<'a> {
 
     /// Whether the boundary may go straight past a vertex: the line meets no edge but the two beside it, at its ends.
     fn is_clear(&self, before: VertexId, vertex: VertexId, after: VertexId) -> bool {
-        let line = [before, after].map(|v| self.place(v));
+        let line = [before, after].map(|v| self.embedding[v]);
         self.after.iter().filter(|(from, _)| **from != before && **from != vertex).all(|(&from, &to)| {
-            let edge = [from, to].map(|v| self.place(v));
+            let edge = [from, to].map(|v| self.embedding[v]);
             match (to == before, from == after) {
                 (false, false) => !segments_meet(line, edge),
                 // They share an end; more only where the other end of either lies on the other.
@@ -163,17 +156,16 @@ impl<'a> Removal<'a> {
     }
 }
 
-/// The mesh with the new vertices that are left.
+/// The mesh without the removed new vertices.
 fn without(mesh: &DiskMesh, matched: &Matched, removed: &BTreeSet<VertexId>, parts: Parts) -> Matched {
     let old = mesh.vertex_count();
-    let is_left = |v: &VertexId| !removed.contains(v);
-    let left: Vec<VertexId> = matched.refinement.disk().vertices().filter(is_left).collect();
+    let kept: Vec<VertexId> = matched.refinement.disk().vertices().filter(|v| !removed.contains(v)).collect();
     let mut number = vec![VertexId::default(); matched.embedding.len()];
-    for (place, v) in left.iter().enumerate() {
+    for (place, v) in kept.iter().enumerate() {
         number[v.index()] = VertexId::from_index(place);
     }
-    let embedding = left.iter().map(|v| matched.embedding[v]).collect();
-    let new_vertices = left[old..].iter().map(|v| matched.refinement.new_vertices()[v.index() - old]).collect();
+    let embedding = kept.iter().map(|v| matched.embedding[v]).collect();
+    let new_vertices = kept[old..].iter().map(|v| matched.refinement.new_vertices()[v.index() - old]).collect();
     let renumbered = |t: [VertexId; 3]| t.map(|v| number[v.index()]);
     let parts = parts.into_iter().map(|(face, parts)| (face, parts.into_iter().map(renumbered).collect())).collect();
     let refinement = Refinement::new(mesh, new_vertices, &parts).expect("the parts of a disk's faces are a disk");

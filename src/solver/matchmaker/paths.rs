@@ -8,12 +8,11 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-use super::router::{Move, Router, Sector, Terminal, Way};
+use super::router::{Length, Move, Router, Sector, Terminal, Way};
 use super::subdivision::{Role, Subdivision};
 use super::target_graph::TargetGraph;
 use crate::solver::{Control, Phase, SolveError};
 
-/// The paths that have been laid.
 #[derive(Debug)]
 pub(super) struct Paths<'a> {
     pub(super) cells: Subdivision,
@@ -29,24 +28,10 @@ pub(super) struct Paths<'a> {
 }
 
 /// An edge that waits for its path, by a bound of the path's length.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Waiting {
-    bound: f64,
+    bound: Length,
     edge: u32,
-}
-
-impl Eq for Waiting {}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.bound.total_cmp(&other.bound).then(self.edge.cmp(&other.edge))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
 }
 
 impl<'a> Paths<'a> {
@@ -69,7 +54,6 @@ impl<'a> Paths<'a> {
         paths
     }
 
-    /// Lays all paths.
     pub(super) fn lay_all(&mut self, router: &mut Router, control: Control<'_>) -> Result<(), SolveError> {
         let mut is_connected: Vec<bool> = (0..self.graph.points.len()).map(|end| end >= self.target_count).collect();
         let mut waiting = BinaryHeap::new();
@@ -110,11 +94,10 @@ impl<'a> Paths<'a> {
     /// An edge of which nothing is known but how far its ends are from each other.
     fn waiting(&self, edge: u32) -> Reverse<Waiting> {
         let [a, b] = self.graph.edges[edge as usize].map(|end| self.cells.places[self.vertices[end as usize] as usize]);
-        Reverse(Waiting { bound: a.distance(b), edge })
+        Reverse(Waiting { bound: Length(a.distance(b)), edge })
     }
 
-    /// Lays the path of the first edge that waits, if it is no longer than the next may be; else it waits on. Paths in
-    /// its way can only make it longer.
+    /// Lays the path of the first edge that waits, if no longer than the next may be: paths in its way only add to it.
     fn lay_or_wait(
         &mut self,
         edge: u32,
@@ -124,16 +107,15 @@ impl<'a> Paths<'a> {
     ) -> bool {
         waiting.pop();
         let Way { length, moves } = self.way(edge, from, router).expect("ends of one region are joined within it");
-        let is_shortest = waiting.peek().is_none_or(|Reverse(next)| length <= next.bound);
+        let is_shortest = waiting.peek().is_none_or(|Reverse(next)| length <= next.bound.0);
         if is_shortest {
             self.lay(edge, from, &moves);
         } else {
-            waiting.push(Reverse(Waiting { bound: length, edge }));
+            waiting.push(Reverse(Waiting { bound: Length(length), edge }));
         }
         is_shortest
     }
 
-    /// The shortest way for an edge from one of its ends.
     fn way(&self, edge: u32, from: u32, router: &mut Router) -> Option<Way> {
         let [a, b] = self.graph.edges[edge as usize];
         let to = if from == a { b } else { a };
@@ -171,8 +153,8 @@ impl<'a> Paths<'a> {
                 Move::Cross(h) => {
                     let begin = corner.or_else(|| cells.corner_at(h, vertex)).expect("the way goes on from a corner");
                     cells.split_edge(h, role);
-                    corner = Some(cells.twin(h));
-                    cells.split_cell(begin, cells.next(h))
+                    corner = Some(cells[h].twin);
+                    cells.split_cell(begin, cells[h].next)
                 }
                 Move::Reach(h) => {
                     let begin = corner.take().expect("a vertex is reached through a cell");
@@ -190,7 +172,7 @@ impl<'a> Paths<'a> {
         let [a, b] = self.graph.edges[edge as usize];
         let to = if from == a { b } else { a };
         self.departures.insert([from, to], pieces[0]);
-        self.departures.insert([to, from], self.cells.twin(pieces[pieces.len() - 1]));
+        self.departures.insert([to, from], self.cells[pieces[pieces.len() - 1]].twin);
         if from != a {
             line.reverse();
         }

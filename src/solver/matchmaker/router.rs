@@ -4,7 +4,7 @@
 //! another. It is found by A* (Hart, Nilsson, Raphael 1968): all lengths are those in the plane, and more. Since a way
 //! straight through a cell is never longer than one around, no cell is crossed twice.
 
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use glam::DVec2;
@@ -32,7 +32,6 @@ pub(super) struct Sector {
 }
 
 impl Sector {
-    /// Everything around a vertex.
     pub(super) fn around(cells: &Subdivision, vertex: u32) -> Self {
         let all: Vec<u32> = cells.around(vertex).collect();
         Self { corners: all.clone(), edges: all }
@@ -58,34 +57,37 @@ pub(super) struct Terminal {
     pub(super) sector: Sector,
 }
 
-/// A way from one end to another.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Way {
     pub(super) length: f64,
     pub(super) moves: Vec<Move>,
 }
 
+/// A length that can be compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Reached {
-    /// Length so far and at least to the goal.
-    bound: f64,
-    length: f64,
-    node: u32,
-}
+pub(super) struct Length(pub(super) f64);
 
-impl Eq for Reached {}
+impl Eq for Length {}
 
-impl Ord for Reached {
-    /// The greatest is the one to go on from.
+impl Ord for Length {
     fn cmp(&self, other: &Self) -> Ordering {
-        other.bound.total_cmp(&self.bound).then(other.node.cmp(&self.node))
+        self.0.total_cmp(&other.0)
     }
 }
 
-impl PartialOrd for Reached {
+impl PartialOrd for Length {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
+}
+
+/// A node to go on from, the least first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Reached {
+    /// Length so far and at least to the goal.
+    bound: Length,
+    node: u32,
+    length: Length,
 }
 
 /// What is known of a node: the run that knows it, its length, where it is reached from and by which move.
@@ -97,7 +99,6 @@ struct Known {
     by: Move,
 }
 
-/// A move from one node to another.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     node: u32,
@@ -110,7 +111,7 @@ struct Link {
 pub(super) struct Router {
     known: Vec<Known>,
     run: u32,
-    heap: BinaryHeap<Reached>,
+    heap: BinaryHeap<Reverse<Reached>>,
     /// Length that a crossing counts for on an edge that no path crosses yet.
     crossing: f64,
 }
@@ -129,7 +130,7 @@ impl Router {
         self.known.resize(size, Known { run: 0, length: 0.0, from: NONE, by: Move::Along(NONE) });
         let begin = 2 * start.vertex + 1;
         self.reach(cells, goal, Link { node: begin, from: begin, by: Move::Along(NONE) });
-        while let Some(Reached { length, node, .. }) = self.heap.pop() {
+        while let Some(Reverse(Reached { length: Length(length), node, .. })) = self.heap.pop() {
             if node == 2 * goal.vertex + 1 {
                 return Some(Way { length, moves: self.moves(begin, node) });
             }
@@ -152,7 +153,7 @@ impl Router {
         for &h in sector.edges.iter().filter(|&&h| cells.path(h).is_none()) {
             let head = cells.head(h);
             let is_open = if head == goal.vertex {
-                goal.sector.edges.contains(&cells.twin(h))
+                goal.sector.edges.contains(&cells[h].twin)
             } else {
                 cells.roles[head as usize] == Role::Free
             };
@@ -161,7 +162,7 @@ impl Router {
             }
         }
         for &corner in &sector.corners {
-            let across = cells.cell(cells.next(corner)).take_while(|&h| h != cells.previous(corner));
+            let across = cells.cell(cells[corner].next).take_while(|&h| h != cells[corner].previous);
             for h in across.filter(|&h| cells.path(h).is_none()) {
                 self.reach(cells, goal, Link { node: 2 * h, from: node, by: Move::Cross(h) });
             }
@@ -170,19 +171,19 @@ impl Router {
 
     /// Goes on from the far side of a halfedge.
     fn leave_crossing(&mut self, cells: &Subdivision, crossed: u32, goal: &Terminal) {
-        let (node, entry) = (2 * crossed, cells.twin(crossed));
+        let (node, entry) = (2 * crossed, cells[crossed].twin);
         for h in cells.cell(entry).skip(1) {
             if cells.path(h).is_none() {
                 self.reach(cells, goal, Link { node: 2 * h, from: node, by: Move::Cross(h) });
             }
-            let tail = cells.tail(h);
+            let tail = cells[h].tail;
             let is_open = if tail == goal.vertex {
                 goal.sector.corners.contains(&h)
             } else {
                 cells.roles[tail as usize] == Role::Free
             };
             // The ends of the entry lie on one line with it.
-            if is_open && h != cells.next(entry) {
+            if is_open && h != cells[entry].next {
                 self.reach(cells, goal, Link { node: 2 * tail + 1, from: node, by: Move::Reach(h) });
             }
         }
@@ -200,11 +201,10 @@ impl Router {
             return;
         }
         *known = Known { run: self.run, length, from, by };
-        let bound = length + here.distance(cells.places[goal.vertex as usize]);
-        self.heap.push(Reached { bound, length, node });
+        let bound = Length(length + here.distance(cells.places[goal.vertex as usize]));
+        self.heap.push(Reverse(Reached { bound, node, length: Length(length) }));
     }
 
-    /// The moves to a node, in order.
     fn moves(&self, begin: u32, mut node: u32) -> Vec<Move> {
         let mut moves = Vec::new();
         while node != begin {
@@ -220,5 +220,5 @@ impl Router {
 /// Where a node lies: a vertex, or the middle of a piece of an edge.
 fn position(cells: &Subdivision, node: u32) -> DVec2 {
     let (at, half) = (|v: u32| cells.places[v as usize], node / 2);
-    if node.is_multiple_of(2) { at(cells.tail(half)).midpoint(at(cells.head(half))) } else { at(half) }
+    if node.is_multiple_of(2) { at(cells[half].tail).midpoint(at(cells.head(half))) } else { at(half) }
 }

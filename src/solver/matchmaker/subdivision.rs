@@ -6,6 +6,8 @@
 //!
 //! Halfedges as in [`DiskMesh`]; the outer face is a cell as well.
 
+use std::ops::{Index, IndexMut};
+
 use glam::DVec2;
 
 use crate::mesh::{DiskMesh, FaceId, VertexId};
@@ -24,22 +26,20 @@ pub(super) enum Role {
     Within(u32),
 }
 
-/// A halfedge of the subdivision.
 #[derive(Clone, Copy, Debug)]
-struct Halfedge {
-    next: u32,
-    previous: u32,
-    twin: u32,
-    tail: u32,
+pub(super) struct Halfedge {
+    pub(super) next: u32,
+    pub(super) previous: u32,
+    pub(super) twin: u32,
+    pub(super) tail: u32,
     /// The old edge that it is a piece of; none for a chord.
     old_edge: u32,
     /// The old face that it lies in or at; none outside.
-    face: u32,
+    pub(super) face: u32,
     /// The path that runs along it.
     path: u32,
 }
 
-/// A subdivision of the plane into cells.
 #[derive(Debug)]
 pub(super) struct Subdivision {
     halfedges: Vec<Halfedge>,
@@ -55,6 +55,20 @@ pub(super) struct Subdivision {
     ends: Vec<[u32; 2]>,
     /// New points on each old edge, from its first end.
     points: Vec<Vec<u32>>,
+}
+
+impl Index<u32> for Subdivision {
+    type Output = Halfedge;
+
+    fn index(&self, h: u32) -> &Halfedge {
+        &self.halfedges[h as usize]
+    }
+}
+
+impl IndexMut<u32> for Subdivision {
+    fn index_mut(&mut self, h: u32) -> &mut Halfedge {
+        &mut self.halfedges[h as usize]
+    }
 }
 
 impl Subdivision {
@@ -96,34 +110,12 @@ impl Subdivision {
         self.vertex_count() - self.edge_of_point.len()
     }
 
-    pub(super) fn next(&self, h: u32) -> u32 {
-        self.halfedges[h as usize].next
-    }
-
-    pub(super) fn previous(&self, h: u32) -> u32 {
-        self.halfedges[h as usize].previous
-    }
-
-    pub(super) fn twin(&self, h: u32) -> u32 {
-        self.halfedges[h as usize].twin
-    }
-
-    pub(super) fn tail(&self, h: u32) -> u32 {
-        self.halfedges[h as usize].tail
-    }
-
     pub(super) fn head(&self, h: u32) -> u32 {
-        self.tail(self.twin(h))
+        self[self[h].twin].tail
     }
 
-    /// The old face that a halfedge lies in or at; none outside.
-    pub(super) fn face(&self, h: u32) -> u32 {
-        self.halfedges[h as usize].face
-    }
-
-    /// The path along a halfedge.
     pub(super) fn path(&self, h: u32) -> Option<u32> {
-        let path = self.halfedges[h as usize].path;
+        let path = self[h].path;
         (path != NONE).then_some(path)
     }
 
@@ -139,7 +131,7 @@ impl Subdivision {
 
     /// How many new points lie on the old edge that a halfedge is a piece of.
     pub(super) fn crowd(&self, h: u32) -> usize {
-        match self.halfedges[h as usize].old_edge {
+        match self[h].old_edge {
             NONE => 0,
             edge => self.points(edge).len(),
         }
@@ -147,7 +139,7 @@ impl Subdivision {
 
     /// The next halfedge around a tail, counter-clockwise.
     pub(super) fn rotated(&self, h: u32) -> u32 {
-        self.twin(self.previous(h))
+        self[self[h].previous].twin
     }
 
     /// All halfedges that leave a vertex, counter-clockwise.
@@ -166,47 +158,46 @@ impl Subdivision {
         let mut at = Some(h);
         std::iter::from_fn(move || {
             let here = at?;
-            at = Some(self.next(here)).filter(|&next| next != h);
+            at = Some(self[here].next).filter(|&next| next != h);
             Some(here)
         })
     }
 
     /// The halfedge of a cell that leaves a vertex.
     pub(super) fn corner_at(&self, cell: u32, vertex: u32) -> Option<u32> {
-        self.cell(cell).find(|&h| self.tail(h) == vertex)
+        self.cell(cell).find(|&h| self[h].tail == vertex)
     }
 
-    /// Says that a path runs along a halfedge.
     pub(super) fn set_path(&mut self, h: u32, path: u32) {
-        let twin = self.twin(h);
-        self.halfedges[h as usize].path = path;
-        self.halfedges[twin as usize].path = path;
+        let twin = self[h].twin;
+        self[h].path = path;
+        self[twin].path = path;
     }
 
     fn add_halfedge(&mut self, tail: u32, like: u32, old_edge: u32) -> u32 {
         let h = number(self.halfedge_count());
-        let like = self.halfedges[like as usize];
+        let like = self[like];
         self.halfedges.push(Halfedge { next: NONE, previous: NONE, twin: NONE, tail, old_edge, ..like });
         h
     }
 
     fn join(&mut self, first: u32, second: u32) {
-        self.halfedges[first as usize].next = second;
-        self.halfedges[second as usize].previous = first;
+        self[first].next = second;
+        self[second].previous = first;
     }
 
     fn pair(&mut self, one: u32, other: u32) {
-        self.halfedges[one as usize].twin = other;
-        self.halfedges[other as usize].twin = one;
+        self[one].twin = other;
+        self[other].twin = one;
     }
 
     /// Splits a piece of an old edge by a new point. The halfedge keeps its tail, and so does its twin.
     pub(super) fn split_edge(&mut self, h: u32, role: Role) -> u32 {
-        let (twin, old_edge) = (self.twin(h), self.halfedges[h as usize].old_edge);
+        let (twin, old_edge) = (self[h].twin, self[h].old_edge);
         let point = self.add_point(h, old_edge, role);
         let (ahead, back) = (self.add_halfedge(point, h, old_edge), self.add_halfedge(point, twin, old_edge));
         for (piece, rest) in [(h, ahead), (twin, back)] {
-            let next = self.next(piece);
+            let next = self[piece].next;
             self.join(rest, next);
             self.join(piece, rest);
         }
@@ -220,7 +211,7 @@ impl Subdivision {
     fn add_point(&mut self, h: u32, old_edge: u32, role: Role) -> u32 {
         let point = number(self.vertex_count());
         let [low, high] = self.ends[old_edge as usize];
-        let ends = [self.tail(h), self.head(h)];
+        let ends = [self[h].tail, self.head(h)];
         let points = &mut self.points[old_edge as usize];
         // The point before the new one is an end of the piece, or the piece begins at the first end.
         let before = points.iter().position(|p| ends.contains(p));
@@ -244,10 +235,10 @@ impl Subdivision {
     /// Cuts a cell by a chord between the tails of two of its halfedges. Returns the chord from the first to the second.
     pub(super) fn split_cell(&mut self, from: u32, to: u32) -> u32 {
         let (chord, back) =
-            (self.add_halfedge(self.tail(from), from, NONE), self.add_halfedge(self.tail(to), from, NONE));
-        self.halfedges[chord as usize].path = NONE;
-        self.halfedges[back as usize].path = NONE;
-        let (before_from, before_to) = (self.previous(from), self.previous(to));
+            (self.add_halfedge(self[from].tail, from, NONE), self.add_halfedge(self[to].tail, from, NONE));
+        self[chord].path = NONE;
+        self[back].path = NONE;
+        let (before_from, before_to) = (self[from].previous, self[to].previous);
         self.join(before_from, chord);
         self.join(chord, to);
         self.join(before_to, back);

@@ -13,8 +13,7 @@ pub(super) struct TargetGraph {
     /// Ends of each edge, the lower number first.
     pub(super) edges: Vec<[u32; 2]>,
     number_of_edge: BTreeMap<[u32; 2], u32>,
-    /// Neighbours of each vertex, counter-clockwise; those of a frame corner from the side that leaves it to the side
-    /// that comes to it.
+    /// Neighbours of each vertex, counter-clockwise; of a frame corner from the side that leaves to the one that comes.
     neighbours: Vec<Vec<u32>>,
 }
 
@@ -39,7 +38,6 @@ impl TargetGraph {
         Some(Self { points, edges, number_of_edge, neighbours })
     }
 
-    /// The edge between two vertices, if there is one.
     pub(super) fn edge_between(&self, a: u32, b: u32) -> Option<u32> {
         self.number_of_edge.get(&[a.min(b), a.max(b)]).copied()
     }

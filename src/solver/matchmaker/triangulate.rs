@@ -28,16 +28,15 @@ fn joins_one_path(graph: &TargetGraph, [a, b]: [Role; 2]) -> bool {
 
 /// Puts a vertex in the middle of every piece of an edge that joins two vertices of one path and is no part of it.
 pub(super) fn split_collapsing_edges(cells: &mut Subdivision, graph: &TargetGraph) {
-    let first_of_each: Vec<u32> = (0..).take(cells.halfedge_count()).filter(|&h| h < cells.twin(h)).collect();
+    let first_of_each: Vec<u32> = (0..).take(cells.halfedge_count()).filter(|&h| h < cells[h].twin).collect();
     for h in first_of_each {
-        let roles = [cells.tail(h), cells.head(h)].map(|v| cells.roles[v as usize]);
+        let roles = [cells[h].tail, cells.head(h)].map(|v| cells.roles[v as usize]);
         if cells.path(h).is_none() && joins_one_path(graph, roles) {
             cells.split_edge(h, Role::Free);
         }
     }
 }
 
-/// Cuts all cells into triangles.
 pub(super) fn triangulate(cells: &mut Subdivision, graph: &TargetGraph, mesh: &DiskMesh) -> Parts {
     let mut of_cell: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
     let mut waiting: Vec<u32> = (0..).take(cells.halfedge_count()).filter(|&h| is_first(cells, h)).collect();
@@ -51,11 +50,11 @@ pub(super) fn triangulate(cells: &mut Subdivision, graph: &TargetGraph, mesh: &D
         let piece = piece.expect("a cell of more than three sides has one without a path");
         cells.split_edge(piece, Role::Free);
         waiting.push(first);
-        waiting.push(cells.twin(piece));
+        waiting.push(cells[piece].twin);
     }
     let mut parts = Parts::new();
     for (first, triangles) in of_cell {
-        let face = FaceId::new(cells.face(first));
+        let face = FaceId::new(cells[first].face);
         parts.entry(face).or_default().extend(triangles);
     }
     let old = u32::try_from(cells.old_vertex_count()).expect("vertices fit");
@@ -65,16 +64,16 @@ pub(super) fn triangulate(cells: &mut Subdivision, graph: &TargetGraph, mesh: &D
 
 /// Whether a halfedge is the first of its cell, and the cell is within the frame.
 fn is_first(cells: &Subdivision, h: u32) -> bool {
-    cells.face(h) != super::subdivision::NONE && cells.cell(h).all(|other| other >= h)
+    cells[h].face != super::subdivision::NONE && cells.cell(h).all(|other| other >= h)
 }
 
 /// Triangles of a cell without a collapsing diagonal: those whose diagonals are shortest.
 fn cut(cells: &Subdivision, graph: &TargetGraph, mesh: &DiskMesh, first: u32) -> Option<Vec<[u32; 3]>> {
-    let corners: Vec<u32> = cells.cell(first).map(|h| cells.tail(h)).collect();
+    let corners: Vec<u32> = cells.cell(first).map(|h| cells[h].tail).collect();
     if let &[a, b, c] = corners.as_slice() {
         return Some(vec![[a, b, c]]);
     }
-    let sides = sides_of_corners(cells, mesh, FaceId::new(cells.face(first)), &corners);
+    let sides = sides_of_corners(cells, mesh, FaceId::new(cells[first].face), &corners);
     let place = |i: usize| cells.places[corners[i] as usize];
     let length = |i: usize, j: usize| {
         if j == i + 1 || (i == 0 && j + 1 == corners.len()) {
@@ -98,8 +97,7 @@ fn sides_of_corners(cells: &Subdivision, mesh: &DiskMesh, face: FaceId, corners:
     corners.iter().map(|&v| (0..3).map(|k| u8::from(is_on(v, k)) << k).sum()).collect()
 }
 
-/// The triangulation of a convex polygon whose diagonals have the least sum, without flat triangles (dynamic
-/// programming). `None` where the sum is infinite.
+/// The triangulation of a convex polygon with the least finite sum of lengths, no triangle bad (dynamic programming).
 pub(super) fn shortest_triangulation(
     count: usize,
     length: impl Fn(usize, usize) -> f64,
