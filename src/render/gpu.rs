@@ -111,7 +111,15 @@ impl Gpu {
                 Sampling::Smooth => &self.smooth,
                 Sampling::Sharp => &self.sharp,
             };
-            let group = pane_group(io.device, &self.pipelines, &state.uniforms, picture, sampler);
+            let group = io.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("pane"),
+                layout: &self.pipelines.pane_layout,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: state.uniforms.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(picture) },
+                    wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
+                ],
+            });
             let scene = Scene { pipelines: &self.pipelines, cache: &self.cache, group: &group };
             let draw_calls = scene.draw(io.encoder, state, &plan);
             self.cache.stats.drawn_panes += 1;
@@ -281,24 +289,6 @@ fn uniform_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
         size,
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
-    })
-}
-
-fn pane_group(
-    device: &wgpu::Device,
-    pipelines: &Pipelines,
-    uniforms: &wgpu::Buffer,
-    picture: &wgpu::TextureView,
-    sampler: &wgpu::Sampler,
-) -> wgpu::BindGroup {
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("pane"),
-        layout: &pipelines.pane_layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(picture) },
-            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
-        ],
     })
 }
 

@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::UnitPlane;
-use super::ticks::nice_step_at_least;
+use super::{UnitPlane, nice_step_at_least};
 use crate::geom::Bounds;
 
 /// The share of a pane that a framed box fills.
