@@ -8,7 +8,6 @@ use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::{Pipelines, Target};
 use super::plan::{Draw, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
-use super::shrink::shrunk;
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;
 
@@ -144,11 +143,11 @@ impl Gpu {
             return;
         }
         // A picture that the card does not take is shown with less detail rather than not at all.
-        let small = shrunk(picture.size, &picture.pixels, io.device.limits().max_texture_dimension_2d);
-        let (size, pixels) = small.as_ref().map_or((picture.size, &picture.pixels), |(size, pixels)| (*size, pixels));
+        let small = picture.shrunk(io.device.limits().max_texture_dimension_2d);
+        let crate::view::Picture { size, pixels, .. } = small.as_ref().unwrap_or(picture);
         self.cache.stats.uploads += 1;
         self.cache.stats.uploaded_bytes += pixels.len() as u64;
-        self.pictures.insert(key, picture_view(io.device, io.queue, size, pixels));
+        self.pictures.insert(key, picture_view(io.device, io.queue, *size, pixels));
     }
 
     /// Drops what no pane shows any more.
