@@ -127,16 +127,13 @@ impl FlattenArguments {
             (Method::Convex(_), Some(shape)) => Method::Convex(shape),
             (method, _) => method,
         };
-        let max_steps = self.max_steps.unwrap_or(Settings::MAX_STEPS);
-        let (relax_rounds, new_vertices) = (self.relax, !self.no_new_vertices);
-        let base = Settings::new(method, self.family.unwrap_or_default());
         Settings {
             treatment: self.treatment,
-            max_steps,
+            max_steps: self.max_steps.unwrap_or(Settings::MAX_STEPS),
             growth: self.growth.unwrap_or_default(),
-            relax_rounds,
-            new_vertices,
-            ..base
+            relax_rounds: self.relax,
+            new_vertices: !self.no_new_vertices,
+            ..Settings::new(method, self.family.unwrap_or_default())
         }
     }
 

@@ -8,12 +8,12 @@ use std::time::Instant;
 
 use super::args::FlattenArguments;
 use super::exit::conclude;
-use super::progress::{Progress, interrupted, is_interrupted, stop_on_interrupt};
+use super::progress::{INTERRUPTED, Progress, is_interrupted, stop_on_interrupt};
 use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, print_summary, step_words};
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::{
-    Constraints, OutputFit, OutputKind, PictureFile, Report, StepReport, StepsFolder, Target, Targets, WriteError,
+    Constraints, OutputFit, OutputKind, PictureFile, StepReport, StepsFolder, Target, Targets, WriteError,
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Outcome, Surface};
@@ -157,7 +157,8 @@ impl HeadlessJob<'_> {
         if deliver(&output.report, self.report)? == StandardOutput::Free {
             print_summary(&output.report, &ending_words(&solved, &output));
         }
-        Ok(if output.verdict.planar && are_met(&output.report) { Status::Fine } else { Status::FallsShort })
+        let are_met = output.report.pins.is_none_or(|pins| pins.unmet.is_empty());
+        Ok(if output.verdict.planar && are_met { Status::Fine } else { Status::FallsShort })
     }
 
     /// Takes all steps of the method.
@@ -168,7 +169,7 @@ impl HeadlessJob<'_> {
         progress: &Progress,
     ) -> Result<Solved, Failure> {
         let report_phase = |phase: Phase| progress.enter(phase.words());
-        let control = Control::new(interrupted(), &report_phase);
+        let control = Control::new(&INTERRUPTED, &report_phase);
         let document = &self.document;
         let settings = document.run_settings();
         let pins = document.pins();
@@ -228,11 +229,6 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
             Err(Failure::NotADisk { path: model.path_words(), diagnosis: Box::new(diagnosis.as_ref().clone()) })
         }
     }
-}
-
-/// Whether every constraint that is to be met exactly is.
-fn are_met(report: &Report) -> bool {
-    report.pins.as_ref().is_none_or(|pins| pins.unmet.is_empty())
 }
 
 fn set_threads(threads: Option<u16>) -> Result<(), Failure> {

@@ -14,13 +14,8 @@ const QUIET: Duration = Duration::from_millis(500);
 /// Time between two looks at the clock.
 const TICK: Duration = Duration::from_millis(100);
 
-/// Raised by Ctrl-C.
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
-
 /// The flag that Ctrl-C raises.
-pub(super) fn interrupted() -> &'static AtomicBool {
-    &INTERRUPTED
-}
+pub(super) static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Whether the user asked to stop.
 pub(super) fn is_interrupted() -> bool {

@@ -38,11 +38,12 @@ impl Session {
     pub fn status(&self) -> Status<'_> {
         let is_first = self.timeline().records().len() <= 1;
         let is_current = self.is_current();
+        let is_at_work = self.busy().is_some() || self.is_following();
         if self.is_preview() {
             Status::Preview(self.preview())
         } else if self.is_running() && is_first {
             Status::Solving
-        } else if !is_current && self.is_at_work() {
+        } else if !is_current && is_at_work {
             if self.outcome().is_some() { Status::Following } else { Status::Solving }
         } else if !is_current {
             Status::Stale
@@ -52,11 +53,6 @@ impl Session {
         } else {
             Status::Current
         }
-    }
-
-    /// Whether anything is under way in the background that changes what the screen shows or what files hold.
-    pub fn is_at_work(&self) -> bool {
-        self.busy().is_some() || self.is_following()
     }
 
     /// What goes on in the background that is worth waiting for.

@@ -93,13 +93,6 @@ pub(super) enum Goal {
 }
 
 impl Goal {
-    /// Counts a step that was taken.
-    pub(super) fn count_step(&mut self) {
-        if let Self::Steps(left) = self {
-            *left = left.saturating_sub(1);
-        }
-    }
-
     /// Whether the run has gone far enough with this step.
     pub(super) fn is_reached(&self, outcome: &Outcome, ending: Option<Ending>) -> bool {
         match self {

@@ -33,11 +33,6 @@ impl TargetChecks {
 impl Session {
     /// Brings everything up to date. Call once per frame.
     pub(super) fn refresh_target_checks(&mut self) {
-        self.refresh_conflicts();
-        self.refresh_flat();
-    }
-
-    fn refresh_conflicts(&mut self) {
         let settings = self.document.settings;
         let pins = if settings.method.uses_pins() { settings.held(&self.document.pins()) } else { Pins::default() };
         let looked_in = (self.model_revision(), pins);
@@ -46,9 +41,6 @@ impl Session {
             self.target_checks.conflicts = found.unwrap_or_default();
             self.target_checks.looked_in = looked_in;
         }
-    }
-
-    fn refresh_flat(&mut self) {
         let (revision, disk) = (self.model_revision(), self.disk().cloned());
         let TargetChecks { flat, flattening, .. } = &mut self.target_checks;
         if let Some((of, embedding)) = flattening.poll() {

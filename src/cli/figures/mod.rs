@@ -24,7 +24,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::flatten::go_on;
-use super::progress::{Progress, interrupted};
+use super::progress::{INTERRUPTED, Progress};
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::figure::{Drawing, Panel, Sheet};
@@ -132,7 +132,7 @@ pub(super) fn run(folder: &Path) -> Result<Status, Failure> {
 
 fn compute(progress: &Progress) -> Result<Vec<Figure>, SolveError> {
     let quiet = |_| {};
-    let control = Control::new(interrupted(), &quiet);
+    let control = Control::new(&INTERRUPTED, &quiet);
     let disk = |example: Example| Arc::new(DiskMesh::try_from(example.mesh()).expect("built-in meshes are disks"));
     let (ell, cube) = (disk(Example::Ell), disk(Example::Cube));
     let face = textured::Subject::face();

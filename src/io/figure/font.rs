@@ -137,21 +137,24 @@ pub(super) fn strokes_of(text: &str, at: DVec2, size: f64) -> Vec<Vec<DVec2>> {
 
 /// The lines of a path on the grid.
 fn lines_of(path: &str) -> Vec<Vec<DVec2>> {
-    let mut lines: Vec<Vec<DVec2>> = Vec::new();
+    let mut lines: Vec<Vec<DVec2>> = vec![Vec::new()];
     for (letter, n) in commands(path) {
+        if matches!(letter, 'M' | 'O') {
+            lines.push(Vec::new());
+        }
+        let line = lines.last_mut().expect("there is always a last line");
         let at = |k: usize| DVec2::new(n[k], n[k + 1]);
         match letter {
-            'M' => lines.push(vec![at(0)]),
-            'L' => extend(&mut lines, [at(0)]),
+            'M' | 'L' => line.push(at(0)),
             'Q' => {
-                let from = lines.last().and_then(|line| line.last().copied()).unwrap_or(at(0));
+                let from = line.last().copied().unwrap_or(at(0));
                 let share = |k: u32| f64::from(k) / f64::from(CURVE_STEPS);
                 let point = |t: f64| from.lerp(at(0), t).lerp(at(0).lerp(at(2), t), t);
-                extend(&mut lines, (1..=CURVE_STEPS).map(|k| point(share(k))));
+                line.extend((1..=CURVE_STEPS).map(|k| point(share(k))));
             }
-            'A' => extend(&mut lines, arc(at(0), at(2), [n[4], n[5]])),
+            'A' => line.extend(arc(at(0), at(2), [n[4], n[5]])),
             _ => {
-                lines.push(arc(at(0), at(2), [0.0, 360.0]));
+                line.extend(arc(at(0), at(2), [0.0, 360.0]));
                 // What follows begins anew.
                 lines.push(Vec::new());
             }
@@ -159,16 +162,6 @@ fn lines_of(path: &str) -> Vec<Vec<DVec2>> {
     }
     lines.retain(|line| line.len() > 1);
     lines
-}
-
-/// Goes on with the last line.
-fn extend(lines: &mut Vec<Vec<DVec2>>, points: impl IntoIterator<Item = DVec2>) {
-    if lines.is_empty() {
-        lines.push(Vec::new());
-    }
-    if let Some(line) = lines.last_mut() {
-        line.extend(points);
-    }
 }
 
 /// Points of an arc of an ellipse, from one angle to another, degrees.

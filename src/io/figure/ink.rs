@@ -65,10 +65,10 @@ fn draw(picture: &mut Picture, path: &Path, scale: f64) {
     let lines: Vec<Vec<DVec2>> =
         path.lines.iter().map(|line| line.iter().map(|&p| p * scale).collect::<Vec<_>>()).collect();
     if let Some(colour) = path.ink.fill {
-        let Some(mut mask) = Mask::over(picture, &lines, 1.0) else {
-            return;
-        };
-        mask.fill(&lines);
+        let Some(mut mask) = Mask::over(picture, &lines, 1.0) else { return };
+        for line in &lines {
+            mask.fill(line);
+        }
         mask.blend(picture, colour);
     }
     if let Some((colour, width)) = path.ink.stroke {
@@ -100,10 +100,10 @@ struct Mask {
 impl Mask {
     /// The pixels of a picture around some lines. None where there are none.
     fn over(picture: &Picture, lines: &[Vec<DVec2>], margin: f64) -> Option<Self> {
-        let points = || lines.iter().flatten().copied();
+        let bounds = Bounds::of(lines.iter().flatten().copied());
         let page = DVec2::new(f64::from(picture.width), f64::from(picture.height));
-        let low = DVec2::ZERO.max((points().fold(DVec2::INFINITY, DVec2::min) - margin).floor());
-        let high = page.min((points().fold(DVec2::NEG_INFINITY, DVec2::max) + margin).ceil());
+        let low = DVec2::ZERO.max((bounds.low - margin).floor());
+        let high = page.min((bounds.high + margin).ceil());
         if high.cmple(low).any() {
             return None;
         }
@@ -111,16 +111,10 @@ impl Mask {
         Some(Self { left, top, width, height, cover: vec![0.0; width * height] })
     }
 
-    /// Covers the inside of closed lines, each taken by itself, by the nonzero rule.
-    fn fill(&mut self, lines: &[Vec<DVec2>]) {
-        for line in lines {
-            self.fill_one(line);
-        }
-    }
-
-    fn fill_one(&mut self, line: &[DVec2]) {
-        let low = line.iter().fold(f64::INFINITY, |m, p| m.min(p.y)) - self.top as f64;
-        let high = line.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.y)) - self.top as f64;
+    /// Covers the inside of a closed line by the nonzero rule.
+    fn fill(&mut self, line: &[DVec2]) {
+        let bounds = Bounds::of(line.iter().copied());
+        let (low, high) = (bounds.low.y - self.top as f64, bounds.high.y - self.top as f64);
         let (first, last) = (low.floor().max(0.0) as usize, (high.ceil().max(0.0) as usize).min(self.height));
         let mut row_cover = vec![0.0_f32; self.width];
         for row in first..last {

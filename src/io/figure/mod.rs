@@ -164,11 +164,6 @@ impl Page {
         }
     }
 
-    /// Draws a picture into an area.
-    fn picture_at(&mut self, area: Bounds, picture: Picture) {
-        self.items.push(Item::Picture(area, picture));
-    }
-
     /// Writes words on their baseline.
     fn words(&mut self, at: DVec2, anchor: Anchor, size: f64, text: &str) {
         if !text.is_empty() {

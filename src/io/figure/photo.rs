@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Anchor, Ink, Page, colours};
+use super::{Anchor, Ink, Item, Page, colours};
 use crate::geom::{Bounds, Picture};
 
 /// Half the diagonal of a mark, points.
@@ -26,7 +26,7 @@ impl PhotoDrawing {
         let pixels = DVec2::new(f64::from(self.picture.width), f64::from(self.picture.height));
         let size = pixels * (area.size() / pixels).min_element();
         let shown = Bounds::at(area.middle() - size / 2.0, size);
-        page.picture_at(shown, self.picture.clone());
+        page.items.push(Item::Picture(shown, self.picture.clone()));
         let place = |mark: &DVec2| shown.low + DVec2::new(mark.x, 1.0 - mark.y) * size;
         let diamond = |at: DVec2| [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y].map(|way| at + MARK * way).to_vec();
         let outlines = self.marks.iter().map(|mark| diamond(place(mark))).collect();

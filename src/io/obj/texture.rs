@@ -38,11 +38,14 @@ impl ObjMesh {
         let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
         let bits = |place: u32| (coordinate(place) + DVec2::ZERO).to_array().map(f64::to_bits);
         let mut texture_vertex = vec![0_u32; corners.len()];
-        let mut found =
-            TextureMesh { mesh: TriMesh::default(), embedding: Embedding::default(), vertex_of: Vec::new() };
-        let mut embedding = Vec::new();
+        let (mut positions, mut vertex_of, mut embedding) = (Vec::new(), Vec::new(), Vec::new());
         let mut first_places: Vec<u32> = Vec::new();
-        for places in &mut places_by_vertex(corners, self.polygons.positions.len()) {
+        // Places of the corners of each vertex; vertices without corners have none.
+        let mut places_of = vec![Vec::new(); self.polygons.positions.len()];
+        for (place, vertex) in (0_u32..).zip(corners) {
+            places_of[vertex.index()].push(place);
+        }
+        for places in &mut places_of {
             // Equal coordinates side by side, then the groups by their first corner.
             places.sort_unstable_by_key(|&place| (bits(place), place));
             first_places.clear();
@@ -51,22 +54,20 @@ impl ObjMesh {
             for group in places.chunk_by(|&a, &b| bits(a) == bits(b)) {
                 let rank = first_places.binary_search(&group[0]).expect("every group has a first place");
                 for &place in group {
-                    texture_vertex[place as usize] = VertexId::from_index(found.vertex_of.len() + rank).number();
+                    texture_vertex[place as usize] = VertexId::from_index(vertex_of.len() + rank).number();
                 }
             }
             for &place in &first_places {
                 let vertex = corners[place as usize];
-                found.vertex_of.push(vertex);
+                vertex_of.push(vertex);
                 embedding.push(coordinate(place));
-                found.mesh.positions.push(self.polygons.positions[vertex.index()]);
+                positions.push(self.polygons.positions[vertex.index()]);
             }
         }
-        found.embedding = embedding.into();
         let (triangles, polygon_of) = self.polygons.triangle_places();
-        found.mesh.triangles =
-            triangles.iter().map(|places| places.map(|place| VertexId::new(texture_vertex[place as usize]))).collect();
-        found.mesh.polygon_of = polygon_of;
-        Ok(found)
+        let renumbered = |places: &[u32; 3]| places.map(|place| VertexId::new(texture_vertex[place as usize]));
+        let triangles = triangles.iter().map(renumbered).collect();
+        Ok(TextureMesh { mesh: TriMesh { positions, triangles, polygon_of }, embedding: embedding.into(), vertex_of })
     }
 
     fn check_complete(&self, texture: &Texture) -> Result<(), TextureError> {
@@ -78,13 +79,4 @@ impl ObjMesh {
         let faces: Vec<u32> = (0..face_count).filter(lacks).collect();
         if faces.is_empty() { Ok(()) } else { Err(TextureError::Missing(faces)) }
     }
-}
-
-/// Places of the corners of each vertex, ascending; vertices without corners have none.
-fn places_by_vertex(corners: &[VertexId], vertex_count: usize) -> Vec<Vec<u32>> {
-    let mut places = vec![Vec::new(); vertex_count];
-    for (place, vertex) in (0_u32..).zip(corners) {
-        places[vertex.index()].push(place);
-    }
-    places
 }

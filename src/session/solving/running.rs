@@ -124,7 +124,9 @@ pub(super) fn take_steps(
         let ending = run.ending();
         let is_reached = {
             let mut goal = locked(&shared.goal);
-            goal.count_step();
+            if let Goal::Steps(left) = &mut *goal {
+                *left = left.saturating_sub(1);
+            }
             goal.is_reached(&outcome, ending)
         };
         deliveries.send(Delivery { outcome, ending }).map_err(|_| SolveError::Cancelled)?;
