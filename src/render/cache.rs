@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use eframe::wgpu;
 use wgpu::util::DeviceExt as _;
 
+use super::gpu::Stats;
 use crate::view::Revision;
 
 /// What a buffer holds.
@@ -36,9 +37,7 @@ pub(super) enum Key {
 #[derive(Debug, Default)]
 pub(super) struct Cache {
     buffers: BTreeMap<Key, wgpu::Buffer>,
-    /// How many buffers were filled, and with how many bytes.
-    pub(super) uploads: u64,
-    pub(super) uploaded_bytes: u64,
+    pub(super) stats: Stats,
 }
 
 impl Cache {
@@ -62,8 +61,8 @@ impl Cache {
             contents: &bytes,
             usage: wgpu::BufferUsages::VERTEX,
         });
-        self.uploads += 1;
-        self.uploaded_bytes += bytes.len() as u64;
+        self.stats.uploads += 1;
+        self.stats.uploaded_bytes += bytes.len() as u64;
         self.buffers.insert(key, buffer);
     }
 

@@ -5,8 +5,9 @@ use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState,
 use eframe::wgpu;
 use egui::epaint::ViewportInPixels;
 
-use super::frame::{MeshFrame, PaneId, PlaneFrame};
+use super::frame::{MeshFrame, PaneId, PictureLayer, PlaneFrame};
 use super::gpu::{Gpu, Io, Place, Stats};
+use super::plan::{Plan, Planner};
 use super::uniforms::PaneSize;
 
 /// Compiles the pipelines and puts them where the panes find them. Once per window.
@@ -24,23 +25,23 @@ pub fn stats(state: &RenderState) -> Option<Stats> {
 
 /// The 3D pane, to be added to a painter. The rectangle must lie within the window.
 pub fn mesh_pane(pane: PaneId, rect: egui::Rect, frame: MeshFrame) -> egui::PaintCallback {
-    Callback::new_paint_callback(rect, PaneCallback { pane, rect, content: Content::Mesh(Box::new(frame)) })
+    let picture = frame.picture.clone();
+    let plan = Box::new(move |planner: &mut Planner<'_>| planner.mesh(&frame));
+    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, plan })
 }
 
 /// The embedding's pane, to be added to a painter. The rectangle must lie within the window.
 pub fn plane_pane(pane: PaneId, rect: egui::Rect, frame: PlaneFrame) -> egui::PaintCallback {
-    Callback::new_paint_callback(rect, PaneCallback { pane, rect, content: Content::Plane(Box::new(frame)) })
-}
-
-enum Content {
-    Mesh(Box<MeshFrame>),
-    Plane(Box<PlaneFrame>),
+    let picture = frame.picture.clone();
+    let plan = Box::new(move |planner: &mut Planner<'_>| planner.plane(&frame));
+    Callback::new_paint_callback(rect, PaneCallback { pane, rect, picture, plan })
 }
 
 struct PaneCallback {
     pane: PaneId,
     rect: egui::Rect,
-    content: Content,
+    picture: Option<PictureLayer>,
+    plan: Box<dyn Fn(&mut Planner<'_>) -> Plan + Send + Sync>,
 }
 
 impl CallbackTrait for PaneCallback {
@@ -55,14 +56,7 @@ impl CallbackTrait for PaneCallback {
         if let Some(gpu) = resources.get_mut::<Gpu>() {
             let mut io = Io { device, queue, encoder };
             let place = Place { pane: self.pane, size: pane_size(self.rect, screen) };
-            match &self.content {
-                Content::Mesh(frame) => {
-                    gpu.prepare(&mut io, place, frame.picture.as_ref(), |planner| planner.mesh(frame));
-                }
-                Content::Plane(frame) => {
-                    gpu.prepare(&mut io, place, frame.picture.as_ref(), |planner| planner.plane(frame));
-                }
-            }
+            gpu.prepare(&mut io, place, self.picture.as_ref(), &self.plan);
         }
         Vec::new()
     }

@@ -6,10 +6,9 @@ use eframe::wgpu;
 
 use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
-use super::pipelines::Pipelines;
+use super::pipelines::{Pipelines, Target};
 use super::plan::{Draw, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
 use super::shrink::shrunk;
-use super::target::Target;
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;
 
@@ -40,7 +39,6 @@ pub(super) struct Gpu {
     sharp: wgpu::Sampler,
     panes: BTreeMap<PaneId, PaneState>,
     tick: u64,
-    stats: Stats,
 }
 
 /// One pane from frame to frame.
@@ -75,16 +73,11 @@ impl Gpu {
             sharp: sampler(wgpu::FilterMode::Nearest),
             panes: BTreeMap::new(),
             tick: 0,
-            stats: Stats::default(),
         }
     }
 
     pub(super) fn stats(&self) -> Stats {
-        Stats {
-            uploads: self.stats.uploads + self.cache.uploads,
-            uploaded_bytes: self.stats.uploaded_bytes + self.cache.uploaded_bytes,
-            ..self.stats
-        }
+        self.cache.stats
     }
 
     /// Draws a pane into its target if what it shows has changed.
@@ -120,8 +113,9 @@ impl Gpu {
             };
             let group = pane_group(io.device, &self.pipelines, &state.uniforms, picture, sampler);
             let scene = Scene { pipelines: &self.pipelines, cache: &self.cache, group: &group };
-            self.stats.drawn_panes += 1;
-            self.stats.draw_calls += scene.draw(io.encoder, state, &plan);
+            let draw_calls = scene.draw(io.encoder, state, &plan);
+            self.cache.stats.drawn_panes += 1;
+            self.cache.stats.draw_calls += draw_calls;
             state.shown = Some(plan);
         }
         self.forget(tick);
@@ -144,8 +138,8 @@ impl Gpu {
         // A picture that the card does not take is shown with less detail rather than not at all.
         let small = shrunk(picture.size, &picture.pixels, io.device.limits().max_texture_dimension_2d);
         let (size, pixels) = small.as_ref().map_or((picture.size, &picture.pixels), |(size, pixels)| (*size, pixels));
-        self.stats.uploads += 1;
-        self.stats.uploaded_bytes += pixels.len() as u64;
+        self.cache.stats.uploads += 1;
+        self.cache.stats.uploaded_bytes += pixels.len() as u64;
         self.pictures.insert(key, picture_view(io.device, io.queue, size, pixels));
     }
 

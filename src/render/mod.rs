@@ -17,7 +17,7 @@
 //! | `frame.rs` | what a pane shows |
 //! | `callback.rs` | the way into egui |
 //! | `plan.rs`, `uniforms.rs` | from a frame to draw calls and the small numbers of the shaders |
-//! | `gpu.rs`, `pipelines.rs`, `target.rs`, `cache.rs` | what lives on the device |
+//! | `gpu.rs`, `pipelines.rs`, `cache.rs` | what lives on the device |
 //! | `shrink.rs` | pictures that are larger than the device takes |
 //!
 //! [`install`] must have run once; without it, or where egui runs without a graphics card, a pane stays empty.
@@ -29,7 +29,6 @@ mod gpu;
 mod pipelines;
 mod plan;
 mod shrink;
-mod target;
 mod uniforms;
 
 pub use callback::{install, mesh_pane, plane_pane, stats};

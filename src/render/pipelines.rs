@@ -1,11 +1,17 @@
-//! The pipelines: which shader, which vertex buffers, how it blends, what it does to depth.
+//! The pipelines: which shader, which vertex buffers, how it blends, what it does to depth; and the textures that they
+//! draw a pane into: colour and depth with four samples a pixel, and the picture that they resolve to.
 
 use eframe::wgpu;
 use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, CompareFunction};
 
 use super::plan::{MESH_LINE_STRIDE, PLANE_LINE_STRIDE, PLANE_POINT_STRIDE};
-use super::target::{COLOUR, DEPTH, SAMPLES};
 use super::uniforms::{LineUniforms, PaneUniforms};
+
+/// Samples per pixel. Every driver offers four.
+const SAMPLES: u32 = 4;
+/// Linear light, stored with the sRGB curve.
+const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// A shader with what it shares with others in front of it.
 #[derive(Clone, Copy, Debug)]
@@ -254,4 +260,39 @@ fn layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 3] {
             device.create_bind_group_layout(&descriptor)
         },
     )
+}
+
+/// The textures of one pane, of one size.
+#[derive(Debug)]
+pub(super) struct Target {
+    pub(super) size: [u32; 2],
+    pub(super) samples: wgpu::TextureView,
+    pub(super) depth: wgpu::TextureView,
+    pub(super) picture: wgpu::TextureView,
+}
+
+impl Target {
+    /// Textures of a size, which must not be zero.
+    pub(super) fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let make = |format, sample_count, usage| {
+            let texture = device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("freebound pane"),
+                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage,
+                view_formats: &[],
+            });
+            texture.create_view(&wgpu::TextureViewDescriptor::default())
+        };
+        Self {
+            size,
+            samples: make(COLOUR, SAMPLES, attachment),
+            depth: make(DEPTH, SAMPLES, attachment),
+            picture: make(COLOUR, 1, attachment | wgpu::TextureUsages::TEXTURE_BINDING),
+        }
+    }
 }

@@ -172,13 +172,13 @@ impl FreeSolve {
             let to_target = targets[&pin.vertex] - start[pin.vertex];
             Complex::new(to_target.x, to_target.y)
         };
-        let to_targets: Vec<_> = least_squares.springs().iter().map(to_target).collect();
+        let to_targets: Vec<_> = least_squares.rest.springs.iter().map(to_target).collect();
         let moves = least_squares.moves(site, &factored, residuals, &to_targets).map_err(named)?;
         // Adding nothing would still make a zero of a negative zero.
         for (z, by) in embedding.iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO) {
             *z += DVec2::new(by.re, by.im);
         }
-        let residual = self.gradient_residual(site.mesh, &embedding, least_squares.springs(), targets);
+        let residual = self.gradient_residual(site.mesh, &embedding, &least_squares.rest.springs, targets);
         Ok((embedding, residual))
     }
 

@@ -28,7 +28,8 @@ pub struct Iteration {
     layout: Layout,
     system: FreeSystem,
     analysis: Analysis,
-    analyze_seconds: f64,
+    /// Seconds that the analysis took, once for all steps.
+    pub(super) analyze_seconds: f64,
 }
 
 impl Iteration {
@@ -94,11 +95,6 @@ impl Iteration {
     pub fn serves(&self, pins: &Pins) -> bool {
         let pulls_alike = |(a, b): (&Pin, &Pin)| a.hold.is_exact() || a.target == b.target;
         are_held_alike(&self.pins, pins) && self.pins.values().zip(pins.values()).all(pulls_alike)
-    }
-
-    /// Seconds that the analysis took, once for all steps.
-    pub fn analyze_seconds(&self) -> f64 {
-        self.analyze_seconds
     }
 }
 

@@ -6,7 +6,7 @@ use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
 use super::{Editor, Intent, Pane, Request};
 use crate::session::Action;
-use crate::ui::panels::{self, floating, menu, status, tools, unsaved};
+use crate::ui::panels::{self, floating, menu, status, unsaved};
 use crate::ui::panes::constrain;
 use crate::ui::panes::mesh_pane::mesh_pane_ui;
 use crate::ui::panes::plane_pane::plane_pane_ui;
@@ -50,7 +50,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         .exact_size(TOOLS_WIDTH)
         .resizable(false)
         .frame(tool_frame)
-        .show(ui, |ui| tools::tool_bar(ui, editor, &mut requests));
+        .show(ui, |ui| panels::tool_bar(ui, editor, &mut requests));
     editor.pointer.begin_frame();
     editor.tools.set_intent(Intent::Nothing);
     editor.mesh.area_mut().hide();

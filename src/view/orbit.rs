@@ -150,20 +150,6 @@ impl OrbitCamera {
         self.distance = self.within_limits(FRAME_MARGIN * ball.radius / half.min(half_across).sin());
     }
 
-    /// Part of the way to another camera: `share` 0 is this one, 1 the other.
-    #[must_use]
-    pub fn toward(&self, goal: &Self, share: f64) -> Self {
-        // The shorter way around.
-        let turn = (goal.yaw - self.yaw + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
-        Self {
-            pivot: self.pivot.lerp(goal.pivot, share),
-            distance: self.distance * (goal.distance / self.distance).powf(share),
-            yaw: self.yaw + share * turn,
-            pitch: self.pitch + share * (goal.pitch - self.pitch),
-            ..*goal
-        }
-    }
-
     /// Where the eye is.
     pub fn eye(&self) -> DVec3 {
         let [_, _, back] = self.axes();

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails fails its test")]
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
+mod actions;
 mod compare;
 mod constrained;
 mod constraint_rows;

@@ -99,7 +99,7 @@ impl Rung for Continue {
             Err(_) => {}
         }
         let is_crushed = continuation.go_back_to_sound();
-        let (embedding, progress) = (continuation.embedding().clone(), continuation.progress(mesh));
+        let (embedding, progress) = (continuation.embedding.clone(), continuation.progress(mesh));
         self.stage = Stage::Stuck;
         if is_crushed && !task.adds_vertices() {
             let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held).since(began);

@@ -65,12 +65,8 @@ impl Shading {
         self.words()[0]
     }
 
-    /// What it shows.
-    pub const fn about(self) -> &'static str {
-        self.words()[1]
-    }
-
-    const fn words(self) -> [&'static str; 2] {
+    /// The same, and what it shows.
+    pub(in crate::ui) const fn words(self) -> [&'static str; 2] {
         match self {
             Self::Plain => ["Plain", "no colours but those of defects"],
             Self::Checker => {

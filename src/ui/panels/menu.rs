@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Button, RichText, Role, ThemePreference};
 
-use super::exports::EXPORTS;
+use super::floating::EXPORTS;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::io::OutputFit;

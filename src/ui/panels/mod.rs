@@ -2,39 +2,60 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | the panel at the right with its tabs |
+//! | `mod.rs` | the tool bar at the left, the panel at the right with its tabs |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
 //! | `picture_panel.rs` | the picture's part of the pins' tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding's pane |
 //! | `menu.rs`, `verdict_pill.rs` | the menu bar and the verdict in it |
-//! | `tools.rs` | the tool bar at the left |
 //! | `status.rs` | the status bar |
-//! | `floating.rs` | list of keys, "go to", the file dialog inside the window |
+//! | `floating.rs` | list of keys, "go to", the file dialog inside the window, exports, pictures of panes |
 //! | `dialogs.rs` | choice of a file |
-//! | `exports.rs` | list of exports, pictures of panes |
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
 mod defects_panel;
 pub(super) mod dialogs;
 pub(super) mod equation_table;
-pub(super) mod exports;
 pub(super) mod floating;
 pub(super) mod menu;
 pub(super) mod method_panel;
 mod picture_panel;
 mod pins_panel;
 pub(super) mod status;
-pub(super) mod tools;
 pub(super) mod unsaved;
 mod verdict_pill;
 mod vertex_panel;
 
-use eframe::egui;
+use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};
 
-use super::controls::Control;
-use super::{Editor, Request, Tab};
+use super::{Control, Editor, Request, Tab, Tool, icons, theme_of, tip_with_keys};
 pub(crate) use dialogs::Dialogs;
 pub(super) use unsaved::{Answer, Unsaved};
+
+/// Side of a tool's button, points.
+const BUTTON: f32 = 32.0;
+
+pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    ui.vertical_centered(|ui| {
+        for tool in Tool::ALL {
+            let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
+            let on = editor.tools.tool() == tool;
+            let about = tool.words()[2];
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, about));
+            let theme = theme_of(ui);
+            if on || response.hovered() {
+                let share = if on { 0.22 } else { 0.10 };
+                ui.painter().rect_filled(rect, 5.0, theme.accent.gamma_multiply(share));
+            }
+            if response.has_focus() {
+                ui.painter().rect_stroke(rect, 5.0, egui::Stroke::new(1.0, theme.accent), egui::StrokeKind::Inside);
+            }
+            let colour = if on { theme.accent } else { theme.text };
+            icons::tool(ui.painter(), rect, tool, colour);
+            let request = Request::SetTool(tool);
+            response.on_hover_text(tip_with_keys(ui, about, &request)).asks(request, requests);
+        }
+    });
+}
 
 /// The panels at the right: a row of tabs and what the open one shows.
 pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {

@@ -30,12 +30,12 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        for (v_axis, tip) in [
-            (VAxis::Up, "v = 0 at the lower edge, as in OBJ files"),
-            (VAxis::Down, "v = 0 at the upper edge, as in pictures"),
+        for (v_axis, words, tip) in [
+            (VAxis::Up, "v up", "v = 0 at the lower edge, as in OBJ files"),
+            (VAxis::Down, "v down", "v = 0 at the upper edge, as in pictures"),
         ] {
             let on = document.v_axis == v_axis;
-            if ui.selectable_label(on, axis_words(v_axis)).on_hover_text(tip).clicked() && !on {
+            if ui.selectable_label(on, words).on_hover_text(tip).clicked() && !on {
                 requests.push(Action::SetVAxis(v_axis).into());
             }
         }
@@ -51,13 +51,5 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
         if slider.changed() {
             requests.push(Request::SetOpacity(percent / 100.0));
         }
-    }
-}
-
-/// Where v = 0 is, in words.
-const fn axis_words(v_axis: VAxis) -> &'static str {
-    match v_axis {
-        VAxis::Up => "v up",
-        VAxis::Down => "v down",
     }
 }

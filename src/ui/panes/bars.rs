@@ -8,17 +8,36 @@ use crate::ui::icons::{self, Sign};
 use crate::ui::{Control, Editor, Offer, Pane, Request, sentence, theme_of};
 
 pub(super) fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
+    let session = &editor.session;
     let place = match pane {
-        Pane::Mesh => {
-            recovery(ui, editor, requests);
-            inward(ui, editor, requests);
-            Place::Mesh
-        }
-        Pane::Plane => {
-            mirrored(ui, editor, requests);
-            Place::Embedding
-        }
+        Pane::Mesh => Place::Mesh,
+        Pane::Plane => Place::Embedding,
     };
+    for left in session.recoverable().iter().filter(|_| pane == Pane::Mesh) {
+        let words = format!("Work on {} was not saved when the program ended", left.name);
+        let offers = [
+            Offer::new("Recover", "Open it as it was", Action::Recover(left.path.clone())),
+            Offer::new("Discard", "Forget it for good", Action::DiscardRecovery(left.path.clone())),
+        ];
+        warning(ui, &words, offers, requests);
+    }
+    if pane == Pane::Mesh && editor.opened.faces_point_inward(session) {
+        let offers = [
+            Offer::new("Turn them", "Make the other side the outside", Action::TurnFaces),
+            Offer::new("Leave them", "It is meant so", Request::LeaveFaces),
+        ];
+        let words = "The faces point inward: the mesh shows from behind, and its picture mirrored";
+        warning(ui, words, offers, requests);
+    }
+    let is_dragging = editor.tools.dragged().is_some();
+    if pane == Pane::Plane && !is_dragging && editor.opened.targets_look_mirrored(session) {
+        let offers = [
+            Offer::new("Mirror them", "Mirror all targets left to right", Action::MirrorTargets),
+            Offer::new("Leave the targets", "They are meant so", Request::LeaveTargets),
+        ];
+        let words = "Are the targets mirrored? A reflection fits them much better than a rotation";
+        warning(ui, words, offers, requests);
+    }
     message_bars(ui, editor, place, requests);
 }
 
@@ -27,39 +46,6 @@ fn warning(ui: &mut egui::Ui, words: &str, offers: [Offer; 2], requests: &mut Ve
         ui.add(Label::new(words).wrap());
         ui.horizontal_wrapped(|ui| offers.into_iter().for_each(|offer| offer.show(ui, requests)));
     });
-}
-
-fn recovery(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    for left in editor.session.recoverable() {
-        let words = format!("Work on {} was not saved when the program ended", left.name);
-        let offers = [
-            Offer::new("Recover", "Open it as it was", Action::Recover(left.path.clone())),
-            Offer::new("Discard", "Forget it for good", Action::DiscardRecovery(left.path.clone())),
-        ];
-        warning(ui, &words, offers, requests);
-    }
-}
-
-fn inward(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    if editor.opened.faces_point_inward(&editor.session) {
-        let offers = [
-            Offer::new("Turn them", "Make the other side the outside", Action::TurnFaces),
-            Offer::new("Leave them", "It is meant so", Request::LeaveFaces),
-        ];
-        let words = "The faces point inward: the mesh shows from behind, and its picture mirrored";
-        warning(ui, words, offers, requests);
-    }
-}
-
-fn mirrored(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    if editor.tools.dragged().is_none() && editor.opened.targets_look_mirrored(&editor.session) {
-        let offers = [
-            Offer::new("Mirror them", "Mirror all targets left to right", Action::MirrorTargets),
-            Offer::new("Leave the targets", "They are meant so", Request::LeaveTargets),
-        ];
-        let words = "Are the targets mirrored? A reflection fits them much better than a rotation";
-        warning(ui, words, offers, requests);
-    }
 }
 
 /// Messages that belong to a pane: what happened, where, what to do. They stay until dismissed or mended.

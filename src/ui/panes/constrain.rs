@@ -148,15 +148,11 @@ impl Editor {
         }
     }
 
-    fn in_plane(&self, target: DVec2) -> DVec2 {
-        self.session.document().frame().plane_from_uv(target)
-    }
-
     /// The target of the pair that is being placed, in the plane: taken already, or under the pointer.
     pub(super) fn target_of_pair(&self) -> Option<DVec2> {
         match (self.tools.pair(), self.tools.intent()) {
             (Some(Half::Target(target)), _) | (_, Intent::Join(_, target) | Intent::TakeTarget(target)) => {
-                Some(self.in_plane(target))
+                Some(self.session.document().frame().plane_from_uv(target))
             }
             _ => None,
         }

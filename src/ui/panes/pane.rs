@@ -125,8 +125,9 @@ fn shading_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>)
     list(ui, "Shading of both panes", width, editor.look.shading.title(), |ui| {
         for shading in Shading::ALL {
             let request = Request::SetShading(shading);
-            let tip = tip_with_keys(ui, shading.about(), &request);
-            let entry = ui.selectable_label(editor.look.shading == shading, shading.title()).on_hover_text(tip);
+            let [title, about] = shading.words();
+            let tip = tip_with_keys(ui, about, &request);
+            let entry = ui.selectable_label(editor.look.shading == shading, title).on_hover_text(tip);
             entry.asks(request, requests);
         }
     });

@@ -23,41 +23,27 @@ const BUDGET: Duration = Duration::from_millis(6);
 const SMALL: f64 = 2.0;
 
 /// The way between two steps, while it is shown.
-#[derive(Debug, Default)]
-pub(super) struct Ease {
-    pub(super) under_way: Option<Way>,
-    /// The mesh that is too large, by its revision.
-    too_large: Option<u64>,
-}
-
-/// A way under way.
 #[derive(Debug)]
 pub(super) struct Way {
     from: Embedding,
     /// Seconds of the window's clock.
     began: f64,
-    drawn: Arc<PlaneScene>,
+    /// What is drawn in this frame.
+    pub(super) drawn: Arc<PlaneScene>,
     /// From where and to where the camera goes.
     cameras: Option<[PlaneCamera; 2]>,
 }
 
-impl Ease {
-    /// Vertices on their way, as drawn in this frame.
-    pub(super) fn drawn(&self) -> Option<&Arc<PlaneScene>> {
-        self.under_way.as_ref().map(|way| &way.drawn)
-    }
-}
-
 impl PlaneView {
     pub fn is_easing(&self) -> bool {
-        self.ease.under_way.is_some()
+        self.way.is_some()
     }
 
     /// Puts another step on the screen: from where vertices are drawn now, if it is one of the same run.
     pub(super) fn take(&mut self, target: Arc<PlaneScene>, around: Surroundings) {
         let before = self.result().cloned();
         self.scene = Some(Arc::clone(&target));
-        self.ease.under_way = None;
+        self.way = None;
         let Some(before) = before else { return };
         let (from, to) = (&before.outcome, &target.outcome);
         let is_other_step = before.outcome_revision != target.outcome_revision;
@@ -65,11 +51,11 @@ impl PlaneView {
             && from.problem.targets == to.problem.targets
             && from.step.index != to.step.index;
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
-        let is_too_large = self.ease.too_large == Some(target.mesh.model_revision);
+        let is_too_large = self.too_large == Some(target.mesh.model_revision);
         let cameras = self.camera_along(&target, around);
         if around.glides && is_other_step && is_same_run && is_same_mesh && !is_too_large {
             let from = before.positions().clone();
-            self.ease.under_way = Some(Way { from, began: around.host.now(), drawn: target, cameras });
+            self.way = Some(Way { from, began: around.host.now(), drawn: target, cameras });
         } else if let Some([_, goal]) = cameras.filter(|_| is_other_step && from.problem.targets == to.problem.targets)
         {
             self.set_framed(goal);
@@ -89,10 +75,10 @@ impl PlaneView {
 
     /// Moves vertices on. Call once per frame.
     pub(super) fn go_on_easing(&mut self, around: Surroundings) {
-        let Some(way) = &mut self.ease.under_way else { return };
+        let Some(way) = &mut self.way else { return };
         let share = (around.host.now() - way.began) / SECONDS;
         let Some(target) = &self.scene else {
-            self.ease.under_way = None;
+            self.way = None;
             return;
         };
         if !around.glides || !(0.0..1.0).contains(&share) {
@@ -113,7 +99,7 @@ impl PlaneView {
             (self.camera, self.framed) = (Some(camera), Some(camera));
         }
         if start.elapsed() > BUDGET {
-            self.ease.too_large = Some(target.mesh.model_revision);
+            self.too_large = Some(target.mesh.model_revision);
             self.finish_ease();
         }
         around.host.context().request_repaint();
@@ -121,7 +107,7 @@ impl PlaneView {
 
     /// Puts everything where it was going.
     fn finish_ease(&mut self) {
-        let way = self.ease.under_way.take();
+        let way = self.way.take();
         if let Some([_, goal]) = way.and_then(|way| way.cameras).filter(|_| self.is_framed()) {
             self.set_framed(goal);
         }

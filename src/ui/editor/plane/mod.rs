@@ -27,7 +27,7 @@ use crate::session::{Background, Session, Wake};
 use crate::solver::{Embedding, Verdict};
 use crate::ui::panes::pane::{PaneArea, Viewport};
 use crate::view::{FacePaint, PlaneCamera};
-use ease::Ease;
+use ease::Way;
 use ghost::Ghost;
 use hull::HullView;
 
@@ -42,7 +42,9 @@ pub struct PlaneView {
     scene: Option<Arc<PlaneScene>>,
     /// The scene that is being made, by the step's revision.
     job: Background<u64, PlaneScene>,
-    ease: Ease,
+    way: Option<Way>,
+    /// The mesh, by its revision, that is too large to be shown on a way.
+    too_large: Option<u64>,
     preview: Option<PreviewScene>,
     hull: HullView,
     ghost: Option<Ghost>,
@@ -89,7 +91,8 @@ impl PlaneView {
             saved: None,
             scene: None,
             job: Background::new("plane scene", wake),
-            ease: Ease::default(),
+            way: None,
+            too_large: None,
             preview: None,
             hull: HullView::new(wake),
             ghost: None,
@@ -162,7 +165,7 @@ impl PlaneView {
     /// The embedding on the screen, or where vertices are on their way to it.
     pub fn result(&self) -> Option<&Arc<PlaneScene>> {
         let preview = self.preview.as_ref().map(|preview| &preview.scene);
-        preview.or(self.ease.drawn()).or(self.scene.as_ref())
+        preview.or(self.way.as_ref().map(|way| &way.drawn)).or(self.scene.as_ref())
     }
 
     /// What the pane draws and picks in: the shown step's embedding, or a stage on the way to it.
@@ -182,9 +185,8 @@ impl PlaneView {
 impl PlaneView {
     /// Forgets the embedding of a mesh that is gone.
     pub(super) fn forget(&mut self) {
-        (self.camera, self.scene, self.preview) = (None, None, None);
+        (self.camera, self.scene, self.way, self.preview) = (None, None, None, None);
         self.job.cancel();
-        self.ease.under_way = None;
     }
 
     pub(super) fn is_making_scene(&self) -> bool {
