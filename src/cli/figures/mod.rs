@@ -160,7 +160,7 @@ fn drawn(figure: &Figure) -> Result<[(String, Vec<u8>); 2], WriteError> {
     let failed = |source| WriteError { path: svg.clone().into(), source };
     let (mut drawing, mut picture) = (Vec::new(), Vec::new());
     page.write_svg(&mut drawing).map_err(failed)?;
-    page.picture(PIXELS).write_png(&mut picture).map_err(|error| failed(std::io::Error::other(error)))?;
+    page.picture(PIXELS).write_png(&mut picture).map_err(failed)?;
     Ok([(svg, drawing), (png, picture)])
 }
 
