@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use glam::DVec2;
 
-use crate::io::{OutputFit, OutputKind, Target};
+use crate::io::{ConstraintFault, OutputFit, OutputKind, Target};
 use crate::mesh::VertexId;
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
@@ -199,7 +199,7 @@ fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
     };
     let (vertex, target) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
     match target.hold.invalid_weight() {
-        Some(weight) => Err(format!("the weight {weight} of vertex {vertex} is not a positive number")),
+        Some(weight) => Err(ConstraintFault::WeightNotPositive { vertex, weight }.to_string()),
         None => Ok((vertex, target)),
     }
 }

@@ -170,27 +170,24 @@ impl HeadlessJob<'_> {
     ) -> Result<Solved, Failure> {
         let report_phase = |phase: Phase| progress.enter(phase.words());
         let control = Control::new(&INTERRUPTED, &report_phase);
-        let document = &self.document;
-        let settings = document.run_settings();
-        let pins = document.pins();
+        let problem = self.document.problem();
+        let (settings, pins) = (problem.settings, problem.pins());
         if settings.method.uses_pins() {
             print_conflicts(&conflicts(mesh, &settings.held(&pins)));
         }
         let mut run = Ladder::new(settings, pins);
-        let placed = |step: Step| Outcome::new(mesh, document.problem(), step);
+        let placed = |step: Step| Outcome::new(mesh, problem, step);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;
         loop {
-            let step = match (run.step(mesh, control), last.take()) {
-                (Ok(step), before) => {
-                    last = before;
-                    step
-                }
+            let step = match run.step(mesh, control) {
+                Ok(step) => step,
+                Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
                 // Where a rung fails, the steps before it are written.
-                (Err(error), Some(before)) if error != SolveError::Cancelled => {
-                    return Ok(Solved { outcome: placed(before), records, ending: Err(error) });
-                }
-                (Err(error), _) => return Err(error.into()),
+                Err(error) => match last {
+                    Some(before) => return Ok(Solved { outcome: placed(before), records, ending: Err(error) }),
+                    None => return Err(error.into()),
+                },
             };
             progress.reach(step_words(&step));
             records.push(StepReport::of(&step));

@@ -43,18 +43,6 @@ pub enum Orientation {
     Collinear,
 }
 
-impl Orientation {
-    /// The orientation in a mirror.
-    #[must_use]
-    pub const fn mirrored(self) -> Self {
-        match self {
-            Self::CounterClockwise => Self::Clockwise,
-            Self::Clockwise => Self::CounterClockwise,
-            Self::Collinear => Self::Collinear,
-        }
-    }
-}
-
 /// Tells exactly how three points lie; `None` where a coordinate is infinite or not a number.
 pub fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Option<Orientation> {
     let coordinates = [a.x, a.y, b.x, b.y, c.x, c.y];

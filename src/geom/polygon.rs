@@ -10,29 +10,19 @@ use glam::DVec2;
 
 use super::{Orientation, orientation};
 
-/// The half-turn that a direction belongs to.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Half {
-    /// Angles in [0, π).
-    Up,
-    /// Angles in [π, 2π).
-    Down,
+/// Whether the direction from one point to another is down; `None` where they coincide or are not finite.
+fn is_down(from: DVec2, to: DVec2) -> Option<bool> {
+    let has_direction = from.is_finite() && to.is_finite() && from != to;
+    has_direction.then_some(to.y < from.y || (to.y <= from.y && to.x <= from.x))
 }
 
-/// The half of the direction from one point to another; `None` where they coincide or are not finite.
-fn half(from: DVec2, to: DVec2) -> Option<Half> {
-    if !(from.is_finite() && to.is_finite()) || from == to {
-        return None;
-    }
-    Some(if to.y > from.y || (to.y >= from.y && to.x > from.x) { Half::Up } else { Half::Down })
-}
-
-/// The number of times that the direction passes the angle 0 counter-clockwise; `None` where it turns exactly back.
-fn passes(before: Half, after: Half, turn: Orientation) -> Option<i64> {
-    match (before, after, turn) {
-        (Half::Down, Half::Up, Orientation::CounterClockwise) => Some(1),
-        (Half::Up, Half::Down, Orientation::Clockwise) => Some(-1),
-        (Half::Down, Half::Up, Orientation::Collinear) | (Half::Up, Half::Down, Orientation::Collinear) => None,
+/// How often the direction passes the angle 0 counter-clockwise, `[before, after]` being whether it is down; `None` where
+/// it turns exactly back.
+fn passes(are_down: [bool; 2], turn: Orientation) -> Option<i64> {
+    match (are_down, turn) {
+        ([true, false], Orientation::CounterClockwise) => Some(1),
+        ([false, true], Orientation::Clockwise) => Some(-1),
+        ([true, false] | [false, true], Orientation::Collinear) => None,
         _ => Some(0),
     }
 }
@@ -49,7 +39,7 @@ pub fn turning_number(polygon: &[DVec2]) -> Option<i64> {
     let mut turns = 0;
     for i in 0..count {
         let [a, b, c] = [polygon[i], polygon[(i + 1) % count], polygon[(i + 2) % count]];
-        turns += passes(half(a, b)?, half(b, c)?, orientation(a, b, c)?)?;
+        turns += passes([is_down(a, b)?, is_down(b, c)?], orientation(a, b, c)?)?;
     }
     Some(turns)
 }
@@ -61,10 +51,10 @@ pub fn winding_number(polygon: &[DVec2], around: DVec2) -> Option<i64> {
     let mut turns = 0;
     let mut before = *polygon.last()?;
     for &after in polygon {
-        let (first, second) = (half(around, before)?, half(around, after)?);
+        let [first, second] = [is_down(around, before)?, is_down(around, after)?];
         // Within one half nothing passes 0, and the point cannot lie between: no need for the exact turn.
         if first != second {
-            turns += passes(first, second, orientation(around, before, after)?)?;
+            turns += passes([first, second], orientation(around, before, after)?)?;
         }
         before = after;
     }

@@ -30,7 +30,7 @@ pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    write_inner(path, write, Care::Order).map_err(|source| WriteError { path: path.to_owned(), source })
+    write_inner(path, write).map_err(|source| WriteError { path: path.to_owned(), source })
 }
 
 /// As [`write_atomically`], and when it returns the file is on the disk: a loss of power leaves the old file or the new
@@ -43,20 +43,24 @@ pub fn write_durably(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    write_inner(path, write, Care::Disk).map_err(|source| WriteError { path: path.to_owned(), source })
+    write_atomically(path, |out| {
+        write(out)?;
+        out.flush()?;
+        // A pipe holds nothing that could last.
+        if out.get_ref().metadata()?.is_file() { out.get_ref().sync_all() } else { Ok(()) }
+    })?;
+    // The name is written too. Where a folder cannot be opened, as on some systems, the file itself is safe.
+    File::open(folder_of(&target_of(path))).and_then(|folder| folder.sync_all()).ok();
+    Ok(())
 }
 
-/// What a file is to survive.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Care {
-    /// The end of this program.
-    Order,
-    /// The end of the system.
-    Disk,
+/// The file that is written to: links are followed.
+fn target_of(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
-fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>, care: Care) -> io::Result<()> {
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let target = target_of(path);
     let present = fs::metadata(&target).ok();
     if present.as_ref().is_some_and(|data| !data.is_file()) {
         let mut out = BufWriter::with_capacity(BUFFER, File::options().write(true).open(&target)?);
@@ -79,16 +83,8 @@ fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     }
     let mut out = BufWriter::with_capacity(BUFFER, file);
     write(&mut out)?;
-    let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-    if care == Care::Disk {
-        file.sync_all()?;
-    }
-    drop(file);
+    drop(out.into_inner().map_err(io::IntoInnerError::into_error)?);
     aside.persist(&target).map_err(|error| error.error)?;
-    if care == Care::Disk {
-        // The name is written too. Where a folder cannot be opened, as on some systems, the file itself is safe.
-        File::open(folder_of(&target)).and_then(|folder| folder.sync_all()).ok();
-    }
     Ok(())
 }
 

@@ -1,6 +1,5 @@
 //! The files that a finished flattening is written to, by their kind.
 
-use std::io;
 use std::path::Path;
 
 use clap::ValueEnum;
@@ -89,7 +88,7 @@ static FORMATS: [Format; 4] = [
         extension: "png",
         ending: "-flat.png",
         title: "Export a picture of mesh and layout",
-        write: |output, path| write_atomically(path, |out| output.picture().write_png(out).map_err(io::Error::other)),
+        write: |output, path| write_atomically(path, |out| output.picture().write_png(out)),
     },
     Format {
         name: "JSON report",

@@ -62,9 +62,7 @@ enum Numeric<T> {
 pub struct FactorStats {
     /// Pivots that were too small and were replaced. Zero for a Cholesky factorization.
     pub replaced_pivots: usize,
-    /// Numbers that are kept, explicit zeros included.
-    pub factor_nonzeros: usize,
-    /// Their memory, in bytes.
+    /// Memory of the numbers that are kept, explicit zeros included, in bytes.
     pub factor_bytes: usize,
     /// The most numeric memory in use at one time while factoring, the factors included, in bytes.
     pub peak_bytes: usize,

@@ -84,15 +84,12 @@ impl LltAnalysis {
                 MemStack::new(&mut memory),
                 Spec::default(),
             )
-            .map_err(|error| self.named(error))?;
+            .map_err(|LltError::NonPositivePivot { index }| {
+                let row = self.symbolic.perm().map_or(index, |perm| perm.arrays().0[index] as usize);
+                LinalgError::NotPositiveDefinite { row }
+            })?;
         let peak_bytes = size_of_val(values.as_slice()) + memory.len();
         Ok(Llt { values, sign, peak_bytes })
-    }
-
-    /// faer's error with the row as the caller numbers it.
-    fn named(&self, LltError::NonPositivePivot { index }: LltError) -> LinalgError {
-        let row = self.symbolic.perm().map_or(index, |perm| perm.arrays().0[index] as usize);
-        LinalgError::NotPositiveDefinite { row }
     }
 
     /// Solves A X = B in place; `columns` is column-major.
@@ -121,7 +118,6 @@ impl<T> Llt<T> {
     pub(super) fn stats(&self) -> FactorStats {
         FactorStats {
             replaced_pivots: 0,
-            factor_nonzeros: self.values.len(),
             factor_bytes: size_of_val(self.values.as_slice()),
             peak_bytes: self.peak_bytes,
         }

@@ -13,14 +13,12 @@
 //! | `order.rs` | fill-reducing order (AMD), elimination tree, postorder |
 //! | `llt.rs` | Hermitian: faer's supernodal Cholesky |
 //! | `lu/` | unsymmetric: our multifrontal LU |
-//! | `gram.rs` | inner products of many columns |
 //! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
-//! | `sparse.rs`, `scalar.rs`, `error.rs` | products and norms; real and complex numbers alike; what can go wrong |
+//! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers alike; what can go wrong |
 
 mod analysis;
 mod error;
 mod gmres;
-mod gram;
 mod llt;
 mod lu;
 mod order;
@@ -30,6 +28,6 @@ mod sparse;
 
 pub use analysis::{Analysis, Answer, Factor, FactorStats, Kind};
 pub use error::LinalgError;
-pub use gram::gram;
 pub use refine::Solved;
 pub use scalar::Scalar;
+pub use sparse::gram;

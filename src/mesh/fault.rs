@@ -23,10 +23,6 @@ impl FaceList {
         polygons.dedup();
         Self { triangles, polygons }
     }
-
-    fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
-    }
 }
 
 /// One thing that keeps a mesh from being a disk. Faces that name a missing vertex, name a vertex twice, or repeat an
@@ -120,7 +116,7 @@ impl Fault {
     pub(super) fn is_present(&self) -> bool {
         match self.elements() {
             Elements::Nothing => true,
-            Elements::Faces(faces) => !faces.is_empty(),
+            Elements::Faces(faces) => !faces.triangles.is_empty(),
             elements => elements.count() > 0,
         }
     }

@@ -44,17 +44,13 @@ impl Document {
         PictureFrame { aspect: aspect.unwrap_or(1.0), v_axis: self.v_axis }
     }
 
-    /// The settings of a run: where there is a picture, the embedding is made to lie on it.
-    pub fn run_settings(&self) -> Settings {
-        let [low, high] = self.frame().corners();
+    /// What a run of it is to solve: where there is a picture, the embedding is made to lie on it.
+    pub fn problem(&self) -> Problem {
+        let frame = self.frame();
+        let [low, high] = frame.corners();
         let has_picture = self.picture.is_some() || self.aspect.is_some();
         let size = if has_picture { GaugeSize::Within { low, high } } else { GaugeSize::TrueArea };
-        Settings { size, ..self.settings }
-    }
-
-    /// What a run of it is to solve.
-    pub fn problem(&self) -> Problem {
-        Problem { settings: self.run_settings(), frame: self.frame(), targets: self.targets.clone() }
+        Problem { settings: Settings { size, ..self.settings }, frame, targets: self.targets.clone() }
     }
 
     /// The user's pins in that plane.

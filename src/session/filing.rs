@@ -89,7 +89,7 @@ impl Session {
     /// Writes a picture of what the screen shows, as a PNG.
     pub fn save_picture(&mut self, path: PathBuf, picture: Picture) {
         self.files.write(move || {
-            write_atomically(&path, |out| picture.write_png(out).map_err(std::io::Error::other))?;
+            write_atomically(&path, |out| picture.write_png(out))?;
             Ok(format!("wrote {}", path.display()))
         });
     }

@@ -24,6 +24,18 @@ pub struct Words {
 }
 
 impl Words {
+    pub(super) const fn new(name: &'static str, title: &'static str) -> Self {
+        Self { name, title, about: "", source: "" }
+    }
+
+    pub(super) const fn about(self, about: &'static str) -> Self {
+        Self { about, ..self }
+    }
+
+    pub(super) const fn source(self, source: &'static str) -> Self {
+        Self { source, ..self }
+    }
+
     /// What it does and where it comes from.
     pub fn tip(&self) -> String {
         if self.source.is_empty() { self.about.to_owned() } else { format!("{} ({})", self.about, self.source) }

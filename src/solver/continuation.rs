@@ -70,7 +70,7 @@ pub(super) struct Continuation {
     pins: Pins,
     /// Where exact pins are to go.
     targets: PinPositions,
-    embedding: Embedding,
+    pub(super) embedding: Embedding,
     /// The largest distance of an exact pin from its target after each step.
     distances: Vec<f64>,
     /// Mesh and outside after the latest step, all points, and the outside.
@@ -121,10 +121,6 @@ impl Continuation {
         let is_crushed = self.embedding != self.sound.0;
         (self.embedding, self.settled) = (self.sound.0.clone(), None);
         is_crushed
-    }
-
-    pub(super) fn embedding(&self) -> &Embedding {
-        &self.embedding
     }
 
     fn outside_of(&self, mesh: &DiskMesh, embedding: &Embedding) -> Option<Outside> {

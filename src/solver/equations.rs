@@ -45,6 +45,17 @@ where
 }
 
 impl Equations<Complex<f64>> {
+    /// Adds the i-terms of the natural boundary: d/r of every boundary edge, by its inner halfedge.
+    pub(super) fn add_boundary_terms(&mut self, mesh: &DiskMesh, offset_share: impl Fn(HalfedgeId) -> f64) {
+        for outer in (3 * mesh.face_count()..mesh.halfedge_count()).map(HalfedgeId::from_index) {
+            let inner = mesh.twin(outer);
+            let share = offset_share(inner);
+            // A fan begins with the inner side of one boundary edge and ends with the outer side of another.
+            self.coefficients[inner.index()].im -= share;
+            self.coefficients[outer.index()].im += share;
+        }
+    }
+
     /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
     pub fn residual(&self, mesh: &DiskMesh, embedding: &Embedding, has_equation: impl Fn(VertexId) -> bool) -> f64 {
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
@@ -112,15 +123,10 @@ fn cotangents(mesh: &DiskMesh) -> Result<Equations<f64>, SolveError> {
 pub fn natural(mesh: &DiskMesh, power: f64) -> Result<Equations<Complex<f64>>, SolveError> {
     let scale = length_scale(mesh);
     let mut equations = barycentric(mesh, power)?.to_complex();
-    for place in 0..mesh.boundary_loop().len() {
-        let outer = HalfedgeId::from_index(3 * mesh.face_count() + place);
-        let inner = mesh.twin(outer);
+    equations.add_boundary_terms(mesh, |inner| {
         let length = (mesh.position(mesh.head(inner)) * scale - mesh.position(mesh.tail(inner)) * scale).length();
-        let offset_share = length.powf(power - 1.0);
-        // A fan begins with the inner side of one boundary edge and ends with the outer side of another.
-        equations.coefficients[inner.index()].im -= offset_share;
-        equations.coefficients[outer.index()].im += offset_share;
-    }
+        length.powf(power - 1.0)
+    });
     Ok(equations)
 }
 
@@ -203,7 +209,10 @@ pub(super) fn length_scale(mesh: &DiskMesh) -> f64 {
 /// Mean length of the edges at the size that [`length_scale`] brings the mesh to.
 pub(super) fn mean_edge_length(mesh: &DiskMesh) -> f64 {
     let scale = length_scale(mesh);
-    let place = |v: VertexId| mesh.position(v) * scale;
-    let total: f64 = mesh.halfedges().map(|h| place(mesh.tail(h)).distance(place(mesh.head(h)))).sum();
-    total / mesh.halfedge_count() as f64
+    mean_length(mesh, |[a, b]| (mesh.position(a) * scale).distance(mesh.position(b) * scale))
+}
+
+/// Mean length of the halfedges, from tail to head.
+pub(super) fn mean_length(mesh: &DiskMesh, length: impl Fn([VertexId; 2]) -> f64) -> f64 {
+    mesh.halfedges().map(|h| length([mesh.tail(h), mesh.head(h)])).sum::<f64>() / mesh.halfedge_count() as f64
 }

@@ -51,42 +51,24 @@ impl Choice for Family {
 
     fn words(self) -> Words {
         match self {
-            Self::Conformal => Words {
-                name: "conformal",
-                title: "Conformal",
-                about: "d = r: cotangents, keeps angles",
-                source: "paper §3.1; Pinkall and Polthier 1993",
-            },
-            Self::MeanValue => Words {
-                name: "mean-value",
-                title: "Mean value",
-                about: "d = 1: always positive",
-                source: "paper §3.1; Floater 2003",
-            },
-            Self::Wachspress => Words {
-                name: "wachspress",
-                title: "Wachspress",
-                about: "d = 1/r",
-                source: "paper §3.1; Wachspress 1975",
-            },
-            Self::Power(_) => Words {
-                name: "power:P",
-                title: "Power",
-                about: "d = r^P: Wachspress at −1, mean value at 0, conformal at 1",
-                source: "paper §3.1; Floater, Hormann and Kós 2006",
-            },
-            Self::Uniform => Words {
-                name: "uniform",
-                title: "Uniform",
-                about: "all weights equal; convex boundary only",
-                source: "Tutte 1963",
-            },
-            Self::ShapePreserving => Words {
-                name: "shape-preserving",
-                title: "Shape-preserving",
-                about: "averaged barycentric coordinates; convex boundary only",
-                source: "Floater 1997",
-            },
+            Self::Conformal => Words::new("conformal", "Conformal")
+                .about("d = r: cotangents, keeps angles")
+                .source("paper §3.1; Pinkall and Polthier 1993"),
+            Self::MeanValue => Words::new("mean-value", "Mean value")
+                .about("d = 1: always positive")
+                .source("paper §3.1; Floater 2003"),
+            Self::Wachspress => {
+                Words::new("wachspress", "Wachspress").about("d = 1/r").source("paper §3.1; Wachspress 1975")
+            }
+            Self::Power(_) => Words::new("power:P", "Power")
+                .about("d = r^P: Wachspress at −1, mean value at 0, conformal at 1")
+                .source("paper §3.1; Floater, Hormann and Kós 2006"),
+            Self::Uniform => {
+                Words::new("uniform", "Uniform").about("all weights equal; convex boundary only").source("Tutte 1963")
+            }
+            Self::ShapePreserving => Words::new("shape-preserving", "Shape-preserving")
+                .about("averaged barycentric coordinates; convex boundary only")
+                .source("Floater 1997"),
         }
     }
 

@@ -87,7 +87,7 @@ pub(super) struct Rest {
 /// A problem made ready: everything that does not depend on where the pins are to go.
 #[derive(Debug)]
 pub(super) struct LeastSquares {
-    rest: Rest,
+    pub(super) rest: Rest,
     /// The equations of g and the unit rows of P, over the unknowns of the factors.
     rows: Vec<Row>,
     /// What the movers give to the other equations.
@@ -170,11 +170,6 @@ impl LeastSquares {
             all[vertex.index()] = z;
         }
         Ok(all)
-    }
-
-    /// The weighted pins, in the order of the vectors to their targets.
-    pub(super) fn springs(&self) -> &[Spring] {
-        &self.rest.springs
     }
 }
 

@@ -111,80 +111,44 @@ impl Choice for Method {
 
     fn words(self) -> Words {
         match self {
-            Self::Auto => AUTO,
-            Self::Natural => NATURAL,
-            Self::Iterate => ITERATE,
-            Self::VirtualBoundary => VIRTUAL_BOUNDARY,
-            Self::Convex(_) => CONVEX,
-            Self::Lscm => LSCM,
-            Self::Levy => LEVY,
-            Self::Continuation => CONTINUATION,
-            Self::Matchmaker => MATCHMAKER,
-            Self::Relax => RELAX,
+            Self::Auto => Words::new("auto", "Auto (ladder)")
+                .about(
+                    "one way after another, the least costly first, until the map is proved one-to-one and \
+                     meets the constraints",
+                )
+                .source("paper §3.3, §4, §5, and beyond"),
+            Self::Natural => Words::new("natural", "Natural boundary")
+                .about("free boundary from two pins or yours, one linear solve")
+                .source("paper §3.3, eq. 2 and 3"),
+            Self::Iterate => Words::new("iterate", "Mean-value iteration")
+                .about("natural boundary, then solved again and again with mean-value weights of its own embedding")
+                .source("paper §4"),
+            Self::VirtualBoundary => Words::new("virtual-boundary", "Virtual boundary")
+                .about("natural boundary, then mesh and outside embedded together within a convex outline")
+                .source("paper §5"),
+            Self::Convex(_) => Words::new("convex", "Convex boundary")
+                .about("boundary on a circle or a square (--boundary), inside at barycentres")
+                .source("Tutte 1963, Floater 1997"),
+            Self::Lscm => Words::new("lscm", "Least-squares conformal")
+                .about("least-squares conformal map; equals natural with conformal weights")
+                .source("Lévy et al. 2002"),
+            Self::Levy => Words::new("levy", "Lévy, summed")
+                .about("Lévy's triangle equations summed around each vertex")
+                .source("paper §3.2"),
+            Self::Continuation => Words::new("continuation", "Continuation")
+                .about("from a planar map without constraints to their targets, one-to-one all the way")
+                .source("ours; energy of Garanzha et al. 2021"),
+            Self::Matchmaker => Words::new("matchmaker", "Matchmaker")
+                .about(
+                    "paths between the constraints, with new vertices where they need room, made straight in the plane",
+                )
+                .source("Eckstein et al. 2001; Kraevoy et al. 2003"),
+            Self::Relax => Words::new("relax", "Relax")
+                .about("lower distortion of a planar map, one-to-one throughout")
+                .source("ours; energy of Garanzha et al. 2021"),
         }
     }
 }
-
-const AUTO: Words = Words {
-    name: "auto",
-    title: "Auto (ladder)",
-    about: "one way after another, the least costly first, until the map is proved one-to-one and meets the constraints",
-    source: "paper §3.3, §4, §5, and beyond",
-};
-const NATURAL: Words = Words {
-    name: "natural",
-    title: "Natural boundary",
-    about: "free boundary from two pins or yours, one linear solve",
-    source: "paper §3.3, eq. 2 and 3",
-};
-const ITERATE: Words = Words {
-    name: "iterate",
-    title: "Mean-value iteration",
-    about: "natural boundary, then solved again and again with mean-value weights of its own embedding",
-    source: "paper §4",
-};
-const VIRTUAL_BOUNDARY: Words = Words {
-    name: "virtual-boundary",
-    title: "Virtual boundary",
-    about: "natural boundary, then mesh and outside embedded together within a convex outline",
-    source: "paper §5",
-};
-const CONVEX: Words = Words {
-    name: "convex",
-    title: "Convex boundary",
-    about: "boundary on a circle or a square (--boundary), inside at barycentres",
-    source: "Tutte 1963, Floater 1997",
-};
-const LSCM: Words = Words {
-    name: "lscm",
-    title: "Least-squares conformal",
-    about: "least-squares conformal map; equals natural with conformal weights",
-    source: "Lévy et al. 2002",
-};
-const LEVY: Words = Words {
-    name: "levy",
-    title: "Lévy, summed",
-    about: "Lévy's triangle equations summed around each vertex",
-    source: "paper §3.2",
-};
-const CONTINUATION: Words = Words {
-    name: "continuation",
-    title: "Continuation",
-    about: "from a planar map without constraints to their targets, one-to-one all the way",
-    source: "ours; energy of Garanzha et al. 2021",
-};
-const MATCHMAKER: Words = Words {
-    name: "matchmaker",
-    title: "Matchmaker",
-    about: "paths between the constraints, with new vertices where they need room, made straight in the plane",
-    source: "Eckstein et al. 2001; Kraevoy et al. 2003",
-};
-const RELAX: Words = Words {
-    name: "relax",
-    title: "Relax",
-    about: "lower distortion of a planar map, one-to-one throughout",
-    source: "ours; energy of Garanzha et al. 2021",
-};
 
 /// The shape that [`Method::Convex`] lays the boundary on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -201,8 +165,8 @@ impl Choice for BoundaryShape {
 
     fn words(self) -> Words {
         match self {
-            Self::Circle => Words { name: "circle", title: "Circle", about: "a circle", source: "" },
-            Self::Square => Words { name: "square", title: "Square", about: "a square", source: "" },
+            Self::Circle => Words::new("circle", "Circle").about("a circle"),
+            Self::Square => Words::new("square", "Square").about("a square"),
         }
     }
 }

@@ -31,7 +31,7 @@ use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::Embedding;
-use super::equations::Equations;
+use super::equations::{Equations, mean_length};
 use super::weights::bounded;
 use crate::geom::{Orientation, orientation};
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
@@ -59,8 +59,13 @@ fn radii_of(edges: [DVec2; 3], mean_length: f64) -> ([f64; 3], bool) {
     (lengths.map(|r| if r > 0.0 { r } else { THIN * longest }), shortest == 0.0)
 }
 
-fn face_weights([a, b, c]: [DVec2; 3], mean_length: f64) -> FaceWeights {
-    let edges = [b - a, c - b, a - c];
+/// A face's edges from each corner to the next.
+fn edges_of([a, b, c]: [DVec2; 3]) -> [DVec2; 3] {
+    [b - a, c - b, a - c]
+}
+
+fn face_weights(corners: [DVec2; 3], mean_length: f64) -> FaceWeights {
+    let edges = edges_of(corners);
     let (radii, has_short_edge) = radii_of(edges, mean_length);
     let longest = radii[0].max(radii[1]).max(radii[2]);
     let exact = edges[0].perp_dot(-edges[2]).abs();
@@ -87,8 +92,7 @@ pub(super) fn corner_weights(corners: [DVec2; 3]) -> [f64; 2] {
 
 /// The length of a face's edge from corner k on as the weights take it: positive.
 pub(super) fn edge_radius(corners: [DVec2; 3], k: usize) -> f64 {
-    let [a, b, c] = corners;
-    radii_of([b - a, c - b, a - c], 1.0).0[k]
+    radii_of(edges_of(corners), 1.0).0[k]
 }
 
 /// A power of two, so that multiplying rounds nothing, that brings an embedding to edges of a length near 1.
@@ -102,9 +106,7 @@ fn scale_of(embedding: &Embedding, face_count: usize) -> f64 {
 /// Mean length of the edges of an embedding at the size that its equations are those of.
 pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let scale = scale_of(embedding, mesh.face_count());
-    let place = |v: VertexId| embedding[v] * scale;
-    let total: f64 = mesh.halfedges().map(|h| place(mesh.tail(h)).distance(place(mesh.head(h)))).sum();
-    total / mesh.halfedge_count() as f64
+    mean_length(mesh, |[a, b]| (embedding[a] * scale).distance(embedding[b] * scale))
 }
 
 /// A(x) x: the residual of every vertex's equation, the natural boundary's i-terms included, found without rounding
@@ -129,8 +131,7 @@ pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex
 
 /// Shares of a face that is not positive in the residuals of its corners.
 fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
-    let [a, b, c] = corners;
-    let edges = [b - a, c - b, a - c];
+    let edges = edges_of(corners);
     let (radii, _) = radii_of(edges, 1.0);
     let FaceWeights { at_corner, degenerate, .. } = face_weights(corners, 1.0);
     [0, 1, 2].map(|k| {
@@ -168,15 +169,9 @@ pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<
 pub fn natural_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<Complex<f64>> {
     let scale = scale_of(embedding, mesh.face_count());
     let mut equations = mean_value_in_plane(mesh, embedding).to_complex();
-    let outer_sides = 3 * mesh.face_count()..mesh.halfedge_count();
-    for outer in outer_sides.map(HalfedgeId::from_index) {
-        let inner = mesh.twin(outer);
+    equations.add_boundary_terms(mesh, |inner| {
         let corners = mesh.face(FaceId::from_index(inner.index() / 3)).map(|v| embedding[v] * scale);
-        let (radii, _) = radii_of([corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]], 1.0);
-        let offset_share = 1.0 / radii[inner.index() % 3];
-        // A fan begins with the inner side of one boundary edge and ends with the outer side of another.
-        equations.coefficients[inner.index()].im -= offset_share;
-        equations.coefficients[outer.index()].im += offset_share;
-    }
+        1.0 / radii_of(edges_of(corners), 1.0).0[inner.index() % 3]
+    });
     equations
 }

@@ -36,7 +36,8 @@ pub(super) struct Relaxing {
     progress: Progress,
     /// That of the round before, whose order of elimination is kept.
     membrane: Option<Membrane>,
-    has_converged: bool,
+    /// Whether the last round gained next to nothing.
+    pub(super) has_converged: bool,
 }
 
 impl Relaxing {
@@ -45,11 +46,6 @@ impl Relaxing {
         let rest = Rest::new(mesh);
         let progress = rest.progress(mesh, &embedding, 0.0);
         Self { rest, pins: pins.clone(), embedding, progress, membrane: None, has_converged: false }
-    }
-
-    /// Whether the last round gained next to nothing.
-    pub(super) fn has_converged(&self) -> bool {
-        self.has_converged
     }
 
     /// One round. The embedding stays as it is where rounding keeps a better one from being planar.

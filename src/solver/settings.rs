@@ -21,24 +21,15 @@ impl Choice for Treatment {
 
     fn words(self) -> Words {
         match self {
-            Self::Eliminate => Words {
-                name: "eliminate",
-                title: "Eliminate",
-                about: "the equations of pinned vertices are dropped",
-                source: "paper §3.3",
-            },
-            Self::LeastSquares => Words {
-                name: "least-squares",
-                title: "Least squares",
-                about: "all equations are kept and met as well as can be, the pins exactly",
-                source: "paper §6",
-            },
-            Self::Weighted => Words {
-                name: "weighted",
-                title: "Weighted",
-                about: "all equations are kept, and all pins pull by their weights",
-                source: "paper §6",
-            },
+            Self::Eliminate => Words::new("eliminate", "Eliminate")
+                .about("the equations of pinned vertices are dropped")
+                .source("paper §3.3"),
+            Self::LeastSquares => Words::new("least-squares", "Least squares")
+                .about("all equations are kept and met as well as can be, the pins exactly")
+                .source("paper §6"),
+            Self::Weighted => Words::new("weighted", "Weighted")
+                .about("all equations are kept, and all pins pull by their weights")
+                .source("paper §6"),
         }
     }
 }
@@ -58,18 +49,10 @@ impl Choice for Growth {
 
     fn words(self) -> Words {
         match self {
-            Self::Double => Words {
-                name: "double",
-                title: "Twice as many",
-                about: "quick: as many again are bent each time",
-                source: "",
-            },
-            Self::One => Words {
-                name: "one",
-                title: "One more",
-                about: "as the paper's §5 has it: the least that is enough, found slowly",
-                source: "",
-            },
+            Self::Double => Words::new("double", "Twice as many").about("quick: as many again are bent each time"),
+            Self::One => {
+                Words::new("one", "One more").about("as the paper's §5 has it: the least that is enough, found slowly")
+            }
         }
     }
 }

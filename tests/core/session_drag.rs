@@ -29,7 +29,7 @@ fn with_constraints() -> Session {
 fn first_solve(session: &Session) -> Embedding {
     let document = session.document();
     let disk = session.model().expect("open").disk().expect("a disk");
-    flatten(disk, &document.run_settings(), &document.pins(), Control::unattended()).unwrap().embedding
+    flatten(disk, &document.problem().settings, &document.pins(), Control::unattended()).unwrap().embedding
 }
 
 #[test]

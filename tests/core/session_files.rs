@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
 use freebound::geom::PictureFrame;
-use freebound::io::{OutputFit, hard_targets};
+use freebound::io::{EXTENSIONS, OutputFit, OutputKind, hard_targets};
 use freebound::mesh::VertexId;
 use freebound::session::{Model, Outcome, Problem, RecentFiles};
 use freebound::solver::{Control, Ladder, Settings};
@@ -56,4 +56,15 @@ fn a_hard_constraint_that_the_solver_misses_is_reported_though_the_file_has_its_
     outcome.step.candidate.solution.embedding[40] += DVec2::new(0.25, 0.0);
     let error = reported(&outcome).expect("there are hard pins");
     assert!((error - 0.125).abs() < 1e-12, "{error}");
+}
+
+#[test]
+fn every_format_stands_in_its_own_row_of_the_table() {
+    let rows =
+        [(OutputKind::Obj, "obj"), (OutputKind::Svg, "svg"), (OutputKind::Png, "png"), (OutputKind::Json, "json")];
+    for (kind, extension) in rows {
+        let format = kind.format();
+        assert_eq!(format.extension, extension);
+        assert!(format.ending.ends_with(&format!(".{extension}")) && EXTENSIONS.contains(&format!(".{extension}")));
+    }
 }

@@ -29,7 +29,7 @@ fn embedding(session: &Session) -> Embedding {
 fn uninterrupted(session: &Session, count: usize) -> Vec<Step> {
     let disk = session.model().expect("open").disk().expect("a disk");
     let document = session.document();
-    let mut run = Ladder::new(document.run_settings(), document.pins());
+    let mut run = Ladder::new(document.problem().settings, document.pins());
     (0..count).map(|_| run.step(disk, Control::unattended()).expect("solvable")).collect()
 }
 

@@ -131,12 +131,13 @@ pub(super) fn run(folder: &Path) -> Result<Status, Failure> {
 }
 
 fn compute(progress: &Progress) -> Result<Vec<Figure>, SolveError> {
+    type Make<'a> = &'a dyn Fn() -> Result<Figure, SolveError>;
     let quiet = |_| {};
     let control = Control::new(&INTERRUPTED, &quiet);
     let disk = |example: Example| Arc::new(DiskMesh::try_from(example.mesh()).expect("built-in meshes are disks"));
     let (ell, cube) = (disk(Example::Ell), disk(Example::Cube));
     let face = textured::Subject::face();
-    let figures: [(&'static str, &dyn Fn() -> Result<Figure, SolveError>); 7] = [
+    let figures: [(&'static str, Make); 7] = [
         ("figure 1", &|| free::figure_1(&ell, control)),
         ("figure 3", &|| Ok(free::figure_3(&cube))),
         ("figure 4", &|| free::figure_4(&cube, control)),
@@ -159,7 +160,7 @@ fn drawn(figure: &Figure) -> Result<[(String, Vec<u8>); 2], WriteError> {
     let failed = |source| WriteError { path: svg.clone().into(), source };
     let (mut drawing, mut picture) = (Vec::new(), Vec::new());
     page.write_svg(&mut drawing).map_err(failed)?;
-    page.picture(PIXELS).write_png(&mut picture).map_err(|error| failed(std::io::Error::other(error)))?;
+    page.picture(PIXELS).write_png(&mut picture).map_err(failed)?;
     Ok([(svg, drawing), (png, picture)])
 }
 

@@ -56,7 +56,7 @@ fn write_path(out: &mut impl Write, path: &Path) -> io::Result<()> {
 
 fn write_picture(out: &mut impl Write, area: Bounds, picture: &Picture) -> io::Result<()> {
     let mut png = Vec::new();
-    picture.write_png(&mut png).map_err(io::Error::other)?;
+    picture.write_png(&mut png)?;
     let (DVec2 { x, y }, size) = (area.low, area.size());
     write!(out, r#"<image x="{x:.2}" y="{y:.2}" width="{:.2}" height="{:.2}" "#, size.x, size.y)?;
     writeln!(out, r#"href="data:image/png;base64,{}"/>"#, BASE64_STANDARD.encode(&png))

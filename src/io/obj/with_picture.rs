@@ -1,7 +1,7 @@
 //! An OBJ file with a picture: the mesh, a material library that names the picture, and the picture, side by side.
 
 use std::fs;
-use std::io::{self, Read as _, Write as _};
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::{ObjMesh, Statement, write_obj};
@@ -77,7 +77,7 @@ fn put_picture(mesh: &Path, picture: &PictureFile) -> Result<String, WriteError>
     let Some(source) = &picture.path else {
         let name = format!("{stem}-{MATERIAL}.png");
         let mut bytes = Vec::new();
-        let failed = |error| WriteError { path: mesh.with_file_name(&name), source: io::Error::other(error) };
+        let failed = |source| WriteError { path: mesh.with_file_name(&name), source };
         picture.pixels.write_png(&mut bytes).map_err(failed)?;
         return put(mesh, &[name], &bytes);
     };

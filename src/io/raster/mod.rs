@@ -11,7 +11,7 @@
 
 mod scene;
 
-use std::io::Write;
+use std::io::{self, Write};
 
 use glam::{DVec2, DVec3};
 use image::ImageEncoder as _;
@@ -183,9 +183,10 @@ impl Picture {
     /// # Errors
     ///
     /// What the writer or the encoder reports.
-    pub fn write_png(&self, writer: impl Write) -> image::ImageResult<()> {
+    pub fn write_png(&self, writer: impl Write) -> io::Result<()> {
         let encoder = image::codecs::png::PngEncoder::new(writer);
         let Self { width, height, pixels } = self;
-        encoder.write_image(pixels, *width, *height, image::ExtendedColorType::Rgba8)
+        let written = encoder.write_image(pixels, *width, *height, image::ExtendedColorType::Rgba8);
+        written.map_err(io::Error::other)
     }
 }

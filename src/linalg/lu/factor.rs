@@ -197,13 +197,8 @@ impl<T: Scalar> Job<'_, T> {
 
 impl<T> Lu<T> {
     pub(crate) fn stats(&self) -> FactorStats {
-        let factor_nonzeros = self.units.iter().map(|unit| unit.values.len()).sum();
-        FactorStats {
-            replaced_pivots: self.replaced_rows.len(),
-            factor_nonzeros,
-            factor_bytes: factor_nonzeros * size_of::<T>(),
-            peak_bytes: self.peak_bytes,
-        }
+        let factor_bytes = self.units.iter().map(|unit| size_of_val(unit.values.as_slice())).sum();
+        FactorStats { replaced_pivots: self.replaced_rows.len(), factor_bytes, peak_bytes: self.peak_bytes }
     }
 }
 

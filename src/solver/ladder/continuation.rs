@@ -19,7 +19,7 @@ const ROUNDS: usize = 3;
 const ROUNDS_WITH_SPRINGS: usize = 30;
 
 fn rounds_after(task: &Task) -> usize {
-    if task.has_springs() { ROUNDS_WITH_SPRINGS } else { ROUNDS }
+    if task.held().values().any(|pin| !pin.hold.is_exact()) { ROUNDS_WITH_SPRINGS } else { ROUNDS }
 }
 
 /// The planar start, moved.
@@ -99,7 +99,7 @@ impl Rung for Continue {
             Err(_) => {}
         }
         let is_crushed = continuation.go_back_to_sound();
-        let (embedding, progress) = (continuation.embedding().clone(), continuation.progress(mesh));
+        let (embedding, progress) = (continuation.embedding.clone(), continuation.progress(mesh));
         self.stage = Stage::Stuck;
         if is_crushed && !task.adds_vertices() {
             let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held).since(began);

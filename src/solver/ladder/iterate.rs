@@ -54,7 +54,7 @@ impl Iterate {
         let iteration = self.iteration.as_ref().expect("made above");
         let mut solution = iteration.step(mesh, &latest.embedding, control)?;
         if self.taken == 0 {
-            solution.seconds.analyze = iteration.analyze_seconds();
+            solution.seconds.analyze = iteration.analyze_seconds;
         }
         if task.has_open_gauge() {
             complete_gauge(mesh, &mut solution.embedding, asked, settings.size);

@@ -84,7 +84,7 @@ fn relaxed(found: &Matched, pins: &Pins, control: Control<'_>) -> Result<Matched
     let mut embedding = found.embedding.clone();
     for _ in 0..ROUNDS_BEFORE_REMOVAL {
         embedding = relaxing.round(disk, control)?.solution.embedding;
-        if relaxing.has_converged() {
+        if relaxing.has_converged {
             break;
         }
     }

@@ -54,7 +54,7 @@ impl Rung for Relax {
     }
 
     fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {
-        self.rounds_left > 0 && !self.relaxing.as_ref().is_some_and(Relaxing::has_converged)
+        self.rounds_left > 0 && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
     }
 
     fn look_at(&mut self, _: &Step) {

@@ -38,10 +38,10 @@ use self::straighten::{Weights, held_places, straightened};
 use self::subdivision::Subdivision;
 use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
-use super::outside::outside_of;
+use super::outside::{disk_in_plane, outside_of};
 use super::rest::mean_edge_length;
 use super::{Control, Embedding, Outside, Pins, SolveError, verdict};
-use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, TriMesh, VertexId};
+use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
 const CROSSING: f64 = 0.5;
@@ -83,16 +83,16 @@ pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control
     let parts = triangulate(&mut cells, &graph, &surroundings.disk);
     let held = held_places(&cells, &graph, &lines);
     let whole = surroundings.refined(&cells, &parts);
-    let refined = refined(mesh, &surroundings.disk, &cells, &parts);
+    let (refinement, vertices) = refined(mesh, &surroundings.disk, &cells, &parts);
     for weights in [Weights::MeanValue, Weights::Uniform] {
         let places = match straightened(&whole, &cells, &held, weights, control) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             Err(_) => continue,
             Ok(places) => places,
         };
-        let embedding: Embedding = refined.vertices.iter().map(|&v| places[v as usize]).collect();
-        if verdict(refined.refinement.disk(), &embedding).planar {
-            return Ok(Matched { refinement: refined.refinement, embedding });
+        let embedding: Embedding = vertices.iter().map(|&v| places[v as usize]).collect();
+        if verdict(refinement.disk(), &embedding).planar {
+            return Ok(Matched { refinement, embedding });
         }
     }
     Err(SolveError::TooFine)
@@ -119,20 +119,9 @@ impl Surroundings {
     }
 }
 
-/// A disk by its triangles, which lie in the plane.
-fn disk_in_plane(places: &[DVec2], triangles: Vec<[VertexId; 3]>) -> Option<DiskMesh> {
-    let positions = places.iter().map(|z| z.extend(0.0)).collect();
-    DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).ok()
-}
-
-/// The mesh with its new vertices, and which vertex of the subdivision each of its vertices is.
-struct Refined {
-    refinement: Refinement,
-    vertices: Vec<u32>,
-}
-
-/// Takes the mesh out of the subdivision of mesh and outside.
-fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts) -> Refined {
+/// Takes the mesh with its new vertices out of the subdivision of mesh and outside. Returns also which vertex of that
+/// each of its vertices is.
+fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts) -> (Refinement, Vec<u32>) {
     let is_of_mesh = |edge: &EdgeId| {
         let h = whole.halfedge(*edge);
         [h, whole.twin(h)].iter().any(|h: &HalfedgeId| h.index() < 3 * mesh.face_count())
@@ -142,7 +131,7 @@ fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts
     let mut number_of_point = BTreeMap::new();
     for edge in whole.edges().filter(is_of_mesh) {
         let [a, b] = whole.ends(edge);
-        let points = cells.points(edge.number());
+        let points = &cells.points[edge.number() as usize];
         for (place, &point) in points.iter().enumerate() {
             let share = (place + 1) as f64 / (points.len() + 1) as f64;
             let at = if a < b { share } else { 1.0 - share };
@@ -155,5 +144,5 @@ fn refined(mesh: &DiskMesh, whole: &DiskMesh, cells: &Subdivision, parts: &Parts
     let of_mesh = parts.range(..FaceId::from_index(mesh.face_count()));
     let parts = of_mesh.map(|(&face, parts)| (face, parts.iter().map(|t| t.map(renumbered)).collect())).collect();
     let refinement = Refinement::new(mesh, new_vertices, &parts).expect("the parts of a disk's faces are a disk");
-    Refined { refinement, vertices }
+    (refinement, vertices)
 }

@@ -54,7 +54,7 @@ pub(super) struct Subdivision {
     /// Ends of the old edges.
     ends: Vec<[u32; 2]>,
     /// New points on each old edge, from its first end.
-    points: Vec<Vec<u32>>,
+    pub(super) points: Vec<Vec<u32>>,
 }
 
 impl Index<u32> for Subdivision {
@@ -124,16 +124,11 @@ impl Subdivision {
         (vertex as usize).checked_sub(self.old_vertex_count()).map(|point| self.edge_of_point[point])
     }
 
-    /// New points on an old edge, from its first end.
-    pub(super) fn points(&self, old_edge: u32) -> &[u32] {
-        &self.points[old_edge as usize]
-    }
-
     /// How many new points lie on the old edge that a halfedge is a piece of.
     pub(super) fn crowd(&self, h: u32) -> usize {
         match self[h].old_edge {
             NONE => 0,
-            edge => self.points(edge).len(),
+            edge => self.points[edge as usize].len(),
         }
     }
 
