@@ -275,20 +275,21 @@ impl PlaneView {
     pub(in crate::ui::editor) fn toggle_hull(&mut self) {
         self.hull.shown = !self.hull.shown;
         if let Some([before, framing]) = self.hull.cameras.take()
-            && self.camera == Some(framing)
+            && self.pane.camera() == Some(framing)
         {
-            self.camera = Some(before);
+            self.pane.set_camera(before);
         }
     }
 
     /// Shows all of the hull, once it is there for the first time.
     fn frame_hull(&mut self) {
-        let (Some(plane), Some(before)) = (self.drawn(), self.camera) else { return };
+        let (Some(plane), Some(before)) = (self.drawn(), self.pane.camera()) else { return };
         let bounds = plane.arrays.bounds;
         if self.hull.cameras.is_none() && !self.shows(before, bounds) && !plane.is_plain_result() {
             let mut framing = before;
-            framing.frame(bounds, self.area.size());
-            (self.camera, self.hull.cameras) = (Some(framing), Some([before, framing]));
+            framing.frame(bounds, self.pane.size());
+            self.pane.set_camera(framing);
+            self.hull.cameras = Some([before, framing]);
         }
     }
 }
