@@ -27,14 +27,9 @@ impl EdgeTable {
     /// If a triangle names a vertex beyond the last.
     pub fn new(vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
         let side_count = u32::try_from(3 * triangles.len()).expect("a mesh has fewer than 2^32 sides");
-        let low = |side: u32| {
-            let (a, b) = side_ends(triangles, side);
-            a.min(b).index()
-        };
-        let high = |side: u32| {
-            let (a, b) = side_ends(triangles, side);
-            a.max(b).number()
-        };
+        let ends = |side: u32| side_ends(triangles, side);
+        let low = |side: u32| ends(side).0.min(ends(side).1).index();
+        let high = |side: u32| ends(side).0.max(ends(side).1);
         let mut bucket_end = vec![0_u32; vertex_count + 1];
         for side in 0..side_count {
             bucket_end[low(side) + 1] += 1;
@@ -51,9 +46,8 @@ impl EdgeTable {
         }
         let mut starts = vec![0_u32];
         for v in 0..vertex_count {
-            let range = bucket_end[v] as usize..bucket_end[v + 1] as usize;
-            let begin = bucket_end[v];
-            let bucket = &mut sides[range];
+            let (begin, end) = (bucket_end[v], bucket_end[v + 1]);
+            let bucket = &mut sides[begin as usize..end as usize];
             bucket.sort_unstable_by_key(|&side| (high(side), side));
             for (offset, pair) in (begin + 1..).zip(bucket.windows(2)) {
                 if high(pair[0]) != high(pair[1]) {
@@ -61,7 +55,7 @@ impl EdgeTable {
                 }
             }
             if !bucket.is_empty() {
-                starts.push(bucket_end[v + 1]);
+                starts.push(end);
             }
         }
         Self { sides, starts }

@@ -121,10 +121,6 @@ struct PinnedEdge {
 }
 
 impl PinnedEdge {
-    fn new(ends: [VertexId; 2], segment: [DVec2; 2]) -> Self {
-        Self { ends, segment, bounds: Bounds::of(segment) }
-    }
-
     /// Whether two edges have more in common than a shared end.
     fn conflicts_with(&self, other: &Self) -> bool {
         let Some(shared) = self.ends.iter().position(|end| other.ends.contains(end)) else {
@@ -142,25 +138,21 @@ fn crossing_edges(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
     let edge = |edge: EdgeId| {
         let [a, b] = mesh.ends(edge);
         let ends = [a.min(b), a.max(b)];
-        Some(PinnedEdge::new(ends, [*targets.get(&ends[0])?, *targets.get(&ends[1])?]))
+        let segment = [*targets.get(&ends[0])?, *targets.get(&ends[1])?];
+        Some(PinnedEdge { ends, segment, bounds: Bounds::of(segment) })
     };
     let mut edges: Vec<PinnedEdge> = pinned.into_iter().filter_map(edge).collect();
     edges.sort_by(|a, b| a.bounds.low.x.total_cmp(&b.bounds.low.x).then(a.ends.cmp(&b.ends)));
-    let mut found = Vec::new();
-    for (i, first) in edges.iter().enumerate() {
-        for second in edges[i + 1..].iter().take_while(|second| second.bounds.low.x <= first.bounds.high.x) {
-            if first.bounds.meets(second.bounds) && first.conflicts_with(second) {
-                found.push([first.ends.min(second.ends), first.ends.max(second.ends)]);
-            }
-            if found.len() == CONFLICTS_LISTED {
-                return listed(found);
-            }
-        }
-    }
-    listed(found)
-}
-
-fn listed(mut pairs: Vec<[[VertexId; 2]; 2]>) -> Vec<Conflict> {
+    let later = |i: usize| {
+        let first = &edges[i];
+        let may_meet = move |second: &&PinnedEdge| second.bounds.low.x <= first.bounds.high.x;
+        edges[i + 1..].iter().take_while(may_meet).map(move |second| [first, second])
+    };
+    let conflict =
+        |[first, second]: &[&PinnedEdge; 2]| first.bounds.meets(second.bounds) && first.conflicts_with(second);
+    let found = (0..edges.len()).flat_map(later).filter(conflict).take(CONFLICTS_LISTED);
+    let mut pairs: Vec<[[VertexId; 2]; 2]> =
+        found.map(|[first, second]| [first.ends.min(second.ends), first.ends.max(second.ends)]).collect();
     pairs.sort_unstable();
     pairs.into_iter().map(|edges| Conflict::CrossingEdges { edges }).collect()
 }

@@ -1,7 +1,6 @@
 //! One factored system of a free boundary, and its solution for given pins.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use glam::DVec2;
@@ -15,9 +14,6 @@ use super::system::{FreeSystem, Site};
 use super::{Control, Embedding, Hold, LinearSolve, Phase, PhaseSeconds, PinPositions, Pins, SolveError, Treatment};
 use crate::linalg::{Analysis, Answer, Factor};
 use crate::mesh::{DiskMesh, VertexId};
-
-/// One further solve is not worth an interruption.
-static NEVER: AtomicBool = AtomicBool::new(false);
 
 /// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
 const GRADIENT_LIMIT: f64 = 1e-10;
@@ -167,7 +163,9 @@ impl FreeSolve {
             let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding);
             return Ok((embedding, residual));
         };
-        let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: &NEVER };
+        // One further solve is not worth an interruption.
+        let cancel = Control::unattended().cancel();
+        let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel };
         let to_target = |pin: &Spring| {
             let to_target = targets[&pin.vertex] - start[pin.vertex];
             Complex::new(to_target.x, to_target.y)

@@ -74,7 +74,10 @@ impl Iteration {
         let is_pulled = |(v, pin): (&VertexId, &Pin)| embedding[v] != pin.target;
         let residuals = residuals_in_plane(mesh, embedding);
         if residuals.iter().all(|residual| *residual == Complex::ZERO) && !pins.iter().any(is_pulled) {
-            return Ok(unmoved(embedding, pins, start.elapsed().as_secs_f64()));
+            // The embedding meets its equations, and no pin pulls: it is the answer.
+            let seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
+            let (embedding, linear) = (embedding.clone(), Some(LinearSolve::default()));
+            return Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds });
         }
         let equations = natural_in_plane(mesh, embedding);
         let unit = mean_edge_length_in_plane(mesh, embedding);
@@ -103,11 +106,4 @@ fn held_in(embedding: &Embedding, pins: &Pins) -> Pins {
     let place = |v: VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
     let held = |pin: &Pin, v| if pin.hold.is_exact() { Pin { target: place(v), ..*pin } } else { *pin };
     pins.iter().map(|(&v, pin)| (v, held(pin, v))).collect()
-}
-
-/// The answer to an embedding that meets its equations and that no pin pulls: itself.
-fn unmoved(embedding: &Embedding, pins: Pins, seconds: f64) -> Solution {
-    let seconds = PhaseSeconds { assemble: seconds, ..PhaseSeconds::default() };
-    let linear = Some(LinearSolve::default());
-    Solution { embedding: embedding.clone(), pins, gauge_completed: false, linear, seconds }
 }

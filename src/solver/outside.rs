@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::Embedding;
 use super::foldover_energy::Element;
 use crate::geom::{Bounds, outside_triangles};
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, TriMesh, VertexId};
 
 /// Points on each side of a frame that vertices move within.
 pub(super) const FRAME_POINTS: u32 = 8;
@@ -49,13 +49,25 @@ pub(super) fn outside_of(
 ) -> Option<Outside> {
     let boundary = embedding.boundary(mesh);
     let frame = frame_around(boundary.iter().copied().chain(further), per_side);
+    let triangles = triangles_around(mesh, &boundary, &frame)?;
+    Some(Outside { frame, triangles })
+}
+
+/// The triangles between the boundary and a frame, or the hull where that is empty. Beyond the mesh's vertices they are
+/// those of the frame.
+pub(super) fn triangles_around(mesh: &DiskMesh, boundary: &[DVec2], frame: &[DVec2]) -> Option<Vec<[VertexId; 3]>> {
     let vertex = |corner: u32| {
         let corner = corner as usize;
-        let beyond = || VertexId::from_index(embedding.len() + corner - boundary.len());
+        let beyond = || VertexId::from_index(mesh.vertex_count() + corner - boundary.len());
         mesh.boundary_loop().get(corner).copied().unwrap_or_else(beyond)
     };
-    let triangles = outside_triangles(&boundary, &frame)?.into_iter().map(|t| t.map(vertex)).collect();
-    Some(Outside { frame, triangles })
+    Some(outside_triangles(boundary, frame)?.into_iter().map(|t| t.map(vertex)).collect())
+}
+
+/// A mesh in the plane as a disk.
+pub(super) fn disk_in_plane(points: &[DVec2], triangles: Vec<[VertexId; 3]>) -> Option<DiskMesh> {
+    let positions = points.iter().map(|z| z.extend(0.0)).collect();
+    DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).ok()
 }
 
 /// The outside's energies, at rest as it lies.

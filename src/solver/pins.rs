@@ -198,18 +198,9 @@ impl FarthestSearch<'_> {
         if a.farthest_bound(b) <= self.best.0 {
             return;
         }
-        match (&a.halves, &b.halves) {
-            (None, None) => self.compare(a, b),
-            (Some(halves), other) if other.is_none() || a.range.len() >= b.range.len() => {
-                self.descend_both([&halves[0], &halves[1]], b);
-            }
-            (_, Some(halves)) => self.descend_both([&halves[0], &halves[1]], a),
-            (Some(_), None) => unreachable!("taken above"),
-        }
-    }
-
-    fn descend_both(&mut self, halves: [&BoxTree; 2], other: &BoxTree) {
-        let [first, second] = halves;
+        let splits_first = a.halves.is_some() && (b.halves.is_none() || a.range.len() >= b.range.len());
+        let (split, other) = if splits_first { (a, b) } else { (b, a) };
+        let Some([first, second]) = split.halves.as_deref() else { return self.compare(a, b) };
         if first.farthest_bound(other) >= second.farthest_bound(other) {
             self.descend(first, other);
             self.descend(second, other);

@@ -19,7 +19,7 @@ use super::pins::{
 use super::scale::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::{FreeSystem, Site};
-use super::{BoundaryShape, Choice as _, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use super::{Choice as _, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -184,8 +184,8 @@ impl Prepared {
 }
 
 fn check_family(settings: &Settings) -> Result<(), SolveError> {
-    let convex = matches!(settings.method, Method::Convex(BoundaryShape::Circle | BoundaryShape::Square));
-    if settings.method.uses_family() && settings.family.power().is_none() && !convex {
+    let needs_convex = settings.method.uses_family() && settings.family.power().is_none();
+    if needs_convex && !matches!(settings.method, Method::Convex(_)) {
         return Err(SolveError::FamilyNotApplicable {
             method: settings.method.name(),
             family: settings.family.to_string(),

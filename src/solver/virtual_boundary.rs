@@ -21,11 +21,12 @@ use num_complex::Complex;
 
 use super::equations::Equations;
 use super::fixed_solve::FixedSolve;
+use super::outside::{disk_in_plane, triangles_around};
 use super::system::{FreeSystem, Site};
 use super::{Control, Embedding, LinearSolve, Phase, SolveError};
-use crate::geom::{Bounds, Orientation, orientation, outside_triangles};
+use crate::geom::{Bounds, Orientation, orientation};
 use crate::linalg::Kind;
-use crate::mesh::{DiskMesh, TriMesh, VertexId};
+use crate::mesh::{DiskMesh, VertexId};
 
 /// The frame's corners, relative to half the extent of the boundary: an octagon whose sides are far from straight.
 const FRAME: [DVec2; 8] = [
@@ -97,9 +98,7 @@ impl Extended {
 
     /// Extends an embedding up to its hull; `None` where its boundary is not simple or Tutte's theorem does not hold.
     pub fn up_to_hull(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
-        let triangles = outside_triangles(&embedding.boundary(mesh), &[])?;
-        let boundary = mesh.boundary_loop();
-        let pockets = triangles.into_iter().map(|t| t.map(|corner| boundary[corner as usize])).collect();
+        let pockets = triangles_around(mesh, &embedding.boundary(mesh), &[])?;
         let extended = Self::join(mesh, Outline::Hull, embedding.clone(), pockets)?;
         (!extended.has_edge_along_outline()).then_some(extended)
     }
@@ -110,24 +109,16 @@ impl Extended {
         let bounds = Bounds::of(boundary.iter().copied());
         let (centre, half) = (bounds.middle(), bounds.size().max_element() / 2.0);
         let frame = FRAME.map(|corner| centre + half * corner);
-        let triangles = outside_triangles(&boundary, &frame)?;
+        let mut pockets = triangles_around(mesh, &boundary, &frame)?;
         let mut positions = embedding.to_vec();
         positions.extend(frame);
-        let vertex = |corner: u32| {
-            let corner = corner as usize;
-            let beyond = || VertexId::from_index(embedding.len() + corner - boundary.len());
-            mesh.boundary_loop().get(corner).copied().unwrap_or_else(beyond)
-        };
-        let mut pockets: Vec<[VertexId; 3]> = triangles.into_iter().map(|t| t.map(vertex)).collect();
         split_doubled_edges(mesh, &mut positions, &mut pockets);
         Self::join(mesh, Outline::Frame, positions.into(), pockets)
     }
 
     fn join(mesh: &DiskMesh, outline: Outline, embedding: Embedding, pockets: Vec<[VertexId; 3]>) -> Option<Self> {
         let triangles = mesh.mesh().triangles.iter().chain(&pockets).copied().collect();
-        let positions = embedding.iter().map(|z| z.extend(0.0)).collect();
-        let joined = TriMesh { positions, triangles, polygon_of: None };
-        let disk = DiskMesh::of_topology(joined).ok()?;
+        let disk = disk_in_plane(&embedding, triangles)?;
         Some(Self { disk, outline, embedding, pockets })
     }
 

@@ -19,7 +19,7 @@ const ROUNDS: usize = 3;
 const ROUNDS_WITH_SPRINGS: usize = 30;
 
 fn rounds_after(task: &Task) -> usize {
-    if task.has_springs() { ROUNDS_WITH_SPRINGS } else { ROUNDS }
+    if task.held().values().any(|pin| !pin.hold.is_exact()) { ROUNDS_WITH_SPRINGS } else { ROUNDS }
 }
 
 /// The planar start, moved.

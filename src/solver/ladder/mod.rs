@@ -6,8 +6,7 @@
 //! | `plan.rs` | the plan of every method: which rung follows which |
 //! | `rung.rs` | what a rung is: from the latest step to a candidate, or to a reason why there is none |
 //! | `task.rs` | what is asked for: settings and pins |
-//! | `candidate.rs` | [`Candidate`]: what a rung gives, before it is proved |
-//! | `step.rs` | [`Step`]: a candidate with its verdict |
+//! | `step.rs` | [`Candidate`]: what a rung gives, before it is proved; [`Step`]: a candidate with its verdict |
 //! | `natural.rs` | rung 1: one linear solve |
 //! | `iterate.rs` | rung 2: mean-value iterations, and when they get no better |
 //! | `again.rs` | rung 1 once more, with the default weights and pins |
@@ -20,7 +19,6 @@
 //! cancelled leaves the ladder as it was.
 
 mod again;
-mod candidate;
 mod continuation;
 mod iterate;
 mod matchmaker;
@@ -35,9 +33,8 @@ mod virtual_boundary;
 use std::sync::Arc;
 use std::time::Instant;
 
-pub use self::candidate::Candidate;
 pub use self::plan::{Kept, PlanarStart};
-pub use self::step::{Progress, Step, largest_move};
+pub use self::step::{Candidate, Progress, Step, largest_move};
 
 use self::plan::{Aim, Plan};
 use self::rung::{Failure, Footing, Latest, Notes};
@@ -200,7 +197,7 @@ impl Ladder {
                 }
                 self.enter_next_part()?;
             }
-            self.notes.extend(way_on.note);
+            self.notes.say(way_on.note);
             if let Some(latest) = &mut self.latest {
                 latest.onward = way_on.embedding;
             }
@@ -231,7 +228,7 @@ impl Ladder {
         let old = mesh.vertex_count();
         let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
         let max_move = self.latest.as_ref().map(moved);
-        self.notes.extend(candidate.note.take());
+        self.notes.say(candidate.note.take());
         candidate.note = self.notes.take();
         let set_aside = match self.plan.part().aim {
             Aim::Constraints => Pins::new(),

@@ -13,7 +13,7 @@ use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
 use super::{again, continuation, iterate, matchmaker, natural, virtual_boundary};
-use crate::solver::{Embedding, GaugeSize, Method, Prepared};
+use crate::solver::{Embedding, GaugeSize, Method, Pins, Prepared, Settings};
 
 /// The rungs of a part, flight by flight.
 type Flights = &'static [&'static [Kind]];
@@ -97,11 +97,9 @@ impl Plan {
         let planar_start = kept.planar_start.clone().filter(|start| start.size == task.settings.size);
         let kept = Kept { planar_start, ..kept.clone() };
         let part = |flights| Part::new(task, Aim::Constraints, flights, &kept);
-        let start = || match kept.planar_start {
-            Some(_) => None,
-            None => Some(Part::new(&Arc::new(task.without_constraints()), Aim::PlanarStart, LADDER, &kept)),
-        };
-        let from_start = |flights| start().into_iter().chain([part(flights)]);
+        let unconstrained = Settings { size: task.settings.size, ..Settings::default() };
+        let start = || Part::new(&Arc::new(Task::new(unconstrained, Pins::new())), Aim::PlanarStart, LADDER, &kept);
+        let from_start = |flights| kept.planar_start.is_none().then(start).into_iter().chain([part(flights)]);
         let parts = match task.settings.method {
             Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
             Method::Auto => {

@@ -104,16 +104,9 @@ impl Failure {
 pub(super) struct Notes(Vec<String>);
 
 impl Notes {
-    pub(super) fn say(&mut self, note: String) {
-        if !self.0.contains(&note) {
-            self.0.push(note);
-        }
-    }
-
-    pub(super) fn extend(&mut self, note: Option<String>) {
-        if let Some(note) = note {
-            self.say(note);
-        }
+    /// Adds a note, if there is one.
+    pub(super) fn say(&mut self, note: impl Into<Option<String>>) {
+        self.0.extend(note.into().filter(|note| !self.0.contains(note)));
     }
 
     /// All of them as one line.

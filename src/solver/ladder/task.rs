@@ -19,11 +19,6 @@ impl Task {
         Self { settings, pins: if settings.method.uses_pins() { pins } else { Pins::new() } }
     }
 
-    /// A planar embedding of the same size without the constraints.
-    pub(super) fn without_constraints(&self) -> Self {
-        Self { settings: Settings { size: self.settings.size, ..Settings::default() }, pins: Pins::new() }
-    }
-
     /// Whether the pins are constraints: up to two exact ones only fix the similarity.
     pub(super) fn is_constrained(&self) -> bool {
         let is_exact = || self.pins.values().all(|pin| self.settings.is_exact(pin.hold));
@@ -36,10 +31,6 @@ impl Task {
 
     pub(super) fn held(&self) -> Pins {
         self.settings.held(&self.pins)
-    }
-
-    pub(super) fn has_springs(&self) -> bool {
-        self.held().values().any(|pin| !pin.hold.is_exact())
     }
 
     /// Whether new vertices are made where the constraints cannot be met otherwise.

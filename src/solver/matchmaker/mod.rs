@@ -38,10 +38,10 @@ use self::straighten::{Weights, held_places, straightened};
 use self::subdivision::Subdivision;
 use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
-use super::outside::outside_of;
+use super::outside::{disk_in_plane, outside_of};
 use super::rest::mean_edge_length;
 use super::{Control, Embedding, Outside, Pins, SolveError, verdict};
-use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, TriMesh, VertexId};
+use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
 const CROSSING: f64 = 0.5;
@@ -117,12 +117,6 @@ impl Surroundings {
         let triangles = self.disk.faces().flat_map(of_face).collect();
         disk_in_plane(&cells.places, triangles).expect("the parts of a disk's faces are a disk")
     }
-}
-
-/// A disk by its triangles, which lie in the plane.
-fn disk_in_plane(places: &[DVec2], triangles: Vec<[VertexId; 3]>) -> Option<DiskMesh> {
-    let positions = places.iter().map(|z| z.extend(0.0)).collect();
-    DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).ok()
 }
 
 /// Takes the mesh with its new vertices out of the subdivision of mesh and outside. Returns also which vertex of that

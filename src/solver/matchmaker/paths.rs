@@ -106,7 +106,9 @@ impl<'a> Paths<'a> {
         waiting: &mut BinaryHeap<Reverse<Waiting>>,
     ) -> bool {
         waiting.pop();
-        let Way { length, moves } = self.way(edge, from, router).expect("ends of one region are joined within it");
+        let to = self.other_end(edge, from);
+        let way = router.way(&self.cells, &self.terminal(from, to), &self.terminal(to, from));
+        let Way { length, moves } = way.expect("ends of one region are joined within it");
         let is_shortest = waiting.peek().is_none_or(|Reverse(next)| length <= next.bound.0);
         if is_shortest {
             self.lay(edge, from, &moves);
@@ -116,10 +118,10 @@ impl<'a> Paths<'a> {
         is_shortest
     }
 
-    fn way(&self, edge: u32, from: u32, router: &mut Router) -> Option<Way> {
+    /// The other end of an edge.
+    fn other_end(&self, edge: u32, end: u32) -> u32 {
         let [a, b] = self.graph.edges[edge as usize];
-        let to = if from == a { b } else { a };
-        router.way(&self.cells, &self.terminal(from, to), &self.terminal(to, from))
+        if end == a { b } else { a }
     }
 
     /// Where a path from one end to another may leave it: between its neighbours in the order of the graph.
@@ -169,11 +171,10 @@ impl<'a> Paths<'a> {
             line.push(vertex);
             pieces.push(piece);
         }
-        let [a, b] = self.graph.edges[edge as usize];
-        let to = if from == a { b } else { a };
+        let to = self.other_end(edge, from);
         self.departures.insert([from, to], pieces[0]);
         self.departures.insert([to, from], self.cells[pieces[pieces.len() - 1]].twin);
-        if from != a {
+        if from != self.graph.edges[edge as usize][0] {
             line.reverse();
         }
         self.lines[edge as usize] = line;
