@@ -8,7 +8,6 @@ use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::{Pipelines, Target};
 use super::plan::{Draw, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
-use super::shrink::shrunk;
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;
 
@@ -111,7 +110,15 @@ impl Gpu {
                 Sampling::Smooth => &self.smooth,
                 Sampling::Sharp => &self.sharp,
             };
-            let group = pane_group(io.device, &self.pipelines, &state.uniforms, picture, sampler);
+            let group = io.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("pane"),
+                layout: &self.pipelines.pane_layout,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: state.uniforms.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(picture) },
+                    wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
+                ],
+            });
             let scene = Scene { pipelines: &self.pipelines, cache: &self.cache, group: &group };
             let draw_calls = scene.draw(io.encoder, state, &plan);
             self.cache.stats.drawn_panes += 1;
@@ -136,11 +143,11 @@ impl Gpu {
             return;
         }
         // A picture that the card does not take is shown with less detail rather than not at all.
-        let small = shrunk(picture.size, &picture.pixels, io.device.limits().max_texture_dimension_2d);
-        let (size, pixels) = small.as_ref().map_or((picture.size, &picture.pixels), |(size, pixels)| (*size, pixels));
+        let small = picture.shrunk(io.device.limits().max_texture_dimension_2d);
+        let crate::view::Picture { size, pixels, .. } = small.as_ref().unwrap_or(picture);
         self.cache.stats.uploads += 1;
         self.cache.stats.uploaded_bytes += pixels.len() as u64;
-        self.pictures.insert(key, picture_view(io.device, io.queue, size, pixels));
+        self.pictures.insert(key, picture_view(io.device, io.queue, *size, pixels));
     }
 
     /// Drops what no pane shows any more.
@@ -281,24 +288,6 @@ fn uniform_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
         size,
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
-    })
-}
-
-fn pane_group(
-    device: &wgpu::Device,
-    pipelines: &Pipelines,
-    uniforms: &wgpu::Buffer,
-    picture: &wgpu::TextureView,
-    sampler: &wgpu::Sampler,
-) -> wgpu::BindGroup {
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("pane"),
-        layout: &pipelines.pane_layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: uniforms.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(picture) },
-            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(sampler) },
-        ],
     })
 }
 

@@ -18,7 +18,6 @@
 //! | `callback.rs` | the way into egui |
 //! | `plan.rs`, `uniforms.rs` | from a frame to draw calls and the small numbers of the shaders |
 //! | `gpu.rs`, `pipelines.rs`, `cache.rs` | what lives on the device |
-//! | `shrink.rs` | pictures that are larger than the device takes |
 //!
 //! [`install`] must have run once; without it, or where egui runs without a graphics card, a pane stays empty.
 
@@ -28,7 +27,6 @@ mod frame;
 mod gpu;
 mod pipelines;
 mod plan;
-mod shrink;
 mod uniforms;
 
 pub use callback::{install, mesh_pane, plane_pane, stats};

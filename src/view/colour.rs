@@ -1,4 +1,5 @@
-//! Colour scales of the per-face quantities, their ranges and their legends.
+//! Colours: those that a renderer is given, and scales of the per-face quantities with their ranges and legends. The theme
+//! holds the values of the first; shaders get them as uniforms.
 //!
 //! | scale   | value                  | colours             | range                                       |
 //! |---------|------------------------|---------------------|---------------------------------------------|
@@ -8,8 +9,6 @@
 //! | move    | distance in the plane  | viridis             | 0 to the 99th percentile                    |
 //!
 //! Viridis is by S. van der Walt and N. Smith (CC0); nine samples of it stand here.
-
-use super::ticks::{self, Tick};
 
 /// Least width of a scale. Below it differences are rounding and shall not be blown up to full colour.
 const LEAST_WIDTH: f64 = 0.1;
@@ -99,11 +98,11 @@ impl Scale {
 
     /// Places and numbers for a legend. Areas are told as ratios: ½, 1, 2.
     pub fn ticks(self, range: Range) -> Vec<Tick> {
-        let values = ticks::nice_values(range.low, range.high, TICK_COUNT);
+        let values = nice_values(range.low, range.high, TICK_COUNT);
         let tick = |(value, step): (f64, f64)| Tick {
             at: range.share(value),
             label: match self {
-                Self::Angle | Self::Stretch | Self::Move => ticks::label(value, step),
+                Self::Angle | Self::Stretch | Self::Move => label(value, step),
                 Self::Area => ratio_label(value, step),
             },
         };
@@ -148,4 +147,107 @@ fn ratio_label(exponent: f64, step: f64) -> String {
         -2.0 => "¼".to_owned(),
         e => format!("1/{:.0}", (-e).exp2()),
     }
+}
+
+/// A labelled place on a legend's bar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tick {
+    /// Place along the bar: 0 at the low end, 1 at the high end.
+    pub at: f64,
+    /// The number, with the digits that mean something.
+    pub label: String,
+}
+
+/// Slack when a nice number is compared with a bound, relative: powers of ten are rounded.
+const SLACK: f64 = 1e-9;
+
+/// The smallest of 1, 2, 5 × 10ᵏ that is at least `width`. 1 for a width that is not positive and finite.
+pub fn nice_step_at_least(width: f64) -> f64 {
+    if !(width.is_normal() && width > 0.0) {
+        return 1.0;
+    }
+    let decade = 10_f64.powf(width.log10().floor());
+    let leading = [1.0, 2.0, 5.0, 10.0].into_iter().find(|&m| m * decade >= width * (1.0 - SLACK));
+    leading.unwrap_or(10.0) * decade
+}
+
+/// Multiples of a nice step from `low` to `high`, at most `count` of them and as many as fit.
+fn nice_values(low: f64, high: f64, count: usize) -> Vec<(f64, f64)> {
+    let step = nice_step_at_least((high - low) / count.max(2) as f64);
+    let first = (low / step - SLACK).ceil();
+    (0..=count)
+        .map(|k| (first + k as f64) * step)
+        .take_while(|&v| v <= high + SLACK * step)
+        .map(|v| (v, step))
+        .collect()
+}
+
+/// A value with as many decimals as its step needs.
+fn label(value: f64, step: f64) -> String {
+    let magnitude = step.abs().log10().floor();
+    if !(-5.0..=5.0).contains(&magnitude) {
+        return format!("{value:.1e}");
+    }
+    let mut decimals = 0;
+    while decimals < 6 && 10_f64.powi(-decimals) > step * (1.0 + SLACK) {
+        decimals += 1;
+    }
+    let decimals = usize::try_from(decimals).unwrap_or(0);
+    // Adding zero turns −0 into 0.
+    format!("{:.decimals$}", value + 0.0).replace('-', "−")
+}
+
+/// A colour as designers write it: sRGB with straight alpha.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Srgb(pub [u8; 4]);
+
+impl Srgb {
+    /// An opaque colour from `0xRRGGBB`.
+    pub const fn from_hex(hex: u32) -> Self {
+        let [_, r, g, b] = hex.to_be_bytes();
+        Self([r, g, b, 255])
+    }
+
+    /// The same colour with another opacity, 0 to 255.
+    #[must_use]
+    pub const fn with_alpha(self, alpha: u8) -> Self {
+        let [r, g, b, _] = self.0;
+        Self([r, g, b, alpha])
+    }
+
+    /// Linear light, straight alpha: what shaders compute with.
+    pub fn to_linear(self) -> [f32; 4] {
+        let [r, g, b, a] = self.0.map(|byte| f32::from(byte) / 255.0);
+        [linear(r), linear(g), linear(b), a]
+    }
+}
+
+/// The sRGB transfer function, IEC 61966-2-1.
+fn linear(encoded: f32) -> f32 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Colours of both panes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Palette {
+    /// Behind everything.
+    pub background: Srgb,
+    /// Grid lines of the embedding; the stronger ones take it at full alpha.
+    pub grid: Srgb,
+    /// Outline of the unit square.
+    pub unit_square: Srgb,
+    /// The mesh's front.
+    pub clay: Srgb,
+    /// The mesh's back.
+    pub clay_back: Srgb,
+    /// Faces of the embedding, plain.
+    pub plane_face: Srgb,
+    /// Where faces of the embedding lie over each other the picture is mixed with this.
+    pub overlap: Srgb,
+    /// The two colours of the checker.
+    pub checker: [Srgb; 2],
+    /// Wireframe.
+    pub wire: Srgb,
+    /// Flipped faces.
+    pub flipped: Srgb,
 }

@@ -7,8 +7,8 @@
 //! | `space.rs` | extents, and unit space |
 //! | `orbit.rs`, `plane.rs` | the cameras of the two panes |
 //! | `pick.rs`, `bvh.rs`, `kdtree.rs` | what lies under the pointer, and how it is found fast |
-//! | `draw.rs` | arrays for the graphics card, and normals |
-//! | `colour.rs`, `ticks.rs`, `palette.rs` | scales of colours with their legends; the colours of the panes |
+//! | `draw.rs`, `shrink.rs` | arrays for the graphics card, and normals; pictures that are larger than it takes |
+//! | `colour.rs` | scales of colours with their legends; the colours of the panes |
 //!
 //! Spaces, as they appear in names:
 //!
@@ -25,20 +25,17 @@ mod colour;
 mod draw;
 mod kdtree;
 mod orbit;
-mod palette;
 mod pick;
 mod plane;
+mod shrink;
 mod space;
-mod ticks;
 
-pub use colour::{Range, Scale};
+pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
 pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, Picture, PlaneArrays, Revision, crease_normals};
 pub use kdtree::PlanePicker;
 pub use orbit::{OrbitCamera, Ray, UpAxis};
-pub use palette::{Palette, Srgb};
-pub use pick::{PICK_RADIUS, SurfaceHit, SurfacePicker, VertexPick, Visibility};
+pub use pick::{PICK_RADIUS, SurfaceHit, SurfacePicker, VertexPick, Visibility, snapped};
 pub use plane::{Grid, PlaneCamera};
 #[cfg(feature = "gui")]
 pub(crate) use space::split_point;
-pub use space::{Sphere, UnitPlane, bounds_of};
-pub use ticks::{Tick, nice_step_at_least};
+pub use space::{Sphere, UnitPlane, bounds_of, part_around};

@@ -150,6 +150,29 @@ impl OrbitCamera {
         self.distance = self.within_limits(FRAME_MARGIN * ball.radius / half.min(half_across).sin());
     }
 
+    /// Pivot x, y, z and distance, world units; turn about the vertical y axis and height over the horizon, radians.
+    pub fn numbers(&self) -> [f64; 6] {
+        let view_from_world = self.view_from_world();
+        let [right, up, back] = [0, 1, 2].map(|axis| view_from_world.row(axis));
+        // By the axes rather than the eye, which says nothing of the yaw where it is right above the pivot.
+        let (yaw, pitch) = ((-right.z).atan2(right.x), back.y.atan2(up.y));
+        [self.pivot.x, self.pivot.y, self.pivot.z, self.distance, yaw, pitch]
+    }
+
+    /// The camera that such numbers are of, on the same scene; `None` where they are no camera's.
+    pub fn with_numbers(&self, numbers: &[f64]) -> Option<Self> {
+        let &[x, y, z, distance, yaw, pitch]: &[f64; 6] = numbers.try_into().ok()?;
+        if !(numbers.iter().all(|number| number.is_finite()) && distance > 0.0) {
+            return None;
+        }
+        let (yaw, pitch) = (yaw.rem_euclid(TAU), pitch.clamp(-FRAC_PI_2, FRAC_PI_2));
+        let mut camera = Self { yaw, pitch, ..*self };
+        let pivot = DVec3::new(x, y, z);
+        camera.set_pivot(pivot);
+        camera.zoom_about(pivot, distance / camera.distance);
+        camera.eye().is_finite().then_some(camera)
+    }
+
     /// Where the eye is.
     pub fn eye(&self) -> DVec3 {
         let [_, _, back] = self.axes();

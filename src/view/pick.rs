@@ -146,3 +146,12 @@ fn may_show_near([low, high]: [DVec3; 2], clip_from_world: &DMat4, pane_size: DV
     let nearest = pointer.clamp(shown[0], shown[1]);
     nearest.distance_squared(pointer) <= PICK_RADIUS * PICK_RADIUS
 }
+
+/// Texture coordinates at the nearest corner or middle of a pixel.
+pub fn snapped(target: DVec2, pixels: DVec2) -> DVec2 {
+    let at = target * pixels;
+    let corner = at.round();
+    let middle = at.floor() + 0.5;
+    let nearest = if at.distance_squared(corner) < at.distance_squared(middle) { corner } else { middle };
+    nearest / pixels
+}

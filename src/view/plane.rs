@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::UnitPlane;
-use super::ticks::nice_step_at_least;
+use super::{UnitPlane, nice_step_at_least};
 use crate::geom::Bounds;
 
 /// The share of a pane that a framed box fills.
@@ -57,6 +56,22 @@ impl PlaneCamera {
         let wanted = (self.points_per_unit * factor).clamp(self.scale_limits[0], self.scale_limits[1]);
         self.center = fixed + (self.center - fixed) * (self.points_per_unit / wanted);
         self.points_per_unit = wanted;
+    }
+
+    /// Center x, y, and the height of what a pane of this size shows, embedding units.
+    pub fn numbers(&self, pane_size: DVec2) -> [f64; 3] {
+        [self.center.x, self.center.y, self.visible(pane_size).size().y]
+    }
+
+    /// The camera that such numbers are of, with the same limits; `None` where they are no camera's.
+    pub fn with_numbers(&self, numbers: &[f64], pane_size: DVec2) -> Option<Self> {
+        let &[x, y, height]: &[f64; 3] = numbers.try_into().ok()?;
+        if !(numbers.iter().all(|number| number.is_finite()) && height > 0.0) {
+            return None;
+        }
+        let mut camera = *self;
+        camera.zoom_at(pane_size / 2.0, pane_size.y / height / self.points_per_unit, pane_size);
+        Some(Self { center: DVec2::new(x, y), ..camera })
     }
 
     /// Part of the way to another camera: `share` 0 is this one, 1 the other.

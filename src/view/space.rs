@@ -7,6 +7,11 @@ use glam::{DMat4, DVec2, DVec3, Vec3};
 
 use crate::geom::Bounds;
 
+/// Half the width of the part that is shown around points, in lengths of what they span.
+const PART_MARGIN: f64 = 7.0;
+/// A single point is shown with this part of the whole around it.
+const LEAST_PART: f64 = 12.0;
+
 /// A ball that holds all vertices of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
@@ -32,6 +37,15 @@ impl Sphere {
         Self { center, radius: if radius > 0.0 && radius.is_finite() { radius } else { 1.0 } }
     }
 
+    /// A ball around a few points with some of this one around.
+    #[must_use]
+    pub fn part_around(self, points: &[DVec3]) -> Self {
+        let center = Self::around(points).center;
+        // The ball of a single point has a made-up size, so the points are asked.
+        let radius = points.iter().map(|point| point.distance(center)).fold(0.0, f64::max);
+        Self { center, radius: (radius * PART_MARGIN).max(self.radius / LEAST_PART).min(self.radius) }
+    }
+
     /// A world point as the GPU holds it, in the unit space where this is the unit ball.
     pub fn unit_from_world(self, position_in_world: DVec3) -> Vec3 {
         ((position_in_world - self.center) / self.radius).as_vec3()
@@ -47,6 +61,14 @@ impl Sphere {
 pub fn bounds_of(points: &[DVec2]) -> Bounds {
     let found = Bounds::of(points.iter().copied().filter(|p| p.is_finite()));
     if found.low.x > found.high.x { Bounds::UNIT } else { found }
+}
+
+/// A box around a few points with some of `all` around.
+pub fn part_around(points: &[DVec2], all: Bounds) -> Bounds {
+    let tight = bounds_of(points);
+    let reach = tight.size().max_element();
+    let half = (reach * PART_MARGIN / 2.0).max(all.extent() / LEAST_PART).min(all.extent());
+    Bounds { low: tight.middle() - half, high: tight.middle() + half }
 }
 
 /// Where the unit space of an embedding lies in its plane.

@@ -67,6 +67,7 @@ mod verdict_oracle;
 mod verdict_random;
 mod vertex_equation;
 mod view;
+mod view_parts;
 mod virtual_boundary;
 mod weighted;
 mod weights;

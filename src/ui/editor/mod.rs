@@ -3,18 +3,16 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | the editor: its parts, and what it does in each frame |
-//! | `request.rs`, `requests.rs` | what a person asks of the window, and what it does |
+//! | `request.rs`, `requests.rs` | what a person asks of the window, and what it does; moves along the timeline |
 //! | `purpose.rs` | files that are asked for, and what can be exported |
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
-//! | `selection.rs` | what is selected, and what is under the pointer |
-//! | `tools.rs` | the tool in hand, and what it has begun |
+//! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
 //! | `look.rs` | how faces show: shading, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
 //! | `opened.rs` | what the window keeps of the open document |
 //! | `host.rs` | egui's context and the graphics card |
-//! | `steps.rs` | moves along the timeline |
 //! | `views.rs` | what the cameras look at; defects |
 //! | `project_view.rs` | how the window looks, for the project file |
 
@@ -30,8 +28,6 @@ mod request;
 mod requests;
 pub(super) mod scene;
 mod selection;
-mod steps;
-mod tools;
 mod views;
 
 pub(super) use plane::HullScene;
@@ -56,8 +52,7 @@ use opened::Opened;
 use plane::{PlaneView, Surroundings};
 use purpose::Files;
 use scene::MeshScene;
-use selection::{Pointer, Selection};
-use tools::ToolState;
+use selection::{Pointer, Selection, ToolState};
 
 /// How often the session is asked whether a copy for recovery is due.
 const COPY_INTERVAL: Duration = Duration::from_secs(5);

@@ -6,15 +6,9 @@ use crate::geom::Bounds;
 use crate::mesh::{EdgeId, FaceId, VertexId};
 use crate::render::PictureLayer;
 use crate::session::Document;
-use crate::solver::{Embedding, Verdict};
+use crate::solver::Verdict;
 use crate::ui::{Editor, Element};
-use crate::view::{Sphere, bounds_of};
-
-/// Half the width of what `Request::GoTo` shows, in lengths of the element's longest edge.
-const GO_TO_MARGIN: f64 = 7.0;
-
-/// A single vertex is shown with this part of the whole around it.
-const LEAST_PART: f64 = 12.0;
+use crate::view::part_around;
 
 /// One thing wrong with an embedding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,11 +58,14 @@ impl Editor {
     pub(super) fn frame(&mut self) {
         let Some(scene) = self.mesh_scene() else { return };
         let selected: Vec<VertexId> = self.selection.vertices().iter().copied().collect();
-        let ball = around(&scene.mesh().positions, &selected, scene.sphere);
+        let positions = &scene.mesh().positions;
+        let points: Vec<DVec3> = selected.iter().filter_map(|v| positions.get(v.index()).copied()).collect();
+        let ball = if selected.is_empty() { scene.sphere } else { scene.sphere.part_around(&points) };
         self.mesh.frame(ball);
         let Some(plane) = self.plane.drawn().cloned() else { return };
         let bounds = self.with_picture(plane.arrays.bounds);
-        self.plane.frame(box_around(plane.positions(), &selected, bounds));
+        let points: Vec<DVec2> = selected.iter().filter_map(|&v| plane.position_of(v)).collect();
+        self.plane.frame(if selected.is_empty() { bounds } else { part_around(&points, bounds) });
         if let Some(camera) = self.plane.camera().filter(|_| selected.is_empty() && plane.is_plain_result()) {
             self.plane.set_framed(camera);
         }
@@ -128,52 +125,5 @@ impl Editor {
     /// How many defects are listed.
     pub fn defect_count(&self) -> usize {
         self.session.outcome().map_or(0, |outcome| Defect::all(&outcome.step.verdict).count())
-    }
-}
-
-/// A ball around a few vertices with some of the mesh around it; all of the mesh where there are none.
-fn around(positions: &[DVec3], vertices: &[VertexId], all: Sphere) -> Sphere {
-    if vertices.is_empty() {
-        return all;
-    }
-    let points: Vec<DVec3> = vertices.iter().filter_map(|v| positions.get(v.index()).copied()).collect();
-    let center = Sphere::around(&points).center;
-    // The ball of a single point has a made-up size, so the points are asked.
-    let radius = points.iter().map(|point| point.distance(center)).fold(0.0, f64::max);
-    Sphere { center, radius: (radius * GO_TO_MARGIN).max(all.radius / LEAST_PART).min(all.radius) }
-}
-
-/// A box around a few vertices of the embedding with some of it around; all of it where there are none.
-fn box_around(embedding: &Embedding, vertices: &[VertexId], all: Bounds) -> Bounds {
-    if vertices.is_empty() {
-        return all;
-    }
-    let points: Vec<DVec2> = vertices.iter().filter_map(|v| embedding.get(v.index()).copied()).collect();
-    let tight = bounds_of(&points);
-    let reach = tight.size().max_element();
-    let half = (reach * GO_TO_MARGIN / 2.0).max(all.extent() / LEAST_PART).min(all.extent());
-    let center = tight.middle();
-    Bounds { low: center - half, high: center + half }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_single_vertex_is_shown_from_near_by() {
-        let all = Sphere { center: DVec3::ZERO, radius: 2.0 };
-        let near = around(&[DVec3::X], &[VertexId::new(0)], all);
-        assert!(near.center == DVec3::X && near.radius < 0.2 * all.radius, "{near:?}");
-        let whole = Bounds { low: DVec2::ZERO, high: DVec2::splat(3.0) };
-        let part = box_around(&vec![DVec2::ONE].into(), &[VertexId::new(0)], whole);
-        assert!(part.middle() == DVec2::ONE && part.extent() < 0.2 * whole.extent(), "{part:?}");
-    }
-
-    #[test]
-    fn nothing_wider_than_the_whole_is_shown() {
-        let all = Sphere { center: DVec3::ZERO, radius: 2.0 };
-        let shown = around(&[DVec3::X * -2.0, DVec3::X * 2.0], &[0, 1].map(VertexId::new), all);
-        assert!((shown.radius - all.radius).abs() < 1e-12, "{shown:?}");
     }
 }

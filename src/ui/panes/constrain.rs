@@ -11,7 +11,7 @@ use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::ui::editor::scene::PlaneScene;
 use crate::ui::{Editor, Pane, Request, Tool, theme_of};
-use crate::view::PlaneCamera;
+use crate::view::{PlaneCamera, snapped};
 
 /// Targets snap to pixels that are larger than this, points.
 const SNAP_FROM: f64 = 8.0;
@@ -167,15 +167,6 @@ impl Editor {
     }
 }
 
-/// Texture coordinates at the nearest corner or middle of a pixel.
-fn snapped(target: DVec2, pixels: DVec2) -> DVec2 {
-    let at = target * pixels;
-    let corner = at.round();
-    let middle = at.floor() + 0.5;
-    let nearest = if at.distance_squared(corner) < at.distance_squared(middle) { corner } else { middle };
-    nearest / pixels
-}
-
 /// What a click would place, over the embedding, and the line from the vertex that goes there.
 pub(super) fn preview(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
     let is_constraining = editor.tools.tool() == Tool::Constrain;
@@ -206,27 +197,4 @@ pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
     let Some((from, to)) = ends.filter(|(from, to)| mesh.contains(*from) && plane.contains(*to)) else { return };
     let stroke = Stroke::new(1.0, theme.constraint.gamma_multiply(0.6));
     ui.painter().with_clip_rect(mesh.union(plane)).add(egui::Shape::dashed_line(&[from, to], stroke, 6.0, 4.0));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn targets_snap_to_corners_and_middles_of_pixels() {
-        let pixels = DVec2::new(8.0, 4.0);
-        for (from, to) in [([0.26, 0.26], [2.0, 1.0]), ([0.31, 0.38], [2.5, 1.5]), ([0.99, 0.01], [8.0, 0.0])] {
-            assert_eq!(snapped(DVec2::from(from), pixels), DVec2::from(to) / pixels, "{from:?}");
-        }
-    }
-
-    #[test]
-    fn what_is_snapped_stays() {
-        let pixels = DVec2::new(640.0, 427.0);
-        for target in [DVec2::new(0.123, 0.877), DVec2::new(1.0, 0.5), DVec2::new(-0.2, 1.3)] {
-            let once = snapped(target, pixels);
-            assert_eq!(snapped(once, pixels), once);
-            assert!(((once - target) * pixels).length() <= 0.5 + 1e-9, "{target} to {once}");
-        }
-    }
 }

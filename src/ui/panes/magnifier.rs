@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis};
-use super::{defect_marks, mesh_pane, plane_pane};
+use super::{mesh_pane, plane_pane};
 use crate::geom::Bounds;
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame, Shading};
@@ -108,7 +108,7 @@ impl Magnifier {
         if editor.host.has_gpu() {
             ui.painter().add(render::plane_pane(PaneId("magnifier"), picture, self.frame(editor, plane, theme)));
         }
-        defect_marks::plane_marks(ui, Viewport { rect: picture, camera: self.camera }, editor, plane);
+        pane::plane_marks(ui, Viewport { rect: picture, camera: self.camera }, editor, plane);
         painter.rect_stroke(self.rect, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
         self.click(ui, requests);
     }
@@ -171,7 +171,7 @@ fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<Bounds> {
         Defect::Crossing(edges) => {
             let [a, b] = edges.map(|edge| disk.ends(edge).map(|v| plane.position_of(v).unwrap_or(DVec2::NAN)));
             let length = |[a, b]: [DVec2; 2]| a.distance(b);
-            (defect_marks::crossing_point(a, b), length(a).min(length(b)))
+            (pane::crossing_point(a, b), length(a).min(length(b)))
         }
         Defect::Overwound(vertex) => {
             let link = around(disk.outgoing(vertex).map(|h| disk.head(h)).collect());

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis, PinKind};
-use super::{bars, defect_marks, legend, magnifier};
+use super::{bars, legend, magnifier};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, Style};
 use crate::ui::editor::scene::MeshScene;
@@ -149,15 +149,15 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
         Some((view.spot(*positions.get(vertex.index())?)?, scene.picker.is_visible(vertex, eye)))
     };
     let seen = |vertex: VertexId| place(vertex).filter(|(_, is_seen)| *is_seen).map(|(at, _)| at);
-    for edge in defect_marks::crossings(editor, scene).into_iter().flatten() {
+    for edge in pane::crossings(editor, scene).into_iter().flatten() {
         if let [Some((a, a_seen)), Some((b, b_seen))] = edge.map(place)
             && (a_seen || b_seen)
         {
             painter.line_segment([a, b], egui::Stroke::new(4.0, theme.crossing));
         }
     }
-    for at in defect_marks::overwound(editor).into_iter().filter_map(seen) {
-        defect_marks::overwound_mark(&painter, at, theme);
+    for at in pane::overwound(editor).into_iter().filter_map(seen) {
+        pane::overwound_mark(&painter, at, theme);
     }
     for at in new_vertices(scene).filter_map(seen) {
         new_vertex_mark(&painter, at, theme);

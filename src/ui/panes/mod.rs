@@ -2,20 +2,18 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `pane.rs` | what both panes share: places on the screen, header, clicks and boxes, marks, the wheel |
+//! | `pane.rs` | what both panes share: places on the screen, header, clicks and boxes, the wheel, marks of defects |
 //! | `mesh_pane.rs` | the mesh in space |
 //! | `plane_pane.rs` | the embedding |
 //! | `bars.rs` | bars over a pane: messages and questions |
 //! | `legend.rs` | the legend of a shading, words about steps that are compared |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
-//! | `defect_marks.rs` | marks of defects |
 //! | `magnifier.rs` | the insets that magnify a defect, and the halves of a pair |
 //! | `pin_drag.rs` | a pin dragged with the pointer |
 //! | `pins.rs` | kinds of pins and their marks |
 
 mod bars;
 pub(super) mod constrain;
-mod defect_marks;
 mod legend;
 mod magnifier;
 pub(super) mod mesh_pane;

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, style};
 use super::pane::{self, Viewport};
-use super::{bars, constrain, defect_marks, legend, magnifier, pin_drag, pins};
+use super::{bars, constrain, legend, magnifier, pin_drag, pins};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::Surface;
@@ -152,7 +152,7 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
     let spot = |vertex: VertexId| view.spot(plane.position_of(vertex).unwrap_or(DVec2::NAN));
     // The verdict is on the result, not on a stage before it.
     if !plane.is_stage() {
-        defect_marks::plane_marks(ui, view, editor, plane);
+        pane::plane_marks(ui, view, editor, plane);
     }
     for vertex in new_vertices(&plane.mesh) {
         new_vertex_mark(&over, spot(vertex), theme);

@@ -69,43 +69,29 @@ fn drawn_button(ui: &mut egui::Ui, drawing: Drawing, name: &str, request: Reques
 fn draw(painter: &egui::Painter, rect: Rect, drawing: Drawing, colour: Color32) {
     let middle = rect.center();
     let at = |x: f32, y: f32| middle + Vec2::new(x, y);
-    // From the tip to the base and half as high, points.
-    let triangle = |tip: f32, base: f32, half: f32| {
-        let corners = vec![at(tip, 0.0), at(base, -half), at(base, half)];
-        painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
-    };
-    let bar = |x: f32| {
-        painter.rect_filled(Rect::from_center_size(at(x, 0.0), Vec2::new(2.0, 9.0)), 0.0, colour);
-    };
-    let ring = || {
-        painter.circle_stroke(middle, 9.0, Stroke::new(1.3, colour));
-    };
     let chevron = |up: f32| {
         let points = vec![at(-4.0, 2.0 * up), at(0.0, -2.0 * up), at(4.0, 2.0 * up)];
         painter.add(Shape::line(points, Stroke::new(1.6, colour)));
     };
-    match drawing {
-        Drawing::First => {
-            bar(-5.0);
-            triangle(-3.0, 5.0, 4.5);
-        }
-        Drawing::Previous => triangle(-4.5, 3.5, 4.5),
-        Drawing::Play => {
-            ring();
-            triangle(5.0, -2.5, 4.0);
-        }
-        Drawing::Pause => {
-            ring();
-            bar(-2.5);
-            bar(2.5);
-        }
-        Drawing::Next => triangle(4.5, -3.5, 4.5),
-        Drawing::Last => {
-            triangle(3.0, -5.0, 4.5);
-            bar(5.0);
-        }
-        Drawing::FoldDown => chevron(-1.0),
-        Drawing::FoldUp => chevron(1.0),
+    let (has_ring, tip_base_half, bars): (bool, Option<[f32; 3]>, &[f32]) = match drawing {
+        Drawing::First => (false, Some([-3.0, 5.0, 4.5]), &[-5.0]),
+        Drawing::Previous => (false, Some([-4.5, 3.5, 4.5]), &[]),
+        Drawing::Play => (true, Some([5.0, -2.5, 4.0]), &[]),
+        Drawing::Pause => (true, None, &[-2.5, 2.5]),
+        Drawing::Next => (false, Some([4.5, -3.5, 4.5]), &[]),
+        Drawing::Last => (false, Some([3.0, -5.0, 4.5]), &[5.0]),
+        Drawing::FoldDown => return chevron(-1.0),
+        Drawing::FoldUp => return chevron(1.0),
+    };
+    if has_ring {
+        painter.circle_stroke(middle, 9.0, Stroke::new(1.3, colour));
+    }
+    if let Some([tip, base, half]) = tip_base_half {
+        let corners = vec![at(tip, 0.0), at(base, -half), at(base, half)];
+        painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+    }
+    for &x in bars {
+        painter.rect_filled(Rect::from_center_size(at(x, 0.0), Vec2::new(2.0, 9.0)), 0.0, colour);
     }
 }
 

@@ -292,26 +292,3 @@ impl PlaneView {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::examples::Example;
-
-    #[test]
-    fn a_similarity_is_found_again() {
-        let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
-        let before: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
-        let turn = DVec2::new(-0.3, 2.0);
-        let after: Embedding = before.iter().map(|&z| turn.rotate(z) + DVec2::new(5.0, -1.0)).collect();
-        let moved = moved_along(&before, &disk, [&before, &after]);
-        assert!(moved.iter().zip(&after).all(|(a, b)| a.distance(*b) < 1e-12));
-    }
-
-    #[test]
-    fn an_embedding_at_one_point_stays_where_it_is() {
-        let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
-        let before = Embedding::from(vec![DVec2::ONE; disk.vertex_count()]);
-        assert_eq!(moved_along(&before, &disk, [&before, &before]), before);
-    }
-}

@@ -19,7 +19,6 @@ pub use hull::Stage;
 use eframe::egui;
 
 use super::host::Host;
-use super::project_view::plane_of;
 use super::scene::{MeshScene, PlaneScene};
 use super::views::picture_box;
 use crate::geom::Bounds;
@@ -233,7 +232,7 @@ impl PlaneView {
     fn look_at_first(&mut self, scene: &PlaneScene, around: Surroundings) {
         let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds), self.area.size());
         self.set_framed(camera);
-        if let Some(saved) = self.saved.take().and_then(|numbers| plane_of(&numbers, camera, self.area.size())) {
+        if let Some(saved) = self.saved.take().and_then(|numbers| camera.with_numbers(&numbers, self.area.size())) {
             self.camera = Some(saved);
         }
     }

@@ -1,0 +1,140 @@
+//! What views keep and show: cameras as numbers, parts of the whole, snapped targets, smaller pictures.
+
+use freebound::examples::Example;
+use freebound::geom::{Bounds, Similarity};
+use freebound::mesh::DiskMesh;
+use freebound::solver::Embedding;
+use freebound::view::{OrbitCamera, Picture, PlaneCamera, Sphere, UpAxis, part_around, snapped};
+use glam::{DVec2, DVec3};
+
+const PANE: DVec2 = DVec2::new(400.0, 300.0);
+
+fn orbit() -> OrbitCamera {
+    OrbitCamera::framing(Sphere { center: DVec3::new(1.0, 2.0, 3.0), radius: 2.0 }, UpAxis::Y)
+}
+
+fn plane() -> PlaneCamera {
+    PlaneCamera::framing(Bounds::UNIT, PANE)
+}
+
+#[test]
+fn a_camera_before_the_mesh_comes_back_from_its_numbers() {
+    // The last two end above and below the pivot.
+    for drag in [DVec2::ZERO, DVec2::new(500.0, -40.0), DVec2::new(-300.0, 2000.0), DVec2::new(90.0, -2000.0)] {
+        let mut camera = orbit();
+        camera.orbit(drag);
+        camera.pan(DVec2::new(13.0, 7.0), PANE);
+        camera.zoom_about(DVec3::X, 0.4);
+        assert!(camera.numbers().iter().all(|number| number.is_finite()));
+        let again = orbit().with_numbers(&camera.numbers()).expect("sound");
+        let differ = (camera.view_from_world() - again.view_from_world()).to_cols_array();
+        assert!(differ.iter().all(|entry| entry.abs() < 1e-9), "{drag}: {camera:?} {again:?}");
+        assert!(camera.pivot().distance(again.pivot()) < 1e-9, "{again:?}");
+        assert!((camera.distance() - again.distance()).abs() < 1e-9, "{again:?}");
+    }
+}
+
+#[test]
+fn a_camera_over_the_plane_shows_as_much_in_another_pane() {
+    for size in [PANE, 2.0 * PANE] {
+        let again = plane().with_numbers(&[0.25, -0.5, 0.125], size).expect("sound");
+        assert!(again.center().distance(DVec2::new(0.25, -0.5)) < 1e-12, "{again:?}");
+        assert!((again.visible(size).size().y - 0.125).abs() < 1e-12, "{again:?}");
+    }
+}
+
+#[test]
+fn numbers_that_are_no_camera_s_are_ignored() {
+    let too_few: [&[f64]; 3] = [&[], &[1.0], &[1.0, 2.0, 3.0, 4.0]];
+    for numbers in too_few {
+        assert!(orbit().with_numbers(numbers).is_none() && plane().with_numbers(numbers, PANE).is_none());
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(orbit().with_numbers(&[0.0, 0.0, 0.0, bad, 0.0, 0.0]), None);
+        assert_eq!(plane().with_numbers(&[0.0, 0.0, bad], PANE), None);
+    }
+}
+
+#[test]
+fn a_single_vertex_is_shown_from_near_by() {
+    let all = Sphere { center: DVec3::ZERO, radius: 2.0 };
+    let near = all.part_around(&[DVec3::X]);
+    assert!(near.center == DVec3::X && near.radius < 0.2 * all.radius, "{near:?}");
+    let whole = Bounds { low: DVec2::ZERO, high: DVec2::splat(3.0) };
+    let part = part_around(&[DVec2::ONE], whole);
+    assert!(part.middle() == DVec2::ONE && part.extent() < 0.2 * whole.extent(), "{part:?}");
+}
+
+#[test]
+fn nothing_wider_than_the_whole_is_shown() {
+    let all = Sphere { center: DVec3::ZERO, radius: 2.0 };
+    let shown = all.part_around(&[DVec3::X * -2.0, DVec3::X * 2.0]);
+    assert!((shown.radius - all.radius).abs() < 1e-12, "{shown:?}");
+}
+
+#[test]
+fn targets_snap_to_corners_and_middles_of_pixels() {
+    let pixels = DVec2::new(8.0, 4.0);
+    for (from, to) in [([0.26, 0.26], [2.0, 1.0]), ([0.31, 0.38], [2.5, 1.5]), ([0.99, 0.01], [8.0, 0.0])] {
+        assert_eq!(snapped(DVec2::from(from), pixels), DVec2::from(to) / pixels, "{from:?}");
+    }
+}
+
+#[test]
+fn what_is_snapped_stays() {
+    let pixels = DVec2::new(640.0, 427.0);
+    for target in [DVec2::new(0.123, 0.877), DVec2::new(1.0, 0.5), DVec2::new(-0.2, 1.3)] {
+        let once = snapped(target, pixels);
+        assert_eq!(snapped(once, pixels), once);
+        assert!(((once - target) * pixels).length() <= 0.5 + 1e-9, "{target} to {once}");
+    }
+}
+
+/// The boundary of the L as it lies in its plane, and the same moved.
+fn boundary_moved(moved: impl Fn(DVec2) -> DVec2) -> (Embedding, Vec<[DVec2; 2]>) {
+    let disk = DiskMesh::try_from(Example::Ell.mesh()).expect("a disk");
+    let before: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
+    let pairs = before.boundary(&disk).iter().map(|&z| [z, moved(z)]).collect();
+    (before, pairs)
+}
+
+#[test]
+fn a_similarity_is_found_again() {
+    let moved = |z: DVec2| DVec2::new(-0.3, 2.0).rotate(z) + DVec2::new(5.0, -1.0);
+    let (before, pairs) = boundary_moved(moved);
+    let found = Similarity::fitting(&pairs).expect("there is one");
+    assert!(before.iter().all(|&z| found.apply(z).distance(moved(z)) < 1e-12));
+}
+
+#[test]
+fn an_embedding_at_one_point_stays_where_it_is() {
+    let (_, pairs) = boundary_moved(|z| z);
+    assert!(Similarity::fitting(&pairs.iter().map(|_| [DVec2::ONE; 2]).collect::<Vec<_>>()).is_none());
+}
+
+fn picture(size: [u32; 2], pixels: Vec<u8>) -> Picture {
+    Picture::new(size, pixels).expect("sizes agree")
+}
+
+#[test]
+fn a_picture_that_fits_is_left_alone() {
+    assert!(picture([2, 1], vec![7; 8]).shrunk(2).is_none());
+}
+
+#[test]
+fn no_side_is_longer_than_the_limit_and_a_single_colour_stays() {
+    for (size, expected) in [([7, 3], [4, 2]), ([3, 9], [1, 3]), ([10, 1], [4, 1]), ([4, 5], [2, 3])] {
+        let colour = [10_u8, 20, 30, 255];
+        let pixels = colour.repeat(size[0] as usize * size[1] as usize);
+        let small = picture(size, pixels).shrunk(4).expect("too long");
+        assert_eq!(small.size, expected, "{size:?}");
+        assert_eq!(small.pixels, colour.repeat(expected[0] as usize * expected[1] as usize), "{size:?}");
+    }
+}
+
+#[test]
+fn a_block_becomes_its_mean_and_what_is_clear_lends_no_colour() {
+    let pixels = [[10_u8, 20, 30, 255], [20, 40, 50, 255], [200, 0, 0, 255], [0, 99, 0, 0]].concat();
+    let small = picture([4, 1], pixels).shrunk(2).expect("too long");
+    assert_eq!((small.size, small.pixels), ([2, 1], vec![15, 30, 40, 255, 200, 0, 0, 128]));
+}
