@@ -39,7 +39,7 @@ impl Session {
         let is_first = self.timeline().records().len() <= 1;
         let is_current = self.is_current();
         let is_at_work = self.busy().is_some() || self.is_following();
-        if self.is_preview() {
+        if self.preview().is_some() || (self.history.is_in_gesture() && self.solving.is_at_first_step()) {
             Status::Preview(self.preview())
         } else if self.is_running() && is_first {
             Status::Solving
@@ -70,17 +70,6 @@ impl Session {
     pub fn is_current(&self) -> bool {
         let is_solved = |outcome: &Arc<Outcome>| outcome.problem.has_steps_of(&self.document.problem());
         self.has_faces_as_wanted() && self.outcome().is_some_and(is_solved)
-    }
-
-    /// Whether the screen shows the first solve alone, because a gesture goes on or its run has only begun.
-    pub fn is_preview(&self) -> bool {
-        self.preview().is_some() || (self.history.is_in_gesture() && self.solving.is_at_first_step())
-    }
-
-    /// Whether a run waits after its first step for a person to take the others.
-    pub fn is_held(&self) -> bool {
-        let is_at_rest = !self.is_running() && !self.history.is_in_gesture();
-        is_at_rest && self.is_current() && self.solving.is_at_first_step()
     }
 
     /// Whether what a drag needs is being computed: its column, or the verdict on its preview. That is no work to wait

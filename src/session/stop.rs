@@ -26,16 +26,8 @@ impl Default for StopConditions {
 /// Why a run has come to rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The embedding is proved planar.
-    Planar,
-    /// The method has no further step.
-    Done,
-    /// The iteration gets no better.
-    Stalled,
-    /// The embedding is planar, but constraints cannot be met without new vertices.
-    Unmet,
-    /// It has taken as many steps as it may.
-    Limit,
+    /// It has come to its end.
+    Ended(Ending),
     /// The boundary crosses itself.
     Crossing,
     /// The step that was asked for.
@@ -46,11 +38,11 @@ impl Stop {
     /// Words for the screen.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Planar => "planar",
-            Self::Done => "the method has no further step",
-            Self::Unmet => "constraints cannot be met without new vertices",
-            Self::Stalled => "stalled: it gets no better",
-            Self::Limit => "the step limit is reached",
+            Self::Ended(Ending::Planar) => "planar",
+            Self::Ended(Ending::Done) => "the method has no further step",
+            Self::Ended(Ending::Unmet) => "constraints cannot be met without new vertices",
+            Self::Ended(Ending::Stalled) => "stalled: it gets no better",
+            Self::Ended(Ending::Limit) => "the step limit is reached",
             Self::Crossing => "the boundary crosses itself",
             Self::AtStep => "the step to stop at is reached",
         }
@@ -67,17 +59,14 @@ impl StopConditions {
 
     /// The same for the reasons that hold however often the run is asked to go on.
     pub fn reason_for_good(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
-        match ending? {
-            Ending::Done => Some(Stop::Done),
-            Ending::Unmet => Some(Stop::Unmet),
-            Ending::Limit => Some(Stop::Limit),
-            Ending::Planar if self.planar => Some(Stop::Planar),
-            Ending::Stalled if self.stalled => Some(Stop::Stalled),
-            // Beyond the method's own ending the number of steps is the only limit that is left.
-            Ending::Planar | Ending::Stalled => {
-                (outcome.step.index >= outcome.problem.settings.max_steps).then_some(Stop::Limit)
-            }
-        }
+        // Beyond the method's own ending the number of steps is the only limit that is left.
+        let beyond = (outcome.step.index >= outcome.problem.settings.max_steps).then_some(Ending::Limit);
+        let ending = match ending? {
+            Ending::Planar if !self.planar => beyond,
+            Ending::Stalled if !self.stalled => beyond,
+            ending => Some(ending),
+        };
+        ending.map(Stop::Ended)
     }
 }
 

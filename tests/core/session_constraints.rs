@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use freebound::io::{OutputFit, Target};
 use freebound::mesh::{DiskMesh, NewVertex, Refinement, VertexId};
 use freebound::session::{Action, Outcome, Problem, Session, Stop};
-use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings};
+use freebound::solver::{Control, Ending, Family, Ladder, Method, Pins, Settings};
 use glam::DVec2;
 
 use crate::makers::{grid, write_obj};
@@ -57,7 +57,7 @@ fn a_hard_set_of_constraints_ends_planar_by_itself() {
     place(&mut session, &twist());
     settle(&mut session);
     assert!(is_solved(&session), "{:?}", session.messages());
-    assert_eq!(session.stopped(), Some(Stop::Planar));
+    assert_eq!(session.stopped(), Some(Stop::Ended(Ending::Planar)));
     let records = session.timeline().records();
     assert!(records[0].rung == Method::Natural && !records[0].planar, "the linear solve shows first, and folds");
     assert_eq!(records.last().expect("steps").rung, Method::Relax);
@@ -108,7 +108,7 @@ fn relaxing_lowers_the_energy_and_keeps_the_constraints() {
     let energies: Vec<f64> =
         timeline.standings()[arrived..].iter().map(|standing| standing.progress.expect("numbers").energy).collect();
     assert!(energies.is_sorted_by(|a, b| a >= b) && energies.last() < energies.first(), "{energies:?}");
-    assert_eq!(session.stopped(), Some(Stop::Planar), "it comes to rest where it was");
+    assert_eq!(session.stopped(), Some(Stop::Ended(Ending::Planar)), "it comes to rest where it was");
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn without_new_vertices_the_best_planar_step_stays_and_the_unmet_constraints_are
     let outcome = session.outcome().expect("solved");
     let unmet = outcome.step.unmet();
     assert!(outcome.step.verdict.planar && !outcome.step.unmet().is_empty() && !unmet.is_empty(), "{unmet:?}");
-    assert_eq!(session.stopped(), Some(Stop::Unmet));
+    assert_eq!(session.stopped(), Some(Stop::Ended(Ending::Unmet)));
     assert!(!session.can_run() && !session.can_relax());
     let message = session.messages().last().expect("it is said");
     assert_eq!(message.vertices, unmet);

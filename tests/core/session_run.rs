@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use freebound::examples::Example;
 use freebound::io::{OutputFit, OutputKind};
 use freebound::mesh::VertexId;
-use freebound::session::{Action, SaveRequest, Session, Severity, Stop, StopConditions};
-use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
+use freebound::session::{Action, SaveRequest, Session, Severity, Status, Stop, StopConditions};
+use freebound::solver::{Control, Embedding, Ending, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::DVec2;
 
 use crate::makers::{grid, write_obj};
@@ -59,12 +59,12 @@ fn with_long_run(max_steps: usize) -> Session {
 #[test]
 fn an_example_waits_after_its_first_step_and_then_ends_planar() {
     let mut session = opened(Example::Face);
-    assert!(session.is_held() && step_count(&session) == 1);
+    assert!(matches!(session.status(), Status::Held) && step_count(&session) == 1);
     assert!(!session.outcome().expect("solved").step.verdict.planar, "there is something to repair");
     settled(&mut session, Action::Run);
-    assert!(!session.is_held());
+    assert!(!matches!(session.status(), Status::Held));
     assert!(session.outcome().expect("solved").step.verdict.planar);
-    assert_eq!(session.stopped(), Some(Stop::Planar));
+    assert_eq!(session.stopped(), Some(Stop::Ended(Ending::Planar)));
     let count = step_count(&session);
     settled(&mut session, Action::Run);
     assert_eq!(step_count(&session), count, "there is nothing left to run for");
@@ -116,7 +116,7 @@ fn a_paused_run_goes_on_where_it_was() {
     settled(&mut session, Action::Step);
     assert_eq!(step_count(&session), paused_at + 1);
     settled(&mut session, Action::Run);
-    assert_eq!((step_count(&session), session.stopped()), (61, Some(Stop::Limit)));
+    assert_eq!((step_count(&session), session.stopped()), (61, Some(Stop::Ended(Ending::Limit))));
     let whole = uninterrupted(&session, 61);
     for step in whole {
         let kept = session.timeline().outcome(step.index).expect("a small mesh is kept whole");
@@ -184,7 +184,7 @@ fn an_edit_during_a_run_replaces_it() {
     until_step(&mut session, 3);
     let settings = Settings::new(Method::Natural, Family::MeanValue);
     settled(&mut session, Action::SetSettings(settings));
-    assert_eq!((step_count(&session), session.stopped()), (1, Some(Stop::Done)));
+    assert_eq!((step_count(&session), session.stopped()), (1, Some(Stop::Ended(Ending::Done))));
     assert!(session.is_current());
     assert_eq!(session.outcome().expect("solved").problem.settings, settings);
 }
@@ -294,14 +294,14 @@ fn a_drag_shows_first_steps_only_and_its_end_the_whole_run() {
     settled(&mut session, Action::Run);
     let (&vertex, &Pin { target: from, .. }) =
         session.outcome().expect("solved").step.solution.pins.iter().next().expect("a landmark");
-    assert!(!session.is_preview());
+    assert!(!matches!(session.status(), Status::Preview(_)));
     for i in 1..=5 {
         let target = from + DVec2::new(1e-4, 2e-4) * f64::from(i);
         settled(&mut session, Action::MovePin { vertex, target });
-        assert!(session.is_preview() && !session.is_current() && !session.is_held(), "steps follow at the end");
+        assert!(matches!(session.status(), Status::Preview(_)) && !session.is_current(), "steps follow at the end");
     }
     settled(&mut session, Action::EndGesture);
-    assert!(!session.is_preview() && session.outcome().expect("solved").step.verdict.planar);
+    assert!(!matches!(session.status(), Status::Preview(_)) && session.outcome().expect("solved").step.verdict.planar);
     assert!(step_count(&session) > 1);
 }
 
@@ -321,7 +321,7 @@ fn a_drag_that_is_given_up_ends_with_the_whole_run_too() {
 fn an_example_stays_held_when_a_gesture_without_edits_ends() {
     let mut session = opened(Example::Face);
     settled(&mut session, Action::EndGesture);
-    assert!(session.is_held());
+    assert!(matches!(session.status(), Status::Held));
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod curves;
 use eframe::egui::{self, Align, Layout, RichText};
 
 use crate::session::{Status, Stop};
+use crate::solver::Ending;
 use crate::ui::{Editor, Request, remark, theme_of};
 use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
 use chips::chips;
@@ -77,7 +78,8 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
             }
             stop_menu(ui, editor, room, requests);
             // Why the run is at rest, where the verdict does not say it.
-            let stop = editor.session.stopped().filter(|stop| !matches!(stop, Stop::Planar | Stop::Done));
+            let stop =
+                editor.session.stopped().filter(|stop| !matches!(stop, Stop::Ended(Ending::Planar | Ending::Done)));
             if let Some(stop) = stop.filter(|_| room == Room::Ample) {
                 remark(ui, stop.words());
             }
@@ -105,7 +107,7 @@ fn notice(editor: &Editor) -> Option<&'static str> {
         (1, Status::Held) => PRESS_SPACE,
         (1, Status::Preview(_)) => "The other steps follow when the gesture ends.",
         (1, Status::Solving) => "The first step is there, the others follow.",
-        (1, _) if session.stopped() == Some(Stop::Planar) => {
+        (1, _) if session.stopped() == Some(Stop::Ended(Ending::Planar)) => {
             "Planar at the first step: nothing to repair. Space takes one more."
         }
         (1, _) => "This method is a single solve. Space goes on with a mean-value iteration.",
