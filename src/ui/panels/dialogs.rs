@@ -79,7 +79,10 @@ impl Dialogs {
         let answer = browser.show(context)?;
         let purpose = browser.purpose;
         self.browser = None;
-        answer.map(|path| Choice { purpose, path })
+        match answer {
+            Answer::Cancelled => None,
+            Answer::Chosen(path) => Some(Choice { purpose, path }),
+        }
     }
 
     /// Closes the dialog inside the window. Returns whether one was open.
@@ -130,8 +133,7 @@ struct Browser {
     problem: Option<String>,
     /// Whether it has not been shown yet: the name then takes the keyboard.
     is_fresh: bool,
-    /// The file chosen, or none where it was called off; once there is an answer.
-    answer: Option<Option<PathBuf>>,
+    answer: Option<Answer>,
 }
 
 /// A folder's entry. Folders come before files.
@@ -139,6 +141,12 @@ struct Browser {
 enum Entry {
     Folder(String),
     File(String),
+}
+
+#[derive(Debug)]
+enum Answer {
+    Cancelled,
+    Chosen(PathBuf),
 }
 
 impl Browser {
@@ -179,7 +187,7 @@ impl Browser {
     }
 
     /// Shows it, and gives the answer once there is one.
-    fn show(&mut self, context: &egui::Context) -> Option<Option<PathBuf>> {
+    fn show(&mut self, context: &egui::Context) -> Option<Answer> {
         let mut open = true;
         egui::Window::new(self.purpose.form().title)
             .id(egui::Id::unique("file dialog"))
@@ -189,7 +197,7 @@ impl Browser {
             .pivot(egui::Align2::CENTER_CENTER)
             .default_pos(context.content_rect().center())
             .show(context, |ui| self.contents(ui));
-        if open { self.answer.take() } else { Some(None) }
+        if open { self.answer.take() } else { Some(Answer::Cancelled) }
     }
 
     fn contents(&mut self, ui: &mut egui::Ui) {
@@ -225,7 +233,7 @@ impl Browser {
                 Entry::File(name) => {
                     let response = ui.selectable_label(self.name == *name, name);
                     if response.double_clicked() && self.purpose.is_reading() {
-                        self.answer = Some(Some(self.folder.join(name)));
+                        self.answer = Some(Answer::Chosen(self.folder.join(name)));
                     }
                     if response.clicked() {
                         self.name.clone_from(name);
@@ -258,11 +266,11 @@ impl Browser {
         let is_clicked = ui.add_enabled(path.is_some(), egui::Button::new(words)).clicked();
         match path.filter(|_| is_clicked || (is_entered && !exists)) {
             Some(path) if path.is_dir() => self.enter(path),
-            Some(path) => self.answer = Some(Some(path)),
+            Some(path) => self.answer = Some(Answer::Chosen(path)),
             None => {}
         }
         if ui.button("Cancel").clicked() {
-            self.answer = Some(None);
+            self.answer = Some(Answer::Cancelled);
         }
     }
 

@@ -179,8 +179,8 @@ fn view_menu(menu: &mut Menu<'_>) {
     menu.item(has_defects, "Previous defect", Request::StepDefect(-1));
     menu.ui.separator();
     menu.part("Theme", |menu| {
-        let now = menu.ui.ctx().options(|options| options.theme_preference);
         use ThemePreference::{Dark, Light, System};
+        let now = menu.ui.ctx().options(|options| options.theme_preference);
         for (theme, words) in [(System, "As the system"), (Light, "Light"), (Dark, "Dark")] {
             menu.choice(now == theme, words, Request::SetTheme(theme));
         }

@@ -258,13 +258,12 @@ impl PlaneView {
             _ => Arc::new(base.with_positions(mesh, Embedding::clone(&preview.embedding))),
         };
         let known = verdict.as_ref().map(Arc::as_ptr);
-        let faces = match before.filter(|before| before.verdict.as_ref().map(Arc::as_ptr) == known) {
-            Some(before) => before.faces,
-            None => {
-                let flipped = verdict.as_ref().map_or(&[] as &[_], |verdict| &verdict.flipped_faces);
-                Arc::new(FacePaint::plain(triangles.face_count(), flipped))
-            }
+        let same = before.filter(|before| before.verdict.as_ref().map(Arc::as_ptr) == known);
+        let anew = || {
+            let flipped = verdict.as_ref().map_or(&[] as &[_], |verdict| &verdict.flipped_faces);
+            Arc::new(FacePaint::plain(triangles.face_count(), flipped))
         };
+        let faces = same.map_or_else(anew, |before| before.faces);
         self.preview = Some(PreviewScene { key, scene, faces, verdict });
     }
 }
