@@ -34,6 +34,3 @@ pub use panes::{Half, Intent, PinKind};
 use theme::{Theme, theme_of};
 use timeline::TimelineView;
 pub use window::window_ui;
-
-/// Fields of the checker across the embedding.
-pub const CHECKER_FIELDS: f64 = 40.0;

@@ -58,12 +58,9 @@ impl MeshArrays {
         let points: Vec<[f32; 3]> = positions.iter().map(|&p| frame.unit_from_world(p).to_array()).collect();
         let corner_positions = triangles.iter().flatten().map(|v| points[v.index()]).collect();
         let normals = crease_normals(positions, triangles);
-        let area_vector = |t: &[VertexId; 3]| {
-            let [a, b, c] = t.map(|v| positions[v.index()]);
-            (b - a).cross(c - a)
-        };
-        let sum: DVec3 = triangles.iter().map(area_vector).sum();
-        let total_area: f64 = triangles.iter().map(|t| area_vector(t).length()).sum();
+        let areas = area_vectors(positions, triangles);
+        let sum: DVec3 = areas.iter().sum();
+        let total_area: f64 = areas.iter().map(|area| area.length()).sum();
         Self {
             revision: Revision::fresh(),
             frame,
@@ -223,13 +220,7 @@ const CREASE_COSINE: f64 = 0.34;
 /// A corner's normal is the area-weighted mean over the faces around its vertex that bend away from its own face by
 /// less than the crease angle. Faces without area take that of their neighbours.
 pub fn crease_normals(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Vec<DVec3> {
-    let areas: Vec<DVec3> = triangles
-        .iter()
-        .map(|t| {
-            let [a, b, c] = t.map(|v| positions[v.index()]);
-            (b - a).cross(c - a)
-        })
-        .collect();
+    let areas = area_vectors(positions, triangles);
     let units: Vec<DVec3> = areas.iter().map(|a| a.normalize_or_zero()).collect();
     let (starts, faces) = faces_by_vertex(positions.len(), triangles);
     let mut normals = Vec::with_capacity(3 * triangles.len());
@@ -243,6 +234,12 @@ pub fn crease_normals(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Vec<D
         }
     }
     normals
+}
+
+/// Twice the area of each face, along its normal.
+fn area_vectors(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Vec<DVec3> {
+    let corners = triangles.iter().map(|triangle| triangle.map(|v| positions[v.index()]));
+    corners.map(|[a, b, c]| (b - a).cross(c - a)).collect()
 }
 
 /// For each vertex the faces around it: where its list begins, and all lists one after the other.

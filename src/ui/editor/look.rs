@@ -64,7 +64,7 @@ impl Look {
     }
 
     /// The picture as panes draw it, in its box in the plane.
-    pub(super) fn picture_layer(&self, bounds: Bounds) -> Option<PictureLayer> {
+    pub(in crate::ui) fn picture_layer(&self, bounds: Bounds) -> Option<PictureLayer> {
         let (_, picture) = self.picture.as_ref()?;
         Some(PictureLayer { picture: Arc::clone(picture), bounds, opacity: self.opacity, sampling: self.sampling })
     }

@@ -17,8 +17,8 @@ impl Editor {
         ProjectView {
             mesh_shading: shading.clone(),
             plane_shading: shading,
-            mesh_camera: self.mesh.pane.camera().and_then(|camera| finite(&camera.numbers())),
-            plane_camera: self.plane_camera_numbers(),
+            mesh_camera: self.mesh.pane.camera().and_then(|camera| finite(camera.numbers().to_vec())),
+            plane_camera: self.plane.camera_numbers().and_then(finite),
             selection: self.selection.vertices().iter().map(|vertex| vertex.number()).collect(),
             tool: Some(self.tools.tool().words()[0].to_owned()),
         }
@@ -60,18 +60,9 @@ impl Editor {
         let there = view.selection.into_iter().map(VertexId::new).filter(|vertex| vertex.index() < count);
         self.selection.select(there);
     }
-
-    /// The plane's camera; none where the window chose it by itself, as it will again.
-    fn plane_camera_numbers(&self) -> Option<Vec<f64>> {
-        if let Some(saved) = self.plane.saved_camera() {
-            return Some(saved.clone());
-        }
-        let camera = self.plane.pane.camera().filter(|_| !self.plane.is_framed())?;
-        finite(&camera.numbers(self.plane.pane.size()))
-    }
 }
 
 /// JSON has no words for numbers that are not finite, and a project with one could not be read again.
-fn finite(numbers: &[f64]) -> Option<Vec<f64>> {
-    numbers.iter().all(|number| number.is_finite()).then(|| numbers.to_vec())
+fn finite(numbers: Vec<f64>) -> Option<Vec<f64>> {
+    numbers.iter().all(|number| number.is_finite()).then_some(numbers)
 }

@@ -4,7 +4,6 @@ use glam::{DVec2, DVec3};
 
 use crate::geom::Bounds;
 use crate::mesh::{EdgeId, FaceId, VertexId};
-use crate::render::PictureLayer;
 use crate::session::Document;
 use crate::solver::Verdict;
 use crate::ui::{Editor, Element};
@@ -84,11 +83,6 @@ impl Editor {
     /// All that there is in the plane: the embedding, and the picture where there is one.
     pub(in crate::ui) fn with_picture(&self, embedding: Bounds) -> Bounds {
         if self.has_picture() { embedding.union(self.picture_box()) } else { embedding }
-    }
-
-    /// The picture as panes draw it.
-    pub(in crate::ui) fn picture_layer(&self) -> Option<PictureLayer> {
-        self.look.picture_layer(self.picture_box())
     }
 
     pub(super) fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {

@@ -7,9 +7,8 @@ use crate::io::Target;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::{Hold, Pin};
-use crate::ui::panes::pin_drag::conflict_words;
 use crate::ui::panes::pins::{Emphasis, PinKind};
-use crate::ui::{Control, Editor, Offer, Purpose, Request, Tool, counted, keys_of, remark, theme_of};
+use crate::ui::{Control, Editor, Offer, Purpose, Request, Tool, counted, keys_of, remark, sentence, theme_of};
 
 /// Height that is kept free below the table, points.
 const BELOW: f32 = 250.0;
@@ -113,7 +112,7 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId) {
         let label = ui.colored_label(theme.unmet, "not met");
         label.on_hover_text("The embedding on the screen is planar, but this vertex is not on its target");
     } else if let Some(conflict) = editor.session.conflict_of(vertex) {
-        ui.colored_label(theme.stale, "conflict").on_hover_text(conflict_words(conflict));
+        ui.colored_label(theme.stale, "conflict").on_hover_text(sentence(&conflict.words()));
     } else {
         ui.weak("exact");
     }
@@ -233,7 +232,7 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         count => counted(count, "conflict needs new vertices", "conflicts need new vertices"),
     };
     let link = ui.link(RichText::new(words).color(theme_of(ui).stale));
-    link.on_hover_text(conflict_words(first)).asks(Request::GoTo(first.vertices()), requests);
+    link.on_hover_text(sentence(&first.words())).asks(Request::GoTo(first.vertices()), requests);
 }
 
 /// How far the worst of the exact and of the weighted pins is from its target, in texture coordinates.

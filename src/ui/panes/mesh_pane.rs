@@ -14,6 +14,9 @@ use crate::ui::editor::scene::MeshScene;
 use crate::ui::{Editor, Pane, Request, Shading, Theme, Tool, theme_of};
 use crate::view::{OrbitCamera, Visibility};
 
+/// Fields of the checker across the embedding.
+const CHECKER_FIELDS: f64 = 40.0;
+
 /// Marks drawn at most for a large selection.
 const MARKS_SHOWN: usize = 2000;
 
@@ -93,7 +96,7 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         lines: vec![boundary_line(scene, theme)],
-        picture: editor.picture_layer(),
+        picture: editor.look.picture_layer(editor.picture_box()),
         paint: editor.plane.preview_paint().or(editor.look.paint().map(|paint| &paint.faces)).map(Arc::clone),
         style: style(editor),
         palette: theme.palette,
@@ -122,7 +125,7 @@ pub(super) fn style(editor: &Editor) -> Style {
     Style {
         shading,
         wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 },
-        check_size: extent / crate::ui::CHECKER_FIELDS,
+        check_size: extent / CHECKER_FIELDS,
         ..Style::default()
     }
 }

@@ -9,8 +9,7 @@ use super::pins::{self, Emphasis, PinShown};
 use crate::geom::PictureFrame;
 use crate::mesh::VertexId;
 use crate::session::Action;
-use crate::solver::Conflict;
-use crate::ui::{Control, Editor, Request, theme_of};
+use crate::ui::{Control, Editor, Request, sentence, theme_of};
 use crate::view::PlaneCamera;
 
 /// Side of the square around a pin that can be grabbed, points.
@@ -79,7 +78,7 @@ pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut E
         let is_strong = response.hovered() || editor.selection.contains(pin.vertex);
         if let Some(conflict) = editor.session.conflict_of(pin.vertex) {
             pins::conflict_mark(&painter, at, theme);
-            response = response.on_hover_text(conflict_words(conflict));
+            response = response.on_hover_text(sentence(&conflict.words()));
         }
         pin.kind.mark(&painter, at, theme, Emphasis::strong_if(is_strong));
         // A mark that leaves the click to the pane leaves it what is said of it, too.
@@ -94,11 +93,6 @@ pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut E
         }
         grip.drag(ui, &response, editor, requests);
     }
-}
-
-/// What is amiss with constraints before they are solved for.
-pub(in crate::ui) fn conflict_words(conflict: &Conflict) -> String {
-    crate::ui::sentence(&conflict.words())
 }
 
 /// The vertex of the pin whose mark is under a place of the screen: of several the one on top, which takes the click.

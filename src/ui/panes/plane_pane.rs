@@ -138,7 +138,7 @@ pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, th
         fills: hull.map(|scene| scene.fill(theme)).into_iter().collect(),
         lines,
         ghost: editor.plane.ghost_layer(theme).filter(|_| !plane.is_stage()),
-        picture: editor.picture_layer(),
+        picture: editor.look.picture_layer(editor.picture_box()),
         outlined: editor.picture_box(),
         style,
         palette: theme.palette,

@@ -122,8 +122,11 @@ impl PlaneView {
         }
     }
 
-    pub(super) fn saved_camera(&self) -> Option<&Vec<f64>> {
-        self.saved.as_ref()
+    /// The camera's numbers, or those that the document was saved with, while there is no embedding to look at. None
+    /// where the window chose the camera by itself, as it will again.
+    pub(super) fn camera_numbers(&self) -> Option<Vec<f64>> {
+        let chosen = || Some(self.pane.camera().filter(|_| !self.is_framed())?.numbers(self.pane.size()).to_vec());
+        self.saved.clone().or_else(chosen)
     }
 
     pub(super) fn set_saved_camera(&mut self, numbers: Option<Vec<f64>>) {
