@@ -11,10 +11,9 @@
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
 //! | `look.rs` | how faces show: shading, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
-//! | `opened.rs` | what the window keeps of the open document |
+//! | `opened.rs` | what the window keeps of the open document, and how it looks, for the project file |
 //! | `host.rs` | egui's context and the graphics card |
 //! | `views.rs` | what the cameras look at; defects |
-//! | `project_view.rs` | how the window looks, for the project file |
 
 mod host;
 mod layout;
@@ -22,13 +21,12 @@ mod look;
 mod mesh_view;
 mod opened;
 mod plane;
-mod project_view;
 pub(super) mod purpose;
 mod request;
 mod requests;
 pub(super) mod scene;
 mod selection;
-mod views;
+pub(super) mod views;
 
 pub(super) use plane::HullScene;
 pub use plane::Stage;
@@ -124,7 +122,10 @@ impl Editor {
 
     /// Takes in what the background has finished. Call at the start of each frame.
     pub fn poll(&mut self) {
-        self.refresh_view();
+        if self.opened.view_is_due(&self.session) {
+            // For copies for recovery.
+            self.keep_view();
+        }
         self.session.poll();
         self.go_on_after_saving();
         self.go_on_playing();

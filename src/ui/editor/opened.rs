@@ -1,9 +1,19 @@
-//! What the window keeps of the open document beside the session: whether it is on the screen yet, and questions that
-//! were waved away.
+//! What the window keeps of the open document beside the session: whether it is on the screen yet, questions that were
+//! waved away, and how the person looks at it, which is kept in its project and put on again when it is opened.
+//!
+//! ```text
+//! mesh_camera    pivot x, y, z; distance; yaw, pitch         world units, radians
+//! plane_camera   center x, y; height of what the pane shows   embedding units
+//! ```
+//!
+//! Numbers that are none of these are ignored, as names are that mean nothing here.
 
 use std::time::{Duration, Instant};
 
+use crate::io::ProjectView;
+use crate::mesh::VertexId;
 use crate::session::Session;
+use crate::ui::{Editor, Shading, Tool};
 
 /// How old the view in a copy for recovery may be. A selection can be large, so that it is not taken every frame.
 const VIEW_INTERVAL: Duration = Duration::from_secs(1);
@@ -57,4 +67,53 @@ impl Opened {
     pub(in crate::ui) fn targets_look_mirrored(&self, session: &Session) -> bool {
         self.targets_left != Some(session.opening_revision()) && session.targets_look_mirrored()
     }
+}
+
+impl Editor {
+    fn view(&self) -> ProjectView {
+        let shading = Some(self.look.shading.title().to_owned());
+        ProjectView {
+            mesh_shading: shading.clone(),
+            plane_shading: shading,
+            mesh_camera: self.mesh.pane.camera().and_then(|camera| finite(camera.numbers().to_vec())),
+            plane_camera: self.plane.camera_numbers().and_then(finite),
+            selection: self.selection.vertices().iter().map(|vertex| vertex.number()).collect(),
+            tool: Some(self.tools.tool().words()[0].to_owned()),
+        }
+    }
+
+    /// Tells the session how the person looks at it, to be saved with it. While what was opened is not on the screen
+    /// yet, the session knows better.
+    pub(in crate::ui) fn keep_view(&mut self) {
+        if self.opened.is_on_screen(&self.session) {
+            let view = self.view();
+            self.session.set_view(view);
+        }
+    }
+
+    /// Puts on how the person looked at what was opened. Call once its mesh is drawn.
+    pub(super) fn put_on_view(&mut self) {
+        let view = self.session.view().clone();
+        let shading = view.mesh_shading.and_then(|name| Shading::ALL.into_iter().find(|s| s.title() == name));
+        if let Some(shading) = shading {
+            self.look.shading = shading;
+        }
+        if let Some(tool) = Tool::ALL.into_iter().find(|tool| view.tool.as_deref() == Some(tool.words()[0])) {
+            self.tools.take_up(tool);
+        }
+        let orbit =
+            view.mesh_camera.zip(self.mesh.pane.camera()).and_then(|(numbers, start)| start.with_numbers(&numbers));
+        if let Some(orbit) = orbit {
+            self.mesh.pane.set_camera(orbit);
+        }
+        self.plane.set_saved_camera(view.plane_camera);
+        let count = self.session.model().map_or(0, |model| model.mesh().vertex_count());
+        let there = view.selection.into_iter().map(VertexId::new).filter(|vertex| vertex.index() < count);
+        self.selection.select(there);
+    }
+}
+
+/// JSON has no words for numbers that are not finite, and a project with one could not be read again.
+fn finite(numbers: Vec<f64>) -> Option<Vec<f64>> {
+    numbers.iter().all(|number| number.is_finite()).then_some(numbers)
 }

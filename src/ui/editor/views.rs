@@ -47,8 +47,8 @@ impl Defect {
     }
 }
 
-/// Where a document's picture lies in the plane.
-pub(super) fn picture_box(document: &Document) -> Bounds {
+/// Where a document's picture lies in the plane; without one, the unit square of texture coordinates.
+pub(in crate::ui) fn picture_box(document: &Document) -> Bounds {
     let [low, high] = document.frame().corners();
     Bounds { low, high }
 }
@@ -75,14 +75,9 @@ impl Editor {
         self.session.document().picture.is_some()
     }
 
-    /// Where the picture lies in the plane; without one, the unit square of texture coordinates.
-    pub(in crate::ui) fn picture_box(&self) -> Bounds {
-        picture_box(self.session.document())
-    }
-
     /// All that there is in the plane: the embedding, and the picture where there is one.
     pub(in crate::ui) fn with_picture(&self, embedding: Bounds) -> Bounds {
-        if self.has_picture() { embedding.union(self.picture_box()) } else { embedding }
+        if self.has_picture() { embedding.union(picture_box(self.session.document())) } else { embedding }
     }
 
     pub(super) fn go_to_vertices(&mut self, vertices: Vec<VertexId>) {

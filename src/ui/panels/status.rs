@@ -25,36 +25,24 @@ pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
 
 fn hint(editor: &Editor) -> Cow<'static, str> {
     let is_over_new = editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex));
-    let is_constraining = editor.tools.tool() == Tool::Constrain && editor.tools.dragged().is_none();
-    if is_constraining && !is_over_new && editor.session.model().is_some() {
-        return editor.constrain_words().into();
-    }
-    fixed_hint(editor).into()
-}
-
-fn fixed_hint(editor: &Editor) -> &'static str {
-    if editor.tools.dragged().is_some() {
-        return "Move the pin; the embedding follows. Esc gives up.";
-    }
-    if editor.session.model().is_none() {
-        return "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.";
-    }
-    if matches!(editor.session.status(), Status::Held) && !editor.timeline.curves_shown() {
-        return PRESS_SPACE;
-    }
-    if editor.tools.tool() != Tool::Select && editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex))
-    {
-        return "A new vertex belongs to this embedding alone, and cannot be pinned.";
-    }
-    if editor.pins_selected().next().is_some() && editor.tools.tool() == Tool::Select {
-        return "Drag a selected pin to move them all, arrows nudge by a pixel (Shift: ten), Delete frees them.";
-    }
-    match editor.tools.tool() {
+    let is_held = matches!(editor.session.status(), Status::Held);
+    let words = match editor.tools.tool() {
+        _ if editor.tools.dragged().is_some() => "Move the pin; the embedding follows. Esc gives up.",
+        _ if editor.session.model().is_none() => "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.",
+        Tool::Constrain if !is_over_new => return editor.constrain_words().into(),
+        _ if is_held && !editor.timeline.curves_shown() => PRESS_SPACE,
+        Tool::Fix | Tool::Constrain if is_over_new => {
+            "A new vertex belongs to this embedding alone, and cannot be pinned."
+        }
+        Tool::Select if editor.pins_selected().next().is_some() => {
+            "Drag a selected pin to move them all, arrows nudge by a pixel (Shift: ten), Delete frees them."
+        }
+        Tool::Fix => "Click a vertex to fix it where it lies. Drag a square to move it. Esc ends.",
         Tool::Select | Tool::Constrain => {
             "Click a vertex to select it, Shift adds, Ctrl and a drag draw a box. Drag a square to move a pin."
         }
-        Tool::Fix => "Click a vertex to fix it where it lies. Drag a square to move it. Esc ends.",
-    }
+    };
+    words.into()
 }
 
 fn numbers(editor: &Editor) -> String {

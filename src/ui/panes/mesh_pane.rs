@@ -11,6 +11,7 @@ use super::{bars, legend, magnifier};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, Style};
 use crate::ui::editor::scene::MeshScene;
+use crate::ui::editor::views::picture_box;
 use crate::ui::{Editor, Pane, Request, Shading, Theme, Tool, theme_of};
 use crate::view::{OrbitCamera, Visibility};
 
@@ -96,7 +97,7 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         lines: vec![boundary_line(scene, theme)],
-        picture: editor.look.picture_layer(editor.picture_box()),
+        picture: editor.look.picture_layer(picture_box(editor.session.document())),
         paint: editor.plane.preview_paint().or(editor.look.paint().map(|paint| &paint.faces)).map(Arc::clone),
         style: style(editor),
         palette: theme.palette,

@@ -13,6 +13,7 @@ use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::Surface;
 use crate::ui::editor::scene::PlaneScene;
+use crate::ui::editor::views::picture_box;
 use crate::ui::panels::equation_table;
 use crate::ui::{Control, Editor, HullScene, Pane, Request, Stage, Theme, theme_of};
 use crate::view::PlaneCamera;
@@ -138,8 +139,8 @@ pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, th
         fills: hull.map(|scene| scene.fill(theme)).into_iter().collect(),
         lines,
         ghost: editor.plane.ghost_layer(theme).filter(|_| !plane.is_stage()),
-        picture: editor.look.picture_layer(editor.picture_box()),
-        outlined: editor.picture_box(),
+        picture: editor.look.picture_layer(picture_box(editor.session.document())),
+        outlined: picture_box(editor.session.document()),
         style,
         palette: theme.palette,
         camera,
