@@ -27,7 +27,7 @@ pub(super) fn is_zero_area(corners: [DVec3; 3]) -> bool {
     let size = size.max(f64::MIN_POSITIVE);
     if size > LARGE || size < LARGE.recip() {
         // Twice, because the reciprocal of a subnormal number is infinite. A power of two: nothing is rounded.
-        let half = half_power(size);
+        let half = (size.log2() / 2.0).round().exp2();
         return flat(corners.map(|p| p / half / half), size / half / half);
     }
     flat(corners, size)
@@ -37,9 +37,4 @@ fn flat([a, b, c]: [DVec3; 3], size: f64) -> bool {
     let (ab, ac, bc) = (b - a, c - a, c - b);
     let longest = ab.length_squared().max(ac.length_squared()).max(bc.length_squared()).sqrt();
     ab.cross(ac).length() <= COLLINEAR * f64::EPSILON * longest * size
-}
-
-/// A power of two near the square root of a positive number.
-fn half_power(size: f64) -> f64 {
-    (size.log2() / 2.0).round().exp2()
 }

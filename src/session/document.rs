@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Problem;
 use super::model::example_picture;
 use crate::examples::Example;
-use crate::geom::{PictureFrame, VAxis};
+use crate::geom::{Bounds, PictureFrame, VAxis};
 use crate::io::{PictureFile, Target, Targets, hard_targets, pins_in_plane};
 use crate::mesh::VertexId;
 use crate::solver::{GaugeSize, Pins, Settings};
@@ -49,7 +49,7 @@ impl Document {
         let frame = self.frame();
         let [low, high] = frame.corners();
         let has_picture = self.picture.is_some() || self.aspect.is_some();
-        let size = if has_picture { GaugeSize::Within { low, high } } else { GaugeSize::TrueArea };
+        let size = if has_picture { GaugeSize::Within(Bounds { low, high }) } else { GaugeSize::TrueArea };
         Problem { settings: Settings { size, ..self.settings }, frame, targets: self.targets.clone() }
     }
 

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::errands::Errand;
 use super::{Command, Document, Session};
-use crate::geom::{PictureFrame, Similarity};
+use crate::geom::{Bounds, PictureFrame, Similarity};
 use crate::io::{Constraints, PictureFile, Target, Targets};
 use crate::mesh::VertexId;
 use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, flatten};
@@ -178,7 +178,7 @@ impl Session {
         };
         let frame = self.document.frame();
         let [low, high] = frame.corners();
-        let size = GaugeSize::Within { low, high };
+        let size = GaugeSize::Within(Bounds { low, high });
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
         self.errands.send("fitting the targets", move |cancel| {
             let solution = flatten(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));

@@ -47,12 +47,13 @@ impl FixedSolve {
         site: Site<'_>,
         start: &Embedding,
         residuals: &[DVec2],
-    ) -> Result<Embedding, SolveError> {
+    ) -> Result<(Embedding, f64), SolveError> {
         let mut embedding = start.clone();
         for (vertex, by) in self.answer(site, residuals, Factor::solve_correction)?.0 {
             embedding[vertex] += by;
         }
-        Ok(embedding)
+        let residual = site.system.relative_residual(site.mesh, &self.equations, &embedding);
+        Ok((embedding, residual))
     }
 
     /// What the system says of the free vertices for one term each, and the residual.
@@ -67,11 +68,6 @@ impl FixedSolve {
         let (x, y) = solved.x.split_at(terms.len());
         let free = site.system.free().iter().zip(x.iter().zip(y)).map(|(&v, (&x, &y))| (v, DVec2::new(x, y)));
         Ok((free.collect(), solved.residual))
-    }
-
-    /// The numbers of a solve whose residual is summed up from the equations.
-    pub(super) fn numbers_measured(&self, site: Site<'_>, embedding: &Embedding) -> LinearSolve {
-        self.numbers(site, embedding, site.system.relative_residual(site.mesh, &self.equations, embedding))
     }
 
     /// The numbers of a solve. Prescribed vertices have no equation.

@@ -86,27 +86,23 @@ impl Energy {
 
     fn terms(self, s: f64, d: f64) -> Terms {
         match self {
-            Self::Foldover(epsilon) => foldover_terms(s, d, epsilon),
-            Self::SymmetricDirichlet => symmetric_dirichlet_terms(s, d),
+            Self::Foldover(epsilon) => {
+                let (u, root) = inverse_chi(d, epsilon);
+                let (du, ddu) = (-u / root, 2.0 / (root * root * root));
+                let n = s + 0.5 * (d * d + 1.0);
+                Terms {
+                    p: (1.0 + d) * u + n * du,
+                    q: (1.0 - d) * u - n * du,
+                    pp: u + 2.0 * (1.0 + d) * du + n * ddu,
+                    pq: -u - 2.0 * d * du - n * ddu,
+                    qq: u - 2.0 * (1.0 - d) * du + n * ddu,
+                }
+            }
+            Self::SymmetricDirichlet => {
+                let (v, dv, ddv) = (1.0 + d.powi(-2), -2.0 * d.powi(-3), 6.0 * d.powi(-4));
+                Terms { p: v + s * dv, q: v - s * dv, pp: 2.0 * dv + s * ddv, pq: -s * ddv, qq: s * ddv - 2.0 * dv }
+            }
         }
-    }
-}
-
-fn symmetric_dirichlet_terms(s: f64, d: f64) -> Terms {
-    let (v, dv, ddv) = (1.0 + d.powi(-2), -2.0 * d.powi(-3), 6.0 * d.powi(-4));
-    Terms { p: v + s * dv, q: v - s * dv, pp: 2.0 * dv + s * ddv, pq: -s * ddv, qq: s * ddv - 2.0 * dv }
-}
-
-fn foldover_terms(s: f64, d: f64, epsilon: f64) -> Terms {
-    let (u, root) = inverse_chi(d, epsilon);
-    let (du, ddu) = (-u / root, 2.0 / (root * root * root));
-    let n = s + 0.5 * (d * d + 1.0);
-    Terms {
-        p: (1.0 + d) * u + n * du,
-        q: (1.0 - d) * u - n * du,
-        pp: u + 2.0 * (1.0 + d) * du + n * ddu,
-        pq: -u - 2.0 * d * du - n * ddu,
-        qq: u - 2.0 * (1.0 - d) * du + n * ddu,
     }
 }
 

@@ -77,4 +77,4 @@ pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, verdict};
 pub use vertex_equation::{EquationTerm, NoEquation, VertexEquation, WeightSource, equation_of_step};
-pub use virtual_boundary::{Extended, Outline, Start, VirtualBoundary};
+pub use virtual_boundary::{Extended, Outline, VirtualBoundary};

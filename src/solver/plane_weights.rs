@@ -16,15 +16,8 @@
 //! # Degenerate faces
 //!
 //! A face without area has a corner of 0 or π, or an edge of length 0, whose weight would be infinite and would hold
-//! the face as it is. It counts as a thin face instead, a thousandth of its longest edge high. How many corners
-//! that concerned is told.
-//!
-//! # Symbols
-//!
-//! | paper  | code             | meaning                           | unit         |
-//! |--------|------------------|-----------------------------------|--------------|
-//! | r₁, r₂ | `radii`          | lengths of the corner's two edges | length       |
-//! | α      | `cross`, `dot`   | angle at the corner, in [0, π]    | length²      |
+//! the face as it is. It counts as a thin face instead, a thousandth of its longest edge high, and its corners are
+//! counted.
 
 use glam::DVec2;
 use num_complex::Complex;

@@ -38,7 +38,7 @@ pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
 pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins, size: GaugeSize) {
     match size {
         GaugeSize::TrueArea => to_true_area(mesh, embedding),
-        GaugeSize::Within { low, high } => to_middle_of(low, high, embedding),
+        GaugeSize::Within(bounds) => to_middle_of(bounds, embedding),
     }
     if let Some((vertex, Pin { target, .. })) = pins.first_key_value() {
         let shift = *target - embedding[vertex];
@@ -74,11 +74,11 @@ pub(super) fn fit_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins,
 }
 
 /// Scales an embedding uniformly into the middle of a box; one without a finite extent stays as it is.
-fn to_middle_of(low: DVec2, high: DVec2, embedding: &mut Embedding) {
+fn to_middle_of(into: Bounds, embedding: &mut Embedding) {
     let bounds = embedding.bounds();
-    let factor = ((high - low) / bounds.size()).min_element();
+    let factor = (into.size() / bounds.size()).min_element();
     if factor.is_finite() && factor > 0.0 {
-        let (from, to) = (bounds.middle(), low.midpoint(high));
+        let (from, to) = (bounds.middle(), into.middle());
         for z in embedding.iter_mut() {
             *z = to + (*z - from) * factor;
         }

@@ -1,8 +1,7 @@
 //! Everything about a solve but the mesh and the pins.
 
-use glam::DVec2;
-
 use super::{Choice, Family, Hold, Method, Pin, Pins, Words};
+use crate::geom::Bounds;
 
 /// How the equations of pinned vertices are treated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,12 +63,7 @@ pub enum GaugeSize {
     #[default]
     TrueArea,
     /// As large as fits into a box, in its middle: the picture that it is made for.
-    Within {
-        /// The box's lower left corner.
-        low: DVec2,
-        /// Its upper right corner.
-        high: DVec2,
-    },
+    Within(Bounds),
 }
 
 /// Everything about a solve but the mesh and the pins.
@@ -79,7 +73,7 @@ pub struct Settings {
     pub method: Method,
     /// The weights, where the method has a choice.
     pub family: Family,
-    /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_of`] says.
+    /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_on`] says.
     pub treatment: Option<Treatment>,
     /// The most mean-value iterations after a linear solve; a ladder that starts again counts anew.
     pub max_steps: usize,
@@ -118,23 +112,17 @@ impl Settings {
         Self { method, family, ..Self::default() }
     }
 
-    /// How the linear solve treats the equations of so many pins of the user's. Two only fix the similarity and are
-    /// eliminated, so that conformal weights give the least-squares conformal map; more are constraints.
-    pub fn treatment_of(&self, pin_count: usize) -> Treatment {
-        let by_count = if pin_count > 2 { Treatment::LeastSquares } else { Treatment::Eliminate };
-        self.treatment.unwrap_or(by_count)
-    }
-
-    /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the
-    /// solver places is always eliminated; its own gauge pins are, unless another treatment was asked for.
+    /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the solver
+    /// places is always eliminated. Up to two pins only fix the similarity and are eliminated, unless another treatment was
+    /// asked for, so that conformal weights give the least-squares conformal map; more are constraints.
     pub fn treatment_on(&self, rung: Method, pin_count: usize) -> Treatment {
         match rung {
             // By hand after a convex boundary, all of which is pinned.
             Method::Iterate if matches!(self.method, Method::Convex(_)) => Treatment::Eliminate,
             Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
             Method::VirtualBoundary | Method::Convex(_) => Treatment::Eliminate,
-            _ if pin_count < 2 => self.treatment.unwrap_or(Treatment::Eliminate),
-            _ => self.treatment_of(pin_count),
+            _ if pin_count > 2 => self.treatment.unwrap_or(Treatment::LeastSquares),
+            _ => self.treatment.unwrap_or(Treatment::Eliminate),
         }
     }
 

@@ -20,18 +20,13 @@ pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
         let spokes: Vec<HalfedgeId> = mesh.outgoing(vertex).collect();
         let centre = mesh.position(vertex);
         let arms: Vec<_> = spokes.iter().map(|&h| mesh.position(mesh.head(h)) - centre).collect();
-        let (weights, fell_back) = ring_weights(&polar_map(&arms));
+        let (weights, fell_back) = ring_weights(&arms);
         bounded_corners += usize::from(fell_back);
         for (h, weight) in spokes.iter().zip(weights) {
             coefficients[h.index()] = weight;
         }
     }
     Equations { coefficients, bounded_corners }
-}
-
-/// The weights of an interior vertex's ring, given by the edges to its neighbours.
-pub(super) fn weights_of_ring(arms: &[glam::DVec3]) -> Vec<f64> {
-    ring_weights(&polar_map(arms)).0
 }
 
 /// Angle and radius of each neighbour in the flattened ring.
@@ -49,8 +44,9 @@ fn polar_map(arms: &[glam::DVec3]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Weights of the centre over its ring, and whether a degenerate ring made them equal.
-fn ring_weights(ring: &[(f64, f64)]) -> (Vec<f64>, bool) {
+/// Weights of an interior vertex's ring, given by the edges to its neighbours, and whether a degenerate ring made them equal.
+pub(super) fn ring_weights(arms: &[glam::DVec3]) -> (Vec<f64>, bool) {
+    let ring = polar_map(arms);
     let count = ring.len();
     let point = |i: usize| ring[i].1 * DVec2::from_angle(ring[i].0);
     let mut weights = vec![0.0; count];

@@ -25,7 +25,7 @@
 use glam::DVec2;
 
 use super::plane_weights::{corner_weights, edge_radius};
-use super::shape_preserving::weights_of_ring;
+use super::shape_preserving::ring_weights;
 use super::weights::{Corner, three_point_weights};
 use super::{Embedding, Family, Method, Step, VirtualBoundary};
 use crate::mesh::{DiskMesh, VertexId};
@@ -193,7 +193,7 @@ fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: Ve
     let arms: Vec<_> = neighbours.iter().map(|&v| mesh.position(v) - centre).collect();
     let Some(power) = family.power() else {
         let weights = match family {
-            Family::ShapePreserving if fan.is_closed() => weights_of_ring(&arms),
+            Family::ShapePreserving if fan.is_closed() => ring_weights(&arms).0,
             _ => vec![1.0; neighbours.len()],
         };
         let ones = vec![1.0; neighbours.len()];

@@ -81,15 +81,6 @@ pub struct Extended {
     pub pockets: Vec<[VertexId; 3]>,
 }
 
-/// Where a solve starts, with the outline in its place.
-#[derive(Clone, Copy, Debug)]
-pub struct Start<'a> {
-    /// Embedding of mesh and outside.
-    pub embedding: &'a Embedding,
-    /// Residuals of all vertex equations, where they are known better than by summing up.
-    pub residuals: Option<&'a [Complex<f64>]>,
-}
-
 impl Extended {
     /// Extends an embedding with a simple upright boundary up to the hull, else up to a frame; `None` where neither can be.
     pub fn new(mesh: &DiskMesh, embedding: &Embedding) -> Option<Self> {
@@ -133,7 +124,8 @@ impl Extended {
         })
     }
 
-    /// Solves equations of mesh and outside with the outline where it is, for the move from `start`.
+    /// Solves equations of mesh and outside with the outline where it is, for the move from `start`. Its residuals are
+    /// summed up where they are not known better.
     ///
     /// # Errors
     ///
@@ -141,14 +133,15 @@ impl Extended {
     pub fn solve(
         &self,
         equations: Equations<f64>,
-        start: Start<'_>,
+        start: &Embedding,
+        residuals: Option<&[Complex<f64>]>,
         control: Control<'_>,
     ) -> Result<(Embedding, LinearSolve), SolveError> {
         let system = FreeSystem::new(&self.disk, |v| self.disk.boundary_place(v).is_some());
         let site = Site { mesh: &self.disk, system: &system };
-        let residual_of = |v: &VertexId| match start.residuals {
+        let residual_of = |v: &VertexId| match residuals {
             Some(residuals) => residuals[v.index()],
-            None => equations.residual_of(&self.disk, start.embedding, *v),
+            None => equations.residual_of(&self.disk, start, *v),
         };
         let residuals: Vec<DVec2> = system.free().iter().map(residual_of).map(|z| DVec2::new(z.re, z.im)).collect();
         control.enter(Phase::Analyze)?;
@@ -156,8 +149,8 @@ impl Extended {
         control.enter(Phase::Factor)?;
         let solve = FixedSolve::new(site, equations, &analysis, control)?;
         control.enter(Phase::Solve)?;
-        let embedding = solve.solve_from(site, start.embedding, &residuals)?;
-        let numbers = solve.numbers_measured(site, &embedding);
+        let (embedding, residual) = solve.solve_from(site, start, &residuals)?;
+        let numbers = solve.numbers(site, &embedding, residual);
         Ok((embedding, numbers))
     }
 }

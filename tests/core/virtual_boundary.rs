@@ -7,8 +7,7 @@ use freebound::geom::{Orientation, orientation};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use freebound::solver::{
-    Control, Embedding, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Start, Step, largest_move,
-    verdict,
+    Control, Embedding, Extended, Family, Growth, Ladder, Method, Outline, Pins, Settings, Step, largest_move, verdict,
 };
 use glam::{DVec2, DVec3};
 
@@ -26,8 +25,7 @@ fn flat(mesh: &DiskMesh) -> Embedding {
 fn solved(mesh: &DiskMesh, extended: &Extended) -> Embedding {
     let equations = mean_value_in_plane(&extended.disk, &extended.embedding);
     // Summed up from the equations, so that the answer does not lean on what is known of positive faces.
-    let start = Start { embedding: &extended.embedding, residuals: None };
-    let (positions, numbers) = extended.solve(equations, start, Control::unattended()).unwrap();
+    let (positions, numbers) = extended.solve(equations, &extended.embedding, None, Control::unattended()).unwrap();
     assert!(numbers.residual <= 1e-10, "{:.1e}", numbers.residual);
     Embedding::of_mesh(mesh, &positions)
 }
@@ -194,8 +192,7 @@ fn what_a_flipped_embedding_leaves_is_the_same_both_ways() {
     let extended = Extended::new(&mesh, &embedding).unwrap();
     let equations = mean_value_in_plane(&extended.disk, &extended.embedding);
     let left = residuals_in_plane(&extended.disk, &extended.embedding);
-    let start = Start { embedding: &extended.embedding, residuals: Some(&left) };
-    let (positions, _) = extended.solve(equations, start, Control::unattended()).unwrap();
+    let (positions, _) = extended.solve(equations, &extended.embedding, Some(&left), Control::unattended()).unwrap();
     let apart = largest_move(&solved(&mesh, &extended), &positions[..mesh.vertex_count()]);
     assert!(apart <= 1e-10 * embedding.bounds().diameter(), "{apart:.1e}");
 }

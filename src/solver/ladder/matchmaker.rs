@@ -42,7 +42,8 @@ impl Rung for Match {
         let (began, held) = (Instant::now(), task.held());
         let (found, looks_left) = match &self.stage {
             Stage::Begin => {
-                let start = latest.ok_or(SolveError::NotPlanar)?.onward();
+                let latest = latest.ok_or(SolveError::NotPlanar)?;
+                let start = latest.onward.as_ref().unwrap_or(&latest.embedding);
                 (without_needless_vertices(mesh, matched(mesh, start, &held, control)?), REMOVALS)
             }
             Stage::Refined { found: before, looks_left } => {

@@ -59,13 +59,6 @@ pub(super) struct Latest {
     pub(super) refinement: Option<Arc<Refinement>>,
 }
 
-impl Latest {
-    /// The embedding to go on from.
-    pub(super) fn onward(&self) -> &Embedding {
-        self.onward.as_ref().unwrap_or(&self.embedding)
-    }
-}
-
 #[derive(Debug)]
 pub(super) struct Failure {
     pub(super) error: SolveError,

@@ -23,7 +23,7 @@ use crate::solver::equations::{barycentric, uniform};
 use crate::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use crate::solver::{
     Control, Embedding, Extended, Family, Growth, Method, PhaseSeconds, PinPositions, Pins, Settings, Solution,
-    SolveError, Start, Treatment, VirtualBoundary, fixed_pins, flatten,
+    SolveError, Treatment, VirtualBoundary, fixed_pins, flatten,
 };
 
 /// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,
@@ -76,8 +76,8 @@ pub(super) struct Bend {
 #[derive(Debug, Default)]
 struct Trial {
     extended: Option<Extended>,
-    /// The last result, with the outside.
-    solved: Embedding,
+    /// The last result.
+    last: Option<Arc<VirtualBoundary>>,
     /// How many weights have been tried on `extended`.
     tried: usize,
 }
@@ -124,9 +124,9 @@ impl Bend {
         }
         while let (Some(extended), Some(&weights)) = (&self.trial.extended, self.weights().get(self.trial.tried)) {
             match self.peeled(mesh, extended, weights, control) {
-                Ok((candidate, solved)) => {
+                Ok(candidate) => {
                     self.trial.tried += 1;
-                    self.trial.solved = solved;
+                    self.trial.last = candidate.virtual_boundary.clone();
                     return Ok(candidate);
                 }
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
@@ -168,25 +168,25 @@ impl Bend {
         Err(SolveError::LadderExhausted)
     }
 
-    /// Solves mesh and outside together, and peels the outside off. Returns all that was solved, too.
+    /// Solves mesh and outside together, and peels the outside off.
     fn peeled(
         &self,
         mesh: &DiskMesh,
         extended: &Extended,
         weights: Weights,
         control: Control<'_>,
-    ) -> Result<(Candidate, Embedding), SolveError> {
+    ) -> Result<Candidate, SolveError> {
         let start = Instant::now();
-        let goes_on = weights == Weights::Again && !self.trial.solved.is_empty();
-        let from = if goes_on { &self.trial.solved } else { &extended.embedding };
+        let last = self.trial.last.as_ref().filter(|_| weights == Weights::Again);
+        let from = last.map_or(&extended.embedding, |last| &last.solved);
         let has_pockets = !extended.pockets.is_empty();
         let (equations, residuals) = match weights {
             Weights::Surface if !has_pockets => (barycentric(mesh, 0.0)?, None),
             Weights::Uniform => (uniform(&extended.disk), None),
             _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
         };
-        let start_at = Start { embedding: from, residuals: residuals.as_deref() };
-        let (solved, linear) = extended.solve(equations, start_at, control)?;
+        let (solved, linear) = extended.solve(equations, from, residuals.as_deref(), control)?;
+        let embedding = Embedding::of_mesh(mesh, &solved);
         let stages = VirtualBoundary {
             pinned: self.pinned,
             outline: extended.outline,
@@ -194,17 +194,17 @@ impl Bend {
             weights_of_before: residuals.is_some(),
             hull: extended.disk.boundary_loop().to_vec(),
             pockets: extended.pockets.clone(),
-            solved: solved.clone(),
+            solved,
         };
         let solution = Solution {
-            embedding: Embedding::of_mesh(mesh, &solved),
+            embedding,
             pins: Pins::new(),
             gauge_completed: true,
             linear: Some(linear),
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() },
         };
         let candidate = Candidate::new(Method::VirtualBoundary, Family::MeanValue, solution);
-        Ok((Candidate { virtual_boundary: Some(Arc::new(stages)), ..candidate }, solved))
+        Ok(Candidate { virtual_boundary: Some(Arc::new(stages)), ..candidate })
     }
 }
 

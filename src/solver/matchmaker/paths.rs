@@ -153,7 +153,8 @@ impl<'a> Paths<'a> {
                     h
                 }
                 Move::Cross(h) => {
-                    let begin = corner.or_else(|| cells.corner_at(h, vertex)).expect("the way goes on from a corner");
+                    let at_vertex = || cells.cell(h).find(|&other| cells[other].tail == vertex);
+                    let begin = corner.or_else(at_vertex).expect("the way goes on from a corner");
                     cells.split_edge(h, role);
                     corner = Some(cells[h].twin);
                     cells.split_cell(begin, cells[h].next)
@@ -163,7 +164,8 @@ impl<'a> Paths<'a> {
                     cells.split_cell(begin, h)
                 }
             };
-            cells.set_path(piece, edge);
+            let twin = cells[piece].twin;
+            (cells[piece].path, cells[twin].path) = (edge, edge);
             vertex = cells.head(piece);
             if cells.roles[vertex as usize] == Role::Free {
                 cells.roles[vertex as usize] = role;

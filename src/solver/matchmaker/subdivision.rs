@@ -37,7 +37,7 @@ pub(super) struct Halfedge {
     /// The old face that it lies in or at; none outside.
     pub(super) face: u32,
     /// The path that runs along it.
-    path: u32,
+    pub(super) path: u32,
 }
 
 #[derive(Debug)]
@@ -156,17 +156,6 @@ impl Subdivision {
             at = Some(self[here].next).filter(|&next| next != h);
             Some(here)
         })
-    }
-
-    /// The halfedge of a cell that leaves a vertex.
-    pub(super) fn corner_at(&self, cell: u32, vertex: u32) -> Option<u32> {
-        self.cell(cell).find(|&h| self[h].tail == vertex)
-    }
-
-    pub(super) fn set_path(&mut self, h: u32, path: u32) {
-        let twin = self[h].twin;
-        self[h].path = path;
-        self[twin].path = path;
     }
 
     fn add_halfedge(&mut self, tail: u32, like: u32, old_edge: u32) -> u32 {

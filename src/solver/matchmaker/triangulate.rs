@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use super::subdivision::{Role, Subdivision};
+use super::subdivision::{NONE, Role, Subdivision};
 use super::target_graph::TargetGraph;
 use crate::mesh::{DiskMesh, FaceId, HalfedgeId};
 
@@ -39,7 +39,9 @@ pub(super) fn split_collapsing_edges(cells: &mut Subdivision, graph: &TargetGrap
 
 pub(super) fn triangulate(cells: &mut Subdivision, graph: &TargetGraph, mesh: &DiskMesh) -> Parts {
     let mut of_cell: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
-    let mut waiting: Vec<u32> = (0..).take(cells.halfedge_count()).filter(|&h| is_first(cells, h)).collect();
+    // The first halfedge of every cell within the frame.
+    let is_first = |h: &u32| cells[*h].face != NONE && cells.cell(*h).all(|other| other >= *h);
+    let mut waiting: Vec<u32> = (0..).take(cells.halfedge_count()).filter(is_first).collect();
     while let Some(h) = waiting.pop() {
         let first = cells.cell(h).min().unwrap_or(h);
         if let Some(triangles) = cut(cells, graph, mesh, first) {
@@ -60,11 +62,6 @@ pub(super) fn triangulate(cells: &mut Subdivision, graph: &TargetGraph, mesh: &D
     let old = u32::try_from(cells.old_vertex_count()).expect("vertices fit");
     parts.retain(|_, triangles| triangles.len() > 1 || triangles[0].iter().any(|&v| v >= old));
     parts
-}
-
-/// Whether a halfedge is the first of its cell, and the cell is within the frame.
-fn is_first(cells: &Subdivision, h: u32) -> bool {
-    cells[h].face != super::subdivision::NONE && cells.cell(h).all(|other| other >= h)
 }
 
 /// Triangles of a cell without a collapsing diagonal: those whose diagonals are shortest.
