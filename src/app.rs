@@ -101,16 +101,13 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         recovery_folder: recovery_folder(),
         dialogs_inside: false,
     };
-    eframe::run_native("freebound", options, Box::new(|context| Ok(Box::new(App::new(context, start)))))
-        .map_err(|error| reason(&error))
-}
-
-fn reason(error: &eframe::Error) -> String {
-    match error {
-        eframe::Error::WinitEventLoop(_) => "no display".to_owned(),
-        eframe::Error::Wgpu(_) => {
-            "a display, but no graphics driver (on Debian: apt install mesa-vulkan-drivers libvulkan1)".to_owned()
-        }
-        other => format!("the window cannot open: {other}"),
-    }
+    eframe::run_native("freebound", options, Box::new(|context| Ok(Box::new(App::new(context, start))))).map_err(
+        |error| match error {
+            eframe::Error::WinitEventLoop(_) => "no display".to_owned(),
+            eframe::Error::Wgpu(_) => {
+                "a display, but no graphics driver (on Debian: apt install mesa-vulkan-drivers libvulkan1)".to_owned()
+            }
+            other => format!("the window cannot open: {other}"),
+        },
+    )
 }

@@ -106,7 +106,8 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
             Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => menu_open || focused.is_some(),
             _ => false,
         };
-        !left_to_egui && (!typing || (binding.shortcut.modifiers.command && !is_edit(binding)))
+        let is_edit = matches!(binding.shortcut.logical_key, Key::Z | Key::Y);
+        !left_to_egui && (!typing || (binding.shortcut.modifiers.command && !is_edit))
     };
     let is_repeat = |event: &egui::Event| matches!(event, egui::Event::Key { key: Key::Space, repeat: true, .. });
     let repeats_space = context.input(|input| input.events.iter().any(is_repeat));
@@ -127,10 +128,6 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
     }
     requests.extend(nudges);
     requests
-}
-
-fn is_edit(binding: &Binding) -> bool {
-    matches!(binding.shortcut.logical_key, Key::Z | Key::Y)
 }
 
 /// The keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty where it has none.

@@ -53,8 +53,8 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         .show(ui, |ui| panels::tool_bar(ui, editor, &mut requests));
     editor.pointer.begin_frame();
     editor.tools.set_intent(Intent::Nothing);
-    editor.mesh.area_mut().hide();
-    editor.plane.area_mut().hide();
+    editor.mesh.pane.hide();
+    editor.plane.pane.hide();
     egui::CentralPanel::default().frame(Frame::new().fill(fill)).show(ui, |ui| panes(ui, editor, &mut requests));
     if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Not before: the pane drawn first shows what the pointer found in the other.

@@ -191,25 +191,22 @@ impl Window {
         let editor = self.editor();
         let scene = editor.mesh_scene().expect("a mesh shows");
         let position = scene.mesh().positions[vertex.index()];
-        let camera = editor.mesh.camera().expect("a mesh shows");
-        on_screen(
-            self.mesh_view(),
-            camera.pane_from_world(position, editor.mesh.area().size()).expect("before the eye"),
-        )
+        let camera = editor.mesh.pane.camera().expect("a mesh shows");
+        on_screen(self.mesh_view(), camera.pane_from_world(position, editor.mesh.pane.size()).expect("before the eye"))
     }
 
     /// Where a point of the embedding shows.
     pub(crate) fn place_in_plane(&self, point: DVec2) -> Pos2 {
-        let camera = self.editor().plane.camera().expect("an embedding shows");
-        on_screen(self.plane_view(), camera.pane_from_embedding(point, self.editor().plane.area().size()))
+        let camera = self.editor().plane.pane.camera().expect("an embedding shows");
+        on_screen(self.plane_view(), camera.pane_from_embedding(point, self.editor().plane.pane.size()))
     }
 
     /// A vertex near the middle of the mesh's pane that is well visible.
     pub(crate) fn vertex_in_the_middle(&self) -> VertexId {
         let editor = self.editor();
         let scene = editor.mesh_scene().expect("a mesh shows");
-        let camera = editor.mesh.camera().expect("a mesh shows");
-        let size = editor.mesh.area().size();
+        let camera = editor.mesh.pane.camera().expect("a mesh shows");
+        let size = editor.mesh.pane.size();
         let mut best = (f64::INFINITY, VertexId::new(0));
         for (i, position) in scene.mesh().positions.iter().enumerate() {
             let vertex = VertexId::from_index(i);

@@ -121,13 +121,13 @@ fn the_camera_goes_along_with_an_embedding_that_would_leave_the_pane() {
 fn a_camera_that_somebody_moved_stays() {
     let mut window = two_steps();
     window.key(Key::ArrowLeft);
-    window.editor_mut().plane.camera_mut().expect("framed").pan(DVec2::splat(150.0));
-    let camera = window.editor().plane.camera();
+    window.editor_mut().plane.pane.camera_mut().expect("framed").pan(DVec2::splat(150.0));
+    let camera = window.editor().plane.pane.camera();
     window.key(Key::ArrowRight);
-    assert_eq!(window.editor().plane.camera(), camera);
+    assert_eq!(window.editor().plane.pane.camera(), camera);
     window.harness.set_size(egui::vec2(900.0, 700.0));
     window.settle();
-    assert_eq!(window.editor().plane.camera(), camera);
+    assert_eq!(window.editor().plane.pane.camera(), camera);
 }
 
 #[test]

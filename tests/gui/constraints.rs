@@ -34,8 +34,8 @@ pub(crate) fn corners(window: &mut Window) {
 
 fn in_embedding(window: &Window, at: Pos2) -> DVec2 {
     let relative = at - window.plane_view().min;
-    let camera = window.editor().plane.camera().expect("an embedding shows");
-    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane.area().size())
+    let camera = window.editor().plane.pane.camera().expect("an embedding shows");
+    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane.pane.size())
 }
 
 /// A place of the plane's pane without a vertex near by.

@@ -48,12 +48,12 @@ fn the_list_of_defects_jumps_to_a_face_in_both_panes() {
     let mut window = folded();
     window.click(&format!("Defects {}", window.editor().defect_count()));
     let Defect::Flipped(face) = window.editor().defects()[1] else { panic!("flipped faces come first") };
-    let before = (window.editor().mesh.camera(), window.editor().plane.camera());
+    let before = (window.editor().mesh.pane.camera(), window.editor().plane.pane.camera());
     window.click(&format!("flipped face {face}"));
     let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
     assert_eq!(*window.editor().selection.vertices(), corners.into_iter().collect());
     assert_eq!(window.editor().selection.defect(), Some(1));
-    assert_ne!((window.editor().mesh.camera(), window.editor().plane.camera()), before);
+    assert_ne!((window.editor().mesh.pane.camera(), window.editor().plane.pane.camera()), before);
     let embedding = window.embedding();
     for corner in corners {
         assert!(window.plane_view().contains(window.place_in_plane(embedding[corner])));

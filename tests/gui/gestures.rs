@@ -27,8 +27,8 @@ fn pin(window: &mut Window, vertices: &[u32]) {
 /// A point of the screen as the embedding's camera sees it.
 fn in_embedding(window: &Window, at: Pos2) -> DVec2 {
     let relative = at - window.plane_view().min;
-    let camera = window.editor().plane.camera().expect("an embedding shows");
-    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane.area().size())
+    let camera = window.editor().plane.pane.camera().expect("an embedding shows");
+    camera.embedding_from_pane(DVec2::new(relative.x.into(), relative.y.into()), window.editor().plane.pane.size())
 }
 
 fn distance(a: &[DVec2], b: &[DVec2]) -> f64 {
@@ -119,7 +119,7 @@ fn a_box_drawn_with_ctrl_selects_what_is_in_it() {
     let mut window = window();
     let embedding = window.embedding();
     let view = window.plane_view();
-    let orbit = window.editor().mesh.camera();
+    let orbit = window.editor().mesh.pane.camera();
     // Begins just beside a vertex: the box counts from where the button went down.
     let corner = window.place_in_plane(embedding[30]) - Vec2::splat(4.0);
     window.drag(corner, view.max - Vec2::splat(2.0), Modifiers::COMMAND);
@@ -128,12 +128,12 @@ fn a_box_drawn_with_ctrl_selects_what_is_in_it() {
     let selected: Vec<u32> = window.editor().selection.vertices().iter().map(|v| v.number()).collect();
     assert!(expected.contains(&30) && expected.len() < embedding.len());
     assert_eq!(selected, expected);
-    assert_eq!(window.editor().mesh.camera(), orbit);
+    assert_eq!(window.editor().mesh.pane.camera(), orbit);
     let view = window.mesh_view();
     window.editor_mut().selection.select([]);
     window.drag(view.min + Vec2::splat(2.0), view.max - Vec2::splat(2.0), Modifiers::COMMAND);
     assert_eq!(window.editor().selection.vertices().len(), embedding.len(), "all of the mesh from the front");
-    assert_eq!(window.editor().mesh.camera(), orbit, "a box does not turn the mesh");
+    assert_eq!(window.editor().mesh.pane.camera(), orbit, "a box does not turn the mesh");
 }
 
 #[test]
@@ -274,13 +274,13 @@ fn escape_ends_the_tool_and_then_the_selection() {
 #[test]
 fn a_drag_on_the_mesh_orbits_and_with_shift_pans() {
     let mut window = window();
-    let before = window.editor().mesh.camera().expect("a mesh shows");
+    let before = window.editor().mesh.pane.camera().expect("a mesh shows");
     let from = window.mesh_view().center();
     window.drag(from, from + Vec2::new(50.0, 20.0), Modifiers::NONE);
-    let orbited = window.editor().mesh.camera().expect("a mesh shows");
+    let orbited = window.editor().mesh.pane.camera().expect("a mesh shows");
     assert_ne!(orbited, before);
     window.drag(from, from + Vec2::new(50.0, 20.0), Modifiers::SHIFT);
-    let panned = window.editor().mesh.camera().expect("a mesh shows");
+    let panned = window.editor().mesh.pane.camera().expect("a mesh shows");
     assert_ne!(panned, orbited);
     window.key(Key::F);
     assert!(document(&window).targets.is_empty() && window.editor().selection.vertices().is_empty());

@@ -101,19 +101,19 @@ fn a_vertex_is_picked_where_the_stage_shows_it() {
 fn the_camera_comes_back_where_the_stages_needed_more_room() {
     let mut window = bent();
     // Nearer than all of the hull.
-    let camera = window.editor_mut().plane.camera_mut().expect("framed");
+    let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
     camera.zoom_at(DVec2::splat(100.0), 1.5, DVec2::splat(400.0));
     let before = *camera;
     window.key(Key::H);
-    assert_ne!(window.editor().plane.camera(), Some(before), "all of the hull is framed");
+    assert_ne!(window.editor().plane.pane.camera(), Some(before), "all of the hull is framed");
     window.key(Key::H);
-    assert_eq!(window.editor().plane.camera(), Some(before));
+    assert_eq!(window.editor().plane.pane.camera(), Some(before));
     // Where somebody has moved it in between it stays.
     window.key(Key::H);
-    window.editor_mut().plane.camera_mut().expect("framed").pan(DVec2::splat(10.0));
-    let moved = window.editor().plane.camera();
+    window.editor_mut().plane.pane.camera_mut().expect("framed").pan(DVec2::splat(10.0));
+    let moved = window.editor().plane.pane.camera();
     window.key(Key::H);
-    assert_eq!(window.editor().plane.camera(), moved);
+    assert_eq!(window.editor().plane.pane.camera(), moved);
 }
 
 #[test]

@@ -62,10 +62,10 @@ fn it_shows_the_defect_gone_to() {
 fn a_click_goes_to_its_defect() {
     let mut window = folded();
     let name = inset(&window).expect("it shows");
-    let before = window.editor().plane.camera();
+    let before = window.editor().plane.pane.camera();
     window.click(&name);
     assert_eq!(window.editor().selection.defect(), Some(0));
-    assert_ne!(window.editor().plane.camera(), before);
+    assert_ne!(window.editor().plane.pane.camera(), before);
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn the_frame_on_the_layout_lies_around_the_defect_and_not_under_the_inset() {
     assert!(window.has_frame_around(place(&window)));
     // Pan until the defect lies where the inset was.
     let by = inset_rect(&window).center() - place(&window).center();
-    let camera = window.editor_mut().plane.camera_mut().expect("framed");
+    let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
     camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
     window.settle();
     assert!(!inset_rect(&window).intersects(place(&window)), "it has made room");
@@ -103,7 +103,7 @@ fn what_the_pane_shows_as_large_is_not_magnified() {
     let Defect::Flipped(face) = window.editor().defects()[0] else { panic!("flipped faces come first") };
     let corner = window.editor().session.model().expect("open").mesh().triangles[face.index()][0];
     let at = window.embedding()[corner.index()];
-    let camera = window.editor_mut().plane.camera_mut().expect("framed");
+    let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
     camera.frame(freebound::geom::Bounds { low: at - 1e-3, high: at + 1e-3 }, glam::DVec2::splat(400.0));
     window.settle();
     assert_eq!(inset(&window), None);
@@ -119,7 +119,7 @@ fn the_pointer_over_it_picks_nothing_behind_it() {
     window.harness.hover_at(at(&window));
     window.harness.run_steps(2);
     assert_eq!(window.editor().pointer.vertex(), Some(corner), "as long as nothing lies over it");
-    let camera = window.editor_mut().plane.camera_mut().expect("framed");
+    let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
     camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
     window.settle();
     assert!(inset_rect(&window).contains(at(&window)));

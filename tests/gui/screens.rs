@@ -193,9 +193,9 @@ fn a_pocket_is_filled_with_a_quarter_of_its_green() {
             (b - a).perp_dot(c - a)
         };
         let widest = stages.pockets.iter().max_by(|s, t| area(s).total_cmp(&area(t))).expect("a pocket");
-        let (corners, size) = (corners(widest), window.editor().plane.area().size());
+        let (corners, size) = (corners(widest), window.editor().plane.pane.size());
         let bounds = freebound::view::bounds_of(&corners);
-        window.editor_mut().plane.camera_mut().expect("framed").frame(bounds, size);
+        window.editor_mut().plane.pane.camera_mut().expect("framed").frame(bounds, size);
         let picture = picture(&mut window);
         let middle = window.place_in_plane(corners.iter().sum::<DVec2>() / 3.0);
         let mix = |a: u8, b: u8| u8::try_from((3 * u16::from(a) + u16::from(b)) / 4).expect("a mean of bytes");
@@ -214,7 +214,7 @@ fn the_magnifier_shows_its_flipped_face_hatched() {
         let mut window = drawn(name);
         fold(&mut window);
         // From afar hardly a pixel of the layout is red.
-        let camera = window.editor_mut().plane.camera_mut().expect("framed");
+        let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
         camera.zoom_at(DVec2::splat(150.0), 0.02, DVec2::splat(400.0));
         let picture = picture(&mut window);
         let inset = window.controls().into_iter().find(|(_, name, _)| name.starts_with("Magnifier: "));

@@ -57,7 +57,7 @@ fn shortcuts_do_what_the_table_says() {
         window.editor_mut().session.handle(Action::ShowStep(1));
         window.settle();
         assert_eq!(steps(&window), (3, Some(1)));
-        let (pins, orbit) = (document(&window).targets.len(), window.editor().mesh.camera());
+        let (pins, orbit) = (document(&window).targets.len(), window.editor().mesh.pane.camera());
         assert_eq!(pins, 3);
         // Away from where framing leads, and Select in hand where that is asked for.
         let request = (binding.request)();
@@ -88,7 +88,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::StepDefect(_) => editor.selection.defect().is_none(),
             Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
-            Request::Frame => editor.mesh.camera() != orbit,
+            Request::Frame => editor.mesh.pane.camera() != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),
             Request::SetShading(shading) => editor.look.shading == shading,
             Request::ToggleHull => editor.plane.hull_shown(),

@@ -71,11 +71,11 @@ fn an_embedding_that_leaves_the_pane_is_framed_anew_unless_a_detail_is_looked_at
     assert!(is_in_sight(&window));
     window.key(Key::ArrowRight);
     assert!(is_in_sight(&window), "the step moves the top of the face out of a view that stays");
-    let mut camera = window.editor().plane.camera().expect("framed");
-    camera.zoom_at(window.editor().plane.area().size() / 2.0, 4.0, window.editor().plane.area().size());
-    window.editor_mut().plane.set_camera(camera);
+    let mut camera = window.editor().plane.pane.camera().expect("framed");
+    camera.zoom_at(window.editor().plane.pane.size() / 2.0, 4.0, window.editor().plane.pane.size());
+    window.editor_mut().plane.pane.set_camera(camera);
     window.key(Key::ArrowLeft);
-    assert_eq!(window.editor().plane.camera(), Some(camera), "whoever looks at a detail keeps it");
+    assert_eq!(window.editor().plane.pane.camera(), Some(camera), "whoever looks at a detail keeps it");
 }
 
 #[test]

@@ -112,9 +112,10 @@ fn a_project_is_saved_and_opened_again() {
 fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
     let mut window = window();
     edit(&mut window);
-    let size = window.editor().plane.area().size();
+    let size = window.editor().plane.pane.size();
     let editor = window.editor_mut();
-    let (orbit, plane) = (editor.mesh.camera_mut().expect("a mesh"), editor.plane.camera_mut().expect("an embedding"));
+    let (orbit, plane) =
+        (editor.mesh.pane.camera_mut().expect("a mesh"), editor.plane.pane.camera_mut().expect("an embedding"));
     orbit.orbit(DVec2::new(70.0, -30.0));
     orbit.pan(DVec2::new(20.0, 10.0), size);
     plane.zoom_at(DVec2::splat(100.0), 5.0, size);
@@ -123,11 +124,11 @@ fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
     window.press(Modifiers::COMMAND, Key::S);
     window.click("Save");
     window.menu(&["File", "Examples", Example::Dome.title()]);
-    assert_ne!(window.editor().mesh.camera(), Some(orbit));
+    assert_ne!(window.editor().mesh.pane.camera(), Some(orbit));
     let path = window.path("sheet.freebound");
     window.open(&path);
     let (again, plane_again) =
-        (window.editor().mesh.camera().expect("a mesh"), window.editor().plane.camera().expect("solved"));
+        (window.editor().mesh.pane.camera().expect("a mesh"), window.editor().plane.pane.camera().expect("solved"));
     assert!(again.eye().distance(orbit.eye()) < 1e-9 && again.pivot().distance(orbit.pivot()) < 1e-9, "{again:?}");
     assert!(plane_again.center().distance(plane.center()) < 1e-9, "{plane_again:?}");
     // What the pane shows is kept, and a bar with a message makes it a little lower.

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use super::scene::MeshScene;
 use crate::session::{Background, Session, Wake};
-use crate::ui::panes::pane::{PaneArea, Viewport};
+use crate::ui::panes::pane::PaneView;
 use crate::view::{OrbitCamera, Sphere, UpAxis};
 
 #[derive(Debug)]
 pub struct MeshView {
-    area: PaneArea,
-    camera: Option<OrbitCamera>,
+    /// Its place and its camera.
+    pub pane: PaneView<OrbitCamera>,
     scene: Option<Arc<MeshScene>>,
     /// The scene that is being made, by the mesh's revision.
     job: Background<u64, MeshScene>,
@@ -18,33 +18,7 @@ pub struct MeshView {
 
 impl MeshView {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { area: PaneArea::default(), camera: None, scene: None, job: Background::new("mesh scene", wake) }
-    }
-
-    pub fn area(&self) -> &PaneArea {
-        &self.area
-    }
-
-    pub(in crate::ui) fn area_mut(&mut self) -> &mut PaneArea {
-        &mut self.area
-    }
-
-    /// The camera, once there is a mesh.
-    pub fn camera(&self) -> Option<OrbitCamera> {
-        self.camera
-    }
-
-    pub fn camera_mut(&mut self) -> Option<&mut OrbitCamera> {
-        self.camera.as_mut()
-    }
-
-    pub(in crate::ui) fn set_camera(&mut self, camera: OrbitCamera) {
-        self.camera = Some(camera);
-    }
-
-    /// What the window shows of it.
-    pub(in crate::ui) fn viewport(&self) -> Option<Viewport<OrbitCamera>> {
-        Some(Viewport { rect: self.area.rect()?, camera: self.camera? })
+        Self { pane: PaneView::default(), scene: None, job: Background::new("mesh scene", wake) }
     }
 
     /// The mesh as given.
@@ -58,8 +32,9 @@ impl MeshView {
 
     /// Shows a ball in full size.
     pub(super) fn frame(&mut self, ball: Sphere) {
-        if let Some(camera) = &mut self.camera {
-            camera.frame(ball, self.area.size());
+        let size = self.pane.size();
+        if let Some(camera) = self.pane.camera_mut() {
+            camera.frame(ball, size);
         }
     }
 
@@ -70,7 +45,7 @@ impl MeshView {
         let is_new = made.is_some();
         if let Some(scene) = made {
             // Another mesh, or the same one turned around, is seen from its outside.
-            self.camera = Some(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal));
+            self.pane.set_camera(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal));
             self.frame(scene.sphere);
             self.scene = Some(Arc::new(scene));
         }

@@ -17,7 +17,7 @@ impl Editor {
         ProjectView {
             mesh_shading: shading.clone(),
             plane_shading: shading,
-            mesh_camera: self.mesh.camera().and_then(|camera| finite(&camera.numbers())),
+            mesh_camera: self.mesh.pane.camera().and_then(|camera| finite(&camera.numbers())),
             plane_camera: self.plane_camera_numbers(),
             selection: self.selection.vertices().iter().map(|vertex| vertex.number()).collect(),
             tool: Some(self.tools.tool().words()[0].to_owned()),
@@ -50,9 +50,10 @@ impl Editor {
         if let Some(tool) = Tool::ALL.into_iter().find(|tool| view.tool.as_deref() == Some(tool.words()[0])) {
             self.tools.take_up(tool);
         }
-        let orbit = view.mesh_camera.zip(self.mesh.camera()).and_then(|(numbers, start)| start.with_numbers(&numbers));
+        let orbit =
+            view.mesh_camera.zip(self.mesh.pane.camera()).and_then(|(numbers, start)| start.with_numbers(&numbers));
         if let Some(orbit) = orbit {
-            self.mesh.set_camera(orbit);
+            self.mesh.pane.set_camera(orbit);
         }
         self.plane.set_saved_camera(view.plane_camera);
         let count = self.session.model().map_or(0, |model| model.mesh().vertex_count());
@@ -65,8 +66,8 @@ impl Editor {
         if let Some(saved) = self.plane.saved_camera() {
             return Some(saved.clone());
         }
-        let camera = self.plane.camera().filter(|_| !self.plane.is_framed())?;
-        finite(&camera.numbers(self.plane.area().size()))
+        let camera = self.plane.pane.camera().filter(|_| !self.plane.is_framed())?;
+        finite(&camera.numbers(self.plane.pane.size()))
     }
 }
 

@@ -34,52 +34,44 @@ pub enum Purpose {
     PanePicture(Pane),
 }
 
-#[derive(Clone, Copy)]
-pub(in crate::ui) struct FileType {
-    pub(in crate::ui) name: &'static str,
+/// The dialog of a purpose.
+pub(in crate::ui) struct DialogForm {
+    /// Its first word is that of the button.
+    pub(in crate::ui) title: &'static str,
+    /// What such files are called.
+    pub(in crate::ui) files: &'static str,
     /// How their names end, the first one where a name has no ending.
     pub(in crate::ui) extensions: &'static [&'static str],
+    /// The end of a suggested name.
+    pub(in crate::ui) ending: &'static str,
 }
 
-const OPENED: FileType = FileType { name: "Meshes and projects", extensions: &["obj", "freebound"] };
-const PICTURES: FileType = FileType { name: "Pictures", extensions: &["png", "jpg", "jpeg"] };
-const CONSTRAINTS: FileType = FileType { name: "Constraints", extensions: &["txt"] };
-const PROJECT: FileType = FileType { name: "Freebound project", extensions: &["freebound"] };
-const PNG: FileType = FileType { name: "PNG picture", extensions: &["png"] };
-
-impl FileType {
+impl DialogForm {
     /// Whether a name ends as those of such files do.
-    pub(in crate::ui) fn fits(self, path: &Path) -> bool {
+    pub(in crate::ui) fn fits(&self, path: &Path) -> bool {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         self.extensions.contains(&extension.as_str())
     }
 }
 
-pub(in crate::ui) struct DialogForm {
-    /// Its first word is that of the button.
-    pub(in crate::ui) title: &'static str,
-    pub(in crate::ui) files: FileType,
-    /// The end of a suggested name.
-    pub(in crate::ui) ending: &'static str,
-}
-
 impl Purpose {
     pub(in crate::ui) fn form(self) -> DialogForm {
-        let (title, files, ending) = match self {
-            Self::Open => ("Open a mesh or a project", OPENED, ""),
-            Self::OpenPicture => ("Open a picture", PICTURES, ""),
-            Self::ImportConstraints => ("Import constraints", CONSTRAINTS, ""),
-            Self::ExportConstraints => ("Export the constraints", CONSTRAINTS, "-constraints.txt"),
-            Self::SaveProject => ("Save the project", PROJECT, ".freebound"),
+        let (title, files, extensions, ending): (_, _, &[&str], _) = match self {
+            Self::Open => ("Open a mesh or a project", "Meshes and projects", &["obj", "freebound"], ""),
+            Self::OpenPicture => ("Open a picture", "Pictures", &["png", "jpg", "jpeg"], ""),
+            Self::ImportConstraints => ("Import constraints", "Constraints", &["txt"], ""),
+            Self::ExportConstraints => ("Export the constraints", "Constraints", &["txt"], "-constraints.txt"),
+            Self::SaveProject => ("Save the project", "Freebound project", &["freebound"], ".freebound"),
             Self::Export(kind, _) => {
                 let format = kind.format();
-                let files = FileType { name: format.name, extensions: slice::from_ref(&format.extension) };
-                (format.title, files, format.ending)
+                (format.title, format.name, slice::from_ref(&format.extension), format.ending)
             }
-            Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", PNG, "-mesh.png"),
-            Self::PanePicture(Pane::Plane) => ("Export a picture of the pane", PNG, "-embedding.png"),
+            Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", "PNG picture", &["png"], "-mesh.png"),
+            Self::PanePicture(Pane::Plane) => {
+                ("Export a picture of the pane", "PNG picture", &["png"], "-embedding.png")
+            }
         };
-        DialogForm { title, files, ending }
+        DialogForm { title, files, extensions, ending }
     }
 
     /// Whether a file is asked for that is there already.
@@ -90,6 +82,6 @@ impl Purpose {
     /// Whether a name will do: what is written has the extension that says so.
     pub(in crate::ui) fn takes(self, path: &Path) -> bool {
         let is_free = self.is_reading() || matches!(self, Self::Export(OutputKind::Obj, _) | Self::ExportConstraints);
-        is_free || self.form().files.fits(path)
+        is_free || self.form().fits(path)
     }
 }

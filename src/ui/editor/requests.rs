@@ -98,7 +98,7 @@ impl Editor {
 
     /// What a file that was dropped on the window asks for, by its name.
     pub(in crate::ui) fn dropped(path: PathBuf) -> Request {
-        let is_for = |purpose: Purpose| purpose.form().files.fits(&path);
+        let is_for = |purpose: Purpose| purpose.form().fits(&path);
         Request::Do(if is_for(Purpose::OpenPicture) {
             Action::OpenPicture(path)
         } else if is_for(Purpose::ImportConstraints) {

@@ -66,7 +66,7 @@ impl Editor {
         let bounds = self.with_picture(plane.arrays.bounds);
         let points: Vec<DVec2> = selected.iter().filter_map(|&v| plane.position_of(v)).collect();
         self.plane.frame(if selected.is_empty() { bounds } else { part_around(&points, bounds) });
-        if let Some(camera) = self.plane.camera().filter(|_| selected.is_empty() && plane.is_plain_result()) {
+        if let Some(camera) = self.plane.pane.camera().filter(|_| selected.is_empty() && plane.is_plain_result()) {
             self.plane.set_framed(camera);
         }
     }

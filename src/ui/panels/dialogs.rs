@@ -100,8 +100,8 @@ fn may_have_native() -> bool {
 }
 
 fn native_dialog(purpose: Purpose, suggestion: &Path) -> impl Future<Output = Option<PathBuf>> + Send + use<> {
-    let DialogForm { title, files, .. } = purpose.form();
-    let mut dialog = rfd::AsyncFileDialog::new().set_title(title).add_filter(files.name, files.extensions);
+    let DialogForm { title, files, extensions, .. } = purpose.form();
+    let mut dialog = rfd::AsyncFileDialog::new().set_title(title).add_filter(files, extensions);
     if let Some(folder) = suggestion.parent().filter(|folder| folder.is_dir()) {
         dialog = dialog.set_directory(folder);
     }
@@ -155,7 +155,7 @@ impl Browser {
     }
 
     fn list(&mut self) {
-        let files = self.purpose.form().files;
+        let form = self.purpose.form();
         let listed = |entry: std::fs::DirEntry| {
             let name = name_of(&entry.path());
             if name.starts_with('.') {
@@ -163,7 +163,7 @@ impl Browser {
             } else if entry.path().is_dir() {
                 Some(Entry::Folder(name))
             } else {
-                files.fits(Path::new(&name)).then_some(Entry::File(name))
+                form.fits(Path::new(&name)).then_some(Entry::File(name))
             }
         };
         (self.entries, self.problem) = match std::fs::read_dir(&self.folder) {
@@ -274,6 +274,6 @@ impl Browser {
         }
         let path = self.folder.join(name);
         let bare = !self.purpose.is_reading() && path.extension().is_none();
-        Some(if bare { path.with_extension(self.purpose.form().files.extensions[0]) } else { path })
+        Some(if bare { path.with_extension(self.purpose.form().extensions[0]) } else { path })
     }
 }

@@ -115,8 +115,8 @@ fn exports_window(context: &egui::Context, editor: &mut Editor, requests: &mut V
 impl Editor {
     /// Asks for a picture of the window, to cut a pane out of.
     pub(in crate::ui) fn shoot_pane(&mut self, pane: Pane, path: PathBuf) {
-        let area = if pane == Pane::Plane { self.plane.area() } else { self.mesh.area() };
-        let Some(part) = area.rect() else { return };
+        let part = if pane == Pane::Plane { self.plane.pane.rect() } else { self.mesh.pane.rect() };
+        let Some(part) = part else { return };
         let (sender, picture) = sync_channel(1);
         let wake = self.host.wake();
         let scale = self.host.context().pixels_per_point();

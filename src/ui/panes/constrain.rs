@@ -98,7 +98,7 @@ impl Editor {
     fn target_at(&self, place: DVec2, modifiers: egui::Modifiers) -> DVec2 {
         let document = self.session.document();
         let target = document.frame().uv_from_plane(place);
-        let (Some(picture), Some(camera)) = (&document.picture, self.plane.camera()) else { return target };
+        let (Some(picture), Some(camera)) = (&document.picture, self.plane.pane.camera()) else { return target };
         let pixels = DVec2::new(picture.pixels.width.into(), picture.pixels.height.into());
         let is_large = camera.points_per_unit() / pixels.y > SNAP_FROM;
         if is_large && !modifiers.alt { snapped(target, pixels) } else { target }
@@ -180,7 +180,7 @@ pub(super) fn preview(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Edito
 
 /// The line across both panes, from the vertex on the mesh to its place.
 pub(in crate::ui) fn line_across(ui: &egui::Ui, editor: &Editor) {
-    let (Some(mesh), Some(plane)) = (editor.mesh.viewport(), editor.plane.viewport()) else { return };
+    let (Some(mesh), Some(plane)) = (editor.mesh.pane.viewport(), editor.plane.pane.viewport()) else { return };
     if editor.tools.tool() != Tool::Constrain || editor.tools.pair().is_none() {
         return;
     }

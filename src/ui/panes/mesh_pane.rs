@@ -21,10 +21,10 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     pane::header(ui, editor, Pane::Mesh, requests);
     bars::bars(ui, editor, Pane::Mesh, requests);
     let (rect, response) = pane::surface(ui, "3D view of the mesh");
-    editor.mesh.area_mut().set_rect(rect);
+    editor.mesh.pane.set_rect(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
-    let (Some(scene), Some(mut camera)) = (editor.mesh_scene().map(Arc::clone), editor.mesh.camera()) else {
+    let (Some(scene), Some(mut camera)) = (editor.mesh_scene().map(Arc::clone), editor.mesh.pane.camera()) else {
         let lines: &[&str] = if editor.session.busy().is_some() {
             &["Opening…"]
         } else {
@@ -33,12 +33,12 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         return pane::empty_state(ui, rect, lines);
     };
     navigate(ui, &response, &scene, &mut camera);
-    if editor.mesh.camera() != Some(camera) {
-        editor.mesh.set_camera(camera);
+    if editor.mesh.pane.camera() != Some(camera) {
+        editor.mesh.pane.set_camera(camera);
         ui.ctx().request_repaint();
     }
     if let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(rect, at)) {
-        let pick = scene.picker.nearest_vertex(&camera, editor.mesh.area().size(), pointer, Visibility::Visible);
+        let pick = scene.picker.nearest_vertex(&camera, editor.mesh.pane.size(), pointer, Visibility::Visible);
         editor.pointer.over_mesh(pick.map(|pick| pick.vertex));
         editor.aim(ui, Pane::Mesh, None);
     }

@@ -52,27 +52,23 @@ impl Viewport<OrbitCamera> {
     }
 }
 
-/// Where a pane lies in the window.
+/// Where a pane lies in the window, and its camera, once there is something to see.
 #[derive(Clone, Copy, Debug)]
-pub struct PaneArea {
-    /// None where the pane does not show.
+pub struct PaneView<C> {
+    /// Points; none where the pane does not show.
     rect: Option<Rect>,
     size: DVec2,
+    camera: Option<C>,
 }
 
-impl Default for PaneArea {
+impl<C> Default for PaneView<C> {
     fn default() -> Self {
-        Self { rect: None, size: DVec2::splat(400.0) }
+        Self { rect: None, size: DVec2::splat(400.0), camera: None }
     }
 }
 
-impl PaneArea {
-    /// Points; `None` where the pane does not show.
-    pub(in crate::ui) fn rect(&self) -> Option<Rect> {
-        self.rect
-    }
-
-    /// Its size when it showed last, points.
+impl<C: Copy> PaneView<C> {
+    /// The size of the pane when it showed last, points.
     pub fn size(&self) -> DVec2 {
         self.size
     }
@@ -86,6 +82,31 @@ impl PaneArea {
     pub(in crate::ui) fn set_rect(&mut self, rect: Rect) -> bool {
         self.rect = Some(rect);
         std::mem::replace(&mut self.size, size_of(rect)) != self.size
+    }
+
+    pub fn camera(&self) -> Option<C> {
+        self.camera
+    }
+
+    pub fn camera_mut(&mut self) -> Option<&mut C> {
+        self.camera.as_mut()
+    }
+
+    pub fn set_camera(&mut self, camera: C) {
+        self.camera = Some(camera);
+    }
+
+    pub(in crate::ui) fn forget_camera(&mut self) {
+        self.camera = None;
+    }
+
+    /// What the window shows.
+    pub(in crate::ui) fn viewport(&self) -> Option<Viewport<C>> {
+        Some(Viewport { rect: self.rect?, camera: self.camera? })
+    }
+
+    pub(in crate::ui) fn rect(&self) -> Option<Rect> {
+        self.rect
     }
 }
 

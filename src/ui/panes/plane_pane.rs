@@ -27,12 +27,12 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     editor.lay_out_plane(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
-    let (Some(plane), Some(mut camera)) = (editor.plane.drawn().map(Arc::clone), editor.plane.camera()) else {
+    let (Some(plane), Some(mut camera)) = (editor.plane.drawn().map(Arc::clone), editor.plane.pane.camera()) else {
         return pane::empty_state(ui, rect, &waiting_words(editor));
     };
     navigate(ui, &response, &mut camera);
-    if editor.plane.camera() != Some(camera) {
-        editor.plane.set_camera(camera);
+    if editor.plane.pane.camera() != Some(camera) {
+        editor.plane.pane.set_camera(camera);
         ui.ctx().request_repaint();
     }
     let view = Viewport { rect, camera };

@@ -25,9 +25,6 @@ const MOST_POINTS: usize = 80;
 /// What stands for 0 where sizes are compared by their powers of ten.
 const LEAST_POWER: f64 = -17.0;
 
-/// Stands for a number that a step does not have.
-const NO_NUMBER: &str = "–";
-
 /// One number of each step.
 struct Curve {
     title: &'static str,
@@ -174,7 +171,7 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
         remark(ui, curve.title).on_hover_text(curve.about);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if let Some(shown) = timeline.shown() {
-                let words = curve.value_at(timeline, shown).map_or_else(|| NO_NUMBER.to_owned(), |v| curve.words(v));
+                let words = curve.value_at(timeline, shown).map_or_else(|| "–".to_owned(), |v| curve.words(v));
                 ui.label(RichText::new(words).small().color(theme.text));
             }
         });

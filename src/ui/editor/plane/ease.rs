@@ -65,10 +65,10 @@ impl PlaneView {
     /// The camera now, and the one that shows all of an embedding: where that is wanted.
     fn camera_along(&self, target: &PlaneScene, around: Surroundings) -> Option<[PlaneCamera; 2]> {
         let stays = self.hull_shown() || around.is_dragging;
-        let now = self.camera.filter(|_| self.is_framed() && !stays)?;
+        let now = self.pane.camera().filter(|_| self.is_framed() && !stays)?;
         let bounds = around.framed_box(target.arrays.bounds);
         let mut goal = now;
-        goal.frame(bounds, self.area.size());
+        goal.frame(bounds, self.pane.size());
         let is_small = goal.points_per_unit() > SMALL * now.points_per_unit();
         (!self.shows(now, bounds) || is_small).then_some([now, goal])
     }
@@ -90,13 +90,14 @@ impl PlaneView {
         let eased = share * share * (3.0 - 2.0 * share);
         let positions = way.from.iter().zip(target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect();
         way.drawn = Arc::new(target.with_positions(&target.mesh, positions));
-        if way.cameras.is_some() && self.camera != self.framed {
+        if way.cameras.is_some() && self.pane.camera() != self.framed {
             // Somebody has taken the camera.
             way.cameras = None;
         }
         if let Some([from, to]) = &way.cameras {
             let camera = from.toward(to, eased);
-            (self.camera, self.framed) = (Some(camera), Some(camera));
+            self.pane.set_camera(camera);
+            self.framed = Some(camera);
         }
         if start.elapsed() > BUDGET {
             self.too_large = Some(target.mesh.model_revision);

@@ -58,7 +58,8 @@ impl Stage {
 pub(super) struct HullView {
     shown: bool,
     stage: Stage,
-    scene: Option<HullScene>,
+    /// With the outcome's revision and the stage.
+    scene: Option<((u64, Stage), HullScene)>,
     /// The stage that is being made, with the outcome's revision.
     job: Background<(u64, Stage), HullScene>,
     /// The camera from before they showed, and the one that frames them.
@@ -68,8 +69,6 @@ pub(super) struct HullView {
 /// A stage, ready to be drawn.
 #[derive(Debug)]
 pub struct HullScene {
-    /// The outcome's revision and the stage.
-    key: (u64, Stage),
     /// The mesh at this stage, or with its outside; none where it is the result alone.
     plane: Option<Arc<PlaneScene>>,
     /// The faces' colours, where they are not the result's.
@@ -83,18 +82,16 @@ pub struct HullScene {
 
 impl HullScene {
     fn new(result: &PlaneScene, stage: Stage) -> Self {
-        let scene = match (&result.outcome.step.outside, &result.outcome.step.virtual_boundary) {
+        match (&result.outcome.step.outside, &result.outcome.step.virtual_boundary) {
             (Some(outside), _) => Self::of_outside(result, outside),
             (None, Some(stages)) => Self::of_stage(result, stage, stages),
             (None, None) => Self::of_free_boundary(result),
-        };
-        Self { key: (result.outcome_revision, stage), ..scene }
+        }
     }
 
     /// A hull with pockets, and the mesh as in the result.
     fn of_hull(corners: &[VertexId], pockets: &[[VertexId; 3]], caption: String) -> Self {
         Self {
-            key: (0, Stage::default()),
             plane: None,
             paint: None,
             hull: Arc::new(EdgeList::closed_loop(corners)),
@@ -240,21 +237,25 @@ impl PlaneView {
 
     /// Hull and pockets of the shown step, where they are wanted and made, and nothing follows a drag in its place.
     pub fn hull_scene(&self) -> Option<&HullScene> {
+        self.hull_made().map(|(_, scene)| scene)
+    }
+
+    fn hull_made(&self) -> Option<&((u64, Stage), HullScene)> {
         let revision = self.scene.as_ref()?.outcome_revision;
         let is_wanted = self.hull.shown && self.preview.is_none();
-        self.hull.scene.as_ref().filter(|scene| is_wanted && scene.key.0 == revision)
+        self.hull.scene.as_ref().filter(|(key, _)| is_wanted && key.0 == revision)
     }
 
     /// Whether hull and pockets are drawn as they were asked for.
     pub fn hull_is_drawn(&self) -> bool {
-        let shown = self.hull_scene().map(|scene| scene.key.1);
+        let shown = self.hull_made().map(|(key, _)| key.1);
         !self.hull.shown || self.scene.is_none() || self.preview.is_some() || shown == Some(self.hull.stage)
     }
 
     /// Makes the chosen stage in the background where it is not there yet.
     pub(super) fn poll_hull(&mut self) {
-        if let Some((_, Ok(scene))) = self.hull.job.poll() {
-            self.hull.scene = Some(scene);
+        if let Some((key, Ok(scene))) = self.hull.job.poll() {
+            self.hull.scene = Some((key, scene));
             self.frame_hull();
         }
         if self.hull.job.is_busy() {
@@ -266,7 +267,7 @@ impl PlaneView {
         }
         let Some(plane) = self.scene.clone() else { return };
         let key = (plane.outcome_revision, self.hull.stage);
-        if self.hull.scene.as_ref().is_none_or(|scene| scene.key != key) {
+        if self.hull.scene.as_ref().is_none_or(|(made, _)| *made != key) {
             self.hull.job.start(key, move |_| HullScene::new(&plane, key.1));
         }
     }
@@ -275,20 +276,21 @@ impl PlaneView {
     pub(in crate::ui::editor) fn toggle_hull(&mut self) {
         self.hull.shown = !self.hull.shown;
         if let Some([before, framing]) = self.hull.cameras.take()
-            && self.camera == Some(framing)
+            && self.pane.camera() == Some(framing)
         {
-            self.camera = Some(before);
+            self.pane.set_camera(before);
         }
     }
 
     /// Shows all of the hull, once it is there for the first time.
     fn frame_hull(&mut self) {
-        let (Some(plane), Some(before)) = (self.drawn(), self.camera) else { return };
+        let (Some(plane), Some(before)) = (self.drawn(), self.pane.camera()) else { return };
         let bounds = plane.arrays.bounds;
         if self.hull.cameras.is_none() && !self.shows(before, bounds) && !plane.is_plain_result() {
             let mut framing = before;
-            framing.frame(bounds, self.area.size());
-            (self.camera, self.hull.cameras) = (Some(framing), Some([before, framing]));
+            framing.frame(bounds, self.pane.size());
+            self.pane.set_camera(framing);
+            self.hull.cameras = Some([before, framing]);
         }
     }
 }

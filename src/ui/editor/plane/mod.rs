@@ -24,7 +24,7 @@ use super::views::picture_box;
 use crate::geom::Bounds;
 use crate::session::{Background, Session, Wake};
 use crate::solver::{Embedding, Verdict};
-use crate::ui::panes::pane::{PaneArea, Viewport};
+use crate::ui::panes::pane::PaneView;
 use crate::view::{FacePaint, PlaneCamera};
 use ease::Way;
 use ghost::Ghost;
@@ -32,8 +32,8 @@ use hull::HullView;
 
 #[derive(Debug)]
 pub struct PlaneView {
-    area: PaneArea,
-    camera: Option<PlaneCamera>,
+    /// Its place and its camera.
+    pub pane: PaneView<PlaneCamera>,
     /// The camera as the window chose it by itself.
     framed: Option<PlaneCamera>,
     /// The camera that the document was saved with, until there is an embedding to look at.
@@ -84,8 +84,7 @@ impl Surroundings<'_> {
 impl PlaneView {
     pub(super) fn new(wake: &Wake) -> Self {
         Self {
-            area: PaneArea::default(),
-            camera: None,
+            pane: PaneView::default(),
             framed: None,
             saved: None,
             scene: None,
@@ -98,53 +97,28 @@ impl PlaneView {
         }
     }
 
-    pub fn area(&self) -> &PaneArea {
-        &self.area
-    }
-
-    pub(in crate::ui) fn area_mut(&mut self) -> &mut PaneArea {
-        &mut self.area
-    }
-
-    /// The camera, once there is an embedding.
-    pub fn camera(&self) -> Option<PlaneCamera> {
-        self.camera
-    }
-
-    pub fn camera_mut(&mut self) -> Option<&mut PlaneCamera> {
-        self.camera.as_mut()
-    }
-
-    /// Takes a camera that a person chose.
-    pub fn set_camera(&mut self, camera: PlaneCamera) {
-        self.camera = Some(camera);
-    }
-
     /// Takes a camera that the window chose by itself.
     pub(super) fn set_framed(&mut self, camera: PlaneCamera) {
-        (self.camera, self.framed) = (Some(camera), Some(camera));
+        self.pane.set_camera(camera);
+        self.framed = Some(camera);
     }
 
     /// Whether nobody has moved the camera since the window chose it.
     pub(super) fn is_framed(&self) -> bool {
-        self.camera.is_some() && self.camera == self.framed
+        self.framed.is_some() && self.pane.camera() == self.framed
     }
 
     /// Whether a camera shows all of a box.
     fn shows(&self, camera: PlaneCamera, bounds: Bounds) -> bool {
-        let seen = camera.visible(self.area.size());
+        let seen = camera.visible(self.pane.size());
         seen.low.cmple(bounds.low).all() && seen.high.cmpge(bounds.high).all()
-    }
-
-    /// What the window shows of it.
-    pub(in crate::ui) fn viewport(&self) -> Option<Viewport<PlaneCamera>> {
-        Some(Viewport { rect: self.area.rect()?, camera: self.camera? })
     }
 
     /// Shows a box in full size.
     pub(super) fn frame(&mut self, bounds: Bounds) {
-        if let Some(camera) = &mut self.camera {
-            camera.frame(bounds, self.area.size());
+        let size = self.pane.size();
+        if let Some(camera) = self.pane.camera_mut() {
+            camera.frame(bounds, size);
         }
     }
 
@@ -184,7 +158,8 @@ impl PlaneView {
 impl PlaneView {
     /// Forgets the embedding of a mesh that is gone.
     pub(super) fn forget(&mut self) {
-        (self.camera, self.scene, self.way, self.preview) = (None, None, None, None);
+        (self.scene, self.way, self.preview) = (None, None, None);
+        self.pane.forget_camera();
         self.job.cancel();
     }
 
@@ -205,7 +180,7 @@ impl PlaneView {
     fn poll_scene(&mut self, around: Surroundings) -> Option<Arc<PlaneScene>> {
         let new = self.job.poll().and_then(|(_, scene)| scene.ok()).map(Arc::new);
         if let Some(scene) = &new {
-            if self.camera.is_none() {
+            if self.pane.camera().is_none() {
                 self.look_at_first(scene, around);
             }
             self.take(Arc::clone(scene), around);
@@ -230,22 +205,22 @@ impl PlaneView {
 
     /// Shows all of the first embedding, or what the document was saved with.
     fn look_at_first(&mut self, scene: &PlaneScene, around: Surroundings) {
-        let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds), self.area.size());
+        let camera = PlaneCamera::framing(around.framed_box(scene.arrays.bounds), self.pane.size());
         self.set_framed(camera);
-        if let Some(saved) = self.saved.take().and_then(|numbers| camera.with_numbers(&numbers, self.area.size())) {
-            self.camera = Some(saved);
+        if let Some(saved) = self.saved.take().and_then(|numbers| camera.with_numbers(&numbers, self.pane.size())) {
+            self.pane.set_camera(saved);
         }
     }
 
     /// Takes another size of the pane, and keeps the whole embedding in it where nobody chose another camera.
     pub(super) fn set_rect(&mut self, rect: egui::Rect, around: Surroundings) {
-        if !self.area.set_rect(rect) {
+        if !self.pane.set_rect(rect) {
             return;
         }
         let plane = self.drawn().filter(|_| self.is_framed());
         let bounds = plane.map(|plane| around.framed_box(plane.arrays.bounds));
-        if let (Some(bounds), Some(mut camera)) = (bounds, self.camera) {
-            camera.frame(bounds, self.area.size());
+        if let (Some(bounds), Some(mut camera)) = (bounds, self.pane.camera()) {
+            camera.frame(bounds, self.pane.size());
             self.set_framed(camera);
         }
     }
