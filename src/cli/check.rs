@@ -5,9 +5,9 @@ use std::time::Instant;
 use super::args::CheckArguments;
 use super::flatten::{disk_of, go_on};
 use super::progress::is_interrupted;
-use super::summary::{StandardOutput, deliver};
+use super::summary::deliver;
 use super::{Failure, Status};
-use crate::io::{MeshReport, Report, Seconds, TextureError, WriteError, verdict_as_in_file};
+use crate::io::{MeshReport, Report, Seconds, TextureError, verdict_as_in_file};
 use crate::mesh::DiskMesh;
 use crate::session::Model;
 use crate::solver::{distortion, verdict};
@@ -28,7 +28,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
                  coordinates",
                 notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
             );
-            conclude(arguments, &report, &words)?;
+            deliver(&report, arguments.report.as_deref(), || println!("{words}"))?;
             return Ok(Status::Fine);
         }
         Err(error) => return Err(error.into()),
@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         distortion: Some(distortion.summary),
         ..report(MeshReport::new(path, &mesh), start, read)
     };
-    conclude(arguments, &report, &words)?;
+    deliver(&report, arguments.report.as_deref(), || println!("{words}"))?;
     Ok(if verdict.planar { Status::Fine } else { Status::FallsShort })
 }
 
@@ -56,12 +56,4 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
 fn report(mesh: MeshReport, start: Instant, read: f64) -> Report {
     let total = start.elapsed().as_secs_f64();
     Report { seconds: Seconds { read, verify: total - read, total, ..Seconds::default() }, ..Report::of_mesh(mesh) }
-}
-
-/// Delivers the report, and the words where there is room for them.
-fn conclude(arguments: &CheckArguments, report: &Report, words: &str) -> Result<(), WriteError> {
-    if deliver(report, arguments.report.as_deref())? == StandardOutput::Free {
-        println!("{words}");
-    }
-    Ok(())
 }

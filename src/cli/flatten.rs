@@ -9,7 +9,7 @@ use std::time::Instant;
 use super::args::FlattenArguments;
 use super::exit::conclude;
 use super::progress::{INTERRUPTED, Progress, is_interrupted, stop_on_interrupt};
-use super::summary::{StandardOutput, deliver, ending_words, print_conflicts, print_summary, step_words};
+use super::summary::{deliver, ending_words, print_conflicts, print_summary, step_words};
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::{
@@ -154,9 +154,8 @@ impl HeadlessJob<'_> {
         }
         output.report.seconds.write = before_writing.elapsed().as_secs_f64();
         output.report.seconds.total = start.elapsed().as_secs_f64();
-        if deliver(&output.report, self.report)? == StandardOutput::Free {
-            print_summary(&output.report, &ending_words(&solved, &output));
-        }
+        let print = || print_summary(&output.report, &ending_words(&solved, &output));
+        deliver(&output.report, self.report, print)?;
         let are_met = output.report.pins.is_none_or(|pins| pins.unmet.is_empty());
         Ok(if output.verdict.planar && are_met { Status::Fine } else { Status::FallsShort })
     }

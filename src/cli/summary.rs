@@ -82,26 +82,19 @@ fn pins_words(pins: &PinsReport) -> Option<String> {
     (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
 }
 
-/// Whether standard output may be written to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum StandardOutput {
-    /// It may.
-    Free,
-    /// A report is on it, which must stand alone.
-    Taken,
-}
-
-/// Writes a report where it is wanted: into a file, or to standard output for `-`.
-pub(super) fn deliver(report: &Report, to: Option<&Path>) -> Result<StandardOutput, WriteError> {
+/// Writes a report where it is wanted: into a file, or to standard output for `-`, where it must stand alone. Otherwise
+/// prints the words for a person.
+pub(super) fn deliver(report: &Report, to: Option<&Path>, print: impl FnOnce()) -> Result<(), WriteError> {
     match to {
         Some(path) if path == Path::new("-") => {
             println!("{}", serde_json::to_string_pretty(report).expect("a report is plain data"));
-            return Ok(StandardOutput::Taken);
+            return Ok(());
         }
         Some(path) => report.write(path)?,
         None => {}
     }
-    Ok(StandardOutput::Free)
+    print();
+    Ok(())
 }
 
 /// Prints what a run came to.

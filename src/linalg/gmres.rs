@@ -94,21 +94,21 @@ impl<T: Scalar> Krylov<T> {
                 *entry += part;
             }
         }
-        let left = norm(next.iter().copied());
+        let below = norm(next.iter().copied());
         if !before.is_finite() || before == 0.0 {
             return false;
         }
-        self.rotate(column, left);
-        let grows = left > f64::EPSILON * before;
+        self.rotate(column, below);
+        let grows = below > f64::EPSILON * before;
         if grows {
-            scale(&mut next, left.recip());
+            scale(&mut next, below.recip());
             self.basis.push(next);
         }
         grows
     }
 
-    /// Applies the rotations so far to a new column and adds the one that removes `left` below its diagonal.
-    fn rotate(&mut self, mut column: Vec<T>, left: f64) {
+    /// Applies the rotations so far to a new column and adds the one that removes the entry `below` its diagonal.
+    fn rotate(&mut self, mut column: Vec<T>, below: f64) {
         for (k, &(cosine, sine)) in self.rotations.iter().enumerate() {
             let (upper, lower) = (column[k], column[k + 1]);
             column[k] = upper.scale(cosine) + sine * lower;
@@ -117,10 +117,10 @@ impl<T: Scalar> Krylov<T> {
         let k = column.len() - 1;
         let diagonal = column[k];
         let modulus = norm(std::iter::once(diagonal));
-        let length = modulus.hypot(left);
+        let length = modulus.hypot(below);
         let (cosine, sine) =
-            if modulus == 0.0 { (0.0, T::ONE) } else { (modulus / length, diagonal.scale(left / (modulus * length))) };
-        column[k] = diagonal.scale(cosine) + sine.scale(left);
+            if modulus == 0.0 { (0.0, T::ONE) } else { (modulus / length, diagonal.scale(below / (modulus * length))) };
+        column[k] = diagonal.scale(cosine) + sine.scale(below);
         let above = self.rhs[k];
         self.rhs[k] = above.scale(cosine);
         self.rhs.push(-(sine.conjugate() * above));

@@ -74,7 +74,7 @@ struct Ring<'a> {
     previous: Vec<usize>,
     /// Corners that do not turn left: only these can lie in an ear. May hold corners that have changed since.
     blockers: Vec<usize>,
-    gone: Vec<bool>,
+    clipped: Vec<bool>,
 }
 
 impl Ring<'_> {
@@ -91,13 +91,13 @@ impl Ring<'_> {
         let [a, b, c] = corners;
         let holds = |p: DVec2| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
         // Corners at the same place as one of the ear's own (a bridge to a hole) do not block it.
-        !self.blockers.iter().any(|&v| !self.gone[v] && !corners.contains(&self.points[v]) && holds(self.points[v]))
+        !self.blockers.iter().any(|&v| !self.clipped[v] && !corners.contains(&self.points[v]) && holds(self.points[v]))
     }
 
-    /// Forgets blockers that are gone or turn left by now.
+    /// Forgets blockers that are clipped or turn left by now.
     fn drop_idle_blockers(&mut self) {
         let mut blockers = std::mem::take(&mut self.blockers);
-        blockers.retain(|&v| !self.gone[v] && !self.is_convex(v));
+        blockers.retain(|&v| !self.clipped[v] && !self.is_convex(v));
         self.blockers = blockers;
     }
 
@@ -105,7 +105,7 @@ impl Ring<'_> {
         let (before, after) = (self.previous[at], self.next[at]);
         self.next[before] = after;
         self.previous[after] = before;
-        self.gone[at] = true;
+        self.clipped[at] = true;
         [before, at, after]
     }
 }
@@ -117,16 +117,16 @@ fn clip_ears(points: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
         next: (1..n).chain([0]).collect(),
         previous: [n - 1].into_iter().chain(0..n - 1).collect(),
         blockers: Vec::new(),
-        gone: vec![false; n],
+        clipped: vec![false; n],
     };
     ring.blockers = (0..n).filter(|&v| !ring.is_convex(v)).collect();
     let mut at = 1;
-    let mut left = n;
+    let mut remaining = n;
     let mut tried = 0;
     let mut simple = true;
-    while left > 3 {
+    while remaining > 3 {
         // When all corners were tried in vain, the polygon is not simple, and looking for more ears is idle.
-        simple &= tried < left;
+        simple &= tried < remaining;
         if simple && !ring.is_ear(at) {
             tried += 1;
             at = ring.next[at];
@@ -134,9 +134,9 @@ fn clip_ears(points: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
         }
         let triangle = ring.clip(at);
         emit(triangle);
-        left -= 1;
+        remaining -= 1;
         tried = 0;
-        if left.is_power_of_two() {
+        if remaining.is_power_of_two() {
             ring.drop_idle_blockers();
         }
         // Goes past the new side, so that ears are taken all around rather than from one corner.

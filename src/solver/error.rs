@@ -92,7 +92,7 @@ pub enum SolveError {
         second: VertexId,
     },
 
-    /// Continuation is stuck, and no other way is left.
+    /// Continuation is stuck, and no rung follows it.
     #[error("the constraints cannot be met without new vertices: the best planar embedding is the step before")]
     Unmet,
 
@@ -104,7 +104,7 @@ pub enum SolveError {
     #[error("only a planar embedding can be relaxed: make it planar first")]
     NotPlanar,
 
-    /// The last rung of the ladder has no way left.
+    /// The last rung of the ladder has no further step.
     #[error("the whole boundary is on a circle, and 64-bit numbers still cannot hold the faces apart")]
     LadderExhausted,
 

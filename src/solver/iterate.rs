@@ -1,8 +1,9 @@
 //! The mean-value iteration: solve again with weights from the latest embedding (paper §4).
 //!
 //! `x_{k+1} = A(x_k)⁻¹ b`, where A(x) holds the mean-value equations of the planar geometry x, angles unsigned. The
-//! pins stay what they are. A planar embedding is a fixed point; a fixed point with turning number 1 that meets *all*
-//! equations is planar (Theorem 2). Nothing is solved for such an embedding. It is solved for the move `x_{k+1} − x_k`, so that rounding dies away with it. The pattern never changes, so it is ordered and analysed once a run.
+//! pins stay what they are. A planar embedding is a fixed point, and nothing is solved for it; a fixed point with turning
+//! number 1 that meets *all* equations is planar (Theorem 2). The move `x_{k+1} − x_k` is what is solved for, so that its
+//! rounding shrinks with it. The pattern never changes: it is ordered and analysed once a run.
 
 use std::time::Instant;
 

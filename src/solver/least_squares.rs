@@ -227,7 +227,7 @@ fn equation_of(site: Site<'_>, equations: &Equations<C64>, vertex: VertexId) -> 
     site.mesh.outgoing(vertex).filter_map(entry).collect()
 }
 
-/// What a vertex that is left out gives to the equations of the others.
+/// Coefficients of a vertex without unknown in the equations of the others.
 fn column_of(site: Site<'_>, equations: &Equations<C64>, vertex: VertexId) -> Vec<C64> {
     let mut column = vec![C64::ZERO; site.system.free().len()];
     for h in site.mesh.outgoing(vertex) {

@@ -55,7 +55,7 @@ impl Relaxing {
         match self.descend(mesh, &outside, control) {
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
             Ok(()) => {}
-            // Where rounding leaves no direction, it is as low as it gets.
+            // No direction of descent but for rounding: the energy is as low as it gets.
             Err(_) => self.has_converged = true,
         }
         let candidate = Candidate::one_to_one(Method::Relax, self.embedding.clone(), &self.pins);

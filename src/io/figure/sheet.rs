@@ -46,10 +46,7 @@ pub struct Panel {
 
 impl Panel {
     fn inset_count(&self) -> usize {
-        match &self.drawing {
-            Drawing::Plane(plane) => plane.insets.len(),
-            Drawing::Space(_) | Drawing::Photo(_) => 0,
-        }
+        if let Drawing::Plane(plane) = &self.drawing { plane.insets.len() } else { 0 }
     }
 
     fn draw(&self, page: &mut Page, cell: Bounds, inset: f64) {

@@ -108,23 +108,23 @@ fn relax(parent: &mut [u32], groups: &mut [Group]) -> Vec<u32> {
     merged_into
 }
 
-/// The standing supernodes in a postorder that visits first the child that needs most room beyond what it leaves
-/// behind (Liu 1986, "On the storage requirement in the out-of-core multifrontal method").
+/// The standing supernodes in a postorder that visits first the child that needs most room beyond its
+/// update (Liu 1986, "On the storage requirement in the out-of-core multifrontal method").
 fn order_for_memory(parent: &[u32], groups: &[Group], merged_into: &[u32]) -> Vec<u32> {
     let count = groups.len();
     let standing: Vec<u32> = (0..narrow(count)).filter(|&node| merged_into[node as usize] == node).collect();
     let mut children: Vec<Vec<u32>> = vec![Vec::new(); count];
     let mut peak = vec![0u64; count];
-    let left = |node: u32| groups[node as usize].below.pow(2);
+    let update_len = |node: u32| groups[node as usize].below.pow(2);
     for &node in &standing {
         let brood = &mut children[node as usize];
-        brood.sort_by_key(|&child| (std::cmp::Reverse(peak[child as usize] - left(child)), child));
+        brood.sort_by_key(|&child| (std::cmp::Reverse(peak[child as usize] - update_len(child)), child));
         let (mut waiting, mut highest) = (0, 0);
         for &child in brood.iter() {
             highest = highest.max(waiting + peak[child as usize]);
-            waiting += left(child);
+            waiting += update_len(child);
         }
-        peak[node as usize] = highest.max(waiting + left(node));
+        peak[node as usize] = highest.max(waiting + update_len(node));
         if parent[node as usize] != NONE {
             children[parent[node as usize] as usize].push(node);
         }

@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec2;
 
 use super::plan::PlanarStart;
-use super::rung::{Failure, Footing, Latest, Rung, WayOn};
+use super::rung::{Failure, Footing, Handover, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Ending, Step};
 use crate::geom::Similarity;
@@ -105,8 +105,8 @@ impl Rung for Continue {
             let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held).since(began);
             return Ok(Candidate { progress: Some(progress), ..candidate });
         }
-        let way_on = WayOn { embedding: Some(embedding), ..WayOn::default() };
-        Err(Failure { error: SolveError::Unmet, way_on: Some(way_on) })
+        let handover = Handover { embedding: Some(embedding), ..Handover::default() };
+        Err(Failure { error: SolveError::Unmet, handover: Some(handover) })
     }
 
     fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {

@@ -65,7 +65,7 @@ pub struct Ladder {
     step_count: usize,
     latest: Option<Latest>,
     ending: Option<Ending>,
-    /// What there is to say about the next step: why others gave nothing.
+    /// Notes on the next step: why rungs before it gave no candidate.
     notes: Notes,
 }
 
@@ -186,20 +186,20 @@ impl Ladder {
             };
             let task = Arc::clone(&self.plan.part().task);
             let from = Footing { task: &task, mesh, latest };
-            let Failure { error, way_on } = match self.plan.part_mut().enter(place).step(from, control) {
+            let Failure { error, handover } = match self.plan.part_mut().enter(place).step(from, control) {
                 Ok(candidate) => return Ok(candidate),
                 Err(failure) => failure,
             };
-            let Some(way_on) = way_on else { return Err(error) };
+            let Some(handover) = handover else { return Err(error) };
             if !self.plan.part_mut().leave_flight(place) {
                 if !self.plan.has_next_part() {
                     return Err(error);
                 }
                 self.enter_next_part()?;
             }
-            self.notes.say(way_on.note);
+            self.notes.say(handover.note);
             if let Some(latest) = &mut self.latest {
-                latest.onward = way_on.embedding;
+                latest.onward = handover.embedding;
             }
         }
     }

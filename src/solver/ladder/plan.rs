@@ -2,7 +2,7 @@
 //!
 //! A plan has parts, a part has flights, a flight has rungs. After a rung's last step the next one of its flight
 //! follows; a rung that gives nothing, or that does not apply where the ladder comes to it, leads to the next flight.
-//! A part is left where it is solved, and relaxed; or where its flights are at their end.
+//! A part ends where it is solved, and relaxed; or with its last flight.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use glam::DVec2;
 
-use super::rung::{Failure, Footing, Latest, Rung, WayOn};
+use super::rung::{Failure, Footing, Handover, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Step, gauge_in};
 use crate::geom::Similarity;
@@ -48,8 +48,8 @@ impl Rung for Relax {
         self.round(from, control).map_err(|error| {
             // What was planar before is still there to go on from.
             let is_start = !from.task.is_constrained();
-            let way_on = (is_start && error != SolveError::Cancelled).then(WayOn::default);
-            Failure { error, way_on }
+            let handover = (is_start && error != SolveError::Cancelled).then(Handover::default);
+            Failure { error, handover }
         })
     }
 

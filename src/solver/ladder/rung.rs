@@ -33,7 +33,7 @@ pub(super) trait Rung: std::fmt::Debug + Send {
     }
 }
 
-/// What a step goes on from.
+/// Start of a step.
 #[derive(Clone, Copy)]
 pub(super) struct Footing<'a> {
     /// What the part of the plan is asked for.
@@ -47,7 +47,7 @@ pub(super) struct Footing<'a> {
 #[derive(Debug)]
 pub(super) struct Latest {
     pub(super) embedding: Embedding,
-    /// What the next rung goes on from, where it is not this step.
+    /// Start of the next rung, where it is not this step.
     pub(super) onward: Option<Embedding>,
     /// The pins in force.
     pub(super) pins: Pins,
@@ -62,22 +62,22 @@ pub(super) struct Latest {
 #[derive(Debug)]
 pub(super) struct Failure {
     pub(super) error: SolveError,
-    /// How the ladder goes on all the same, where it has further flights.
-    pub(super) way_on: Option<WayOn>,
+    /// For the next flight, where the failure is not the end.
+    pub(super) handover: Option<Handover>,
 }
 
-/// What a rung that gave nothing hands on.
+/// What a rung without a candidate hands on.
 #[derive(Debug, Default)]
-pub(super) struct WayOn {
-    /// What there is to say about it.
+pub(super) struct Handover {
+    /// Why there was none.
     pub(super) note: Option<String>,
-    /// What the next rung goes on from, where it is not the latest step.
+    /// Start of the next rung, where it is not the latest step.
     pub(super) embedding: Option<Embedding>,
 }
 
 impl From<SolveError> for Failure {
     fn from(error: SolveError) -> Self {
-        Self { error, way_on: None }
+        Self { error, handover: None }
     }
 }
 
@@ -88,11 +88,11 @@ impl Failure {
             return error.into();
         }
         let note = Some(format!("{what} gave nothing: {error}"));
-        Self { error, way_on: Some(WayOn { note, embedding: None }) }
+        Self { error, handover: Some(Handover { note, embedding: None }) }
     }
 }
 
-/// What there is to say about the next step, each thing once.
+/// Notes on the next step, each once.
 #[derive(Debug, Default)]
 pub(super) struct Notes(Vec<String>);
 
