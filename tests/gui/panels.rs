@@ -205,7 +205,7 @@ fn delete_frees_the_selected_pins() {
         let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
         pin(&mut window, &[0, 24, 48]);
         window.click("v24");
-        assert!(window.editor().selection.contains(VertexId::new(24)));
+        assert!(window.editor().selection.vertices().contains(&VertexId::new(24)));
         window.key(key);
         assert_eq!(window.editor().session.document().targets.len(), 2, "{key:?}");
     }

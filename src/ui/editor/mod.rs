@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `mod.rs` | the editor: its parts, and what it does in each frame |
 //! | `request.rs`, `requests.rs` | what a person asks of the window, and what it does; moves along the timeline |
-//! | `purpose.rs` | files that are asked for, and what can be exported |
+//! | `purpose.rs` | files that are asked for |
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |

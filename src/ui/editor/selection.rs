@@ -22,10 +22,6 @@ impl Selection {
         &self.vertices
     }
 
-    pub fn contains(&self, vertex: VertexId) -> bool {
-        self.vertices.contains(&vertex)
-    }
-
     /// Selects exactly these vertices.
     pub fn select(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
         self.vertices = vertices.into_iter().collect();

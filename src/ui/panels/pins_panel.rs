@@ -83,7 +83,7 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
     let Row { vertex, target, held, .. } = row;
     hold_button(ui, row, requests);
-    let selected = editor.selection.contains(vertex);
+    let selected = editor.selection.vertices().contains(&vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
     let label = label.on_hover_text("Select; Shift selects all up to it, Ctrl adds it, a double click shows it");
     if label.double_clicked() {

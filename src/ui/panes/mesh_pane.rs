@@ -174,7 +174,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
             } else if editor.session.conflict_of(pin.vertex).is_some() {
                 pins::conflict_mark(&painter, at, theme);
             }
-            pin.kind.mark(&painter, at, theme, Emphasis::strong_if(editor.selection.contains(pin.vertex)));
+            pin.kind.mark(&painter, at, theme, Emphasis::strong_if(editor.selection.vertices().contains(&pin.vertex)));
         }
     }
     for at in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| seen(vertex)) {

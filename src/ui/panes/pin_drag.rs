@@ -75,7 +75,7 @@ pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut E
         }
         let grip = Grip { pin, at, view };
         let mut response = grip.widget(ui, editor);
-        let is_strong = response.hovered() || editor.selection.contains(pin.vertex);
+        let is_strong = response.hovered() || editor.selection.vertices().contains(&pin.vertex);
         if let Some(conflict) = editor.session.conflict_of(pin.vertex) {
             pins::conflict_mark(&painter, at, theme);
             response = response.on_hover_text(sentence(&conflict.words()));
@@ -143,9 +143,10 @@ impl Grip {
     fn grab(&self, ui: &egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
         let PinShown { vertex, target, .. } = self.pin;
         let pressed = ui.input(|input| input.pointer.press_origin());
-        let goes_together = editor.selection.contains(vertex);
+        let goes_together = editor.selection.vertices().contains(&vertex);
         let others: Vec<(VertexId, DVec2)> = if goes_together {
-            let selected = editor.pins_shown().into_iter().filter(|pin| editor.selection.contains(pin.vertex));
+            let selected =
+                editor.pins_shown().into_iter().filter(|pin| editor.selection.vertices().contains(&pin.vertex));
             selected.filter(|pin| pin.vertex != vertex).map(|pin| (pin.vertex, pin.target - target)).collect()
         } else {
             requests.push(Request::Select(vec![vertex]));

@@ -3,13 +3,11 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | camera, the scene of the step on the screen, the embedding that follows a dragged pin |
-//! | `ease.rs` | the way between two steps |
+//! | `steps.rs` | the way between two steps, the outline of the compared one |
 //! | `hull.rs` | hull and pockets of the virtual boundary |
-//! | `ghost.rs` | the outline of the compared step |
 
-mod ease;
-mod ghost;
 mod hull;
+mod steps;
 
 use std::sync::Arc;
 
@@ -26,9 +24,8 @@ use crate::session::{Background, Session, Wake};
 use crate::solver::{Embedding, Verdict};
 use crate::ui::panes::pane::PaneView;
 use crate::view::{FacePaint, PlaneCamera};
-use ease::Way;
-use ghost::Ghost;
 use hull::HullView;
+use steps::{Ghost, Way};
 
 #[derive(Debug)]
 pub struct PlaneView {

@@ -1,4 +1,6 @@
-//! The way from one step to the next, shown: vertices glide to their new places when another step of a run is put on the
+//! Two steps: the way from one to the next, and the outline of the compared one over the one on the screen.
+//!
+//! The way is shown: vertices glide to their new places when another step of a run is put on the
 //! screen. Connectivity never changes, so only positions are interpolated. Both panes draw from the same arrays.
 //!
 //! Where nobody has moved the camera since the window framed the embedding, it goes along with an embedding that would
@@ -7,10 +9,16 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use glam::DVec2;
+
 use super::{PlaneView, Surroundings};
+use crate::mesh::VertexId;
+use crate::render::{GhostLayer, LineLayer};
+use crate::session::{Outcome, Session};
 use crate::solver::Embedding;
+use crate::ui::Theme;
 use crate::ui::editor::scene::PlaneScene;
-use crate::view::PlaneCamera;
+use crate::view::{EdgeList, PlaneArrays, PlaneCamera};
 
 /// How long the way takes, seconds.
 const SECONDS: f64 = 0.25;
@@ -32,6 +40,16 @@ pub(super) struct Way {
     pub(super) drawn: Arc<PlaneScene>,
     /// From where and to where the camera goes.
     cameras: Option<[PlaneCamera; 2]>,
+}
+
+/// The boundary of the compared step, ready to be drawn over the one on the screen.
+#[derive(Debug)]
+pub(super) struct Ghost {
+    /// The revision of the outcome on the screen, and the compared step.
+    key: (u64, usize),
+    /// The boundary's vertices only, in the unit space of the outcome on the screen.
+    arrays: Arc<PlaneArrays>,
+    edges: Arc<EdgeList>,
 }
 
 impl PlaneView {
@@ -112,5 +130,42 @@ impl PlaneView {
         if let Some([_, goal]) = way.and_then(|way| way.cameras).filter(|_| self.is_framed()) {
             self.set_framed(goal);
         }
+    }
+
+    /// The outline, as the pane draws it.
+    pub(in crate::ui) fn ghost_layer(&self, theme: &Theme) -> Option<GhostLayer> {
+        let ghost = self.ghost.as_ref()?;
+        let line = LineLayer { edges: Arc::clone(&ghost.edges), colour: theme.ghost, width_in_points: 2.0 };
+        Some(GhostLayer { plane: Arc::clone(&ghost.arrays), line })
+    }
+
+    /// The step whose outline shows.
+    pub fn ghost_step(&self) -> Option<usize> {
+        self.ghost.as_ref().map(|ghost| ghost.key.1)
+    }
+
+    /// The step that moves are measured from: the compared one, or else the one before, as far as it is kept.
+    pub fn moved_from<'a>(&self, session: &'a Session) -> Option<&'a Arc<Outcome>> {
+        let timeline = session.timeline();
+        let shown = self.scene.as_ref()?.outcome.step.index;
+        let compared = timeline.compared().filter(|&compared| compared != shown);
+        timeline.outcome(compared.or_else(|| shown.checked_sub(1))?)
+    }
+
+    /// Makes the outline of the compared step where another one is wanted. Call once per frame.
+    pub(super) fn refresh_ghost(&mut self, session: &Session) {
+        let before = self.ghost.take();
+        let (Some(plane), Some(step)) = (&self.scene, session.timeline().compared()) else { return };
+        let key = (plane.outcome_revision, step);
+        self.ghost = before.filter(|ghost| ghost.key == key).or_else(|| {
+            let other = session.compared().filter(|_| step != plane.outcome.step.index)?;
+            let embedding = &other.step.solution.embedding;
+            let loop_of_other = other.step.mesh(plane.mesh.model.disk()?).boundary_loop();
+            let position_of = |v: &VertexId| embedding.get(v.index()).copied().unwrap_or(DVec2::NAN);
+            let boundary: Vec<DVec2> = loop_of_other.iter().map(position_of).collect();
+            let vertices: Vec<VertexId> = (0..boundary.len()).map(VertexId::from_index).collect();
+            let arrays = Arc::new(PlaneArrays::in_frame(&boundary, &[], plane.arrays.frame));
+            Some(Ghost { key, arrays, edges: Arc::new(EdgeList::closed_loop(&vertices)) })
+        });
     }
 }
