@@ -119,6 +119,7 @@ type Layouts<'a> = &'a [Option<&'a wgpu::BindGroupLayout>];
 
 type Buffer = Option<wgpu::VertexBufferLayout<'static>>;
 
+#[expect(clippy::unnecessary_wraps, reason = "a pipeline's descriptor takes options")]
 const fn buffer(
     array_stride: u64,
     step_mode: wgpu::VertexStepMode,

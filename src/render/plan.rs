@@ -157,8 +157,8 @@ impl Planner<'_> {
         for layer in &frame.fills {
             let key = Key::PlaneFills(plane.revision, layer.faces.revision);
             // Corners at vertices that are not there fall together.
-            let point = |v: VertexId| plane.points.get(v.index()).copied().unwrap_or_default();
-            self.ensure_with(key, || layer.faces.triangles.iter().flat_map(|corners| corners.map(point)).collect());
+            let position = |v: VertexId| plane.points.get(v.index()).copied().unwrap_or_default();
+            self.ensure_with(key, || layer.faces.triangles.iter().flat_map(|corners| corners.map(position)).collect());
             let uniforms = LineUniforms::new(layer.colour, 0.0, 1.0, 0.0);
             plan.push(Shape::Fill, self.draw_of(key, PLANE_POINT_STRIDE), uniforms);
         }

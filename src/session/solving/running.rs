@@ -56,12 +56,11 @@ pub(super) struct Resting {
 impl Running {
     /// Asks for another goal, after a pause where one was asked for.
     pub(super) fn set_goal(&mut self, change: impl FnOnce(Goal) -> Goal) {
-        match &mut self.paused {
-            Some(after) => *after = change(*after),
-            None => {
-                let mut goal = locked(&self.shared.goal);
-                *goal = change(*goal);
-            }
+        if let Some(after) = &mut self.paused {
+            *after = change(*after);
+        } else {
+            let mut goal = locked(&self.shared.goal);
+            *goal = change(*goal);
         }
     }
 

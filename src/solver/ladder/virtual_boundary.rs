@@ -126,7 +126,7 @@ impl Bend {
             match self.peeled(mesh, extended, weights, control) {
                 Ok(candidate) => {
                     self.trial.tried += 1;
-                    self.trial.last = candidate.virtual_boundary.clone();
+                    self.trial.last.clone_from(&candidate.virtual_boundary);
                     return Ok(candidate);
                 }
                 Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),

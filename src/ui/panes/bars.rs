@@ -56,7 +56,9 @@ fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: Place, requests: &mut
     }
     let limit = ui.available_height() / 2.0;
     egui::ScrollArea::vertical().id_salt(("messages", place == Place::Mesh)).max_height(limit).show(ui, |ui| {
-        messages.into_iter().for_each(|message| message_bar(ui, message, requests));
+        for message in messages {
+            message_bar(ui, message, requests);
+        }
     });
 }
 
