@@ -24,6 +24,8 @@ pub enum Method {
     Continuation,
     /// Paths between the constraints on the mesh, with new vertices where they need room, straightened in the plane.
     Matchmaker,
+    /// Whole numbers on a grid (Schnyder 1990), planar by theorem whatever the mesh; then relaxed.
+    Schnyder,
     /// A planar embedding's distortion lowered, one-to-one throughout. A rung only: what follows a method.
     Relax,
 }
@@ -31,7 +33,7 @@ pub enum Method {
 impl Method {
     /// Whether the choice of family matters.
     pub const fn uses_family(self) -> bool {
-        !matches!(self, Self::Lscm | Self::Levy | Self::Continuation | Self::Matchmaker | Self::Relax)
+        !matches!(self, Self::Lscm | Self::Levy | Self::Continuation | Self::Matchmaker | Self::Schnyder | Self::Relax)
     }
 
     /// Whether it iterates, so that a limit of its steps matters.
@@ -70,6 +72,7 @@ impl Method {
             Self::Iterate => Ok(WeightSource::StepBefore),
             Self::VirtualBoundary => Ok(WeightSource::Extended),
             Self::Levy => Err(NoEquation::OfTriangles),
+            Self::Schnyder => Err(NoEquation::OnGrid),
             Self::Continuation | Self::Matchmaker | Self::Relax => Err(NoEquation::OfEnergy),
         }
     }
@@ -89,6 +92,7 @@ impl Method {
             Self::Iterate => "mean value",
             Self::VirtualBoundary => "virtual boundary",
             Self::Matchmaker => "new vertices",
+            Self::Schnyder => "grid",
             Self::Relax => "relaxed",
             other => other.name(),
         }
@@ -107,6 +111,7 @@ impl Choice for Method {
         Self::Levy,
         Self::Continuation,
         Self::Matchmaker,
+        Self::Schnyder,
     ];
 
     fn words(self) -> Words {
@@ -143,6 +148,9 @@ impl Choice for Method {
                     "paths between the constraints, with new vertices where they need room, made straight in the plane",
                 )
                 .source("Eckstein et al. 2001; Kraevoy et al. 2003"),
+            Self::Schnyder => Words::new("schnyder", "Schnyder's grid")
+                .about("whole numbers on a grid, planar by theorem whatever the mesh; then relaxed")
+                .source("Schnyder 1990"),
             Self::Relax => Words::new("relax", "Relax")
                 .about("lower distortion of a planar map, one-to-one throughout")
                 .source("ours; energy of Garanzha et al. 2021"),

@@ -9,6 +9,7 @@
 //! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
 //! | `iterate` | one mean-value iteration (paper §4) |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
+//! | `schnyder` | a drawing in whole numbers, planar by theorem |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/` | a plan of rungs over all of these, each step proved |
@@ -43,6 +44,7 @@ mod prepared;
 mod relaxing;
 mod rest;
 mod scale;
+mod schnyder;
 mod settings;
 mod shape_preserving;
 mod solution;
@@ -71,6 +73,7 @@ pub use pins::{
 };
 pub use prepared::{Prepared, flatten};
 pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
+pub use schnyder::schnyder;
 pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};

@@ -120,7 +120,7 @@ impl Settings {
             // By hand after a convex boundary, all of which is pinned.
             Method::Iterate if matches!(self.method, Method::Convex(_)) => Treatment::Eliminate,
             Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
-            Method::VirtualBoundary | Method::Convex(_) => Treatment::Eliminate,
+            Method::VirtualBoundary | Method::Schnyder | Method::Convex(_) => Treatment::Eliminate,
             _ if pin_count > 2 => self.treatment.unwrap_or(Treatment::LeastSquares),
             _ => self.treatment.unwrap_or(Treatment::Eliminate),
         }

@@ -11,6 +11,7 @@
 //! | `iterate.rs` | rung 2: mean-value iterations, and when they get no better |
 //! | `again.rs` | rung 1 once more, with the default weights and pins |
 //! | `virtual_boundary.rs` | rung 3: the boundary made simple, and the outside embedded with the mesh |
+//! | `schnyder.rs` | the end of rung 3: a grid drawing, planar by theorem |
 //! | `continuation.rs` | rung 4: a planar start fitted to the constraints, then one-to-one on the way to them |
 //! | `matchmaker.rs` | rung 5: new vertices |
 //! | `relax.rs` | what follows: lower distortion |
@@ -26,6 +27,7 @@ mod natural;
 mod plan;
 mod relax;
 mod rung;
+mod schnyder;
 mod step;
 mod task;
 mod virtual_boundary;

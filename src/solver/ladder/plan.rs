@@ -7,23 +7,25 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, VirtualBoundary};
+use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
 use super::relax::Relax;
 use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
-use super::{again, continuation, iterate, matchmaker, natural, virtual_boundary};
+use super::{again, continuation, iterate, matchmaker, natural, schnyder, virtual_boundary};
 use crate::solver::{Embedding, GaugeSize, Method, Pins, Prepared, Settings};
 
 /// The rungs of a part, flight by flight.
 type Flights = &'static [&'static [Kind]];
 
 /// Until planar.
-const LADDER: Flights = &[&[Natural, Iterate], &[Again, Iterate], &[VirtualBoundary]];
+const LADDER: Flights = &[&[Natural, Iterate], &[Again, Iterate], &[VirtualBoundary], &[Schnyder]];
 /// Until planar, stalled or at the limit.
 const ITERATED: Flights = &[&[Natural, Iterate]];
 /// Until planar.
 const BENT: Flights = &[&[Natural], &[VirtualBoundary]];
+/// By theorem.
+const DRAWN: Flights = &[&[Schnyder]];
 /// One linear solve.
 const LINEAR: Flights = &[&[Natural]];
 /// From a planar start until the constraints are met, or stuck.
@@ -40,6 +42,7 @@ pub(super) enum Kind {
     Iterate,
     Again,
     VirtualBoundary,
+    Schnyder,
     Fit,
     Continuation,
     Matchmaker,
@@ -52,6 +55,7 @@ impl Kind {
             Iterate => Box::<iterate::Iterate>::default(),
             Again => Box::<again::Again>::default(),
             VirtualBoundary => Box::<virtual_boundary::Bend>::default(),
+            Schnyder => Box::<schnyder::Draw>::default(),
             Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
             Continuation => Box::<continuation::Continue>::default(),
             Matchmaker => Box::<matchmaker::Match>::default(),
@@ -110,6 +114,7 @@ impl Plan {
             Method::Matchmaker => from_start(MATCHED).collect(),
             Method::Iterate => [part(ITERATED)].into(),
             Method::VirtualBoundary => [part(BENT)].into(),
+            Method::Schnyder => [part(DRAWN)].into(),
             Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
         };
         Self { parts }

@@ -41,7 +41,7 @@ impl Task {
     /// Checks what the first rung does not.
     pub(super) fn check(&self, mesh: &DiskMesh) -> Result<(), SolveError> {
         match self.settings.method {
-            Method::VirtualBoundary if self.is_constrained() => {
+            Method::VirtualBoundary | Method::Schnyder if self.is_constrained() => {
                 Err(SolveError::TooManyPins { count: self.pins.len(), most: GAUGE_PINS })
             }
             Method::Auto if self.is_constrained() => check_distances(mesh, &self.held()),

@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use glam::DVec2;
 
-use super::rung::{Failure, Footing, Latest, Notes, Rung};
+use super::rung::{Failure, Footing, Handover, Latest, Notes, Rung};
 use super::task::Task;
 use super::{Candidate, Step};
 use crate::mesh::DiskMesh;
@@ -90,7 +90,7 @@ impl Default for Bend {
 
 impl Rung for Bend {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
-        let mut candidate = self.bent(from, control)?;
+        let mut candidate = self.bent(from, control).map_err(|error| self.failure(error))?;
         from.task.fit(from.mesh, &mut candidate.solution, &mut self.notes);
         candidate.bent_vertices = if self.pinned > 2 { self.pinned } else { 0 };
         Ok(Candidate { note: self.notes.take(), ..candidate })
@@ -108,6 +108,14 @@ impl Rung for Bend {
 }
 
 impl Bend {
+    /// Where every weight has failed, a drawing without weights may follow.
+    fn failure(&mut self, error: SolveError) -> Failure {
+        match error {
+            SolveError::Cancelled => error.into(),
+            _ => Failure { error, handover: Some(Handover { note: self.notes.take(), embedding: None }) },
+        }
+    }
+
     fn weights(&self) -> &'static [Weights] {
         if self.is_all_pinned { TRIED_AT_LAST } else { TRIED_WHILE_FREE }
     }
