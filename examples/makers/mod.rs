@@ -5,6 +5,7 @@
 //! | `random.rs` | repeatable random numbers |
 //! | `plain.rs` | small meshes with known numbers: grid, fan, tetrahedron, band |
 //! | `corpus.rs` | where the corpus lies: meshes of others, beside the project |
+//! | `deep.rs` | disks whose inside is far from a small boundary: stacked, tube, hand |
 //! | `sheet.rs` | an irregular sheet of any size |
 //! | `flat.rs`, `caps.rs`, `cube.rs`, `face.rs` | the built-in meshes |
 //! | `fill.rs`, `delaunay.rs` | good triangles on a surface, for these |
@@ -24,6 +25,7 @@
 mod caps;
 mod corpus;
 mod cube;
+mod deep;
 mod delaunay;
 mod face;
 mod fill;
@@ -42,6 +44,7 @@ use freebound::mesh::TriMesh;
 
 pub(crate) use caps::bumpy_cap_of;
 pub(crate) use corpus::corpus;
+pub(crate) use deep::{hand, stacked, tube};
 pub(crate) use delaunay::{coord, triangulate};
 pub(crate) use landmarks::landmarks;
 pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, write_obj};

@@ -47,6 +47,7 @@ mod polygon;
 mod program;
 mod raster;
 mod reproduction;
+mod schnyder;
 mod session;
 mod session_background;
 mod session_constraints;

@@ -1,0 +1,75 @@
+//! Schnyder's grid drawing: planar on whatever is a disk, in whole numbers no larger than the count of vertices.
+
+use freebound::mesh::DiskMesh;
+use freebound::solver::{Control, Ladder, Method, Pins, Settings, schnyder, verdict};
+
+use super::common::manifest;
+use super::makers::{Random, disk, fan, grid, hand, stacked, tube};
+
+/// Every face positive and the boundary simple, on the grid that the theorem promises.
+fn assert_drawn(name: &str, mesh: &DiskMesh) {
+    let embedding = schnyder(mesh);
+    let found = verdict(mesh, &embedding);
+    assert!(found.planar && !found.mirrored, "{name}: {}", found.summary());
+    // With the apex there are n + 1 vertices: a grid of n − 1.
+    let most = (mesh.vertex_count() - 1) as f64;
+    for z in embedding.iter().flat_map(|z| [z.x, z.y]) {
+        assert!(z == z.trunc() && (0.0..=most).contains(&z), "{name}: {z} is not on the grid up to {most}");
+    }
+}
+
+#[test]
+fn the_smallest_disks_lie_on_the_grid() {
+    assert_drawn("a triangle", &disk(stacked(3, 1, &mut Random(0))));
+    for sides in 3..8 {
+        assert_drawn("a fan", &disk(fan(sides)));
+    }
+}
+
+#[test]
+fn dividing_edges_and_ears_are_no_matter() {
+    for (columns, rows) in [(1, 1), (1, 9), (2, 2), (7, 5)] {
+        assert_drawn("a grid", &disk(grid(columns, rows)));
+    }
+}
+
+#[test]
+fn random_stacked_triangulations_lie_on_the_grid_however_deep() {
+    let mut random = Random(11);
+    for newest in [1, 2, 3, 10, 1000] {
+        for count in [4, 5, 6, 13, 43, 200, 1500] {
+            assert_drawn(&format!("{count} vertices, {newest}"), &disk(stacked(count, newest, &mut random)));
+        }
+    }
+}
+
+#[test]
+fn tubes_and_hands_lie_on_the_grid() {
+    for (around, along) in [(3, 46), (5, 80), (12, 140)] {
+        assert_drawn(&format!("a tube of {around} x {along}"), &disk(tube(around, along)));
+    }
+    assert_drawn("a hand", &disk(hand(40)));
+}
+
+#[test]
+fn every_disk_of_the_corpus_lies_on_the_grid() {
+    for entry in manifest().iter().filter(|entry| entry.text("role") == "disk") {
+        assert_drawn(&entry.file, &entry.disk());
+    }
+}
+
+#[test]
+fn auto_ends_planar_on_disks_that_defeat_every_linear_solve() {
+    let mut random = Random(3);
+    let mut meshes: Vec<(String, DiskMesh)> =
+        [40, 43, 53, 120, 300].map(|n| (format!("stacked {n}"), disk(stacked(n, 3, &mut random)))).into();
+    meshes.push(("a tube of 3 x 46".into(), disk(tube(3, 46))));
+    meshes.push(("a hand".into(), disk(hand(30))));
+    for (name, mesh) in meshes {
+        let mut last = None;
+        let mut ladder = Ladder::new(Settings::new(Method::Auto, freebound::solver::Family::default()), Pins::new());
+        ladder.finish(&mesh, Control::unattended(), |step| last = Some(step)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let step = last.expect("a ladder gives steps");
+        assert!(step.verdict.planar, "{name}: {}", step.verdict.summary());
+    }
+}
