@@ -286,7 +286,7 @@ fn the_same_run_writes_the_same_bytes_and_the_number_of_threads_changes_no_verdi
 fn all_methods_run_and_say_their_names() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str, Option<&str>); 13] = [
+    let cases: [(&[&str], &str, Option<&str>); 14] = [
         (&["--method", "natural", "--family", "power:0.5"], "natural", Some("power:0.5")),
         (&["--method", "natural", "--family", "wachspress"], "natural", Some("wachspress")),
         (&[], "auto", Some("conformal")),
@@ -297,6 +297,7 @@ fn all_methods_run_and_say_their_names() {
         (&["--method", "convex"], "convex", Some("conformal")),
         (&["--method", "continuation"], "continuation", None),
         (&["--method", "matchmaker"], "matchmaker", None),
+        (&["--method", "schnyder"], "schnyder", None),
         (&["--method", "convex", "--family", "uniform"], "convex", Some("uniform")),
         (&["--method", "convex", "--family", "shape-preserving"], "convex", Some("shape-preserving")),
         (&["--method", "convex", "--boundary", "square", "--family", "mean-value"], "convex", Some("mean-value")),
@@ -310,8 +311,18 @@ fn all_methods_run_and_say_their_names() {
         assert_eq!(report["verdict"]["planar"] == true, run.status == Some(0), "{options:?}");
     }
     let listed = program.run(&["methods"]).expect(0).stdout;
-    let methods =
-        ["auto", "natural", "iterate", "virtual-boundary", "convex", "lscm", "levy", "continuation", "matchmaker"];
+    let methods = [
+        "auto",
+        "natural",
+        "iterate",
+        "virtual-boundary",
+        "convex",
+        "lscm",
+        "levy",
+        "continuation",
+        "matchmaker",
+        "schnyder",
+    ];
     let families = ["conformal", "mean-value", "wachspress", "power:P", "uniform", "shape-preserving"];
     let names: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
     for name in methods.iter().chain(&families) {

@@ -1,7 +1,11 @@
 //! Schnyder's grid drawing: planar on whatever is a disk, in whole numbers no larger than the count of vertices.
 
 use freebound::mesh::DiskMesh;
-use freebound::solver::{Control, Ladder, Method, Pins, Settings, schnyder, verdict};
+use freebound::mesh::VertexId;
+use freebound::solver::{
+    Control, Family, Ladder, Method, Pins, Settings, SolveError, Step, hard_pins, schnyder, verdict,
+};
+use glam::DVec2;
 
 use super::common::manifest;
 use super::makers::{Random, disk, fan, grid, hand, stacked, tube};
@@ -58,6 +62,39 @@ fn every_disk_of_the_corpus_lies_on_the_grid() {
     }
 }
 
+/// The steps that a method takes.
+fn steps(mesh: &DiskMesh, method: Method, pins: Pins) -> Result<Vec<Step>, SolveError> {
+    let mut steps = Vec::new();
+    let mut ladder = Ladder::new(Settings::new(method, Family::default()), pins);
+    ladder.finish(mesh, Control::unattended(), |step| steps.push(step))?;
+    Ok(steps)
+}
+
+#[test]
+fn as_a_method_it_is_drawn_then_relaxed_and_every_step_is_proved() {
+    let steps = steps(&disk(tube(5, 30)), Method::Schnyder, Pins::new()).unwrap();
+    assert!(steps.iter().all(|step| step.verdict.planar && !step.verdict.mirrored));
+    let rungs: Vec<Method> = steps.iter().map(|step| step.rung).collect();
+    assert_eq!(rungs[0], Method::Schnyder);
+    assert!(rungs.len() > 1 && rungs[1..].iter().all(|&rung| rung == Method::Relax), "{rungs:?}");
+    let energies: Vec<f64> = steps.iter().filter_map(|step| Some(step.progress?.energy)).collect();
+    assert!(energies.last() < energies.first(), "{energies:?}");
+}
+
+#[test]
+fn two_pins_are_met_to_the_last_bit_and_three_are_refused() {
+    let mesh = disk(tube(4, 12));
+    let targets = [(0, [0.25, 0.5]), (9, [-3.0, 0.125]), (30, [1.0, 1.0])];
+    let pins = |count: usize| hard_pins(targets[..count].iter().map(|&(v, at)| (VertexId::new(v), DVec2::from(at))));
+    for step in steps(&mesh, Method::Schnyder, pins(2)).unwrap() {
+        assert!(step.verdict.planar, "{}", step.verdict.summary());
+        for (vertex, target) in &targets[..2] {
+            assert_eq!(step.solution.embedding[*vertex as usize], DVec2::from(*target));
+        }
+    }
+    assert_eq!(steps(&mesh, Method::Schnyder, pins(3)).err(), Some(SolveError::TooManyPins { count: 3, most: 2 }));
+}
+
 #[test]
 fn auto_ends_planar_on_disks_that_defeat_every_linear_solve() {
     let mut random = Random(3);
@@ -66,10 +103,8 @@ fn auto_ends_planar_on_disks_that_defeat_every_linear_solve() {
     meshes.push(("a tube of 3 x 46".into(), disk(tube(3, 46))));
     meshes.push(("a hand".into(), disk(hand(30))));
     for (name, mesh) in meshes {
-        let mut last = None;
-        let mut ladder = Ladder::new(Settings::new(Method::Auto, freebound::solver::Family::default()), Pins::new());
-        ladder.finish(&mesh, Control::unattended(), |step| last = Some(step)).unwrap_or_else(|e| panic!("{name}: {e}"));
-        let step = last.expect("a ladder gives steps");
+        let steps = steps(&mesh, Method::Auto, Pins::new()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let step = steps.last().expect("a ladder gives steps");
         assert!(step.verdict.planar, "{name}: {}", step.verdict.summary());
     }
 }

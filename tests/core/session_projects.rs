@@ -95,6 +95,7 @@ fn every_choice_of_method_comes_back() {
         Method::Levy,
         Method::Continuation,
         Method::Matchmaker,
+        Method::Schnyder,
     ];
     let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
     for (index, method) in methods.into_iter().enumerate() {
