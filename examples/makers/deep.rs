@@ -1,6 +1,6 @@
 //! Disks whose inside lies many rings away from a small boundary: linear embeddings shrink it beyond all digits.
 
-use freebound::mesh::TriMesh;
+use freebound::mesh::{TriMesh, VertexId};
 use glam::DVec3;
 
 use super::Random;
@@ -51,7 +51,7 @@ pub(crate) fn tube(around: u32, along: u32) -> TriMesh {
 /// A palm of ten faces around a vertex, every other one drawn out to a finger of `joints` triangular rings.
 pub(crate) fn hand(joints: u32) -> TriMesh {
     let mut mesh = fan(10);
-    let mut triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(|v| v.number())).collect();
+    let mut triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(VertexId::number)).collect();
     for finger in 0..5 {
         for _ in 0..joints {
             let [a, b, c] = triangles[2 * finger];
