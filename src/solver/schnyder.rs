@@ -10,6 +10,8 @@
 //! contour below it, and one to the vertex above that covered it: three trees, and three paths from each vertex to their
 //! roots. The grid's coordinates of a vertex count the vertices between these paths. All of it takes linear time.
 
+use std::collections::VecDeque;
+
 use glam::DVec2;
 
 use super::Embedding;
@@ -56,7 +58,7 @@ impl Wood {
         Self { parents, peeled, roots: [boundary[0].index(), boundary[1].index(), apex] }
     }
 
-    /// Vertices of a tree, the children of each after it, or before it.
+    /// Vertices of a tree but its root, each after its parent.
     fn down(&self, tree: usize) -> Box<dyn DoubleEndedIterator<Item = usize> + '_> {
         let peeled = self.peeled.iter().copied();
         if tree == 2 { Box::new(peeled) } else { Box::new(peeled.rev()) }
@@ -85,10 +87,10 @@ impl Wood {
     fn coordinate(&self, tree: usize) -> Vec<i64> {
         let (after, before) = ((tree + 1) % 3, (tree + 2) % 3);
         let sizes = self.subtree_sizes(tree);
-        // The other trees' roots have no part in this one.
-        let size = |vertex: usize| if self.roots.contains(&vertex) { 1 } else { sizes[vertex] };
-        let (left, right) = (self.path_sums(after, size), self.path_sums(before, |vertex| size(vertex) - 1));
-        (0..sizes.len()).map(|vertex| left[vertex] + right[vertex] - size(vertex)).collect()
+        // The other trees' roots, where the paths end, have no children in this tree: they count as one vertex.
+        let left = self.path_sums(after, |vertex| sizes[vertex]);
+        let right = self.path_sums(before, |vertex| sizes[vertex] - 1);
+        (0..sizes.len()).map(|vertex| left[vertex] + right[vertex] - sizes[vertex]).collect()
     }
 
     /// The embedding without the apex.
@@ -112,7 +114,7 @@ struct Contour {
     /// Edges between vertices of the contour that are not neighbours on it, per vertex.
     chords: Vec<u32>,
     /// Vertices that had no chord when they were put here.
-    free: std::collections::VecDeque<usize>,
+    free: VecDeque<usize>,
     ends: [usize; 2],
 }
 
