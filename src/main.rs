@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser as _;
-use freebound::cli::{Arguments, run, run_example};
+use freebound::cli::{Arguments, run, run_example, warn};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -20,11 +20,11 @@ fn open(file: Option<&Path>) -> ExitCode {
     match freebound::app::run(file.map(Path::to_owned)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(reason) if has_file => {
-            eprintln!("freebound: {reason}. Without a screen use: freebound flatten MESH -o OUT.obj");
+            warn(format_args!("{reason}. Without a screen use: freebound flatten MESH -o OUT.obj"));
             ExitCode::FAILURE
         }
         Err(reason) => {
-            eprintln!("freebound: {reason}; flattening the built-in example without a screen instead");
+            warn(format_args!("{reason}; flattening the built-in example without a screen instead"));
             run_example()
         }
     }
@@ -33,9 +33,9 @@ fn open(file: Option<&Path>) -> ExitCode {
 #[cfg(not(feature = "gui"))]
 fn open(file: Option<&Path>) -> ExitCode {
     if file.is_some() {
-        eprintln!("freebound: this build has no editor. Use: freebound flatten MESH -o OUT.obj");
+        warn("this build has no editor. Use: freebound flatten MESH -o OUT.obj");
         return ExitCode::from(2);
     }
-    eprintln!("freebound: this build has no editor; flattening the built-in example instead");
+    warn("this build has no editor; flattening the built-in example instead");
     run_example()
 }

@@ -28,7 +28,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
                  coordinates",
                 notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
             );
-            deliver(&report, arguments.report.as_deref(), || println!("{words}"))?;
+            deliver(&report, arguments.report.as_deref(), || words)?;
             return Ok(Status::Fine);
         }
         Err(error) => return Err(error.into()),
@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         distortion: Some(distortion.summary),
         ..report(MeshReport::new(path, &mesh), start, read)
     };
-    deliver(&report, arguments.report.as_deref(), || println!("{words}"))?;
+    deliver(&report, arguments.report.as_deref(), || words)?;
     Ok(if verdict.planar { Status::Fine } else { Status::FallsShort })
 }
 

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use super::say::warn;
 use crate::io::{ConstraintsError, PictureError, ReadError, TextureError, WriteError};
 use crate::mesh::Diagnosis;
 use crate::solver::SolveError;
@@ -60,6 +61,9 @@ pub enum Failure {
     /// A result could not be written.
     #[error("{0}")]
     Write(#[from] WriteError),
+    /// Standard output takes no more.
+    #[error("standard output: cannot be written: {0}")]
+    StandardOutput(#[source] std::io::Error),
     /// Asked for something that cannot be.
     #[error("{0}")]
     Usage(String),
@@ -87,6 +91,7 @@ impl Failure {
             | Self::NotADisk { .. }
             | Self::Solve(SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. }) => UNUSABLE_INPUT,
             Self::Write(_)
+            | Self::StandardOutput(_)
             | Self::Solve(
                 SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
             ) => INTERNAL,
@@ -114,7 +119,7 @@ pub(super) fn conclude(outcome: Result<Status, Failure>) -> ExitCode {
         Ok(Status::Fine) => ExitCode::SUCCESS,
         Ok(Status::FallsShort) => ExitCode::from(FALLS_SHORT),
         Err(failure) => {
-            eprintln!("freebound: {failure}");
+            warn(&failure);
             ExitCode::from(failure.code())
         }
     }

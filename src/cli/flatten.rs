@@ -9,7 +9,8 @@ use std::time::Instant;
 use super::args::FlattenArguments;
 use super::exit::conclude;
 use super::progress::{INTERRUPTED, Progress, is_interrupted, stop_on_interrupt};
-use super::summary::{deliver, ending_words, print_conflicts, print_summary, step_words};
+use super::say::say;
+use super::summary::{deliver, ending_words, step_words, summary, warn_of};
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::{
@@ -79,7 +80,9 @@ fn flatten_example() -> Result<Status, Failure> {
     };
     let progress = Progress::default();
     let status = progress.follow(|| job.run(&Model::example(Example::Face), Instant::now(), &progress))?;
-    println!("wrote face.obj with its material and picture, face.json and face.png (before and after) into {FOLDER}/");
+    say(format_args!(
+        "wrote face.obj with its material and picture, face.json and face.png (before and after) into {FOLDER}/"
+    ))?;
     Ok(status)
 }
 
@@ -154,8 +157,7 @@ impl HeadlessJob<'_> {
         }
         output.report.seconds.write = before_writing.elapsed().as_secs_f64();
         output.report.seconds.total = start.elapsed().as_secs_f64();
-        let print = || print_summary(&output.report, &ending_words(&solved, &output));
-        deliver(&output.report, self.report, print)?;
+        deliver(&output.report, self.report, || summary(&output.report, &ending_words(&solved, &output)))?;
         let are_met = output.report.pins.is_none_or(|pins| pins.unmet.is_empty());
         Ok(if output.verdict.planar && are_met { Status::Fine } else { Status::FallsShort })
     }
@@ -172,7 +174,7 @@ impl HeadlessJob<'_> {
         let problem = self.document.problem();
         let (settings, pins) = (problem.settings, problem.pins());
         if settings.method.uses_pins() {
-            print_conflicts(&conflicts(mesh, &settings.held(&pins)));
+            warn_of(&conflicts(mesh, &settings.held(&pins)));
         }
         let mut run = Ladder::new(settings, pins);
         let placed = |step: Step| Outcome::new(mesh, problem, step);

@@ -9,6 +9,7 @@
 //! | `figures`     | the paper's figures, computed again                                    |
 //! | `progress`    | the line that follows the work, and Ctrl-C                             |
 //! | `summary`     | the lines that sum a run up, and where its report goes                 |
+//! | `say`         | words on standard output and standard error                            |
 //! | `exit`        | exit status and last words                                             |
 
 mod args;
@@ -17,16 +18,18 @@ mod exit;
 mod figures;
 mod flatten;
 mod progress;
+mod say;
 mod summary;
 
 use std::process::ExitCode;
 
-use crate::solver::{Choice, Family, Method};
+use crate::solver::{Choice, Family, Method, Words};
 
 pub use args::{Arguments, Command, FlattenArguments};
 pub use exit::{Failure, Status};
 pub use figures::pairs;
 pub use flatten::run_example;
+pub use say::warn;
 
 /// Runs a command and says how it ended.
 pub fn run(command: &Command) -> ExitCode {
@@ -36,19 +39,16 @@ pub fn run(command: &Command) -> ExitCode {
         Command::Check(arguments) => check::run(arguments),
         Command::Figures(arguments) => figures::run(&arguments.folder),
         Command::Methods => {
-            println!("Methods (--method)");
-            print_list::<Method>();
-            println!("\nFamilies of weights (--family)");
-            print_list::<Family>();
-            Ok(Status::Fine)
+            let lists = [list::<Method>("Methods (--method)"), list::<Family>("Families of weights (--family)")];
+            say::say(lists.join("\n\n")).map(|()| Status::Fine)
         }
     };
     exit::conclude(outcome)
 }
 
 /// Names on the left; beside each what it does, and below that where it comes from.
-fn print_list<C: Choice>() {
-    for words in C::ALL.iter().map(|choice| choice.words()) {
-        println!("  {:<17} {}\n  {:<17} {}", words.name, words.about, "", words.source);
-    }
+fn list<C: Choice>(title: &str) -> String {
+    let entry = |Words { name, about, source, .. }| format!("  {name:<17} {about}\n  {:<17} {source}", "");
+    let entries = C::ALL.iter().map(|choice| entry(choice.words()));
+    std::iter::once(title.to_owned()).chain(entries).collect::<Vec<_>>().join("\n")
 }

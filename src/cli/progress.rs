@@ -7,6 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use super::exit::INTERRUPTED as INTERRUPTED_CODE;
+use super::say::warn;
 
 /// Work shorter than this goes by without a word.
 const QUIET: Duration = Duration::from_millis(500);
@@ -31,7 +32,7 @@ pub(super) fn stop_on_interrupt() {
         }
     };
     if let Err(error) = ctrlc::set_handler(handler) {
-        eprintln!("freebound: Ctrl-C will end the program without clearing up: {error}");
+        warn(format_args!("Ctrl-C will end the program without clearing up: {error}"));
     }
 }
 
@@ -88,7 +89,7 @@ impl Progress {
                     }
                 }
                 if start.elapsed() >= QUIET {
-                    eprint!("\r\x1b[K");
+                    write!(std::io::stderr(), "\r\x1b[K").ok();
                 }
             });
             let result = work();
@@ -99,7 +100,8 @@ impl Progress {
     }
 
     fn show(&self, elapsed: Duration) {
-        eprint!("\r\x1b[K{} … {:.1} s", self.line(), elapsed.as_secs_f64());
-        std::io::stderr().flush().ok();
+        let mut terminal = std::io::stderr().lock();
+        write!(terminal, "\r\x1b[K{} … {:.1} s", self.line(), elapsed.as_secs_f64()).ok();
+        terminal.flush().ok();
     }
 }

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use super::Failure;
 use super::flatten::Solved;
-use crate::io::{Output, PinsReport, Placement, Report, WriteError};
+use super::say::{say, warn};
+use crate::io::{Output, PinsReport, Placement, Report};
 use crate::mesh::VertexId;
 use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step};
 
@@ -20,12 +22,12 @@ fn listed(vertices: &[VertexId]) -> String {
 }
 
 /// Says on standard error which constraints contradict each other, before any work is done on them.
-pub(super) fn print_conflicts(conflicts: &[Conflict]) {
+pub(super) fn warn_of(conflicts: &[Conflict]) {
     for conflict in conflicts.iter().take(NAMED) {
-        eprintln!("freebound: {}", conflict.words());
+        warn(conflict.words());
     }
     if conflicts.len() > NAMED {
-        eprintln!("freebound: and {} more conflicts like these", conflicts.len() - NAMED);
+        warn(format_args!("and {} more conflicts like these", conflicts.len() - NAMED));
     }
 }
 
@@ -83,40 +85,36 @@ fn pins_words(pins: &PinsReport) -> Option<String> {
 }
 
 /// Writes a report where it is wanted: into a file, or to standard output for `-`, where it must stand alone. Otherwise
-/// prints the words for a person.
-pub(super) fn deliver(report: &Report, to: Option<&Path>, print: impl FnOnce()) -> Result<(), WriteError> {
+/// says the words for a person.
+pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -> String) -> Result<(), Failure> {
     match to {
         Some(path) if path == Path::new("-") => {
-            println!("{}", serde_json::to_string_pretty(report).expect("a report is plain data"));
-            return Ok(());
+            return say(serde_json::to_string_pretty(report).expect("a report is plain data"));
         }
         Some(path) => report.write(path)?,
         None => {}
     }
-    print();
-    Ok(())
+    say(words())
 }
 
-/// Prints what a run came to.
-pub(super) fn print_summary(report: &Report, verdict: &str) {
+/// What a run came to.
+pub(super) fn summary(report: &Report, verdict: &str) -> String {
     let mesh = &report.mesh;
-    println!(
+    let mut lines = vec![format!(
         "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
         mesh.path, mesh.vertices, mesh.faces, mesh.boundary_vertices, mesh.dividing_edges, mesh.ears
-    );
+    )];
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     // Where there is no linear system, there is no residual.
     let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());
     let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
-    println!("{}{family}: {verdict}{residual}", report.method.map_or("check", Method::name));
+    lines.push(format!("{}{family}: {verdict}{residual}", report.method.map_or("check", Method::name)));
     if report.new_vertices > 0 {
-        println!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len());
+        lines.push(format!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len()));
     }
-    if let Some(words) = report.pins.as_ref().and_then(pins_words) {
-        println!("{words}");
-    }
+    lines.extend(report.pins.as_ref().and_then(pins_words));
     if let Some(distortion) = &report.distortion {
-        println!(
+        lines.push(format!(
             "angle distortion {:.3} mean, {:.3} p99; area {:.3} mean; stretch L² {:.3}, L∞ {:.3}; symmetric Dirichlet energy {:.3}",
             distortion.angle.mean,
             distortion.angle.p99,
@@ -124,11 +122,12 @@ pub(super) fn print_summary(report: &Report, verdict: &str) {
             distortion.stretch_l2,
             distortion.stretch_linf,
             distortion.symmetric_dirichlet.mean
-        );
+        ));
     }
     let seconds = &report.seconds;
-    println!(
+    lines.push(format!(
         "{:.3} s: read {:.3}, solve {:.3}, verify {:.3}, write {:.3}",
         seconds.total, seconds.read, seconds.solve, seconds.verify, seconds.write
-    );
+    ));
+    lines.join("\n")
 }

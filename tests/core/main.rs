@@ -43,6 +43,7 @@ mod obj_refined;
 mod obj_texture;
 mod obj_write;
 mod pins;
+mod pipes;
 mod polygon;
 mod program;
 mod raster;

@@ -25,6 +25,7 @@ use serde::Serialize;
 
 use super::flatten::go_on;
 use super::progress::{INTERRUPTED, Progress};
+use super::say::say;
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::figure::{Drawing, Panel, Sheet};
@@ -124,8 +125,8 @@ pub(super) fn run(folder: &Path) -> Result<Status, Failure> {
             go_on()?;
             write_atomically(&folder.join(name), |out| out.write_all(bytes))?;
         }
-        print_table(&table).expect("the table was just written");
-        println!("wrote {} files into {}", files.len(), folder.display());
+        let columns = in_columns(&table).expect("the table was just written");
+        say(format_args!("{columns}wrote {} files into {}", files.len(), folder.display()))?;
         Ok(Status::Fine)
     })
 }
@@ -173,18 +174,20 @@ fn table_of(figures: &[Figure]) -> csv::Result<Vec<u8>> {
     Ok(table.into_inner().map_err(csv::IntoInnerError::into_error)?)
 }
 
-/// Prints the table in columns.
-fn print_table(table: &[u8]) -> csv::Result<()> {
+/// The table in columns, for a person.
+fn in_columns(table: &[u8]) -> csv::Result<String> {
     let records = csv::ReaderBuilder::new().has_headers(false).from_reader(table).into_records();
     let records = records.collect::<csv::Result<Vec<_>>>()?;
     let width = |column: usize| records.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let mut lines = String::new();
     for row in &records {
         let cells = row.iter().enumerate().map(|(column, cell)| {
             let width = width(column);
             // Words on the left, numbers on the right.
             if column < 3 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
         });
-        println!("{}", cells.collect::<Vec<_>>().join("  ").trim_end());
+        lines.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
+        lines.push('\n');
     }
-    Ok(())
+    Ok(lines)
 }
