@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use super::say::warn;
 use crate::io::{ConstraintsError, PictureError, ReadError, TextureError, WriteError};
 use crate::mesh::Diagnosis;
-use crate::solver::SolveError;
+use crate::solver::{Choice as _, Method, SolveError};
 
 /// Our fault, or the system's.
 const INTERNAL: u8 = 1;
@@ -16,7 +16,7 @@ const WRONG_USE: u8 = 2;
 /// A file that cannot be used.
 const UNUSABLE_INPUT: u8 = 3;
 
-/// [`Status::FallsShort`].
+/// [`Status::FallsShort`], and no embedding at all.
 const FALLS_SHORT: u8 = 4;
 
 /// Ended by Ctrl-C.
@@ -58,6 +58,14 @@ pub enum Failure {
     /// The solver gave no embedding.
     #[error("{0}")]
     Solve(#[from] SolveError),
+    /// A single method gave none.
+    #[error("{method}: {error}: try --method auto")]
+    Method {
+        /// The method's name.
+        method: &'static str,
+        /// Why it gave none.
+        error: SolveError,
+    },
     /// A result could not be written.
     #[error("{0}")]
     Write(#[from] WriteError),
@@ -70,11 +78,19 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 130 interrupted. Every error is named, so that a new
-    /// one has to choose.
-    pub const fn code(&self) -> u8 {
+    /// A method's failure: where another may do better, with that hint.
+    pub fn of_method(method: Method, error: SolveError) -> Self {
+        if error.is_failure_of_method() && method != Method::Auto {
+            return Self::Method { method: method.name(), error };
+        }
+        Self::Solve(error)
+    }
+
+    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 4 no embedding by this method, 130 interrupted. Every
+    /// error is named, so that a new one has to choose.
+    pub fn code(&self) -> u8 {
         match self {
-            Self::Read(ReadError::Cancelled) | Self::Solve(SolveError::Cancelled) => INTERRUPTED,
+            Self::Read(ReadError::Cancelled) => INTERRUPTED,
             Self::Read(
                 ReadError::File { .. }
                 | ReadError::Stream(_)
@@ -88,28 +104,36 @@ impl Failure {
             | Self::Constraints(_)
             | Self::Picture(_)
             | Self::Texture(_)
-            | Self::NotADisk { .. }
-            | Self::Solve(SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. }) => UNUSABLE_INPUT,
-            Self::Write(_)
-            | Self::StandardOutput(_)
-            | Self::Solve(
-                SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
-            ) => INTERNAL,
-            Self::Usage(_)
-            | Self::Solve(
-                SolveError::CoincidentPins { .. }
-                | SolveError::NoSuchVertex { .. }
-                | SolveError::TargetNotFinite { .. }
-                | SolveError::WeightNotPositive { .. }
-                | SolveError::FamilyNotApplicable { .. }
-                | SolveError::BoundaryTooShort { .. }
-                | SolveError::TooManyPins { .. }
-                | SolveError::Unmet
-                | SolveError::TooFine
-                | SolveError::NotPlanar
-                | SolveError::LadderExhausted,
-            ) => WRONG_USE,
+            | Self::NotADisk { .. } => UNUSABLE_INPUT,
+            Self::Write(error) if error.is_not_finite() => FALLS_SHORT,
+            Self::Write(_) | Self::StandardOutput(_) => INTERNAL,
+            Self::Usage(_) => WRONG_USE,
+            Self::Solve(error) | Self::Method { error, .. } => code_of_solve(error),
         }
+    }
+}
+
+const fn code_of_solve(error: &SolveError) -> u8 {
+    match error {
+        SolveError::Cancelled => INTERRUPTED,
+        SolveError::TargetsTooNear { .. } => UNUSABLE_INPUT,
+        SolveError::NotFinite { .. }
+        | SolveError::Unmet
+        | SolveError::TooFine
+        | SolveError::NotPlanar
+        | SolveError::AllBent
+        | SolveError::LadderExhausted { .. }
+        | SolveError::OutOfRange { .. }
+        | SolveError::Singular { .. }
+        | SolveError::ResidualTooLarge { .. }
+        | SolveError::Linear { .. } => FALLS_SHORT,
+        SolveError::CoincidentPins { .. }
+        | SolveError::NoSuchVertex { .. }
+        | SolveError::TargetNotFinite { .. }
+        | SolveError::WeightNotPositive { .. }
+        | SolveError::FamilyNotApplicable { .. }
+        | SolveError::BoundaryTooShort { .. }
+        | SolveError::TooManyPins { .. } => WRONG_USE,
     }
 }
 

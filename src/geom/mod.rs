@@ -8,6 +8,7 @@
 //! | `hull.rs` | the convex hull |
 //! | `triangulation.rs` | triangulations of points, and of what lies outside a polygon |
 //! | `similarity.rs` | the similarity that fits pairs of points best; whether pairs look mirrored |
+//! | `power.rs` | powers of two as factors |
 //! | `picture.rs`, `picture_frame.rs` | a picture, and how texture coordinates lie in the plane |
 
 mod bounds;
@@ -18,6 +19,7 @@ mod orient;
 mod picture;
 mod picture_frame;
 mod polygon;
+mod power;
 mod similarity;
 mod triangulation;
 
@@ -29,5 +31,6 @@ pub use orient::{Orientation, orientation};
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};
 pub use polygon::{turning_number, winding_number};
+pub use power::power_of_two_near;
 pub use similarity::{Similarity, look_mirrored};
 pub use triangulation::{delaunay_triangles, outside_triangles};

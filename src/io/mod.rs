@@ -14,10 +14,12 @@
 //! | `raster`      | pictures of meshes without a screen                                        |
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
+//! | `door`        | what every writer asks of its coordinates                                  |
 //! | `stamp`       | what tells one state of a file from another                                |
 
 mod atomic;
 mod constraints;
+mod door;
 pub mod figure;
 mod obj;
 mod output;

@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use glam::{DVec2, DVec3};
 
+use super::door::check_finite;
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::Report;
 use super::svg::write_svg;
@@ -184,8 +185,9 @@ impl Output<'_> {
     ///
     /// # Errors
     ///
-    /// Where the file cannot be written; the error names it.
+    /// Where the file cannot be written, or coordinates are infinite or not numbers; the error names the file.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
+        check_finite(&self.coordinates).map_err(|source| WriteError { path: path.to_owned(), source })?;
         (kind.format().write)(self, path)
     }
 }

@@ -84,7 +84,9 @@ impl TryFrom<TriMesh> for DiskMesh {
     ///
     /// The diagnosis, if there are faults.
     fn try_from(mesh: TriMesh) -> Result<Self, Self::Error> {
-        Self::unless(mesh, |_| true)
+        let mut disk = Self::unless(mesh, |_| true)?;
+        disk.take_unit();
+        Ok(disk)
     }
 }
 

@@ -6,12 +6,14 @@
 use glam::DVec3;
 
 use super::edges::{EdgeTable, side_ends};
+use super::unit::take_unit;
 use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
 
 /// A connected, consistently oriented 2-manifold with one boundary loop and Euler number 1, made by the diagnosis alone.
 #[derive(Clone, Debug)]
 pub struct DiskMesh {
     mesh: TriMesh,
+    unit: f64,
     twin: Vec<u32>,
     edge: Vec<u32>,
     halfedge_of_edge: Vec<u32>,
@@ -69,6 +71,7 @@ impl DiskMesh {
         }
         Self {
             mesh,
+            unit: 1.0,
             twin,
             edge,
             halfedge_of_edge,
@@ -90,12 +93,28 @@ impl DiskMesh {
         &self.ears
     }
 
+    /// Brings positions to the middle of the range of numbers.
+    pub(super) fn take_unit(&mut self) {
+        self.unit = take_unit(&mut self.mesh.positions);
+    }
+
+    /// The same with positions in units of this length.
+    pub(super) fn in_units_of(self, unit: f64) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// The length that positions are in units of: a power of two, 1 but for meshes of the largest and smallest sizes,
+    /// which are brought to the middle of the range of numbers.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
     /// Positions and triangles.
     pub fn mesh(&self) -> &TriMesh {
         &self.mesh
     }
 
-    /// Position of a vertex, mesh units.
+    /// Position of a vertex, in units of [`unit`](Self::unit).
     pub fn position(&self, vertex: VertexId) -> DVec3 {
         self.mesh.positions[vertex.index()]
     }

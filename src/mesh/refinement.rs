@@ -52,7 +52,7 @@ impl Refinement {
             source.extend(std::iter::repeat_n(face, parts.len()));
         }
         let polygon_of = Some(source.iter().map(|&face| old.polygon(face)).collect());
-        let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of })?;
+        let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of })?.in_units_of(mesh.unit());
         Ok(Self { disk, new_vertices, source })
     }
 

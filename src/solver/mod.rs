@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `method`, `family`, `settings`, `choice` | what can be chosen, with its names and words |
 //! | `pins`, `conflicts`, `scale` | pins and gauge; pins that contradict each other; size and place of what is not pinned |
+//! | `units` | the units of a solve: near the origin and near size 1, wherever the targets are |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
 //! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
@@ -49,6 +50,7 @@ mod settings;
 mod shape_preserving;
 mod solution;
 mod system;
+mod units;
 mod verdict;
 mod vertex_equation;
 mod virtual_boundary;

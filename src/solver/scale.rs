@@ -4,13 +4,13 @@ use glam::DVec2;
 
 use super::equations::length_scale;
 use super::{Embedding, GaugeSize, Pin, Pins};
-use crate::geom::Bounds;
+use crate::geom::{Bounds, power_of_two_near};
 use crate::mesh::DiskMesh;
 
 /// Scales an embedding about the origin to the total area of the surface; one without a finite area stays as it is.
 /// Both areas are summed at a size near 1, so that no square of a length overflows or vanishes.
 pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
-    let (in_space, in_plane) = (length_scale(mesh), 1.0 / extent_of(embedding));
+    let (in_space, in_plane) = (length_scale(mesh), power_of_two_near(embedding.bounds().size().max_element()).recip());
     let surface: f64 = mesh
         .faces()
         .map(|face| {

@@ -37,6 +37,7 @@ mod materials;
 mod mesh;
 mod natural;
 mod needless;
+mod numbers;
 mod obj;
 mod obj_picture;
 mod obj_refined;

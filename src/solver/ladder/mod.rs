@@ -41,6 +41,7 @@ pub use self::step::{Candidate, Progress, Step, largest_move};
 use self::plan::{Aim, Plan};
 use self::rung::{Failure, Footing, Latest, Notes};
 use self::task::Task;
+use super::units::Units;
 use super::{Control, Embedding, Method, Phase, Pins, Settings, SolveError, fixed_pins, gauge_pins, verdict};
 use crate::mesh::DiskMesh;
 
@@ -62,6 +63,9 @@ pub enum Ending {
 /// A method under way on one mesh with one set of pins.
 #[derive(Debug)]
 pub struct Ladder {
+    asked: Task,
+    units: Units,
+    /// What is asked for, in units of the solve, as all but steps are.
     task: Arc<Task>,
     plan: Plan,
     step_count: usize,
@@ -74,9 +78,11 @@ pub struct Ladder {
 impl Ladder {
     /// A ladder that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
-        let task = Arc::new(Task::new(settings, pins));
+        let asked = Task::new(settings, pins);
+        let units = Units::of(&asked.pins, settings.size);
+        let task = Arc::new(Task::new(units.settings(settings), units.pins(&asked.pins)));
         let plan = Plan::new(&task, &Kept::default());
-        Self { task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
+        Self { asked, units, task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
     }
 
     /// The same with what earlier ladders on the mesh have computed, used where it serves.
@@ -94,12 +100,12 @@ impl Ladder {
 
     /// What was asked for.
     pub fn settings(&self) -> &Settings {
-        &self.task.settings
+        &self.asked.settings
     }
 
     /// The user's pins.
     pub fn pins(&self) -> &Pins {
-        &self.task.pins
+        &self.asked.pins
     }
 
     /// How many steps it has taken.
@@ -155,7 +161,7 @@ impl Ladder {
         if matches!(candidate, Err(SolveError::Unmet)) {
             self.ending = Some(Ending::Unmet);
         }
-        let step = self.proved(candidate?, mesh, control);
+        let step = self.proved(candidate?, mesh, control)?;
         self.take_in(&step);
         Ok(step)
     }
@@ -189,17 +195,20 @@ impl Ladder {
             let task = Arc::clone(&self.plan.part().task);
             let from = Footing { task: &task, mesh, latest };
             let Failure { error, handover } = match self.plan.part_mut().enter(place).step(from, control) {
-                Ok(candidate) => return Ok(candidate),
+                Ok(candidate) => match candidate.solution.embedding.check_finite() {
+                    Ok(()) => return Ok(candidate),
+                    Err(error) => Failure::of(candidate.rung.as_rung(), error),
+                },
                 Err(failure) => failure,
             };
             let Some(handover) = handover else { return Err(error) };
+            self.notes.say(handover.note);
             if !self.plan.part_mut().leave_flight(place) {
                 if !self.plan.has_next_part() {
-                    return Err(error);
+                    return Err(self.given_up(error));
                 }
                 self.enter_next_part()?;
             }
-            self.notes.say(handover.note);
             if let Some(latest) = &mut self.latest {
                 latest.onward = handover.embedding;
             }
@@ -210,7 +219,8 @@ impl Ladder {
     fn enter_next_part(&mut self) -> Result<(), SolveError> {
         let has_start = || self.latest.as_ref().is_some_and(|latest| latest.is_planar);
         if !self.plan.has_next_part() || (self.plan.part().aim == Aim::PlanarStart && !has_start()) {
-            return Err(SolveError::LadderExhausted);
+            let reasons = "the planar start without the constraints is not planar".to_owned();
+            return Err(self.given_up(SolveError::LadderExhausted { reasons }));
         }
         // A part may have given no step at all.
         if let Some(latest) = &mut self.latest {
@@ -220,26 +230,40 @@ impl Ladder {
         Ok(())
     }
 
+    /// The error of a ladder that gives up: which rungs failed, and why.
+    fn given_up(&mut self, error: SolveError) -> SolveError {
+        match self.notes.take() {
+            Some(reasons) if self.task.settings.method == Method::Auto && error != SolveError::Unmet => {
+                SolveError::LadderExhausted { reasons }
+            }
+            _ => error,
+        }
+    }
+
     /// A candidate with its verdict, handed over even where the caller has asked to stop: the rung has moved on.
-    fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Step {
+    fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
         control.enter(Phase::Verify).ok();
         let start = Instant::now();
-        let verdict = verdict(candidate.mesh(mesh), &candidate.solution.embedding);
-        let verify_seconds = start.elapsed().as_secs_f64();
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
         let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
-        let max_move = self.latest.as_ref().map(moved);
+        let max_move = self.latest.as_ref().map(moved).map(|length| self.units.length_in_plane(length));
+        if self.plan.part().aim == Aim::Constraints {
+            candidate.take_to_plane(&self.units, &self.asked.held());
+            candidate.solution.embedding.check_finite()?;
+        }
+        let verdict = verdict(candidate.mesh(mesh), &candidate.solution.embedding);
+        let verify_seconds = start.elapsed().as_secs_f64();
         self.notes.say(candidate.note.take());
         candidate.note = self.notes.take();
         let set_aside = match self.plan.part().aim {
             Aim::Constraints => Pins::new(),
             Aim::PlanarStart => {
                 candidate.prepared = None;
-                self.task.held()
+                self.asked.held()
             }
         };
-        Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside }
+        Ok(Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside })
     }
 
     /// Remembers a step and decides whether the method has ended.
@@ -249,10 +273,12 @@ impl Ladder {
         // A mirror image is one-to-one, but not what the ladder is for.
         let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
         let is_met = part.aim == Aim::PlanarStart || step.unmet().is_empty();
+        // A planar start lies where it lies.
+        let units = if part.aim == Aim::Constraints { self.units } else { Units::default() };
         self.latest = Some(Latest {
-            embedding: step.solution.embedding.clone(),
+            embedding: units.embedding(&step.solution.embedding),
             onward: None,
-            pins: step.solution.pins.clone(),
+            pins: units.pins(&step.solution.pins),
             has_simple_boundary: step.has_simple_boundary(),
             is_planar: step.verdict.planar,
             is_solved: step.verdict.planar && is_upright && is_met,
