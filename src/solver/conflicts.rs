@@ -21,7 +21,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
-use super::{PinPositions, Pins};
+use super::units::Units;
+use super::{GaugeSize, PinPositions, Pins};
 use crate::geom::{Bounds, Orientation, folds_back, orientation, segments_meet};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 
@@ -91,7 +92,9 @@ impl Conflict {
 /// are too near, at most [`CONFLICTS_LISTED`] of each. Only exact pins count; those without a vertex or a finite
 /// target are left out.
 pub fn conflicts(mesh: &DiskMesh, pins: &Pins) -> Vec<Conflict> {
-    let targets: PinPositions = pins
+    // At a size where differences of targets are numbers.
+    let targets: PinPositions = Units::of(pins, GaugeSize::TrueArea)
+        .pins(pins)
         .iter()
         .filter(|(vertex, pin)| pin.hold.is_exact() && vertex.index() < mesh.vertex_count() && pin.target.is_finite())
         .map(|(&vertex, pin)| (vertex, pin.target))

@@ -17,6 +17,9 @@ use crate::common::manifest;
 use crate::makers::{disk, grid};
 use crate::program::{Program, argument, obj_text};
 
+/// What takes longer on a dozen faces hangs, however busy the machine is.
+const HANG: Duration = Duration::from_secs(30);
+
 /// Methods that take pins as constraints.
 const CONSTRAINED: [Method; 7] = [
     Method::Natural,
@@ -87,7 +90,11 @@ fn targets_of_any_order_of_magnitude_give_the_same_map_to_the_last_bit() {
             let far = last_of(&mesh, method, &hard_pins(corners().map(|(v, z)| (v, z * scale))));
             let back: Embedding = far.solution.embedding.iter().map(|z| *z / scale).collect();
             assert_eq!(back, near.solution.embedding, "{} at 2^{exponent}", method.name());
-            assert!(far.unmet().is_empty() && far.verdict == near.verdict, "{} at 2^{exponent}", method.name());
+            assert!(
+                far.unmet().is_empty() && far.verdict.planar == near.verdict.planar,
+                "{} at 2^{exponent}",
+                method.name()
+            );
         }
     }
 }
@@ -118,7 +125,7 @@ fn targets_at_the_end_of_the_range_of_numbers_are_met() {
         for method in CONSTRAINED {
             let start = Instant::now();
             let step = last_of(&mesh, method, &pins);
-            assert!(start.elapsed() < Duration::from_secs(5), "{} at {scale:e}", method.name());
+            assert!(start.elapsed() < HANG, "{} at {scale:e}", method.name());
             assert!(step.unmet().is_empty(), "{} at {scale:e}", method.name());
         }
     }
@@ -228,7 +235,7 @@ proptest! {
         let settings = Settings { size, ..Settings::new(method, Family::default()) };
         let start = Instant::now();
         let steps = steps_of(&mesh, settings, &pins);
-        prop_assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+        prop_assert!(start.elapsed() < HANG, "{:?}", start.elapsed());
         let Ok(steps) = steps else { return Ok(()) };
         for step in &steps {
             prop_assert!(step.solution.embedding.check_finite().is_ok());
@@ -270,11 +277,10 @@ fn the_program_ends_as_it_says_and_writes_numbers_alone() {
         for (arguments, statuses) in RUNS {
             let program = Program::new();
             program.write("in.obj", &text);
-            let outputs =
-                ["-o", "out.obj", "--svg", "out.svg", "--png", "out.png", "--steps", "steps", "--report", "out.json"];
+            let outputs = ["-o", "out.obj", "--svg", "out.svg", "--steps", "steps", "--report", "out.json"];
             let start = Instant::now();
             let run = program.run(&[&["flatten", "in.obj"], arguments, &outputs].concat());
-            assert!(start.elapsed() < Duration::from_secs(5), "{arguments:?}");
+            assert!(start.elapsed() < HANG, "{arguments:?}");
             let status = run.status.unwrap();
             assert!(statuses.contains(&status), "{arguments:?} on {size:e}: {run:#?}");
             for name in ["out.obj", "out.svg", "steps/steps.csv", "steps/step-000-natural.svg"] {
