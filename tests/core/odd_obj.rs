@@ -159,7 +159,9 @@ fn as_read_elsewhere(text: &str) -> String {
         text.replace(['\r', '\u{b}', '\u{c}', '\u{1c}', '\u{1d}', '\u{1e}', '\u{85}', '\u{2028}', '\u{2029}'], "\n");
     ended
         .lines()
-        .map(|line| line.trim_end().strip_suffix('\\').map_or(format!("{line}\n"), |line| format!("{line} ")))
+        .map(|line| {
+            line.trim_end_matches([' ', '\t']).strip_suffix('\\').map_or(format!("{line}\n"), |line| format!("{line} "))
+        })
         .collect()
 }
 

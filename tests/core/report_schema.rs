@@ -175,7 +175,13 @@ const FILES: [(&str, &str); 10] = [
 const RUNS: [(&[&str], i32); 15] = [
     (&["flatten", "tent.obj"], 0),
     (&["flatten", "tent.obj", "--relax", "2", "--pin", "0:0,0", "--pin", "1:1,0.2:3", "--pin", "2:0.9,1"], 0),
-    (&["flatten", "tent.obj", "--method", "natural", "--pin", "0:0,0", "--pin", "1:1,0", "--pin", "4:5,5"], 4),
+    (
+        &[
+            "flatten", "tent.obj", "--method", "natural", "--pin", "0:0,0", "--pin", "1:1,0", "--pin", "2:0,1",
+            "--pin", "3:1,1",
+        ],
+        4,
+    ),
     (&["flatten", "tent.obj", "--method", "convex", "--fit", "true"], 0),
     (&["check", "tent.obj"], 0),
     (&["check", "folded.obj"], 4),
