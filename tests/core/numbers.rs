@@ -12,6 +12,7 @@ use freebound::solver::{
 };
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
+use serde_json::Value;
 
 use crate::common::manifest;
 use crate::makers::{disk, grid};
@@ -164,10 +165,14 @@ fn a_single_method_that_fails_ends_with_4_a_reason_and_a_hint_and_writes_nothing
     for entry in manifest().iter().filter(|entry| entry.file == "maze.obj") {
         let program = Program::new();
         let method = ["--method", "natural", "--family", "mean-value", "--pin", "0:0,0", "--pin", "1:1,0"];
-        let outputs = ["-o", "out.obj", "--svg", "out.svg", "--steps", "steps"];
+        let outputs = ["-o", "out.obj", "--svg", "out.svg", "--steps", "steps", "--report", "report.json"];
         let run = program.run(&[&["flatten", argument(&entry.path)], &method[..], &outputs].concat()).expect(4);
         assert!(run.stderr.contains("singular") || run.stderr.contains("residual"), "{}", run.stderr);
         assert!(run.stderr.contains("--method auto"), "{}", run.stderr);
+        let report: Value = serde_json::from_slice(&std::fs::read(program.path("report.json")).unwrap()).unwrap();
+        let kind = report["error"]["kind"].as_str().unwrap();
+        assert!(["singular", "residual-too-large"].contains(&kind), "{kind}");
+        assert!(report.get("verdict").is_none());
         assert!(
             !program.files().iter().any(|name| name.starts_with("out.") || name == "steps"),
             "{:?}",
