@@ -11,6 +11,8 @@
 use glam::{DVec2, DVec3};
 use robust::{Coord, orient2d};
 
+use super::polygons::newell_normal;
+
 /// A diagonal has to be better than the first by this factor, so that rounding does not decide between equals.
 const CLEARLY_BETTER: f64 = 1.0 + 1e-9;
 
@@ -22,13 +24,6 @@ pub(super) fn triangulate(points: &[DVec3], mut emit: impl FnMut([usize; 3])) {
         4 => quad([points[0], points[1], points[2], points[3]]).into_iter().for_each(emit),
         _ => clip_ears(&in_best_plane(points), &mut emit),
     }
-}
-
-/// Newell's normal; its length is twice the area of the polygon's shadow.
-fn newell_normal(points: &[DVec3]) -> DVec3 {
-    let origin = points[0];
-    let next = points.iter().skip(1);
-    points.iter().zip(next).map(|(&a, &b)| (a - origin).cross(b - origin)).sum()
 }
 
 fn quad(points: [DVec3; 4]) -> [[usize; 3]; 2] {
