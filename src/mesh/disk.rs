@@ -101,6 +101,11 @@ impl DiskMesh {
         self.polygons.iter()
     }
 
+    /// The polygon that begins with a face.
+    pub fn polygon(&self, first_face: FaceId) -> Option<Polygon<'_>> {
+        self.polygons.at(first_face)
+    }
+
     /// The same surface without the polygons that `is_whole` denies: they are but their triangles.
     #[must_use]
     pub(super) fn with_polygons_where(mut self, is_whole: impl Fn(&Polygon<'_>, &TriMesh) -> bool) -> Self {

@@ -101,10 +101,18 @@ impl Polygons {
     }
 
     pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = Polygon<'_>> + Clone {
-        self.starts.windows(2).zip(&self.first_faces).map(|(bounds, &first_face)| {
-            let range = bounds[0] as usize..bounds[1] as usize;
-            Polygon { corners: &self.corners[range.clone()], are_convex: &self.are_convex[range], first_face }
-        })
+        (0..self.first_faces.len()).map(|place| self.polygon(place))
+    }
+
+    /// The one that begins with a face.
+    pub(super) fn at(&self, first_face: FaceId) -> Option<Polygon<'_>> {
+        self.first_faces.binary_search(&first_face).ok().map(|place| self.polygon(place))
+    }
+
+    fn polygon(&self, place: usize) -> Polygon<'_> {
+        let range = self.starts[place] as usize..self.starts[place + 1] as usize;
+        let (corners, are_convex) = (&self.corners[range.clone()], &self.are_convex[range]);
+        Polygon { corners, are_convex, first_face: self.first_faces[place] }
     }
 }
 

@@ -98,6 +98,14 @@ impl Refinement {
         self.source[face.index()]
     }
 
+    /// Polygons of the mesh as given, `given`, that are but triangles here, by their numbers in the file.
+    pub fn cut_polygons(&self, given: &DiskMesh) -> Vec<FaceId> {
+        let numbers = |disk: &DiskMesh| -> BTreeSet<u32> {
+            disk.polygons().map(|polygon| disk.mesh().polygon(polygon.first_face)).collect()
+        };
+        numbers(given).difference(&numbers(&self.disk)).copied().map(FaceId::new).collect()
+    }
+
     /// The old edges that are split, each once, ascending.
     pub fn split_edges(&self) -> Vec<[VertexId; 2]> {
         let mut edges: Vec<[VertexId; 2]> = self.new_vertices.iter().map(|new| new.edge).collect();

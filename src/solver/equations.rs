@@ -18,7 +18,7 @@ use super::pieces::{Piece, pieces};
 use super::weights::{Corner, CornerWeights, three_point_weights};
 use super::{Embedding, Family, SolveError};
 use crate::linalg::Scalar;
-use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
+use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// Coefficients of all vertex equations.
 #[derive(Clone, Debug, PartialEq)]

@@ -86,6 +86,12 @@ impl Rest {
         Progress { energy: 2.0 * half, least_determinant, distance_left }
     }
 
+    /// How many of the triangles are folded in an embedding.
+    pub(super) fn folded_count(&self, mesh: &DiskMesh, embedding: &Embedding) -> usize {
+        let is_folded = |element: &&Element| element.determinant(element.corners.map(|c| embedding[c as usize])) <= 0.0;
+        self.elements(mesh, embedding).iter().filter(is_folded).count()
+    }
+
     /// Mesh and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
     /// frame last. `similar` is one made before for the same mesh and pins.
     pub(super) fn membrane(
