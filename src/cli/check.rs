@@ -42,7 +42,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let verdict = verdict(&mesh, &texture.embedding);
     let distortion = distortion(&mesh, &texture.embedding);
     go_on()?;
-    let words = format!("{path}: texture coordinates: {}", verdict.summary());
+    let in_f32 = verdict.summary_in_f32().map(|words| format!("; {words}")).unwrap_or_default();
+    let words = format!("{path}: texture coordinates: {}{in_f32}", verdict.summary());
     let report = Report {
         verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
         distortion: Some(distortion.summary),

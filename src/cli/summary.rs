@@ -7,7 +7,7 @@ use super::flatten::Solved;
 use super::say::{say, warn};
 use crate::io::{Output, PinsReport, Placement, Report};
 use crate::mesh::VertexId;
-use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step};
+use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step, Verdict};
 
 /// Most vertices or conflicts that are named; the others are only counted.
 const NAMED: usize = 10;
@@ -108,7 +108,9 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
     // Where there is no linear system, there is no residual.
     let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());
     let residual = residual.map(|residual| format!("; residual {residual:.1e}")).unwrap_or_default();
-    lines.push(format!("{}{family}: {verdict}{residual}", report.method.map_or("check", Method::name)));
+    let in_f32 = report.verdict.as_ref().and_then(Verdict::summary_in_f32);
+    let in_f32 = in_f32.map(|words| format!("; {words}")).unwrap_or_default();
+    lines.push(format!("{}{family}: {verdict}{residual}{in_f32}", report.method.map_or("check", Method::name)));
     if report.new_vertices > 0 {
         lines.push(format!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len()));
     }

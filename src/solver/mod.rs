@@ -79,6 +79,6 @@ pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use system::FreeSystem;
-pub use verdict::{Verdict, verdict};
+pub use verdict::{Verdict, is_planar, verdict};
 pub use vertex_equation::{EquationTerm, NoEquation, VertexEquation, WeightSource, equation_of_step};
 pub use virtual_boundary::{Extended, Outline, VirtualBoundary};

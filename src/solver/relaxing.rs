@@ -10,7 +10,7 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
-use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, SolveError, verdict};
+use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, SolveError, is_planar};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -77,7 +77,7 @@ impl Relaxing {
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
         let progress = self.rest.progress(mesh, &z, 0.0);
         let is_better = is_drawn || progress.energy <= self.progress.energy;
-        let is_taken = is_better && verdict(mesh, &z).planar;
+        let is_taken = is_better && is_planar(mesh, &z);
         if is_taken {
             (self.embedding, self.progress) = (z, progress);
         }

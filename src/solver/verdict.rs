@@ -7,6 +7,11 @@
 //! degree in mesh processing", arXiv 1310.0955.) Both are decided without rounding, for the very numbers given, so
 //! the verdict is a proof. It must be taken again where these numbers are rounded for a file.
 //!
+//! # 32 bits
+//!
+//! Most programs read texture coordinates into 32 bits. A planar embedding *holds in 32 bits* where the same proof holds
+//! for every coordinate rounded to the nearest of these numbers.
+//!
 //! # What goes wrong, by kind
 //!
 //! * A *flipped face*: its orientation is negative, or zero, or a corner is not finite.
@@ -50,6 +55,9 @@ pub struct Verdict {
     pub zero_area_faces: usize,
     /// The embedding is a mirror image: some face is negative and none is positive.
     pub mirrored: bool,
+    /// Proved one-to-one with its coordinates rounded to 32 bits, too, and mirrored or not as it is in 64.
+    #[serde(rename = "f32")]
+    pub holds_in_f32: bool,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes fields by reference")]
@@ -64,12 +72,7 @@ fn is_zero(count: &usize) -> bool {
 /// If the embedding does not have one position per vertex.
 pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
     assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
-    let of_triangle = |triangle: &[VertexId; 3]| {
-        let [a, b, c] = triangle.map(|v| embedding[v]);
-        orientation(a, b, c)
-    };
-    let orientations: Vec<Option<Orientation>> =
-        mesh.mesh().triangles.par_iter().with_min_len(FACES_PER_TASK).map(of_triangle).collect();
+    let orientations: Vec<Option<Orientation>> = orientations(mesh, embedding).collect();
     let some_are = |wanted| orientations.contains(&Some(wanted));
     let mirrored = some_are(Orientation::Clockwise) && !some_are(Orientation::CounterClockwise);
     let upright = if mirrored { Orientation::Clockwise } else { Orientation::CounterClockwise };
@@ -90,7 +93,44 @@ pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
         turning_number: turning_number(&boundary),
         zero_area_faces,
         mirrored,
+        holds_in_f32: planar && sense(mesh, &in_f32(embedding)) == Some(upright),
     }
+}
+
+/// Whether an embedding of a disk is one-to-one, as it lies or in a mirror: what [`verdict`] says, without a list of
+/// what is wrong.
+///
+/// # Panics
+///
+/// If the embedding does not have one position per vertex.
+pub fn is_planar(mesh: &DiskMesh, embedding: &Embedding) -> bool {
+    sense(mesh, embedding).is_some()
+}
+
+/// The orientation that all faces of a one-to-one embedding have; none where it is not one-to-one.
+fn sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
+    assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
+    let [a, b, c] = embedding.corners(mesh, mesh.faces().next()?);
+    let of_first = orientation(a, b, c).filter(|&first| first != Orientation::Collinear)?;
+    let are_alike = orientations(mesh, embedding).all(|other| other == Some(of_first));
+    let is_simple = || crossings(&embedding.boundary(mesh)).count == 0;
+    (are_alike && is_simple()).then_some(of_first)
+}
+
+/// The exact orientation of every face; none where a corner is not finite.
+fn orientations<'a>(
+    mesh: &'a DiskMesh,
+    embedding: &'a Embedding,
+) -> impl IndexedParallelIterator<Item = Option<Orientation>> + 'a {
+    mesh.mesh().triangles.par_iter().with_min_len(FACES_PER_TASK).map(|triangle| {
+        let [a, b, c] = triangle.map(|v| embedding[v]);
+        orientation(a, b, c)
+    })
+}
+
+/// The embedding as programs read it that keep 32 bits of every coordinate.
+fn in_f32(embedding: &Embedding) -> Embedding {
+    embedding.iter().map(|z| z.as_vec2().as_dvec2()).collect()
 }
 
 /// Faces or vertices that share the work of one task: enough to outweigh the handing out.
@@ -149,6 +189,12 @@ impl Verdict {
     /// Flipped faces, boundary crossings and overwound vertices together.
     pub fn defect_count(&self) -> usize {
         self.flipped_faces.len() + self.crossing_count() + self.overwound_vertices.len()
+    }
+
+    /// What becomes of a planar embedding in 32 bits, in lower-case words; none where it is not planar in 64.
+    pub fn summary_in_f32(&self) -> Option<&'static str> {
+        let words = if self.holds_in_f32 { "holds in 32 bits" } else { "does not hold in 32 bits" };
+        self.planar.then_some(words)
     }
 
     /// The verdict in a few lower-case words, for a line on the screen or the terminal.

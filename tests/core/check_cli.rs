@@ -152,6 +152,20 @@ fn a_folded_face_is_named_and_ends_with_4() {
 }
 
 #[test]
+fn check_says_whether_a_map_holds_in_32_bits() {
+    let (polygons, mut map) = mapped_grid();
+    for (height, words, holds) in [(1.0, "; holds in 32 bits", true), (1e-9, "; does not hold in 32 bits", false)] {
+        // The row of vertices in the middle comes near to the lowest, at a distance from the origin that takes its digits.
+        map.iter_mut().skip(4).take(4).for_each(|z| z.y = height);
+        let far: Embedding = map.iter().map(|z| *z + DVec2::splat(8.0)).collect();
+        let program = Program::new();
+        assert_eq!(checked(&program, &by_vertex(&polygons, &far))["f32"], holds);
+        let run = program.run(&["check", "in.obj"]).expect(0);
+        assert!(run.stdout.contains("planar: proved one-to-one") && run.stdout.contains(words), "{}", run.stdout);
+    }
+}
+
+#[test]
 fn a_mesh_without_texture_coordinates_is_described_and_reported() {
     let program = Program::new();
     program.write("in.obj", &obj_text(&mapped_grid().0));

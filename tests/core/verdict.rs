@@ -53,9 +53,23 @@ fn a_flat_hexagon_is_planar() {
         turning_number: Some(1),
         zero_area_faces: 0,
         mirrored: false,
+        holds_in_f32: true,
     };
     assert_eq!(judge(&hexagon()), expected);
     assert_eq!(expected.summary(), "planar: proved one-to-one");
+}
+
+#[test]
+fn a_map_finer_than_32_bits_is_planar_but_does_not_hold_there() {
+    let mut case = hexagon();
+    case.embedding[0] = at(-1.0, 2.0 - 1e-9);
+    let verdict = judge(&case);
+    assert!(verdict.planar && !verdict.holds_in_f32, "{verdict:?}");
+    assert_eq!(verdict.summary_in_f32(), Some("does not hold in 32 bits"));
+    // Beyond the range of 32 bits there is nothing to hold.
+    let mut case = hexagon();
+    case.embedding.iter_mut().for_each(|z| *z *= 1e39);
+    assert!(judge(&case).planar && !judge(&case).holds_in_f32);
 }
 
 #[test]
@@ -211,7 +225,7 @@ fn the_report_has_the_fields_of_the_design() {
     assert_eq!(
         serde_json::to_string(&judge(&case)).unwrap(),
         "{\"planar\":false,\"flipped_faces\":[1],\"boundary_crossings\":[[0,4]],\"overwound_vertices\":[],\
-         \"turning_number\":0,\"zero_area_faces\":0,\"mirrored\":false}"
+         \"turning_number\":0,\"zero_area_faces\":0,\"mirrored\":false,\"f32\":false}"
     );
 }
 

@@ -1,7 +1,8 @@
-//! The verdict against the rational oracle on 100,000 random small maps of disks: all fields, and one-to-one or not.
+//! The verdict against the rational oracle on 100,000 random small maps of disks: all fields, and one-to-one or not, in
+//! 64 bits and in 32.
 
 use freebound::mesh::{EdgeId, VertexId};
-use freebound::solver::verdict;
+use freebound::solver::{Embedding, is_planar, verdict};
 use glam::DVec2;
 
 use super::verdict_cases::{Case, grid_case, nearly_planar_case, nudge};
@@ -27,7 +28,19 @@ fn assert_agreement(case: &Case) -> bool {
         injective: verdict.planar,
     };
     assert_eq!(ours, examine(&case.triangles, &case.embedding), "{case:?}");
+    assert_eq!(is_planar(&mesh, &case.embedding), verdict.planar, "{case:?}");
+    assert_eq!(verdict.holds_in_f32, verdict.planar && is_injective_in_f32(case, verdict.mirrored), "{case:?}");
     verdict.planar
+}
+
+/// Whether the oracle finds a map one-to-one once its coordinates are rounded to 32 bits, turned over or not as asked.
+fn is_injective_in_f32(case: &Case, mirrored: bool) -> bool {
+    let rounded: Embedding = case.embedding.iter().map(|z| z.as_vec2().as_dvec2()).collect();
+    let is_finite = rounded.iter().all(|z| z.is_finite());
+    is_finite && {
+        let answer = examine(&case.triangles, &rounded);
+        answer.injective && answer.mirrored == mirrored
+    }
 }
 
 /// Compares many cases and makes sure that both answers occur often.

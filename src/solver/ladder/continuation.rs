@@ -12,7 +12,7 @@ use super::{Candidate, Ending, Step};
 use crate::geom::Similarity;
 use crate::mesh::DiskMesh;
 use crate::solver::continuation::Continuation;
-use crate::solver::{Control, Embedding, Method, Pins, SolveError, verdict};
+use crate::solver::{Control, Embedding, Method, Pins, SolveError, is_planar};
 
 /// Rounds of relaxing that follow: the first answer is not the best. More where springs have yet to pull.
 const ROUNDS: usize = 3;
@@ -59,14 +59,14 @@ impl Rung for Fit {
 /// would fold it; not at all where even that would.
 fn fitted(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Embedding {
     let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v], pin.target]).collect();
-    let is_planar = |embedding: &Embedding| verdict(mesh, embedding).planar;
+    let holds = |embedding: &Embedding| is_planar(mesh, embedding);
     let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Embedding>();
-    if let Some(embedding) = Similarity::fitting(&pairs).map(fit).filter(is_planar) {
+    if let Some(embedding) = Similarity::fitting(&pairs).map(fit).filter(holds) {
         return embedding;
     }
     let shift = pairs.iter().map(|[is, wanted]| *wanted - *is).sum::<DVec2>() / pairs.len().max(1) as f64;
     let shifted = embedding.iter().map(|&z| z + shift).collect::<Embedding>();
-    if is_planar(&shifted) { shifted } else { embedding }
+    if holds(&shifted) { shifted } else { embedding }
 }
 
 #[derive(Debug, Default)]
