@@ -231,7 +231,7 @@ impl StepReport {
             rung: step.rung,
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
-            boundary_crossings: verdict.crossing_count(),
+            boundary_crossings: verdict.boundary_crossings.len(),
             overwound_vertices: verdict.overwound_vertices.len(),
             turning_number: verdict.turning_number,
             max_move: step.max_move,

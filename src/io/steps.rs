@@ -9,6 +9,7 @@ use tempfile::TempDir;
 use super::WriteError;
 use super::report::StepReport;
 use super::svg::write_step_svg;
+use super::unfinished::Unfinished;
 use crate::mesh::DiskMesh;
 use crate::solver::{Choice as _, Step};
 
@@ -20,6 +21,7 @@ const TABLE: &str = "steps.csv";
 pub struct StepsFolder {
     target: PathBuf,
     aside: TempDir,
+    _unfinished: Unfinished,
     names: Vec<String>,
     table: csv::Writer<Vec<u8>>,
 }
@@ -39,7 +41,8 @@ impl StepsFolder {
         let near = target.ancestors().find(|folder| folder.is_dir()).unwrap_or(here);
         let aside = tempfile::Builder::new().prefix(".freebound-").tempdir_in(near).map_err(named)?;
         let table = csv::Writer::from_writer(Vec::new());
-        Ok(Self { target: target.to_owned(), aside, names: Vec::new(), table })
+        let unfinished = Unfinished::new(aside.path());
+        Ok(Self { target: target.to_owned(), aside, _unfinished: unfinished, names: Vec::new(), table })
     }
 
     /// Draws a step and notes its numbers.

@@ -48,7 +48,7 @@ fn a_flat_hexagon_is_planar() {
         planar: true,
         flipped_faces: vec![],
         boundary_crossings: vec![],
-        unlisted_crossings: 0,
+        more_crossings: false,
         overwound_vertices: vec![],
         turning_number: Some(1),
         zero_area_faces: 0,
