@@ -18,7 +18,7 @@ const QUIET: Duration = Duration::from_millis(500);
 const TICK: Duration = Duration::from_millis(100);
 
 /// Time that work has to stop by itself once it is asked to. With what it takes to end the process, a tenth of a second.
-const GRACE: Duration = Duration::from_millis(70);
+const GRACE: Duration = Duration::from_millis(50);
 
 /// The flag that Ctrl-C raises.
 pub(super) static INTERRUPTED: AtomicBool = AtomicBool::new(false);
