@@ -1,17 +1,21 @@
 //! The report: one JSON object per run.
 
-use std::io::Write as _;
-use std::path::Path;
+use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{WriteError, write_atomically};
 use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
 use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
+
+/// Version of the form of reports, which `docs/report.schema.json` describes. It counts up where a field goes or changes
+/// its meaning, not where one comes.
+pub const REPORT_SCHEMA: u32 = 1;
 
 /// Everything that is reported of a run. Field names are part of the interface.
 #[derive(Debug, Default, Serialize)]
 pub struct Report {
+    /// Version of the report's form.
+    pub schema: u32,
     /// Version of the program.
     pub freebound: &'static str,
     /// The input.
@@ -52,20 +56,24 @@ pub struct Report {
 impl Report {
     /// A report on a mesh alone.
     pub fn of_mesh(mesh: MeshReport) -> Self {
-        Self { freebound: env!("CARGO_PKG_VERSION"), mesh, peak_memory_bytes: peak_memory_bytes(), ..Self::default() }
+        Self {
+            schema: REPORT_SCHEMA,
+            freebound: env!("CARGO_PKG_VERSION"),
+            mesh,
+            peak_memory_bytes: peak_memory_bytes(),
+            ..Self::default()
+        }
     }
+}
 
-    /// Writes the report into a file.
-    ///
-    /// # Errors
-    ///
-    /// Where the file cannot be written; the error names it.
-    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
-        write_atomically(path, |out| {
-            serde_json::to_writer_pretty(&mut *out, self)?;
-            writeln!(out)
-        })
-    }
+/// Writes a report, as JSON that a person can read.
+///
+/// # Errors
+///
+/// What `out` says.
+pub fn write_report(out: &mut impl Write, report: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, report)?;
+    writeln!(out)
 }
 
 /// Where an embedding lies that is written.

@@ -6,13 +6,14 @@
 //! | `polygon.rs`, `triangulate.rs`, `blockers.rs` | polygons as a file gives them, cut into triangles |
 //! | `triangles.rs` | triangles that share vertices |
 //! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
-//! | `edges.rs`, `topology.rs`, `orientation.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
+//! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
 //! | `refinement.rs` | a disk with new vertices on its edges |
 //! | `volume.rs` | which side of a surface is the outside |
 
 mod area;
 mod blockers;
+mod coincident;
 mod diagnosis;
 mod disk;
 mod edges;
