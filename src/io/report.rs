@@ -47,6 +47,8 @@ pub struct Report {
     pub new_vertices: usize,
     /// The edges that they lie on, by their ends.
     pub split_edges: Vec<[VertexId; 2]>,
+    /// Polygons that the output has as triangles, by their numbers in the file.
+    pub cut_polygons: Vec<FaceId>,
     /// Where the time went.
     pub seconds: Seconds,
     /// Most memory that the process held, where the system tells.
@@ -164,6 +166,8 @@ pub struct StepReport {
     pub index: usize,
     /// Flipped faces.
     pub flipped_faces: usize,
+    /// Concave polygons.
+    pub concave_polygons: usize,
     /// Boundary crossings.
     pub boundary_crossings: usize,
     /// Overwound vertices.
@@ -207,11 +211,12 @@ fn cell(number: impl Into<Option<f64>>) -> String {
 
 impl StepReport {
     /// The fields as a row of a table, each with the head of its column; empty where there is no value.
-    pub fn row(&self) -> [(&'static str, String); 19] {
+    pub fn row(&self) -> [(&'static str, String); 20] {
         [
             ("rung", self.rung.name().to_owned()),
             ("index", self.index.to_string()),
             ("flipped_faces", self.flipped_faces.to_string()),
+            ("concave_polygons", self.concave_polygons.to_string()),
             ("boundary_crossings", self.boundary_crossings.to_string()),
             ("overwound_vertices", self.overwound_vertices.to_string()),
             ("turning_number", self.turning_number.map(|turns| turns.to_string()).unwrap_or_default()),
@@ -239,6 +244,7 @@ impl StepReport {
             rung: step.rung,
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
+            concave_polygons: verdict.concave_polygons.len(),
             boundary_crossings: verdict.boundary_crossings.len(),
             overwound_vertices: verdict.overwound_vertices.len(),
             turning_number: verdict.turning_number,
@@ -258,9 +264,9 @@ impl StepReport {
         }
     }
 
-    /// Flipped faces, boundary crossings and overwound vertices together.
+    /// Flipped faces, concave polygons, boundary crossings and overwound vertices together.
     pub fn defect_count(&self) -> usize {
-        self.flipped_faces + self.boundary_crossings + self.overwound_vertices
+        self.flipped_faces + self.concave_polygons + self.boundary_crossings + self.overwound_vertices
     }
 }
 
@@ -281,10 +287,13 @@ pub struct Seconds {
 
 /// The verdict with faces numbered as the file numbers them: a polygon is at fault where one of its triangles is.
 pub fn verdict_as_in_file(verdict: &Verdict, mesh: &TriMesh) -> Verdict {
-    let mut flipped_faces: Vec<FaceId> =
-        verdict.flipped_faces.iter().map(|&face| FaceId::new(mesh.polygon(face))).collect();
-    flipped_faces.dedup();
-    Verdict { flipped_faces, ..verdict.clone() }
+    let in_file = |faces: &[FaceId]| {
+        let mut polygons: Vec<FaceId> = faces.iter().map(|&face| FaceId::new(mesh.polygon(face))).collect();
+        polygons.dedup();
+        polygons
+    };
+    let (flipped_faces, concave_polygons) = (in_file(&verdict.flipped_faces), in_file(&verdict.concave_polygons));
+    Verdict { flipped_faces, concave_polygons, ..verdict.clone() }
 }
 
 /// Most memory that this process has held so far, where the system tells (Linux).

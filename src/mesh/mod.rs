@@ -8,6 +8,7 @@
 //! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
 //! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
+//! | `polygons.rs`, `diagonals.rs` | the polygons that a disk's triangles are cut from, and their other diagonals |
 //! | `refinement.rs` | a disk with new vertices on its edges |
 //! | `volume.rs` | which side of a surface is the outside |
 
@@ -15,12 +16,14 @@ mod area;
 mod blockers;
 mod coincident;
 mod diagnosis;
+mod diagonals;
 mod disk;
 mod edges;
 mod fault;
 mod ids;
 mod orientation;
 mod polygon;
+mod polygons;
 mod refinement;
 mod topology;
 mod triangles;
@@ -34,6 +37,7 @@ pub use edges::EdgeTable;
 pub use fault::{Elements, FaceList, Fault};
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use polygon::PolygonMesh;
+pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

@@ -6,6 +6,9 @@
 //! triangles, if both diagonals lie inside. Where no ear is left, because the polygon crosses itself or is seen edge-on,
 //! the remaining corners are clipped as they come: the result always has `n − 2` triangles over the same corners.
 //!
+//! A corner where only two polygons meet, inside the surface, is *bare*. Were it clipped from both, the two ears would be
+//! the same triangle.
+//!
 //! Time: linear for convex polygons. Whether a triangle holds a corner is asked of a tree of boxes (`blockers.rs`), and a
 //! corner that is no ear is asked again only when a neighbour of it was clipped.
 
@@ -15,28 +18,23 @@ use glam::{DVec2, DVec3};
 use robust::{Coord, orient2d};
 
 use super::blockers::Blockers;
+use super::polygons::newell_normal;
 
 /// A diagonal has to be better than the first by this factor, so that rounding does not decide between equals.
 const CLEARLY_BETTER: f64 = 1.0 + 1e-9;
 
-/// Calls `emit` with places `0..n` of the corners of each triangle.
-pub(super) fn triangulate(points: &[DVec3], mut emit: impl FnMut([usize; 3])) {
+/// Calls `emit` with places `0..n` of the corners of each triangle. At a corner that `is_bare` an ear is clipped only
+/// where it cannot be otherwise.
+pub(super) fn triangulate(points: &[DVec3], is_bare: impl Fn(usize) -> bool, mut emit: impl FnMut([usize; 3])) {
     match points.len() {
         0..=2 => {}
         3 => emit([0, 1, 2]),
-        4 => quad([points[0], points[1], points[2], points[3]]).into_iter().for_each(emit),
-        _ => clip_ears(&in_best_plane(points), &mut emit),
+        4 => quad([points[0], points[1], points[2], points[3]], is_bare).into_iter().for_each(emit),
+        _ => clip_ears(&in_best_plane(points), &is_bare, &mut emit),
     }
 }
 
-/// Newell's normal; its length is twice the area of the polygon's shadow.
-fn newell_normal(points: &[DVec3]) -> DVec3 {
-    let origin = points[0];
-    let next = points.iter().skip(1);
-    points.iter().zip(next).map(|(&a, &b)| (a - origin).cross(b - origin)).sum()
-}
-
-fn quad(points: [DVec3; 4]) -> [[usize; 3]; 2] {
+fn quad(points: [DVec3; 4], is_bare: impl Fn(usize) -> bool) -> [[usize; 3]; 2] {
     const FIRST: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
     const SECOND: [[usize; 3]; 2] = [[0, 1, 3], [1, 2, 3]];
     let normal = newell_normal(&points);
@@ -47,6 +45,11 @@ fn quad(points: [DVec3; 4]) -> [[usize; 3]; 2] {
         let size = area.length() / (ab.length_squared() + ac.length_squared() + bc.length_squared());
         if area.dot(normal) > 0.0 { size } else { -1.0 }
     };
+    match (is_bare(0) || is_bare(2), is_bare(1) || is_bare(3)) {
+        (true, false) => return FIRST,
+        (false, true) => return SECOND,
+        _ => {}
+    }
     let worst = |pair: [[usize; 3]; 2]| quality(pair[0]).min(quality(pair[1]));
     let (first, second) = (worst(FIRST), worst(SECOND));
     if second > 0.0 && second > first * CLEARLY_BETTER { SECOND } else { FIRST }
@@ -81,6 +84,8 @@ struct Ring<'a> {
     blockers: Blockers<'a>,
     /// Corners that may be ears. The others were none when they were last looked at, with the neighbours they have now.
     candidates: BTreeSet<usize>,
+    /// Whether other corners than bare ones were ears so far.
+    spares_bare: bool,
 }
 
 impl<'a> Ring<'a> {
@@ -90,7 +95,7 @@ impl<'a> Ring<'a> {
         let previous: Vec<usize> = [n - 1].into_iter().chain(0..n - 1).collect();
         let turns_left = |at: usize| turn(points[previous[at]], points[at], points[next[at]]) > 0.0;
         let blockers = Blockers::new(points, (0..n).filter(|&at| !turns_left(at)).collect());
-        Self { points, next, previous, blockers, candidates: (0..n).collect() }
+        Self { points, next, previous, blockers, candidates: (0..n).collect(), spares_bare: true }
     }
 
     /// Whether the polygon turns left here, which with a NaN it does not, and no corner lies in the triangle.
@@ -100,15 +105,16 @@ impl<'a> Ring<'a> {
         turn(a, b, c) > 0.0 && !self.blockers.any_in(corners)
     }
 
-    /// The first ear from a corner on. None where the polygon is not simple.
-    fn ear_from(&mut self, mut at: usize) -> Option<usize> {
+    /// The first ear from a corner on, not a bare one if there is another. None where the polygon is not simple.
+    fn ear_from(&mut self, mut at: usize, is_bare: &impl Fn(usize) -> bool) -> Option<usize> {
         for is_second_look in [false, true] {
             if is_second_look {
                 // Where the polygon touches itself, what was clipped may have lain in an ear.
+                self.spares_bare = false;
                 self.candidates.extend(std::iter::successors(Some(at), |&v| Some(self.next[v]).filter(|&v| v != at)));
             }
             while let Some(&candidate) = self.candidates.range(at..).next().or(self.candidates.first()) {
-                if self.is_ear(candidate) {
+                if !(self.spares_bare && is_bare(candidate)) && self.is_ear(candidate) {
                     return Some(candidate);
                 }
                 self.candidates.remove(&candidate);
@@ -129,13 +135,13 @@ impl<'a> Ring<'a> {
     }
 }
 
-fn clip_ears(points: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
+fn clip_ears(points: &[DVec2], is_bare: &impl Fn(usize) -> bool, emit: &mut impl FnMut([usize; 3])) {
     let mut ring = Ring::new(points);
     let mut at = 1;
     let mut is_simple = true;
     for _ in 3..points.len() {
         // Where there is none, looking for more is idle.
-        let ear = is_simple.then(|| ring.ear_from(at)).flatten();
+        let ear = is_simple.then(|| ring.ear_from(at, is_bare)).flatten();
         is_simple = ear.is_some();
         let triangle = ring.clip(ear.unwrap_or(at));
         emit(triangle);

@@ -48,13 +48,13 @@ impl ManyPins {
     /// Lays out the system. `rest` names the exact pins whose equations are kept, and the weighted ones.
     pub(super) fn new(site: Site<'_>, rest: Rest) -> Self {
         let mut kept = rest.left_out;
-        kept.retain(|&pin| site.mesh.outgoing(pin).any(|h| site.system.row(site.mesh.head(h)).is_some()));
+        kept.retain(|&pin| site.mesh.links_from(pin).any(|h| site.system.row(site.mesh.head(h)).is_some()));
         Self { springs: rest.springs, kept }
     }
 
     /// Orders and analyses the system.
     pub(super) fn analysis(&self, site: Site<'_>) -> Result<Analysis, SolveError> {
-        let coefficients = vec![C64::ZERO; site.mesh.halfedge_count()];
+        let coefficients = vec![C64::ZERO; site.mesh.link_count()];
         let matrix = self.matrix(site, &Equations { coefficients, bounded_corners: 0 });
         Analysis::new(Kind::General, matrix.pattern()).map_err(|error| self.named(site, error))
     }
@@ -97,7 +97,7 @@ impl ManyPins {
         let Some(own) = self.rows(site, vertex) else { return };
         column.push((own.residual, -C64::ONE));
         let mut of_itself = C64::ZERO;
-        for h in site.mesh.outgoing(vertex) {
+        for h in site.mesh.links_from(vertex) {
             let (other, coefficient) = (site.mesh.head(h), equations.coefficients[h.index()]);
             of_itself -= coefficient;
             let Some(Rows { residual, moved }) = self.rows(site, other) else { continue };
@@ -122,10 +122,10 @@ impl ManyPins {
         column: &mut Vec<(usize, C64)>,
     ) {
         let Some(Rows { residual, moved: Some(moved) }) = self.rows(site, vertex) else { return };
-        let of_itself = -site.mesh.outgoing(vertex).map(|h| equations.coefficients[h.index()]).sum::<C64>();
+        let of_itself = -site.mesh.links_from(vertex).map(|h| equations.coefficients[h.index()]).sum::<C64>();
         let pulled = self.spring(vertex).map_or(0.0, |pin| pull(pin.compliance));
         column.extend([(residual, of_itself), (moved, pulled.into())]);
-        for h in site.mesh.outgoing(vertex) {
+        for h in site.mesh.links_from(vertex) {
             let Some(Rows { residual, moved }) = self.rows(site, site.mesh.head(h)) else { continue };
             column.push((residual, equations.coefficients[site.mesh.twin(h).index()]));
             column.extend(moved.map(|moved| (moved, C64::ZERO)));

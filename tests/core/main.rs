@@ -12,6 +12,7 @@ mod conflicts;
 mod constrained;
 mod continuation;
 mod convex;
+mod convex_polygons;
 mod diagnosis;
 mod disk_oracle;
 mod distortion;

@@ -12,7 +12,7 @@ use super::{Candidate, Ending, Step};
 use crate::geom::Similarity;
 use crate::mesh::DiskMesh;
 use crate::solver::continuation::Continuation;
-use crate::solver::{Control, Embedding, Method, Pins, SolveError, is_planar};
+use crate::solver::{Control, Embedding, Method, Pins, SolveError, is_one_to_one};
 
 /// Rounds of relaxing that follow: the first answer is not the best. More where springs have yet to pull.
 const ROUNDS: usize = 3;
@@ -59,7 +59,7 @@ impl Rung for Fit {
 /// would fold it; not at all where even that would.
 fn fitted(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Embedding {
     let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v], pin.target]).collect();
-    let holds = |embedding: &Embedding| is_planar(mesh, embedding);
+    let holds = |embedding: &Embedding| is_one_to_one(mesh, embedding);
     let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Embedding>();
     if let Some(embedding) = Similarity::fitting(&pairs).map(fit).filter(holds) {
         return embedding;

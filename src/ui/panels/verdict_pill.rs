@@ -124,6 +124,7 @@ fn short_verdict(verdict: &Verdict) -> String {
     };
     let counts = [
         (verdict.flipped_faces.len(), format!("{} flipped", verdict.flipped_faces.len())),
+        (verdict.concave_polygons.len(), format!("{} concave", verdict.concave_polygons.len())),
         (verdict.boundary_crossings.len(), crossings),
         (verdict.overwound_vertices.len(), format!("{} overwound", verdict.overwound_vertices.len())),
     ];
