@@ -40,9 +40,9 @@ pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use obj::{
-    MAX_PARSE_FAULTS, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, Statement, Texture,
-    TextureError, TextureMesh, material_files, material_picture, read_mesh, read_mesh_with, read_obj, read_obj_with,
-    refined_obj, write_obj,
+    MAX_PARSE_FAULTS, Materials, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, Statement,
+    Texture, TextureError, TextureMesh, material_files, material_picture, read_mesh, read_mesh_with, read_obj,
+    read_obj_with, refined_obj, write_obj,
 };
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};
 pub use paths::is_same_file;
