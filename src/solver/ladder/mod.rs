@@ -242,6 +242,11 @@ impl Ladder {
         }
     }
 
+    /// Those of the part under way: a planar start lies in the plane where it lies.
+    fn units_in_force(&self) -> Units {
+        if self.plan.part().aim == Aim::Constraints { self.units } else { Units::default() }
+    }
+
     /// A candidate with its verdict, handed over even where the caller has asked to stop: the rung has moved on.
     fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
         control.enter(Phase::Verify).ok();
@@ -249,11 +254,10 @@ impl Ladder {
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
         let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
-        let max_move = self.latest.as_ref().map(moved).map(|length| self.units.length_in_plane(length));
-        if self.plan.part().aim == Aim::Constraints {
-            candidate.take_to_plane(&self.units, &self.asked.held());
-            candidate.solution.embedding.check_finite()?;
-        }
+        let units = self.units_in_force();
+        let max_move = self.latest.as_ref().map(moved).map(|length| units.length_in_plane(length));
+        candidate.take_to_plane(&units, &self.asked.held());
+        candidate.solution.embedding.check_finite()?;
         let verdict = verdict(candidate.mesh(mesh), &candidate.solution.embedding);
         let verify_seconds = start.elapsed().as_secs_f64();
         self.notes.say(candidate.note.take());
@@ -271,6 +275,7 @@ impl Ladder {
     /// Remembers a step and decides whether the method has ended.
     fn take_in(&mut self, step: &Step) {
         self.step_count += 1;
+        let units = self.units_in_force();
         let part = self.plan.part_mut();
         // A mirror image is one-to-one, but not what the ladder is for.
         let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
@@ -278,8 +283,6 @@ impl Ladder {
         let is_solved_for_faces = step.verdict.is_one_to_one() && is_upright && is_met;
         // The way from a planar start to the constraints keeps no polygon convex: that follows.
         let is_solved = is_solved_for_faces && (step.verdict.planar || part.aim == Aim::PlanarStart);
-        // A planar start lies where it lies.
-        let units = if part.aim == Aim::Constraints { self.units } else { Units::default() };
         self.latest = Some(Latest {
             embedding: units.embedding(&step.solution.embedding),
             onward: None,
