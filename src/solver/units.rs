@@ -50,7 +50,8 @@ impl Units {
         Self { scale, origin: (nearest / step).trunc() * step }
     }
 
-    fn is_plane(&self) -> bool {
+    /// Whether they change nothing, as for ordinary targets.
+    pub(super) fn is_plane(&self) -> bool {
         self.scale == 1.0 && self.origin == DVec2::ZERO
     }
 

@@ -52,6 +52,9 @@ impl Candidate {
 
     /// Takes it from units of the solve to the plane, vertices on the targets asked for to the last bit.
     pub(super) fn take_to_plane(&mut self, units: &Units, asked: &Pins) {
+        if units.is_plane() {
+            return;
+        }
         units.embedding_to_plane(&mut self.solution.embedding, asked);
         units.pins_to_plane(&mut self.solution.pins, asked);
         if let Some(progress) = &mut self.progress {
