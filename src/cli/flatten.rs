@@ -18,7 +18,7 @@ use crate::io::{
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Outcome, Surface};
-use crate::solver::{Choice as _, Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
+use crate::solver::{Choice as _, Control, Ending, Phase, SolveError, Step, conflicts};
 
 /// Folder that the example is written into, in the current one.
 const FOLDER: &str = "freebound-example";
@@ -176,7 +176,7 @@ impl HeadlessJob<'_> {
         if settings.method.uses_pins() {
             warn_of(&conflicts(mesh, &settings.held(&pins)));
         }
-        let mut run = Ladder::new(settings, pins);
+        let mut run = problem.ladder();
         let placed = |step: Step| Outcome::new(mesh, problem, step);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;

@@ -3,7 +3,8 @@
 //! | files | what |
 //! |---|---|
 //! | `method`, `family`, `settings`, `choice` | what can be chosen, with its names and words |
-//! | `pins`, `conflicts`, `scale` | pins and gauge; pins that contradict each other; size and place of what is not pinned |
+//! | `pins`, `conflicts` | pins and gauge; pins that contradict each other |
+//! | `placing`, `sheet` | size and place of what is not pinned, without a fold; the numbers that are written of it |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
 //! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
@@ -39,14 +40,15 @@ mod membrane;
 mod method;
 mod outside;
 mod pins;
+mod placing;
 pub mod plane_weights;
 mod prepared;
 mod relaxing;
 mod rest;
-mod scale;
 mod schnyder;
 mod settings;
 mod shape_preserving;
+mod sheet;
 mod solution;
 mod system;
 mod verdict;
@@ -71,11 +73,12 @@ pub use pins::{
     Hold, Pin, PinPositions, Pins, TakenTargets, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins,
     hard_pins,
 };
+pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use prepared::{Prepared, flatten};
-pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
 pub use schnyder::schnyder;
 pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;
+pub use sheet::Sheet;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, is_planar, verdict};

@@ -10,7 +10,7 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
-use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, SolveError, is_planar};
+use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, Sheet, SolveError};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -38,6 +38,8 @@ pub(super) struct Relaxing {
     membrane: Option<Membrane>,
     /// Whether the last round gained next to nothing.
     pub(super) has_converged: bool,
+    /// How embeddings are written: what is proved.
+    sheet: Arc<Sheet>,
 }
 
 impl Relaxing {
@@ -45,7 +47,20 @@ impl Relaxing {
     pub(super) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let rest = Rest::new(mesh);
         let progress = rest.progress(mesh, &embedding, 0.0);
-        Self { rest, pins: pins.clone(), embedding, progress, membrane: None, has_converged: false }
+        Self {
+            rest,
+            pins: pins.clone(),
+            embedding,
+            progress,
+            membrane: None,
+            has_converged: false,
+            sheet: Arc::default(),
+        }
+    }
+
+    /// The same with embeddings proved as they are written on a sheet.
+    pub(super) fn written_on(self, sheet: Arc<Sheet>) -> Self {
+        Self { sheet, ..self }
     }
 
     /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
@@ -77,7 +92,7 @@ impl Relaxing {
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
         let progress = self.rest.progress(mesh, &z, 0.0);
         let is_better = is_drawn || progress.energy <= self.progress.energy;
-        let is_taken = is_better && is_planar(mesh, &z);
+        let is_taken = is_better && self.sheet.is_planar(mesh, &z);
         if is_taken {
             (self.embedding, self.progress) = (z, progress);
         }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
-use super::relax::Relax;
+use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
@@ -34,6 +34,9 @@ const CONTINUED: Flights = &[&[Fit, Continuation]];
 const MATCHED: Flights = &[&[Fit, Matchmaker]];
 /// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
 const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
+
+/// The most rounds of relaxing until a planar embedding serves.
+const ROUNDS_UNTIL_IT_SERVES: usize = 60;
 
 /// Every rung but relaxing, which follows all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -102,7 +105,10 @@ impl Plan {
         let kept = Kept { planar_start, ..kept.clone() };
         let part = |flights| Part::new(task, Aim::Constraints, flights, &kept);
         let unconstrained = Settings { size: task.settings.size, ..Settings::default() };
-        let start = || Part::new(&Arc::new(Task::new(unconstrained, Pins::new())), Aim::PlanarStart, LADDER, &kept);
+        let start = || {
+            let task = Task::new(unconstrained, Pins::new(), Arc::clone(&task.sheet));
+            Part::new(&Arc::new(task), Aim::PlanarStart, LADDER, &kept)
+        };
         let from_start = |flights| kept.planar_start.is_none().then(start).into_iter().chain([part(flights)]);
         let parts = match task.settings.method {
             Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
@@ -197,9 +203,16 @@ impl Part {
 
     /// What takes the next step; none where the part is at its end.
     pub(super) fn next(&self, latest: Option<&Latest>) -> Option<Place> {
+        let relax = || self.relax.has_more(&self.task, latest).then_some(Place::Relax);
         if latest.is_some_and(|latest| latest.is_solved) {
             let improves = self.rung(self.at).improves().then_some(Place::Rung(self.at));
-            return improves.or_else(|| self.relax.has_more(&self.task, latest).then_some(Place::Relax));
+            return improves.or_else(relax);
+        }
+        // What is too fine for its place may fit there once it has relaxed.
+        if latest.is_some_and(|latest| latest.is_unplaced)
+            && let Some(place) = relax()
+        {
+            return Some(place);
         }
         let (mut at, mut has_stepped) = (self.at, self.has_stepped);
         while let Some(flight) = self.flights.get(at.flight) {
@@ -250,8 +263,17 @@ impl Part {
             self.relax.look_at(step);
         } else {
             let own = || self.rung(self.at).relax_rounds_after(&self.task, step);
-            self.relax.begin(self.task.settings.relax_rounds.unwrap_or_else(own));
+            let rounds = self.task.settings.relax_rounds.unwrap_or_else(own);
+            self.relax.begin(Rounds { always: rounds, until_it_serves: self.rounds_until_it_serves() });
+            self.relax.look_at_start(step);
         }
+    }
+
+    /// Whether a planar end is relaxed until it serves, and by how many rounds at most.
+    pub(super) fn rounds_until_it_serves(&self) -> usize {
+        let settings = &self.task.settings;
+        let is_wanted = settings.method == Method::Auto && settings.relax_rounds.is_none();
+        if is_wanted { ROUNDS_UNTIL_IT_SERVES } else { 0 }
     }
 
     /// Why the ladder ends where this was its last part, and it is not solved.

@@ -91,7 +91,7 @@ impl Default for Bend {
 impl Rung for Bend {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let mut candidate = self.bent(from, control).map_err(|error| self.failure(error))?;
-        from.task.fit(from.mesh, &mut candidate.solution, &mut self.notes);
+        candidate.solution.pins = Pins::new();
         candidate.bent_vertices = if self.pinned > 2 { self.pinned } else { 0 };
         Ok(Candidate { note: self.notes.take(), ..candidate })
     }
