@@ -92,6 +92,8 @@ impl Relaxing {
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
         let progress = self.rest.progress(mesh, &z, 0.0);
         let is_better = is_drawn || progress.energy <= self.progress.energy;
+        // What the descent gains by size alone is lost again: an embedding is measured at its own size.
+        let gain = if is_drawn { gain } else { 1.0 - progress.energy / self.progress.energy };
         let is_taken = is_better && self.sheet.is_planar(mesh, &z);
         if is_taken {
             (self.embedding, self.progress) = (z, progress);

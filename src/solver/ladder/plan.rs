@@ -206,7 +206,7 @@ impl Part {
         let relax = || self.relax.has_more(&self.task, latest).then_some(Place::Relax);
         if latest.is_some_and(|latest| latest.is_solved) {
             let improves = self.rung(self.at).improves().then_some(Place::Rung(self.at));
-            return improves.or_else(relax);
+            return improves.or_else(relax).or_else(|| self.drawing().filter(|_| self.is_too_fine()).map(Place::Rung));
         }
         // What is too fine for its place may fit there once it has relaxed.
         if latest.is_some_and(|latest| latest.is_unplaced)
@@ -224,6 +224,18 @@ impl Part {
             has_stepped = false;
         }
         None
+    }
+
+    /// Whether a planar embedding is too fine to serve, however much it is relaxed.
+    fn is_too_fine(&self) -> bool {
+        self.rounds_until_it_serves() > 0 && self.relax.is_too_fine()
+    }
+
+    /// The grid drawing, where the part has one that is still to come: no face of it is fine.
+    fn drawing(&self) -> Option<At> {
+        let flight = self.flights.iter().position(|flight| flight[0] == Schnyder)?;
+        let at = At { flight, rung: 0 };
+        self.rung(at).has_more(&self.task, None).then_some(at)
     }
 
     /// Goes to what takes the next step.

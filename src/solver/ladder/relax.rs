@@ -15,6 +15,9 @@ use crate::solver::{Control, Pins, SolveError};
 /// A mean symmetric Dirichlet energy up to this is moderate; 4 is the least.
 const MODERATE_ENERGY: f64 = 20.0;
 
+/// An embedding is far from the origin where it is so many of its sizes away: there it has fewer digits.
+const FAR: f64 = 8.0;
+
 /// How many rounds may follow.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rounds {
@@ -30,7 +33,36 @@ pub(super) struct Relax {
     /// Rounds that may still follow.
     left: Rounds,
     /// Why the latest embedding does not serve.
-    lack: Option<String>,
+    lack: Option<Lack>,
+}
+
+/// What an embedding lacks to serve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Lack {
+    /// It folds in 32 bits; whether that is because it lies far from the origin.
+    Digits { is_far: bool },
+    /// Its energy is so high.
+    Energy(f64),
+}
+
+impl Lack {
+    /// What a step lacks; the energy is no matter where it only begins a way to constraints.
+    fn of(step: &Step) -> Option<Self> {
+        if !step.verdict.holds_in_f32 {
+            let bounds = step.solution.embedding.bounds();
+            let is_far = bounds.middle().abs().max_element() > FAR * bounds.size().max_element();
+            return Some(Self::Digits { is_far });
+        }
+        let energy = step.progress.filter(|_| !step.is_of_planar_start()).map(|progress| progress.energy);
+        energy.filter(|&energy| energy > MODERATE_ENERGY).map(Self::Energy)
+    }
+
+    fn words(self) -> String {
+        match self {
+            Self::Digits { .. } => "it does not hold in 32 bits".to_owned(),
+            Self::Energy(energy) => format!("its energy is {energy:.0}, over {MODERATE_ENERGY}"),
+        }
+    }
 }
 
 impl Relax {
@@ -41,7 +73,12 @@ impl Relax {
 
     /// Takes in the step that rounds may follow.
     pub(super) fn look_at_start(&mut self, step: &Step) {
-        self.lack = lack_of(step);
+        self.lack = Lack::of(step);
+    }
+
+    /// Whether the latest embedding is finer than 32 bits, wherever it lies.
+    pub(super) fn is_too_fine(&self) -> bool {
+        self.lack == Some(Lack::Digits { is_far: false })
     }
 
     fn round(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
@@ -56,8 +93,8 @@ impl Relax {
         let sheet = if is_constrained { Arc::clone(&task.sheet) } else { Arc::default() };
         let begin = || Relaxing::new(mesh, latest.embedding.clone(), &held).written_on(sheet);
         let candidate = self.relaxing.get_or_insert_with(begin).round(mesh, control)?;
-        let lack = self.lack.clone().filter(|_| self.left.always == 0);
-        let note = lack.map(|lack| format!("relaxed because {lack}"));
+        let lack = self.lack.filter(|_| self.left.always == 0);
+        let note = lack.map(|lack| format!("relaxed because {}", lack.words()));
         Ok(Candidate { refinement, note, ..candidate.since(start) })
     }
 }
@@ -80,15 +117,6 @@ impl Rung for Relax {
     fn look_at(&mut self, step: &Step) {
         self.left.always = self.left.always.saturating_sub(1);
         self.left.until_it_serves = self.left.until_it_serves.saturating_sub(1);
-        self.lack = lack_of(step);
+        self.lack = Lack::of(step);
     }
-}
-
-/// Why a planar embedding does not serve, for a note.
-fn lack_of(step: &Step) -> Option<String> {
-    let energy = step.progress.map(|progress| progress.energy).filter(|&energy| energy > MODERATE_ENERGY);
-    if !step.verdict.holds_in_f32 {
-        return Some("it does not hold in 32 bits".to_owned());
-    }
-    energy.map(|energy| format!("its energy is {energy:.0}, over {MODERATE_ENERGY}"))
 }
