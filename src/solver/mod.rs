@@ -13,7 +13,7 @@
 //! | `schnyder` | a drawing in whole numbers, planar by theorem |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
-//! | `ladder/` | a plan of rungs over all of these, each step proved |
+//! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
 //! | `verdict`, `distortion`, `vertex_equation` | what is said of an embedding |
 //! | `control`, `error` | progress and cancelling; why no embedding was produced |
 
@@ -29,6 +29,7 @@ pub mod equations;
 mod error;
 mod family;
 mod fixed_solve;
+mod flatten;
 pub mod foldover_energy;
 mod free_solve;
 mod iterate;
@@ -64,6 +65,7 @@ pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread
 pub use embedding::Embedding;
 pub use error::SolveError;
 pub use family::Family;
+pub use flatten::{FlattenError, Options, flatten};
 pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, largest_move};
 pub use matchmaker::{Matched, matched, without_needless_vertices};
@@ -74,7 +76,7 @@ pub use pins::{
     hard_pins,
 };
 pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
-pub use prepared::{Prepared, flatten};
+pub use prepared::{Prepared, solve_once};
 pub use schnyder::schnyder;
 pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;

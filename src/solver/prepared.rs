@@ -44,12 +44,13 @@ enum Values {
     Fixed(FixedSolve),
 }
 
-/// Solves for an embedding.
+/// Solves for an embedding once, by a linear method or the first rung of another. Nothing is proved of it:
+/// [`flatten`](super::flatten) goes on until it is.
 ///
 /// # Errors
 ///
 /// See [`Prepared::new`] and [`Prepared::solve`].
-pub fn flatten(
+pub fn solve_once(
     mesh: &DiskMesh,
     settings: &Settings,
     pins: &Pins,

@@ -44,6 +44,7 @@ mod obj_texture;
 mod obj_write;
 mod pins;
 mod pipes;
+mod placing;
 mod polygon;
 mod program;
 mod raster;

@@ -7,7 +7,7 @@
 use super::Candidate;
 use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
-use crate::solver::{Control, Family, Method, Pins, Settings, flatten};
+use crate::solver::{Control, Family, Method, Pins, Settings, solve_once};
 
 #[derive(Debug, Default)]
 pub(super) struct Again {
@@ -17,7 +17,7 @@ pub(super) struct Again {
 impl Rung for Again {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let settings = Settings { size: from.task.settings.size, ..Settings::new(Method::Natural, Family::default()) };
-        let mut solution = flatten(from.mesh, &settings, &Pins::new(), control)
+        let mut solution = solve_once(from.mesh, &settings, &Pins::new(), control)
             .map_err(|error| Failure::of("starting again", error))?;
         self.is_done = true;
         solution.pins = Pins::new();

@@ -23,7 +23,7 @@ use crate::solver::equations::{barycentric, uniform};
 use crate::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use crate::solver::{
     Control, Embedding, Extended, Family, Growth, Method, PhaseSeconds, PinPositions, Pins, Settings, Solution,
-    SolveError, Treatment, VirtualBoundary, fixed_pins, flatten,
+    SolveError, Treatment, VirtualBoundary, fixed_pins, solve_once,
 };
 
 /// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,
@@ -160,7 +160,7 @@ impl Bend {
             // At last only weights that cannot fail will do.
             let family = if is_last { Family::MeanValue } else { task.settings.family };
             let settings = Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Natural, family) };
-            let solved = flatten(mesh, &settings, &fixed_pins(on_circle(mesh, pinned)), control);
+            let solved = solve_once(mesh, &settings, &fixed_pins(on_circle(mesh, pinned)), control);
             if solved == Err(SolveError::Cancelled) {
                 return Err(SolveError::Cancelled);
             }
