@@ -7,6 +7,7 @@
 //! | `corpus.rs` | where the corpus lies: meshes of others, beside the project |
 //! | `deep.rs` | disks whose inside is far from a small boundary: stacked, tube, hand |
 //! | `sheet.rs` | an irregular sheet of any size |
+//! | `quads.rs` | sheets of quads and of hexagons, gentle to rough |
 //! | `flat.rs`, `caps.rs`, `cube.rs`, `face.rs` | the built-in meshes |
 //! | `fill.rs`, `delaunay.rs` | good triangles on a surface, for these |
 //! | `sculpt.rs`, `landmarks.rs` | the sculpture of the face, and its landmarks |
@@ -34,6 +35,7 @@ mod landmarks;
 mod paint;
 mod plain;
 mod portrait;
+mod quads;
 mod random;
 mod relief;
 mod sculpt;
@@ -49,6 +51,7 @@ pub(crate) use delaunay::{coord, triangulate};
 pub(crate) use landmarks::landmarks;
 pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, write_obj};
 pub(crate) use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};
+pub(crate) use quads::{honeycomb, quad_sheet};
 pub(crate) use random::Random;
 pub(crate) use sheet::{jittered_sheet, sheet_of_faces};
 

@@ -44,10 +44,11 @@ pub enum Command {
 /// Arguments of `flatten`.
 #[derive(Debug, Args)]
 pub struct FlattenArguments {
-    /// The mesh, an OBJ file.
+    /// The mesh, an OBJ file; standard input with `-`.
     pub mesh: PathBuf,
-    /// Write the mesh with texture coordinates here (OBJ).
-    #[arg(short, long, value_name = "OBJ")]
+    /// Write the mesh with texture coordinates here (OBJ), or to standard output with `-`. The mesh that is read, or
+    /// anything else that is, is never written over.
+    #[arg(short, long, value_name = "OBJ|-")]
     pub output: Option<PathBuf>,
     /// How to flatten.
     #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
@@ -94,15 +95,15 @@ pub struct FlattenArguments {
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
-    /// Draw the layout here (SVG).
-    #[arg(long, value_name = "FILE")]
+    /// Draw the layout here (SVG), or to standard output with `-`.
+    #[arg(long, value_name = "FILE|-")]
     pub svg: Option<PathBuf>,
     /// Size of the drawing: the unit square (the picture, where there is one) is the page, or lengths are as on the
     /// surface, a unit of the drawing for a unit of the mesh. As `--fit` without it.
     #[arg(long, value_enum, requires = "svg")]
     pub svg_scale: Option<OutputFit>,
-    /// Draw the mesh and the layout side by side here (PNG).
-    #[arg(long, value_name = "FILE")]
+    /// Draw the mesh and the layout side by side here (PNG), or to standard output with `-`.
+    #[arg(long, value_name = "FILE|-")]
     pub png: Option<PathBuf>,
     /// Draw every step into this folder (SVG), with a table of their numbers (steps.csv). The steps of an earlier run in
     /// it are replaced.
@@ -172,7 +173,7 @@ pub struct FiguresArguments {
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// The mesh, an OBJ file.
+    /// The mesh, an OBJ file; standard input with `-`.
     pub mesh: PathBuf,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]

@@ -4,17 +4,19 @@ use std::time::Instant;
 
 use super::args::CheckArguments;
 use super::flatten::{disk_of, go_on};
-use super::progress::is_interrupted;
+use super::places::Places;
+use super::standard::read_model;
 use super::summary::deliver;
 use super::{Failure, Status};
 use crate::io::{MeshReport, Report, Seconds, TextureError, verdict_as_in_file};
-use crate::mesh::DiskMesh;
-use crate::session::Model;
+use crate::mesh::{DiskMesh, Fault};
 use crate::solver::{distortion, verdict};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let start = Instant::now();
-    let model = Model::read_until(&arguments.mesh, &is_interrupted)?;
+    let places = Places::of_check(arguments);
+    places.spare(&arguments.mesh, "the mesh")?;
+    let model = read_model(&arguments.mesh)?;
     let path = model.path_words();
     let texture = match model.source.texture_mesh() {
         Ok(texture) => texture,
@@ -31,11 +33,12 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
             deliver(&report, arguments.report.as_deref(), || words)?;
             return Ok(Status::Fine);
         }
-        Err(error) => return Err(error.into()),
+        Err(error) => return Err(Failure::Texture { path, error }),
     };
-    let mesh = DiskMesh::try_from(texture.mesh).map_err(|diagnosis| Failure::NotADisk {
-        path: format!("{path} (cut along the seams of its texture coordinates)"),
-        diagnosis,
+    let mesh = DiskMesh::try_from(texture.mesh).map_err(|mut diagnosis| {
+        // Charts lie beside each other in space: that is what seams are.
+        diagnosis.faults.retain(|fault| !matches!(fault, Fault::CoincidentVertices(_)));
+        Failure::NotADisk { path: format!("{path} (cut along the seams of its texture coordinates)"), diagnosis }
     })?;
     let read = start.elapsed().as_secs_f64();
     go_on()?;

@@ -1,8 +1,11 @@
 //! How a command ends: exit status and last words.
 
+use std::fmt::Display;
 use std::process::ExitCode;
 
+use super::failed::Subject;
 use super::say::warn;
+use super::standard::name_of_input;
 use crate::io::{ConstraintsError, PictureError, ReadError, TextureError, WriteError};
 use crate::mesh::Diagnosis;
 use crate::solver::SolveError;
@@ -14,10 +17,13 @@ const INTERNAL: u8 = 1;
 const WRONG_USE: u8 = 2;
 
 /// A file that cannot be used.
-const UNUSABLE_INPUT: u8 = 3;
+pub(super) const UNUSABLE_INPUT: u8 = 3;
 
 /// [`Status::FallsShort`].
-const FALLS_SHORT: u8 = 4;
+pub(super) const FALLS_SHORT: u8 = 4;
+
+/// What to do where only some corners have texture coordinates.
+pub(super) const TEXTURE_REMEDY: &str = "give every corner texture coordinates, or none";
 
 /// Ended by Ctrl-C.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -36,8 +42,13 @@ pub enum Status {
 #[non_exhaustive]
 pub enum Failure {
     /// The file cannot be read.
-    #[error("{0}")]
-    Read(#[from] ReadError),
+    #[error("{}; {}", on_each_line(path, error), error.remedy())]
+    Read {
+        /// The file.
+        path: String,
+        /// What is wrong with it.
+        error: ReadError,
+    },
     /// The constraint file cannot be used.
     #[error("{0}")]
     Constraints(#[from] ConstraintsError),
@@ -45,17 +56,22 @@ pub enum Failure {
     #[error("{0}")]
     Picture(#[from] PictureError),
     /// The texture coordinates make no mesh.
-    #[error("{0}: give every corner texture coordinates, or none")]
-    Texture(#[from] TextureError),
+    #[error("{path}: {error}; {TEXTURE_REMEDY}")]
+    Texture {
+        /// The file.
+        path: String,
+        /// What is wrong with them.
+        error: TextureError,
+    },
     /// The mesh is not a disk.
-    #[error("{path} cannot be flattened as it is\n{diagnosis}")]
+    #[error("{path}: cannot be flattened as it is\n{diagnosis}")]
     NotADisk {
         /// The file.
         path: String,
         /// Everything that is wrong with it.
         diagnosis: Box<Diagnosis>,
     },
-    /// The solver gave no embedding.
+    /// The solver gave no embedding. The name of the mesh is said before it.
     #[error("{0}")]
     Solve(#[from] SolveError),
     /// A result could not be written.
@@ -74,20 +90,11 @@ impl Failure {
     /// one has to choose.
     pub const fn code(&self) -> u8 {
         match self {
-            Self::Read(ReadError::Cancelled) | Self::Solve(SolveError::Cancelled) => INTERRUPTED,
-            Self::Read(
-                ReadError::File { .. }
-                | ReadError::Stream(_)
-                | ReadError::NotReadYet(_)
-                | ReadError::NotText
-                | ReadError::LineTooLong { .. }
-                | ReadError::Parse { .. }
-                | ReadError::NoFaces { .. }
-                | ReadError::TooLarge,
-            )
+            Self::Read { error: ReadError::Cancelled, .. } | Self::Solve(SolveError::Cancelled) => INTERRUPTED,
+            Self::Read { .. }
             | Self::Constraints(_)
             | Self::Picture(_)
-            | Self::Texture(_)
+            | Self::Texture { .. }
             | Self::NotADisk { .. }
             | Self::Solve(SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. }) => UNUSABLE_INPUT,
             Self::Write(_)
@@ -113,13 +120,30 @@ impl Failure {
     }
 }
 
-/// Prints a failure and turns the outcome into the process's exit status.
-pub(super) fn conclude(outcome: Result<Status, Failure>) -> ExitCode {
+/// A message with the name of its file before each line.
+fn on_each_line(path: &str, message: &impl Display) -> String {
+    let lines: Vec<String> = message.to_string().lines().map(|line| format!("{path}: {line}")).collect();
+    lines.join("\n")
+}
+
+/// The message of a failure, the name of the file first.
+pub(super) fn message_of(failure: &Failure, subject: Option<Subject<'_>>) -> String {
+    match (failure, subject) {
+        (Failure::Solve(error), Some(Subject { mesh, .. })) => format!("{}: {error}", name_of_input(mesh)),
+        _ => failure.to_string(),
+    }
+}
+
+/// Prints a failure, sees to the report of the run, and turns the outcome into the process's exit status.
+pub(super) fn conclude(outcome: Result<Status, Failure>, subject: Option<Subject<'_>>) -> ExitCode {
     match outcome {
         Ok(Status::Fine) => ExitCode::SUCCESS,
         Ok(Status::FallsShort) => ExitCode::from(FALLS_SHORT),
         Err(failure) => {
-            warn(&failure);
+            warn(message_of(&failure, subject));
+            if let Some(subject) = subject {
+                subject.report_failure(&failure);
+            }
             ExitCode::from(failure.code())
         }
     }

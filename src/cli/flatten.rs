@@ -8,13 +8,16 @@ use std::time::Instant;
 
 use super::args::FlattenArguments;
 use super::exit::conclude;
+use super::places::Places;
 use super::progress::{INTERRUPTED, Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
-use super::summary::{deliver, ending_words, step_words, summary, warn_of};
+use super::standard::{is_standard, read_model};
+use super::summary::{deliver, ending_words, put_report, step_words, summary, warn_of};
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::{
     Constraints, OutputFit, OutputKind, PictureFile, StepReport, StepsFolder, Target, Targets, WriteError,
+    material_files,
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Outcome, Surface};
@@ -33,13 +36,18 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
             "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
         ));
     }
+    let places = Places::of_flatten(arguments);
+    refuse_clashes(arguments, &places)?;
     set_threads(arguments.threads)?;
     let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
     let progress = Progress::default();
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = Model::read_until(&arguments.mesh, &is_interrupted)?;
+        let model = read_model(&arguments.mesh)?;
+        for file in material_files(&model.source, &arguments.mesh) {
+            places.spare(&file, "a file that the mesh's materials name")?;
+        }
         let targets = gather(arguments, disk_of(&model)?.vertex_count())?;
         let document = Document {
             targets,
@@ -60,10 +68,26 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     })
 }
 
+/// Refuses files that would be written over, by the run itself or as results of one another.
+fn refuse_clashes(arguments: &FlattenArguments, places: &Places) -> Result<(), Failure> {
+    places.keep_apart()?;
+    places.spare(&arguments.mesh, "the mesh")?;
+    for (file, what) in [(&arguments.constraints, "the constraints"), (&arguments.picture, "the picture")] {
+        if let Some(path) = file {
+            places.spare(path, what)?;
+        }
+    }
+    if arguments.picture.is_some() && arguments.output.as_deref().is_some_and(is_standard) {
+        let text = "standard output: -o has no folder there for --picture: name a file, or give --aspect alone";
+        return Err(Failure::Usage(text.to_owned()));
+    }
+    Ok(())
+}
+
 /// Flattens the built-in face and writes mesh, report and picture into a folder that it names.
 pub fn run_example() -> ExitCode {
     stop_on_interrupt();
-    conclude(flatten_example())
+    conclude(flatten_example(), None)
 }
 
 fn flatten_example() -> Result<Status, Failure> {
@@ -153,12 +177,21 @@ impl HeadlessJob<'_> {
         }
         for (kind, path) in &self.outputs {
             go_on()?;
-            output.write(*kind, path)?;
+            if is_standard(path) {
+                output.write_to_standard_output(*kind)?;
+            } else {
+                output.write(*kind, path)?;
+            }
         }
         output.report.seconds.write = before_writing.elapsed().as_secs_f64();
         output.report.seconds.total = start.elapsed().as_secs_f64();
-        deliver(&output.report, self.report, || summary(&output.report, &ending_words(&solved, &output)))?;
-        let are_met = output.report.pins.is_none_or(|pins| pins.unmet.is_empty());
+        let report = &output.report;
+        if self.outputs.iter().any(|(_, path)| is_standard(path)) {
+            self.report.map_or(Ok(()), |path| put_report(report, path))?;
+        } else {
+            deliver(report, self.report, || summary(report, &ending_words(&solved, &output)))?;
+        }
+        let are_met = output.report.pins.as_ref().is_none_or(|pins| pins.unmet.is_empty());
         Ok(if output.verdict.planar && are_met { Status::Fine } else { Status::FallsShort })
     }
 

@@ -9,20 +9,27 @@
 //! | `figures`     | the paper's figures, computed again                                    |
 //! | `progress`    | the line that follows the work, and Ctrl-C                             |
 //! | `summary`     | the lines that sum a run up, and where its report goes                 |
+//! | `failed`      | the report of a run that came to nothing                               |
+//! | `places`      | files of a run that must not be one another                            |
+//! | `standard`    | `-` as a file: standard input and output                               |
 //! | `say`         | words on standard output and standard error                            |
 //! | `exit`        | exit status and last words                                             |
 
 mod args;
 mod check;
 mod exit;
+mod failed;
 mod figures;
 mod flatten;
+mod places;
 mod progress;
 mod say;
+mod standard;
 mod summary;
 
 use std::process::ExitCode;
 
+use self::failed::Subject;
 use crate::solver::{Choice, Family, Method, Words};
 
 pub use args::{Arguments, Command, FlattenArguments};
@@ -34,16 +41,16 @@ pub use say::warn;
 /// Runs a command and says how it ended.
 pub fn run(command: &Command) -> ExitCode {
     progress::stop_on_interrupt();
-    let outcome = match command {
-        Command::Flatten(arguments) => flatten::run(arguments),
-        Command::Check(arguments) => check::run(arguments),
-        Command::Figures(arguments) => figures::run(&arguments.folder),
+    let (outcome, subject) = match command {
+        Command::Flatten(arguments) => (flatten::run(arguments), Some((&arguments.mesh, &arguments.report))),
+        Command::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
+        Command::Figures(arguments) => (figures::run(&arguments.folder), None),
         Command::Methods => {
             let lists = [list::<Method>("Methods (--method)"), list::<Family>("Families of weights (--family)")];
-            say::say(lists.join("\n\n")).map(|()| Status::Fine)
+            (say::say(lists.join("\n\n")).map(|()| Status::Fine), None)
         }
     };
-    exit::conclude(outcome)
+    exit::conclude(outcome, subject.map(|(mesh, report)| Subject { mesh, report: report.as_deref() }))
 }
 
 /// Names on the left; beside each what it does, and below that where it comes from.

@@ -2,10 +2,15 @@
 
 use std::path::Path;
 
+use serde::Serialize;
+
 use super::Failure;
 use super::flatten::Solved;
 use super::say::{say, warn};
-use crate::io::{Output, PinsReport, Placement, Report};
+use super::standard::is_standard;
+use crate::io::{
+    Output, PinsReport, Placement, Report, WriteError, write_atomically, write_report, write_to_standard_output,
+};
 use crate::mesh::VertexId;
 use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step, Verdict};
 
@@ -84,17 +89,21 @@ fn pins_words(pins: &PinsReport) -> Option<String> {
     (!parts.is_empty()).then(|| format!("constraints: {}", parts.join(", ")))
 }
 
-/// Writes a report where it is wanted: into a file, or to standard output for `-`, where it must stand alone. Otherwise
-/// says the words for a person.
-pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -> String) -> Result<(), Failure> {
-    match to {
-        Some(path) if path == Path::new("-") => {
-            return say(serde_json::to_string_pretty(report).expect("a report is plain data"));
-        }
-        Some(path) => report.write(path)?,
-        None => {}
+/// Writes a report into a file, or to standard output for `-`.
+pub(super) fn put_report(report: &impl Serialize, path: &Path) -> Result<(), WriteError> {
+    if is_standard(path) {
+        write_to_standard_output(|out| write_report(out, report))
+    } else {
+        write_atomically(path, |out| write_report(out, report))
     }
-    say(words())
+}
+
+/// Says the words for a person, and writes the report where one is wanted. On standard output a report stands alone.
+pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -> String) -> Result<(), Failure> {
+    if !to.is_some_and(is_standard) {
+        say(words())?;
+    }
+    to.map_or(Ok(()), |path| Ok(put_report(report, path)?))
 }
 
 /// What a run came to.

@@ -9,7 +9,7 @@ const BUFFER: usize = 256 << 10;
 
 /// Why a file was not written. Nothing of it is left behind.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write the file: {source}: {}", path.display())]
+#[error("{}: cannot be written: {source}", path.display())]
 pub struct WriteError {
     /// The file that was to be written.
     pub path: PathBuf,
@@ -52,6 +52,34 @@ pub fn write_durably(
     // The name is written too. Where a folder cannot be opened, as on some systems, the file itself is safe.
     File::open(folder_of(&target_of(path))).and_then(|folder| folder.sync_all()).ok();
     Ok(())
+}
+
+/// Writes to standard output. A reader who has had enough and closed the pipe is no fault.
+///
+/// # Errors
+///
+/// [`WriteError`] says what went wrong.
+pub fn write_to_standard_output(write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), WriteError> {
+    let written = standard_output().and_then(|file| {
+        let mut out = BufWriter::with_capacity(BUFFER, file);
+        write(&mut out)?;
+        out.flush()
+    });
+    match written {
+        Err(source) if source.kind() != io::ErrorKind::BrokenPipe => {
+            Err(WriteError { path: PathBuf::from("standard output"), source })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Standard output as a file: what is written to it is not searched for line ends.
+fn standard_output() -> io::Result<File> {
+    #[cfg(unix)]
+    let own = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
+    #[cfg(windows)]
+    let own = std::os::windows::io::AsHandle::as_handle(&io::stdout()).try_clone_to_owned();
+    own.map(File::from)
 }
 
 /// The file that is written to: links are followed.

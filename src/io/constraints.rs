@@ -24,7 +24,7 @@ pub struct Constraints {
 #[non_exhaustive]
 pub enum ConstraintsError {
     /// The file cannot be read.
-    #[error("cannot read the constraints: {source}: {}", path.display())]
+    #[error("{}: the constraints cannot be read: {source}", path.display())]
     File {
         /// The file.
         path: PathBuf,
@@ -32,7 +32,7 @@ pub enum ConstraintsError {
         source: io::Error,
     },
     /// A line that cannot be.
-    #[error("line {line}: {kind}: {}", path.display())]
+    #[error("{}: line {line}: {kind}", path.display())]
     Line {
         /// The file.
         path: PathBuf,

@@ -9,18 +9,22 @@
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
 //! | `output`      | the table of formats; a finished flattening written in any of them         |
 //! | `report`      | report of a run (JSON), and a step as a row of a table                     |
+//! | `error_report`| report of a run that came to nothing (JSON)                                |
 //! | `svg`         | an embedding or a step as a drawing                                        |
 //! | `steps`       | the steps of a run as a folder of drawings and a table                     |
 //! | `raster`      | pictures of meshes without a screen                                        |
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
+//! | `paths`       | which paths lead to one file, and the way from a folder to a file          |
 //! | `stamp`       | what tells one state of a file from another                                |
 
 mod atomic;
 mod constraints;
+mod error_report;
 pub mod figure;
 mod obj;
 mod output;
+mod paths;
 mod picture;
 mod project;
 pub mod raster;
@@ -30,21 +34,23 @@ mod steps;
 mod svg;
 mod targets;
 
-pub use atomic::{WriteError, write_atomically, write_durably};
+pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
+pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use obj::{
     MAX_PARSE_FAULTS, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, Statement, Texture,
-    TextureError, TextureMesh, material_picture, read_mesh, read_mesh_with, read_obj, read_obj_with, refined_obj,
-    write_obj,
+    TextureError, TextureMesh, material_files, material_picture, read_mesh, read_mesh_with, read_obj, read_obj_with,
+    refined_obj, write_obj,
 };
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};
+pub use paths::is_same_file;
 pub use picture::{PictureError, PictureFile, decode_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
 pub use report::{
-    MeshReport, PinsReport, Placement, Report, Seconds, StepReport, WeightedPinReport, peak_memory_bytes,
-    verdict_as_in_file,
+    MeshReport, PinsReport, Placement, REPORT_SCHEMA, Report, Seconds, StepReport, WeightedPinReport,
+    peak_memory_bytes, verdict_as_in_file, write_report,
 };
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;

@@ -1,14 +1,17 @@
 //! The files that a finished flattening is written to, by their kind.
 
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, BufWriter};
 use std::path::Path;
 
 use clap::ValueEnum;
 use glam::{DVec2, DVec3};
 
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
-use super::report::Report;
+use super::report::{Report, write_report};
 use super::svg::write_svg;
-use super::{ObjMesh, PictureFile, WriteError, refined_obj, write_atomically, write_obj};
+use super::{ObjMesh, PictureFile, WriteError, refined_obj, write_atomically, write_obj, write_to_standard_output};
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement};
 use crate::solver::{Embedding, Verdict};
@@ -53,7 +56,7 @@ pub struct Format {
     pub ending: &'static str,
     /// What a dialog asks for, its verb first.
     pub title: &'static str,
-    write: fn(&Output<'_>, &Path) -> Result<(), WriteError>,
+    write: fn(&Output<'_>, &mut BufWriter<File>) -> io::Result<()>,
 }
 
 /// The formats, in the order of [`OutputKind`].
@@ -63,39 +66,28 @@ static FORMATS: [Format; 4] = [
         extension: "obj",
         ending: "-flat.obj",
         title: "Save the mesh with texture coordinates",
-        write: |output, path| {
-            let refined = output.refinement.map(|refinement| refined_obj(output.source, refinement));
-            let mesh = refined.as_ref().unwrap_or(output.source);
-            match output.picture {
-                Some(picture) => picture.write_beside(path, mesh, &output.coordinates),
-                None => write_atomically(path, |out| write_obj(out, mesh, &output.coordinates)),
-            }
-        },
+        write: |output, out| write_obj(out, &output.source_mesh(), &output.coordinates),
     },
     Format {
         name: "SVG drawing",
         extension: "svg",
         ending: "-flat.svg",
         title: "Export a drawing of the layout",
-        write: |output, path| {
-            write_atomically(path, |out| {
-                write_svg(out, output.proved(&output.coordinates), output.aspect, output.svg_fit)
-            })
-        },
+        write: |output, out| write_svg(out, output.proved(&output.coordinates), output.aspect, output.svg_fit),
     },
     Format {
         name: "PNG picture",
         extension: "png",
         ending: "-flat.png",
         title: "Export a picture of mesh and layout",
-        write: |output, path| write_atomically(path, |out| output.picture().write_png(out)),
+        write: |output, out| output.picture().write_png(out),
     },
     Format {
         name: "JSON report",
         extension: "json",
         ending: "-report.json",
         title: "Export the report",
-        write: |output, path| output.report.write(path),
+        write: |output, out| write_report(out, &output.report),
     },
 ];
 
@@ -186,6 +178,26 @@ impl Output<'_> {
     ///
     /// Where the file cannot be written; the error names it.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
-        (kind.format().write)(self, path)
+        match (kind, self.picture) {
+            (OutputKind::Obj, Some(picture)) => picture.write_beside(path, &self.source_mesh(), &self.coordinates),
+            _ => write_atomically(path, |out| (kind.format().write)(self, out)),
+        }
+    }
+
+    /// Writes to standard output. An OBJ file comes without its picture there, which has no place beside it.
+    ///
+    /// # Errors
+    ///
+    /// Where standard output takes no more.
+    pub fn write_to_standard_output(&self, kind: OutputKind) -> Result<(), WriteError> {
+        write_to_standard_output(|out| (kind.format().write)(self, out))
+    }
+
+    /// The file's mesh, with the new vertices where there are any.
+    fn source_mesh(&self) -> Cow<'_, ObjMesh> {
+        match self.refinement {
+            Some(refinement) => Cow::Owned(refined_obj(self.source, refinement)),
+            None => Cow::Borrowed(self.source),
+        }
     }
 }

@@ -11,7 +11,7 @@ use crate::geom::Picture;
 
 /// Why a file did not become a picture.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot read the picture: {reason}: {}", path.display())]
+#[error("{}: the picture cannot be read: {reason}", path.display())]
 pub struct PictureError {
     /// The file.
     pub path: PathBuf,

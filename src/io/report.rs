@@ -1,17 +1,21 @@
 //! The report: one JSON object per run.
 
-use std::io::Write as _;
-use std::path::Path;
+use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{WriteError, write_atomically};
 use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
 use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
+
+/// Version of the form of reports, which `docs/report.schema.json` describes. It counts up where a field goes or changes
+/// its meaning, not where one comes.
+pub const REPORT_SCHEMA: u32 = 1;
 
 /// Everything that is reported of a run. Field names are part of the interface.
 #[derive(Debug, Default, Serialize)]
 pub struct Report {
+    /// Version of the report's form.
+    pub schema: u32,
     /// Version of the program.
     pub freebound: &'static str,
     /// The input.
@@ -43,6 +47,8 @@ pub struct Report {
     pub new_vertices: usize,
     /// The edges that they lie on, by their ends.
     pub split_edges: Vec<[VertexId; 2]>,
+    /// Polygons that the output has as triangles, by their numbers in the file.
+    pub cut_polygons: Vec<FaceId>,
     /// Where the time went.
     pub seconds: Seconds,
     /// Most memory that the process held, where the system tells.
@@ -52,20 +58,24 @@ pub struct Report {
 impl Report {
     /// A report on a mesh alone.
     pub fn of_mesh(mesh: MeshReport) -> Self {
-        Self { freebound: env!("CARGO_PKG_VERSION"), mesh, peak_memory_bytes: peak_memory_bytes(), ..Self::default() }
+        Self {
+            schema: REPORT_SCHEMA,
+            freebound: env!("CARGO_PKG_VERSION"),
+            mesh,
+            peak_memory_bytes: peak_memory_bytes(),
+            ..Self::default()
+        }
     }
+}
 
-    /// Writes the report into a file.
-    ///
-    /// # Errors
-    ///
-    /// Where the file cannot be written; the error names it.
-    pub fn write(&self, path: &Path) -> Result<(), WriteError> {
-        write_atomically(path, |out| {
-            serde_json::to_writer_pretty(&mut *out, self)?;
-            writeln!(out)
-        })
-    }
+/// Writes a report, as JSON that a person can read.
+///
+/// # Errors
+///
+/// What `out` says.
+pub fn write_report(out: &mut impl Write, report: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, report)?;
+    writeln!(out)
 }
 
 /// Where an embedding lies that is written.
@@ -156,6 +166,8 @@ pub struct StepReport {
     pub index: usize,
     /// Flipped faces.
     pub flipped_faces: usize,
+    /// Concave polygons.
+    pub concave_polygons: usize,
     /// Boundary crossings.
     pub boundary_crossings: usize,
     /// Overwound vertices.
@@ -199,11 +211,12 @@ fn cell(number: impl Into<Option<f64>>) -> String {
 
 impl StepReport {
     /// The fields as a row of a table, each with the head of its column; empty where there is no value.
-    pub fn row(&self) -> [(&'static str, String); 19] {
+    pub fn row(&self) -> [(&'static str, String); 20] {
         [
             ("rung", self.rung.name().to_owned()),
             ("index", self.index.to_string()),
             ("flipped_faces", self.flipped_faces.to_string()),
+            ("concave_polygons", self.concave_polygons.to_string()),
             ("boundary_crossings", self.boundary_crossings.to_string()),
             ("overwound_vertices", self.overwound_vertices.to_string()),
             ("turning_number", self.turning_number.map(|turns| turns.to_string()).unwrap_or_default()),
@@ -231,6 +244,7 @@ impl StepReport {
             rung: step.rung,
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
+            concave_polygons: verdict.concave_polygons.len(),
             boundary_crossings: verdict.crossing_count(),
             overwound_vertices: verdict.overwound_vertices.len(),
             turning_number: verdict.turning_number,
@@ -250,9 +264,9 @@ impl StepReport {
         }
     }
 
-    /// Flipped faces, boundary crossings and overwound vertices together.
+    /// Flipped faces, concave polygons, boundary crossings and overwound vertices together.
     pub fn defect_count(&self) -> usize {
-        self.flipped_faces + self.boundary_crossings + self.overwound_vertices
+        self.flipped_faces + self.concave_polygons + self.boundary_crossings + self.overwound_vertices
     }
 }
 
@@ -273,10 +287,13 @@ pub struct Seconds {
 
 /// The verdict with faces numbered as the file numbers them: a polygon is at fault where one of its triangles is.
 pub fn verdict_as_in_file(verdict: &Verdict, mesh: &TriMesh) -> Verdict {
-    let mut flipped_faces: Vec<FaceId> =
-        verdict.flipped_faces.iter().map(|&face| FaceId::new(mesh.polygon(face))).collect();
-    flipped_faces.dedup();
-    Verdict { flipped_faces, ..verdict.clone() }
+    let in_file = |faces: &[FaceId]| {
+        let mut polygons: Vec<FaceId> = faces.iter().map(|&face| FaceId::new(mesh.polygon(face))).collect();
+        polygons.dedup();
+        polygons
+    };
+    let (flipped_faces, concave_polygons) = (in_file(&verdict.flipped_faces), in_file(&verdict.concave_polygons));
+    Verdict { flipped_faces, concave_polygons, ..verdict.clone() }
 }
 
 /// Most memory that this process has held so far, where the system tells (Linux).

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 use super::WriteError;
+use super::paths::is_same_file;
 use super::report::StepReport;
 use super::svg::write_step_svg;
 use crate::mesh::DiskMesh;
@@ -40,6 +41,14 @@ impl StepsFolder {
         let aside = tempfile::Builder::new().prefix(".freebound-").tempdir_in(near).map_err(named)?;
         let table = csv::Writer::from_writer(Vec::new());
         Ok(Self { target: target.to_owned(), aside, names: Vec::new(), table })
+    }
+
+    /// Whether filling a folder would replace this file in it.
+    pub fn would_replace(folder: &Path, file: &Path) -> bool {
+        let whole = fs::canonicalize(file).unwrap_or_else(|_| file.to_owned());
+        let (Some(parent), Some(name)) = (whole.parent(), whole.file_name()) else { return false };
+        let name = name.to_string_lossy();
+        (name == TABLE || is_drawing_of_a_step(&name)) && is_same_file(parent, folder)
     }
 
     /// Draws a step and notes its numbers.

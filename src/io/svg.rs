@@ -16,7 +16,7 @@ const SIZE: f64 = 1000.0;
 const MARGIN: f64 = 20.0;
 
 /// Draws texture coordinates, v upwards, for a picture of this aspect (width over height). Flipped faces are red, crossing
-/// boundary edges orange, overwound vertices magenta. The page is the unit square where the picture lies, larger where
+/// boundary edges orange, concave polygons outlined in brown, overwound vertices magenta. The page is the unit square where the picture lies, larger where
 /// the embedding leaves it; or a unit of the drawing is a unit of the mesh.
 pub(super) fn write_svg(
     out: &mut impl Write,
@@ -123,12 +123,18 @@ impl<'a> Drawing<'a> {
         self.write_closed(out, &style, [hull.collect::<Vec<_>>()])
     }
 
-    /// Crossings and overwound vertices.
+    /// Crossings, concave polygons and overwound vertices.
     fn write_defects(&self, out: &mut impl Write) -> io::Result<()> {
         let ProvedEmbedding { verdict, .. } = self.shown;
         let crossings = verdict.boundary_crossings.iter().flatten().copied();
         let style = format!(r##"stroke="#e8700a" stroke-width="{}""##, self.frame.length(3.0));
         self.write_edges(out, &style, crossings)?;
+        let concave = verdict.concave_polygons.iter().filter_map(|&face| self.shown.mesh.polygon(face));
+        let outlines = concave.map(|polygon| polygon.corners.iter().map(|&v| self.at(v)).collect::<Vec<_>>());
+        let style = format!(r##"stroke="#864b1c" stroke-width="{}""##, self.frame.length(3.0));
+        if !verdict.concave_polygons.is_empty() {
+            self.write_closed(out, &style, outlines)?;
+        }
         for &vertex in &verdict.overwound_vertices {
             let (DVec2 { x, y }, decimals) = (self.at(vertex), self.frame.decimals);
             let [radius, width] = [5.0, 2.0].map(|length| self.frame.length(length));

@@ -10,6 +10,7 @@
 use std::fmt;
 
 use super::area::is_zero_area;
+use super::coincident::coincident_vertices;
 use super::edges::{EdgeTable, side_ends};
 use super::fault::{FaceList, Fault};
 use super::orientation::Orientation;
@@ -233,6 +234,7 @@ fn describe(diagnosis: &mut Diagnosis, mesh: &TriMesh, sound: &Sound, topology: 
     };
     if components.len() > 1 {
         let sizes = components.iter().map(|component| component.faces).collect();
+        diagnosis.add(Fault::CoincidentVertices(coincident_vertices(mesh, triangles)));
         diagnosis.add(Fault::SeveralComponents { first_faces: first_faces(&|_| true), sizes });
     }
     diagnosis.add(Fault::Closed {

@@ -2,10 +2,15 @@
 //!
 //! Halfedge `3 f + k` is side `k` of triangle `f`. The outer sides of the boundary edges follow behind, in the
 //! order of the boundary loop, so that every edge has exactly two halfedges and every halfedge a twin.
+//!
+//! A *link* is what the equations have a coefficient for: a halfedge, or behind them either direction of a polygon's
+//! diagonal that is no side of a triangle.
 
 use glam::DVec3;
 
+use super::diagonals::Diagonals;
 use super::edges::{EdgeTable, side_ends};
+use super::polygons::{Polygon, Polygons};
 use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
 
 /// A connected, consistently oriented 2-manifold with one boundary loop and Euler number 1, made by the diagnosis alone.
@@ -22,6 +27,8 @@ pub struct DiskMesh {
     boundary_place: Vec<u32>,
     dividing_edges: Vec<[VertexId; 2]>,
     ears: Vec<FaceId>,
+    polygons: Polygons,
+    diagonals: Diagonals,
 }
 
 impl DiskMesh {
@@ -67,7 +74,8 @@ impl DiskMesh {
                 *held = side;
             }
         }
-        Self {
+        let polygons = Polygons::of(&mesh);
+        let disk = Self {
             mesh,
             twin,
             edge,
@@ -77,7 +85,33 @@ impl DiskMesh {
             boundary_place,
             dividing_edges,
             ears,
-        }
+            polygons: Polygons::default(),
+            diagonals: Diagonals::default(),
+        };
+        disk.with_polygons(polygons)
+    }
+
+    fn with_polygons(self, polygons: Polygons) -> Self {
+        let diagonals = Diagonals::of(&self, &polygons);
+        Self { polygons, diagonals, ..self }
+    }
+
+    /// The polygons with more than three corners that its triangles are cut from.
+    pub fn polygons(&self) -> impl ExactSizeIterator<Item = Polygon<'_>> + Clone {
+        self.polygons.iter()
+    }
+
+    /// The polygon that begins with a face.
+    pub fn polygon(&self, first_face: FaceId) -> Option<Polygon<'_>> {
+        self.polygons.at(first_face)
+    }
+
+    /// The same surface without the polygons that `is_whole` denies: they are but their triangles.
+    #[must_use]
+    pub(super) fn with_polygons_where(mut self, is_whole: impl Fn(&Polygon<'_>, &TriMesh) -> bool) -> Self {
+        let mut polygons = std::mem::take(&mut self.polygons);
+        polygons.retain(|polygon| is_whole(polygon, &self.mesh));
+        self.with_polygons(polygons)
     }
 
     /// Interior edges between two boundary vertices, by their ends: the theorems on planarity do not cover them.
@@ -140,32 +174,56 @@ impl DiskMesh {
         (0..self.edge_count()).map(EdgeId::from_index)
     }
 
+    /// Number of links: the halfedges, and polygons' diagonals in both directions.
+    pub fn link_count(&self) -> usize {
+        self.twin.len() + self.diagonals.link_count()
+    }
+
+    /// All links, halfedges first.
+    pub fn links(&self) -> impl ExactSizeIterator<Item = HalfedgeId> + Clone + use<> {
+        (0..self.link_count()).map(HalfedgeId::from_index)
+    }
+
+    /// Links that leave a vertex: its halfedges as in [`outgoing`](Self::outgoing), then diagonals.
+    pub fn links_from(&self, vertex: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
+        let number = |&link: &u32| HalfedgeId::from_index(self.twin.len() + link as usize);
+        self.outgoing(vertex).chain(self.diagonals.from(vertex).iter().map(number))
+    }
+
     /// All halfedges.
     pub fn halfedges(&self) -> impl ExactSizeIterator<Item = HalfedgeId> + Clone + use<> {
         (0..self.halfedge_count()).map(HalfedgeId::from_index)
     }
 
-    /// The vertex that a halfedge leaves.
-    pub fn tail(&self, halfedge: HalfedgeId) -> VertexId {
-        if self.is_outer(halfedge) {
-            self.head(self.twin(halfedge))
-        } else {
-            side_ends(&self.mesh.triangles, halfedge.number()).0
+    /// The vertex that a link leaves.
+    pub fn tail(&self, link: HalfedgeId) -> VertexId {
+        self.link_ends(link)[0]
+    }
+
+    /// The vertex that a link runs to.
+    pub fn head(&self, link: HalfedgeId) -> VertexId {
+        self.link_ends(link)[1]
+    }
+
+    fn link_ends(&self, link: HalfedgeId) -> [VertexId; 2] {
+        let inner = |side: u32| <[VertexId; 2]>::from(side_ends(&self.mesh.triangles, side));
+        match self.twin.get(link.index()) {
+            None => self.diagonals.ends(link.index() - self.twin.len()),
+            Some(&twin) if self.is_outer(link) => {
+                let [head, tail] = inner(twin);
+                [tail, head]
+            }
+            Some(_) => inner(link.number()),
         }
     }
 
-    /// The vertex that a halfedge runs to.
-    pub fn head(&self, halfedge: HalfedgeId) -> VertexId {
-        if self.is_outer(halfedge) {
-            self.tail(self.twin(halfedge))
-        } else {
-            side_ends(&self.mesh.triangles, halfedge.number()).1
+    /// The other direction of the same edge or diagonal.
+    pub fn twin(&self, link: HalfedgeId) -> HalfedgeId {
+        let count = self.twin.len();
+        match self.twin.get(link.index()) {
+            Some(&twin) => HalfedgeId::new(twin),
+            None => HalfedgeId::from_index(count + ((link.index() - count) ^ 1)),
         }
-    }
-
-    /// The other halfedge of the same edge.
-    pub fn twin(&self, halfedge: HalfedgeId) -> HalfedgeId {
-        HalfedgeId::new(self.twin[halfedge.index()])
     }
 
     /// The halfedge after this one around its face, or, outside, along the boundary.

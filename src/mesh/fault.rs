@@ -58,6 +58,8 @@ pub enum Fault {
     },
     /// The surface has one side only, like a Möbius strip; these edges clash.
     NonOrientable(Vec<[VertexId; 2]>),
+    /// Vertices of different components lie in one place: as a rule they are meant to be one vertex.
+    CoincidentVertices(Vec<VertexId>),
     /// The faces do not hang together across edges.
     SeveralComponents {
         /// The first face of each component.
@@ -155,6 +157,9 @@ impl Fault {
             Self::NonOrientable(_) => {
                 ["non-orientable", "cut the surface along a chain of edges, so that it gets two sides"]
             }
+            Self::CoincidentVertices(_) => {
+                ["coincident-vertices", "merge coincident vertices in the program that the mesh comes from"]
+            }
             Self::SeveralComponents { .. } => ["several-components", "keep one component, or flatten each by itself"],
             Self::Closed { .. } => {
                 ["closed", "cut the surface open along a chain of edges, or delete a part that is not needed"]
@@ -170,7 +175,10 @@ impl Fault {
     pub fn elements(&self) -> Elements<'_> {
         match self {
             Self::NoFaces => Elements::Nothing,
-            Self::NotFinite(v) | Self::UnreferencedVertices(v) | Self::NonManifoldVertices(v) => Elements::Vertices(v),
+            Self::NotFinite(v)
+            | Self::UnreferencedVertices(v)
+            | Self::NonManifoldVertices(v)
+            | Self::CoincidentVertices(v) => Elements::Vertices(v),
             Self::NonManifoldEdges(e) | Self::NonOrientable(e) => Elements::Edges(e),
             Self::MissingVertices(f)
             | Self::RepeatedVertices(f)
@@ -204,6 +212,7 @@ impl Fault {
             Self::NonOrientable(e) => {
                 format!("the surface has only one side: {}", edges("two faces that run the same way", e))
             }
+            Self::CoincidentVertices(v) => vertices("the place of another component's vertex, but not its number", v),
             Self::SeveralComponents { first_faces, sizes } => format!(
                 "{} components, of {} triangles, beginning with faces {}",
                 sizes.len(),

@@ -6,19 +6,23 @@
 //! | `polygon.rs`, `triangulate.rs` | polygons as a file gives them, cut into triangles |
 //! | `triangles.rs` | triangles that share vertices |
 //! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
-//! | `edges.rs`, `topology.rs`, `orientation.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
+//! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
+//! | `polygons.rs`, `diagonals.rs` | the polygons that a disk's triangles are cut from, and their other diagonals |
 //! | `refinement.rs` | a disk with new vertices on its edges |
 //! | `volume.rs` | which side of a surface is the outside |
 
 mod area;
+mod coincident;
 mod diagnosis;
+mod diagonals;
 mod disk;
 mod edges;
 mod fault;
 mod ids;
 mod orientation;
 mod polygon;
+mod polygons;
 mod refinement;
 mod topology;
 mod triangles;
@@ -32,6 +36,7 @@ pub use edges::EdgeTable;
 pub use fault::{Elements, FaceList, Fault};
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use polygon::PolygonMesh;
+pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

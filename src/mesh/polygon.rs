@@ -43,6 +43,27 @@ impl PolygonMesh {
         TriMesh { positions: self.positions.clone(), triangles, polygon_of }
     }
 
+    /// For each vertex whether two polygons meet there and share both of its edges.
+    fn bare_vertices(&self) -> Vec<bool> {
+        // The corners before and after a vertex in the first polygon there, and in how many polygons it is.
+        let mut meeting = vec![([VertexId::default(); 2], 0_u32); self.positions.len()];
+        let count = self.positions.len();
+        let mut are_bare = vec![false; count];
+        for polygon in 0..self.face_count() {
+            let face = self.face(polygon);
+            for (at, corner) in face.iter().enumerate().filter(|(_, corner)| corner.index() < count) {
+                let (before, after) = (face[(at + face.len() - 1) % face.len()], face[(at + 1) % face.len()]);
+                let (first, polygons) = &mut meeting[corner.index()];
+                *polygons += 1;
+                are_bare[corner.index()] = *polygons == 2 && *first == [after, before];
+                if *polygons == 1 {
+                    *first = [before, after];
+                }
+            }
+        }
+        are_bare
+    }
+
     /// Triangles as places in `corners`, and the polygon of each where they are not one to one.
     pub(crate) fn triangle_places(&self) -> (Vec<[u32; 3]>, Option<Vec<u32>>) {
         let Some(starts) = &self.starts else {
@@ -52,11 +73,13 @@ impl PolygonMesh {
         let mut places = Vec::with_capacity(self.corners.len());
         let mut polygon_of = Vec::with_capacity(self.corners.len());
         let mut points = Vec::new();
+        let are_bare = self.bare_vertices();
         for (polygon, bounds) in (0..).zip(starts.windows(2)) {
             points.clear();
             let corners = &self.corners[bounds[0] as usize..bounds[1] as usize];
             points.extend(corners.iter().map(|v| self.positions.get(v.index()).copied().unwrap_or(DVec3::NAN)));
-            triangulate(&points, |triangle| {
+            let is_bare = |corner: usize| are_bare.get(corners[corner].index()) == Some(&true);
+            triangulate(&points, is_bare, |triangle| {
                 let place = |corner| bounds[0] + u32::try_from(corner).expect("a corner fits");
                 places.push(triangle.map(place));
                 polygon_of.push(polygon);

@@ -4,9 +4,9 @@
 //! new vertices on its sides is cut into parts; all others stay as they are. So the surface does not change, and whoever
 //! knows only the old vertices still finds them under their numbers.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Diagnosis, DiskMesh, FaceId, TriMesh, VertexId};
+use super::{Diagnosis, DiskMesh, FaceId, Polygon, TriMesh, VertexId};
 
 /// A vertex on an edge of the mesh as given.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,29 @@ impl Refinement {
         }
         let polygon_of = Some(source.iter().map(|&face| old.polygon(face)).collect());
         let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of })?;
-        Ok(Self { disk, new_vertices, source })
+        let old_count = mesh.vertex_count();
+        let was_whole: BTreeSet<u32> = mesh.polygons().map(|polygon| old.polygon(polygon.first_face)).collect();
+        let is_whole = |polygon: &Polygon<'_>, of: &TriMesh| {
+            let is_old = polygon.corners.iter().all(|corner| corner.index() < old_count);
+            is_old && was_whole.contains(&of.polygon(polygon.first_face))
+        };
+        Ok(Self { disk: disk.with_polygons_where(is_whole), new_vertices, source })
+    }
+
+    /// A mesh some of whose polygons are but their triangles: those that begin with one of these faces.
+    ///
+    /// # Errors
+    ///
+    /// None that a mesh proved to be a disk could give.
+    pub fn of_cut_polygons(mesh: &DiskMesh, first_faces: &[FaceId]) -> Result<Self, Box<Diagnosis>> {
+        Self::new(mesh, Vec::new(), &BTreeMap::new()).map(|whole| whole.without_polygons(first_faces))
+    }
+
+    /// The same with further polygons that are but their triangles: those that begin with one of these faces.
+    #[must_use]
+    pub fn without_polygons(self, first_faces: &[FaceId]) -> Self {
+        let is_whole = |polygon: &Polygon<'_>, _: &TriMesh| !first_faces.contains(&polygon.first_face);
+        Self { disk: self.disk.with_polygons_where(is_whole), ..self }
     }
 
     /// The mesh with its new vertices, as a disk.
@@ -74,6 +96,14 @@ impl Refinement {
     /// The old face that a face is, or is a part of.
     pub fn source_of(&self, face: FaceId) -> FaceId {
         self.source[face.index()]
+    }
+
+    /// Polygons of the mesh as given, `given`, that are but triangles here, by their numbers in the file.
+    pub fn cut_polygons(&self, given: &DiskMesh) -> Vec<FaceId> {
+        let numbers = |disk: &DiskMesh| -> BTreeSet<u32> {
+            disk.polygons().map(|polygon| disk.mesh().polygon(polygon.first_face)).collect()
+        };
+        numbers(given).difference(&numbers(&self.disk)).copied().map(FaceId::new).collect()
     }
 
     /// The old edges that are split, each once, ascending.

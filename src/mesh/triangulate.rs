@@ -6,32 +6,31 @@
 //! triangles, if both diagonals lie inside. Where no ear is left, because the polygon crosses itself or is seen edge-on,
 //! the remaining corners are clipped as they come: the result always has `n − 2` triangles over the same corners.
 //!
+//! A corner where only two polygons meet, inside the surface, is *bare*. Were it clipped from both, the two ears would be
+//! the same triangle.
+//!
 //! Time: linear for convex polygons, `n` times the reflex corners at worst.
 
 use glam::{DVec2, DVec3};
 use robust::{Coord, orient2d};
 
+use super::polygons::newell_normal;
+
 /// A diagonal has to be better than the first by this factor, so that rounding does not decide between equals.
 const CLEARLY_BETTER: f64 = 1.0 + 1e-9;
 
-/// Calls `emit` with places `0..n` of the corners of each triangle.
-pub(super) fn triangulate(points: &[DVec3], mut emit: impl FnMut([usize; 3])) {
+/// Calls `emit` with places `0..n` of the corners of each triangle. At a corner that `is_bare` an ear is clipped only
+/// where it cannot be otherwise.
+pub(super) fn triangulate(points: &[DVec3], is_bare: impl Fn(usize) -> bool, mut emit: impl FnMut([usize; 3])) {
     match points.len() {
         0..=2 => {}
         3 => emit([0, 1, 2]),
-        4 => quad([points[0], points[1], points[2], points[3]]).into_iter().for_each(emit),
-        _ => clip_ears(&in_best_plane(points), &mut emit),
+        4 => quad([points[0], points[1], points[2], points[3]], is_bare).into_iter().for_each(emit),
+        _ => clip_ears(&in_best_plane(points), &is_bare, &mut emit),
     }
 }
 
-/// Newell's normal; its length is twice the area of the polygon's shadow.
-fn newell_normal(points: &[DVec3]) -> DVec3 {
-    let origin = points[0];
-    let next = points.iter().skip(1);
-    points.iter().zip(next).map(|(&a, &b)| (a - origin).cross(b - origin)).sum()
-}
-
-fn quad(points: [DVec3; 4]) -> [[usize; 3]; 2] {
+fn quad(points: [DVec3; 4], is_bare: impl Fn(usize) -> bool) -> [[usize; 3]; 2] {
     const FIRST: [[usize; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
     const SECOND: [[usize; 3]; 2] = [[0, 1, 3], [1, 2, 3]];
     let normal = newell_normal(&points);
@@ -42,6 +41,11 @@ fn quad(points: [DVec3; 4]) -> [[usize; 3]; 2] {
         let size = area.length() / (ab.length_squared() + ac.length_squared() + bc.length_squared());
         if area.dot(normal) > 0.0 { size } else { -1.0 }
     };
+    match (is_bare(0) || is_bare(2), is_bare(1) || is_bare(3)) {
+        (true, false) => return FIRST,
+        (false, true) => return SECOND,
+        _ => {}
+    }
     let worst = |pair: [[usize; 3]; 2]| quality(pair[0]).min(quality(pair[1]));
     let (first, second) = (worst(FIRST), worst(SECOND));
     if second > 0.0 && second > first * CLEARLY_BETTER { SECOND } else { FIRST }
@@ -110,7 +114,7 @@ impl Ring<'_> {
     }
 }
 
-fn clip_ears(points: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
+fn clip_ears(points: &[DVec2], is_bare: &impl Fn(usize) -> bool, emit: &mut impl FnMut([usize; 3])) {
     let n = points.len();
     let mut ring = Ring {
         points,
@@ -123,11 +127,16 @@ fn clip_ears(points: &[DVec2], emit: &mut impl FnMut([usize; 3])) {
     let mut at = 1;
     let mut remaining = n;
     let mut tried = 0;
+    // Bare corners are spared until no other one is an ear.
+    let mut spares = true;
     let mut simple = true;
     while remaining > 3 {
         // When all corners were tried in vain, the polygon is not simple, and looking for more ears is idle.
-        simple &= tried < remaining;
-        if simple && !ring.is_ear(at) {
+        if tried >= remaining {
+            (simple, tried) = (simple && spares, 0);
+            spares = false;
+        }
+        if simple && !(ring.is_ear(at) && !(spares && is_bare(at))) {
             tried += 1;
             at = ring.next[at];
             continue;

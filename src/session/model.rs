@@ -1,11 +1,12 @@
 //! A mesh as it was opened.
 
+use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{FileStamp, ObjMesh, PictureFile, ReadError, read_mesh_with};
+use crate::io::{FileStamp, ObjMesh, PictureFile, ReadError, read_mesh_with, read_obj_with};
 use crate::mesh::{Diagnosis, DiskMesh, TriMesh, relative_volume};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
@@ -59,11 +60,19 @@ impl Model {
     ///
     /// As [`read`](Self::read), and [`ReadError::Cancelled`] where it was to stop.
     pub fn read_until(path: &Path, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        let source = read_mesh_with(path, &mut |_| {
-            if is_enough() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        })?;
+        let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
         Ok(Self::new(name, Some(path.to_owned()), source))
+    }
+
+    /// Reads and diagnoses a stream, looking now and then whether to stop. `name` is what to call it.
+    ///
+    /// # Errors
+    ///
+    /// As [`read_until`](Self::read_until).
+    pub fn read_stream(name: &str, stream: impl Read, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
+        let source = read_obj_with(stream, &mut |_| flow(is_enough))?;
+        Ok(Self::new(name.to_owned(), None, source))
     }
 
     /// A built-in mesh.
@@ -95,7 +104,11 @@ impl Model {
 
     /// Where it came from, in words.
     pub fn path_words(&self) -> String {
-        self.path.as_ref().map_or_else(|| format!("built-in: {}", self.name), |path| path.display().to_string())
+        match (&self.path, self.example) {
+            (Some(path), _) => path.display().to_string(),
+            (None, Some(_)) => format!("built-in: {}", self.name),
+            (None, None) => self.name.clone(),
+        }
     }
 
     /// The triangles.
@@ -113,6 +126,10 @@ impl Model {
             Surface::Faulty(..) => None,
         }
     }
+}
+
+fn flow(is_enough: &dyn Fn() -> bool) -> ControlFlow<()> {
+    if is_enough() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 /// The picture that belongs to a built-in mesh.

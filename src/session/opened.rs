@@ -40,11 +40,11 @@ pub(super) enum Origin {
 /// Why something was not opened.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum OpenError {
-    #[error(transparent)]
-    Mesh(#[from] ReadError),
+    #[error("{}: {source}", path.display())]
+    Mesh { path: PathBuf, source: ReadError },
     #[error(transparent)]
     Project(#[from] ProjectError),
-    #[error("the mesh of the project is not there: {}", mesh.display())]
+    #[error("{}: the mesh of the project is not there", mesh.display())]
     NoMesh { mesh: PathBuf },
     #[error("the project is of a built-in mesh that there is not: \"{name}\"")]
     NoExample { name: String },
@@ -52,9 +52,9 @@ pub(super) enum OpenError {
 
 impl OpenError {
     /// What to do about it.
-    pub(super) const fn remedy(&self) -> &'static str {
+    pub(super) fn remedy(&self) -> &'static str {
         match self {
-            Self::Mesh(error) => error.remedy(),
+            Self::Mesh { source, .. } => source.remedy(),
             Self::Project(error) => error.remedy(),
             Self::NoMesh { .. } => "put it back, or write where it is now into the project, which is a text file",
             Self::NoExample { .. } => "open it with a newer version of Freebound",
@@ -69,7 +69,7 @@ impl Opened {
         if is_project {
             return Self::project(ProjectFile::read(path)?, Origin::Project(path.to_owned()));
         }
-        let model = Model::read(path)?;
+        let model = read_model(path)?;
         let mut remarks = Vec::new();
         let picture = material_picture(&model.source, path).and_then(|picture| {
             let found = PictureFile::read(&picture);
@@ -129,6 +129,10 @@ impl Opened {
     }
 }
 
+fn read_model(path: &Path) -> Result<Model, OpenError> {
+    Model::read(path).map_err(|source| OpenError::Mesh { path: path.to_owned(), source })
+}
+
 fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Message>) -> Result<Model, OpenError> {
     match source {
         ProjectSource::Example(name) => {
@@ -139,9 +143,9 @@ fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Message>) -> Result<Mo
             if !path.exists() {
                 return Err(OpenError::NoMesh { mesh: path.clone() });
             }
-            let model = Model::read(path)?;
+            let model = read_model(path)?;
             if has_changed(stamp.as_ref(), model.stamp.as_ref()) {
-                let text = format!("the mesh has changed since the project was saved: {}", path.display());
+                let text = format!("{}: the mesh has changed since the project was saved", path.display());
                 let remedy = "check that the pins are on the right vertices, then save the project";
                 remarks.push(Message::error(Place::Mesh, text).with_remedy(remedy));
             }
@@ -158,11 +162,11 @@ fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option
             let picture = if path.exists() {
                 PictureFile::read(path).map_err(|error| error.to_string())
             } else {
-                Err(format!("the picture of the project is not there: {}", path.display()))
+                Err(format!("{}: the picture of the project is not there", path.display()))
             };
             let picture = picture.map_err(|text| remarks.push(picture_remark(text, remedy))).ok()?;
             if has_changed(stamp.as_ref(), picture.stamp.as_ref()) {
-                let text = format!("the picture has changed since the project was saved: {}", path.display());
+                let text = format!("{}: the picture has changed since the project was saved", path.display());
                 remarks.push(picture_remark(
                     text,
                     "check that the targets are in the right places, then save the project",

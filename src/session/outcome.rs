@@ -90,6 +90,7 @@ impl Outcome {
             + size_of_val(&*solution.embedding)
             + size_of_val(&*self.distortion.faces)
             + size_of_val(&*verdict.flipped_faces)
+            + size_of_val(&*verdict.concave_polygons)
             + size_of_val(&*verdict.boundary_crossings)
             + size_of_val(&*verdict.overwound_vertices)
             + pin_count * size_of::<(VertexId, DVec2)>()
@@ -214,6 +215,7 @@ impl Outcome {
             distortion: Some(summary),
             new_vertices: self.new_vertex_count(),
             split_edges: step.refinement.as_ref().map(|r| r.split_edges()).unwrap_or_default(),
+            cut_polygons: step.refinement.as_ref().map(|r| r.cut_polygons(given)).unwrap_or_default(),
             seconds: Seconds { solve, verify, total: solve + verify, ..Seconds::default() },
             ..Report::of_mesh(MeshReport::new(model.path_words(), given))
         };

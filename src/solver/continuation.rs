@@ -250,7 +250,7 @@ impl Continuation {
         };
         membrane.descend(&mut points, downhill(LOOSE_STEPS), control)?;
         let z = Embedding::of_mesh(mesh, &points);
-        let is_taken = self.sheet.is_planar(mesh, &z);
+        let is_taken = self.sheet.is_one_to_one(mesh, &z);
         if is_taken {
             (self.embedding, self.settled) = (z, None);
         }
@@ -283,7 +283,7 @@ impl Continuation {
         let limits = Limits { until_unfolded: true, ..downhill(UNFOLD_STEPS) };
         let is_unfolded = membrane.descend(&mut z, limits, control)?.least_determinant > 0.0;
         let z = Embedding::of_mesh(mesh, &z);
-        Ok(is_unfolded && self.sheet.is_planar(mesh, &z) && self.settle(mesh, z, membrane, control)?)
+        Ok(is_unfolded && self.sheet.is_one_to_one(mesh, &z) && self.settle(mesh, z, membrane, control)?)
     }
 
     /// Moves the pins as far as no face folds and the boundary stays simple. Returns whether they moved.
@@ -298,7 +298,7 @@ impl Continuation {
         let mut share = (ADVANCE_SHARE * longest).min(1.0);
         while share > SMALLEST_ADVANCE {
             let z = Embedding::of_mesh(mesh, &self.moved(points, moves, share));
-            if self.sheet.is_planar(mesh, &z) {
+            if self.sheet.is_one_to_one(mesh, &z) {
                 return self.settle(mesh, z, membrane, control);
             }
             share *= 0.5;
@@ -320,7 +320,7 @@ impl Continuation {
         let mut z = settled.points.clone();
         settled.membrane.descend(&mut z, downhill(SETTLE_STEPS), control)?;
         let lower = Embedding::of_mesh(mesh, &z);
-        if self.sheet.is_planar(mesh, &lower) {
+        if self.sheet.is_one_to_one(mesh, &lower) {
             self.embedding = lower;
             settled.points = z;
         } else {

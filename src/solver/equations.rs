@@ -1,22 +1,29 @@
-//! One equation per vertex, kept as one coefficient per halfedge.
+//! One equation per vertex, kept as one coefficient per link.
 //!
-//! The equation of vertex v is `Σ a_h (z_head(h) − z_v) = 0` over its outgoing halfedges h. Every method of this
-//! project has that form: coefficients are real where the boundary is prescribed and complex where it is free.
+//! The equation of vertex v is `Σ a_h (z_head(h) − z_v) = 0` over the links h that leave it: its halfedges, and diagonals
+//! of polygons. Every method of this project has that form: coefficients are real where the boundary is prescribed and
+//! complex where it is free.
+//!
+//! Where a polygon has more than three corners, all convex, its corners' weights are the mean over the fans that it can be
+//! cut into (see the module `pieces`), so that no choice of a cut shows. Equal weights are those of the cut's graph, for
+//! Tutte's theorem is about a planar graph.
 
 use std::ops::Mul;
 
+use glam::DVec3;
 use num_complex::Complex;
 use rayon::prelude::*;
 
+use super::pieces::{Piece, pieces};
 use super::weights::{Corner, CornerWeights, three_point_weights};
 use super::{Embedding, Family, SolveError};
 use crate::linalg::Scalar;
-use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
+use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// Coefficients of all vertex equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equations<T> {
-    /// For each halfedge the coefficient of `z_head − z_tail` in the equation of its tail.
+    /// For each link of the mesh the coefficient of `z_head − z_tail` in the equation of its tail.
     pub coefficients: Vec<T>,
     /// Degenerate corners whose weight was bounded.
     pub bounded_corners: usize,
@@ -40,7 +47,7 @@ where
             let along = embedding[mesh.head(h)] - embedding[vertex];
             self.coefficients[h.index()] * Complex::new(along.x, along.y)
         };
-        mesh.outgoing(vertex).map(term).sum()
+        mesh.links_from(vertex).map(term).sum()
     }
 }
 
@@ -59,7 +66,7 @@ impl Equations<Complex<f64>> {
     /// ‖A z‖ over the vertices that `has_equation`, relative to ‖ |A| |z| ‖, the sizes of the terms that should cancel.
     pub fn residual(&self, mesh: &DiskMesh, embedding: &Embedding, has_equation: impl Fn(VertexId) -> bool) -> f64 {
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
-        for (h, &coefficient) in mesh.halfedges().zip(&self.coefficients) {
+        for (h, &coefficient) in mesh.links().zip(&self.coefficients) {
             let tail = mesh.tail(h);
             let along = embedding[mesh.head(h)] - embedding[tail];
             let term = coefficient * Complex::new(along.x, along.y);
@@ -92,27 +99,16 @@ pub fn barycentric(mesh: &DiskMesh, power: f64) -> Result<Equations<f64>, SolveE
     })
 }
 
-/// The conformal weights, each cotangent computed once for both halfedges of the edge that it faces: the matrix is
+/// The conformal weights, each cotangent computed once for both directions of the link that it faces: the matrix is
 /// Hermitian to the last bit, and so what refinement measures is what Cholesky factored.
 fn cotangents(mesh: &DiskMesh) -> Result<Equations<f64>, SolveError> {
     let scale = length_scale(mesh);
-    let of_corner = |side: usize| {
-        let x = mesh.mesh().corners(FaceId::from_index(side / 3)).map(|x| x * scale);
-        Corner::at([x[side % 3], x[(side + 1) % 3], x[(side + 2) % 3]]).cotangent()
-    };
-    let found: Vec<(f64, bool)> = (0..3 * mesh.face_count()).into_par_iter().map(of_corner).collect();
-    let mut coefficients = vec![0.0; mesh.halfedge_count()];
-    let mut bounded_corners = 0;
-    for (side, &(cotangent, bounded)) in found.iter().enumerate() {
-        if !cotangent.is_finite() {
-            return Err(SolveError::NotFinite { face: FaceId::from_index(side / 3) });
-        }
-        bounded_corners += usize::from(bounded);
-        let opposite = mesh.next(HalfedgeId::from_index(side));
-        coefficients[opposite.index()] += cotangent;
-        coefficients[mesh.twin(opposite).index()] += cotangent;
-    }
-    Ok(Equations { coefficients, bounded_corners })
+    sum_pieces(mesh, |piece, k| {
+        let corners = piece.corners.map(|v| mesh.position(v) * scale);
+        let (cotangent, bounded) = Corner::at(from_corner(corners, k)).cotangent();
+        let opposite = piece.links[(k + 1) % 3];
+        ([(opposite, cotangent), (mesh.twin(opposite), cotangent)], bounded)
+    })
 }
 
 /// The natural boundary equations for offset d = rᵖ: paper eq. (2) inside and eq. (3) on the boundary.
@@ -169,31 +165,50 @@ pub fn lscm(mesh: &DiskMesh) -> Result<Equations<Complex<f64>>, SolveError> {
 
 /// Equal weights on all edges (Tutte 1963).
 pub fn uniform(mesh: &DiskMesh) -> Equations<f64> {
-    Equations { coefficients: vec![1.0; mesh.halfedge_count()], bounded_corners: 0 }
+    let mut coefficients = vec![1.0; mesh.halfedge_count()];
+    coefficients.resize(mesh.link_count(), 0.0);
+    Equations { coefficients, bounded_corners: 0 }
 }
 
-/// Adds up what the corners give to the two halfedges that leave their vertex.
+/// Adds up what the corners give to the two links that leave their vertex.
 fn sum_corners<T: Scalar>(
     mesh: &DiskMesh,
-    weights: impl Fn([glam::DVec3; 3]) -> CornerWeights<T> + Sync,
+    weights: impl Fn([DVec3; 3]) -> CornerWeights<T> + Sync,
 ) -> Result<Equations<T>, SolveError> {
-    let corner_of = |side: usize| {
-        let (f, k) = (side / 3, side % 3);
-        let x = mesh.mesh().corners(FaceId::from_index(f));
-        weights([x[k], x[(k + 1) % 3], x[(k + 2) % 3]])
-    };
-    let corners: Vec<CornerWeights<T>> = (0..3 * mesh.face_count()).into_par_iter().map(corner_of).collect();
-    let mut coefficients = vec![T::ZERO; mesh.halfedge_count()];
+    sum_pieces(mesh, |piece, k| {
+        let CornerWeights { shares: [to_next, to_previous], bounded } =
+            weights(from_corner(piece.corners.map(|v| mesh.position(v)), k));
+        ([(piece.links[k], to_next), (mesh.twin(piece.links[(k + 2) % 3]), to_previous)], bounded)
+    })
+}
+
+/// The corners of a triangle from one of them on.
+fn from_corner(x: [DVec3; 3], k: usize) -> [DVec3; 3] {
+    [x[k], x[(k + 1) % 3], x[(k + 2) % 3]]
+}
+
+/// What a corner adds to two links, and whether its weight was bounded.
+type Parts<T> = ([(HalfedgeId, T); 2], bool);
+
+/// Adds up what each corner of each piece gives to two links.
+fn sum_pieces<T: Scalar>(
+    mesh: &DiskMesh,
+    of_corner: impl Fn(&Piece, usize) -> Parts<T> + Sync,
+) -> Result<Equations<T>, SolveError> {
+    let pieces = pieces(mesh);
+    let found: Vec<[Parts<T>; 3]> = pieces.par_iter().map(|piece| [0, 1, 2].map(|k| of_corner(piece, k))).collect();
+    let mut coefficients = vec![T::ZERO; mesh.link_count()];
     let mut bounded_corners = 0;
-    for (side, corner) in corners.iter().enumerate() {
-        if !corner.shares.iter().all(|&share| share.is_finite()) {
-            return Err(SolveError::NotFinite { face: FaceId::from_index(side / 3) });
+    for (piece, corners) in pieces.iter().zip(&found) {
+        for (parts, bounded) in corners {
+            for &(link, part) in parts {
+                if !part.is_finite() {
+                    return Err(SolveError::NotFinite { face: piece.face });
+                }
+                coefficients[link.index()] += part.scale(piece.share);
+            }
+            bounded_corners += usize::from(*bounded);
         }
-        bounded_corners += usize::from(corner.bounded);
-        let to_next = HalfedgeId::from_index(side);
-        let to_previous = mesh.twin(mesh.previous(to_next));
-        coefficients[to_next.index()] += corner.shares[0];
-        coefficients[to_previous.index()] += corner.shares[1];
     }
     Ok(Equations { coefficients, bounded_corners })
 }

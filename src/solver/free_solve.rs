@@ -191,7 +191,7 @@ impl FreeSolve {
     ) -> f64 {
         let mut residuals = self.residuals(mesh, embedding);
         let mut bounds = vec![0.0; mesh.vertex_count()];
-        for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
+        for (h, &coefficient) in mesh.links().zip(&self.equations.coefficients) {
             let along = embedding[mesh.head(h)].distance(embedding[mesh.tail(h)]);
             bounds[mesh.tail(h).index()] += coefficient.norm() * along;
         }
@@ -200,7 +200,7 @@ impl FreeSolve {
             bounds[vertex.index()] = 0.0;
         }
         let mut sums = vec![(Complex::<f64>::ZERO, 0.0_f64); mesh.vertex_count()];
-        for (h, &coefficient) in mesh.halfedges().zip(&self.equations.coefficients) {
+        for (h, &coefficient) in mesh.links().zip(&self.equations.coefficients) {
             let tail = mesh.tail(h).index();
             let (term, most) = (coefficient.conj() * residuals[tail], coefficient.norm() * bounds[tail]);
             for (vertex, sign) in [(mesh.head(h), 1.0), (mesh.tail(h), -1.0)] {

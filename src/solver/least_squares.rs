@@ -224,13 +224,13 @@ fn gram_of(rows: &[Row], n: usize, factored: &Factored<'_>) -> Result<DMatrix<C6
 /// A vertex's equation over the unknowns of the factors.
 fn equation_of(site: Site<'_>, equations: &Equations<C64>, vertex: VertexId) -> Row {
     let entry = |h| Some((site.system.row(site.mesh.head(h))?, equations.coefficients[h.index()]));
-    site.mesh.outgoing(vertex).filter_map(entry).collect()
+    site.mesh.links_from(vertex).filter_map(entry).collect()
 }
 
 /// Coefficients of a vertex without unknown in the equations of the others.
 fn column_of(site: Site<'_>, equations: &Equations<C64>, vertex: VertexId) -> Vec<C64> {
     let mut column = vec![C64::ZERO; site.system.free().len()];
-    for h in site.mesh.outgoing(vertex) {
+    for h in site.mesh.links_from(vertex) {
         if let Some(row) = site.system.row(site.mesh.head(h)) {
             column[row] += equations.coefficients[site.mesh.twin(h).index()];
         }
@@ -242,8 +242,8 @@ fn column_of(site: Site<'_>, equations: &Equations<C64>, vertex: VertexId) -> Ve
 fn between(site: Site<'_>, equations: &Equations<C64>, [of, to]: [VertexId; 2]) -> C64 {
     let coefficients = &equations.coefficients;
     if of == to {
-        return -site.mesh.outgoing(of).map(|h| coefficients[h.index()]).sum::<C64>();
+        return -site.mesh.links_from(of).map(|h| coefficients[h.index()]).sum::<C64>();
     }
-    let halfedges = site.mesh.outgoing(of).filter(|&h| site.mesh.head(h) == to);
+    let halfedges = site.mesh.links_from(of).filter(|&h| site.mesh.head(h) == to);
     halfedges.map(|h| coefficients[h.index()]).sum()
 }

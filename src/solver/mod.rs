@@ -6,7 +6,7 @@
 //! | `pins`, `conflicts` | pins and gauge; pins that contradict each other |
 //! | `placing`, `sheet` | size and place of what is not pinned, without a fold; the numbers that are written of it |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
-//! | `weights`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
+//! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
 //! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
 //! | `iterate` | one mean-value iteration (paper §4) |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
@@ -40,6 +40,7 @@ mod matchmaker;
 mod membrane;
 mod method;
 mod outside;
+mod pieces;
 mod pins;
 mod placing;
 pub mod plane_weights;
@@ -83,6 +84,6 @@ pub use shape_preserving::shape_preserving;
 pub use sheet::Sheet;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use system::FreeSystem;
-pub use verdict::{Verdict, is_planar, verdict};
+pub use verdict::{Verdict, is_one_to_one, is_planar, verdict};
 pub use vertex_equation::{EquationTerm, NoEquation, VertexEquation, WeightSource, equation_of_step};
 pub use virtual_boundary::{Extended, Outline, VirtualBoundary};

@@ -12,6 +12,7 @@
 //! At a corner of a positive face eq. (1) holds, and its share of A(x) x is zero. At a corner of a flipped face the
 //! unsigned angle turns the sign of one side around: its share is `2i(û₂ − û₁)`, with û₁, û₂ the directions of its edges.
 //! So A(x) x is a sum over the flipped faces alone, and exactly zero for a planar embedding: see [`residuals_in_plane`].
+//! Where weights are the mean over a polygon's fans, its triangles in all of them are meant.
 //!
 //! # Degenerate faces
 //!
@@ -25,9 +26,10 @@ use rayon::prelude::*;
 
 use super::Embedding;
 use super::equations::{Equations, mean_length};
+use super::pieces::{Piece, pieces};
 use super::weights::bounded;
 use crate::geom::{Orientation, orientation};
-use crate::mesh::{DiskMesh, FaceId, HalfedgeId, VertexId};
+use crate::mesh::{DiskMesh, FaceId};
 
 /// Height of a degenerate face, and least length of its edges, relative to its longest edge. Thin enough to leave its
 /// surroundings alone, thick enough that the next solve can open it.
@@ -106,17 +108,16 @@ pub(super) fn mean_edge_length_in_plane(mesh: &DiskMesh, embedding: &Embedding) 
 /// where faces are positive.
 pub fn residuals_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
     let scale = scale_of(embedding, mesh.face_count());
-    let is_upright = |face: &FaceId| {
-        let [a, b, c] = embedding.corners(mesh, *face);
-        orientation(a, b, c) == Some(Orientation::CounterClockwise)
+    let is_folded = |piece: &Piece| {
+        let [a, b, c] = piece.corners.map(|v| embedding[v]);
+        orientation(a, b, c) != Some(Orientation::CounterClockwise)
     };
-    let folded: Vec<FaceId> = mesh.faces().collect::<Vec<_>>().into_par_iter().filter(|f| !is_upright(f)).collect();
+    let folded: Vec<Piece> = pieces(mesh).into_par_iter().filter(is_folded).collect();
     let mut residuals = vec![Complex::ZERO; mesh.vertex_count()];
-    for face in folded {
-        let vertices = mesh.face(face);
-        let corners = vertices.map(|v| embedding[v] * scale);
-        for (vertex, share) in vertices.iter().zip(residual_shares(corners)) {
-            residuals[vertex.index()] += share / scale;
+    for piece in folded {
+        let corners = piece.corners.map(|v| embedding[v] * scale);
+        for (vertex, share) in piece.corners.iter().zip(residual_shares(corners)) {
+            residuals[vertex.index()] += piece.share * share / scale;
         }
     }
     residuals
@@ -140,19 +141,16 @@ fn residual_shares(corners: [DVec2; 3]) -> [Complex<f64>; 3] {
 /// The mean-value equations of an embedding without the boundary's i-terms: paper eq. (2) with d = 1.
 pub fn mean_value_in_plane(mesh: &DiskMesh, embedding: &Embedding) -> Equations<f64> {
     let scale = scale_of(embedding, mesh.face_count());
-    let of_face = |face: usize| {
-        let corners = mesh.face(FaceId::from_index(face)).map(|v: VertexId| embedding[v] * scale);
-        face_weights(corners, 1.0)
-    };
-    let found: Vec<FaceWeights> = (0..mesh.face_count()).into_par_iter().map(of_face).collect();
-    let mut coefficients = vec![0.0; mesh.halfedge_count()];
+    let pieces = pieces(mesh);
+    let weights = |piece: &Piece| face_weights(piece.corners.map(|v| embedding[v] * scale), 1.0);
+    let found: Vec<FaceWeights> = pieces.par_iter().map(weights).collect();
+    let mut coefficients = vec![0.0; mesh.link_count()];
     let mut bounded_corners = 0;
-    for (face, weights) in found.iter().enumerate() {
+    for (Piece { links, share, .. }, weights) in pieces.iter().zip(&found) {
         bounded_corners += weights.bounded_corners;
         for (k, &[to_next, to_previous]) in weights.at_corner.iter().enumerate() {
-            let side = HalfedgeId::from_index(3 * face + k);
-            coefficients[side.index()] += to_next;
-            coefficients[mesh.twin(mesh.previous(side)).index()] += to_previous;
+            coefficients[links[k].index()] += share * to_next;
+            coefficients[mesh.twin(links[(k + 2) % 3]).index()] += share * to_previous;
         }
     }
     Equations { coefficients, bounded_corners }

@@ -3,6 +3,9 @@
 //! Each round triangulates the outside anew and takes a few Newton steps down the symmetric Dirichlet energy of mesh and
 //! outside (J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015). While some face is nearly
 //! without area, the foldover energy goes first, which is less steep there.
+//!
+//! Where the mesh has polygons, the triangles at their corners have energies too: a polygon that is convex stays so, and
+//! one that is not is unfolded like any folded triangle, by the same energy with ε > 0.
 
 use std::sync::Arc;
 
@@ -30,10 +33,13 @@ const STEEP: f64 = 1e-3;
 #[derive(Debug)]
 pub(super) struct Relaxing {
     rest: Rest,
+    /// The same with the triangles at the corners of polygons, where there are any.
+    with_ears: Option<Rest>,
     pins: Pins,
     embedding: Embedding,
-    /// How distorted the embedding is.
+    /// How distorted the embedding is: over the faces, and over all that has an energy.
     progress: Progress,
+    inner: Progress,
     /// That of the round before, whose order of elimination is kept.
     membrane: Option<Membrane>,
     /// Whether the last round gained next to nothing.
@@ -43,15 +49,19 @@ pub(super) struct Relaxing {
 }
 
 impl Relaxing {
-    /// Begins at a planar embedding of `mesh`; `pins` are held, exact ones where they lie.
+    /// Begins at a one-to-one embedding of `mesh`; `pins` are held, exact ones where they lie.
     pub(super) fn new(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Self {
         let rest = Rest::new(mesh);
+        let with_ears = Rest::with_ears(mesh);
         let progress = rest.progress(mesh, &embedding, 0.0);
+        let inner = with_ears.as_ref().map_or(progress, |all| all.progress(mesh, &embedding, 0.0));
         Self {
             rest,
+            with_ears,
             pins: pins.clone(),
             embedding,
             progress,
+            inner,
             membrane: None,
             has_converged: false,
             sheet: Arc::default(),
@@ -77,29 +87,35 @@ impl Relaxing {
         Ok(Candidate { progress: Some(self.progress), outside: Some(Arc::new(outside)), ..candidate })
     }
 
-    /// Goes down the energy of mesh and outside, to what is planar there.
+    /// Goes down the energy of mesh and outside, to what is one-to-one there, and planar if it was.
     fn descend(&mut self, mesh: &DiskMesh, outside: &Outside, control: Control<'_>) -> Result<(), SolveError> {
         let surrounded = Surrounded { embedding: &self.embedding, outside, weight: OUTSIDE_WEIGHT };
-        let (membrane, mut z) = self.rest.membrane(mesh, surrounded, &self.pins, self.membrane.as_ref())?;
-        let is_steep = self.progress.least_determinant < STEEP;
+        let all = self.with_ears.as_ref().unwrap_or(&self.rest);
+        let (membrane, mut z) = all.membrane(mesh, surrounded, &self.pins, self.membrane.as_ref())?;
+        let before = self.inner;
+        let folded = if before.least_determinant > 0.0 { 0 } else { all.folded_count(mesh, &self.embedding) };
+        let is_steep = before.least_determinant < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };
         let limits = Limits { unfolded, steps, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
         let gain = membrane.descend(&mut z, limits, control)?.gain;
-        self.membrane = Some(membrane);
         let z = Embedding::of_mesh(mesh, &z);
         // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
-        let progress = self.rest.progress(mesh, &z, 0.0);
-        let is_better = is_drawn || progress.energy <= self.progress.energy;
+        let inner = all.progress(mesh, &z, 0.0);
+        let is_better = is_drawn || inner.energy <= before.energy;
         // What the descent gains by size alone is lost again: an embedding is measured at its own size.
-        let gain = if is_drawn { gain } else { 1.0 - progress.energy / self.progress.energy };
-        let is_taken = is_better && self.sheet.is_planar(mesh, &z);
+        let gain = if is_drawn { gain } else { 1.0 - inner.energy / before.energy };
+        let is_taken =
+            is_better && if folded == 0 { self.sheet.is_planar(mesh, &z) } else { self.sheet.is_one_to_one(mesh, &z) };
+        let is_unfolding = is_taken && folded > 0 && all.folded_count(mesh, &z) < folded;
         if is_taken {
-            (self.embedding, self.progress) = (z, progress);
+            let progress = if self.with_ears.is_some() { self.rest.progress(mesh, &z, 0.0) } else { inner };
+            (self.embedding, self.progress, self.inner) = (z, progress, inner);
         }
-        let is_still_steep = self.progress.least_determinant < STEEP;
-        self.has_converged = !is_taken || (gain < TOLERANCE && is_still_steep == is_steep);
+        self.membrane = Some(membrane);
+        let is_still_steep = self.inner.least_determinant < STEEP;
+        self.has_converged = !is_taken || (gain < TOLERANCE && is_still_steep == is_steep && !is_unfolding);
         Ok(())
     }
 }

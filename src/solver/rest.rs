@@ -1,4 +1,4 @@
-//! The faces as they lie in space, each laid into the plane: the shapes that an embedding's faces are measured by.
+//! Triangles as they lie in space, each laid into the plane: the shapes that an embedding's triangles are measured by.
 
 use glam::{DVec2, DVec3};
 
@@ -12,13 +12,20 @@ use crate::mesh::{DiskMesh, VertexId};
 /// Faces that are thinner, height to longest side, are measured as if they were so thick.
 const THINNEST: f64 = 1e-4;
 
-/// The faces as they lie in space, each laid into the plane.
+/// Triangles as they lie in space, each laid into the plane.
 #[derive(Debug)]
 pub(super) struct Rest {
-    triangles: Vec<[DVec2; 3]>,
-    /// Share of each face in the surface.
-    shares: Vec<f64>,
+    shapes: Vec<Shape>,
+    /// Area of the surface.
     area: f64,
+}
+
+#[derive(Debug)]
+struct Shape {
+    corners: [VertexId; 3],
+    flat: [DVec2; 3],
+    /// Share in the surface.
+    share: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -30,14 +37,44 @@ pub(super) struct Surrounded<'a> {
 }
 
 impl Rest {
+    /// The faces.
     pub(super) fn new(mesh: &DiskMesh) -> Self {
+        Self::of(mesh, mesh.faces().map(|face| (mesh.face(face), 1.0)))
+    }
+
+    /// The faces, and the triangles at the corners of polygons, by half each: while none of these folds, polygons stay
+    /// convex. `None` where there are no polygons.
+    pub(super) fn with_ears(mesh: &DiskMesh) -> Option<Self> {
+        let mut parts = vec![1.0; mesh.face_count()];
+        let can_be_convex = can_be_convex(mesh);
+        let mut ears = Vec::new();
+        for polygon in mesh.polygons() {
+            let convex = polygon.convex_ears().filter(|[_, v, _]| can_be_convex[v.index()]);
+            let first = ears.len();
+            ears.extend(convex.map(|corners| (corners, 0.5)));
+            // The ears of a quad are its triangles, of either cut.
+            let is_all = polygon.corners.len() == 4 && ears.len() - first == 4;
+            let of_cut = if is_all { 0.0 } else { 0.5 };
+            polygon.faces().for_each(|face| parts[face.index()] = of_cut);
+        }
+        let faces = mesh.faces().map(|face| (mesh.face(face), parts[face.index()])).filter(|(_, part)| *part > 0.0);
+        (!ears.is_empty()).then(|| Self::of(mesh, faces.chain(ears)))
+    }
+
+    /// Triangles, and by how much of its area each counts.
+    fn of(mesh: &DiskMesh, triangles: impl Iterator<Item = ([VertexId; 3], f64)>) -> Self {
         let scale = length_scale(mesh);
-        let flat = |face| laid_flat(mesh.mesh().corners(face).map(|x| scale * x));
-        let triangles: Vec<[DVec2; 3]> = mesh.faces().map(flat).collect();
-        let areas = triangles.iter().map(|[a, b, c]| 0.5 * (*b - *a).perp_dot(*c - *a));
-        let area: f64 = areas.clone().sum();
-        let shares = areas.map(|part| part / area).collect();
-        Self { triangles, shares, area }
+        let shape = |(corners, part): ([VertexId; 3], f64)| {
+            let flat = laid_flat(corners.map(|v| scale * mesh.position(v)));
+            let [a, b, c] = flat;
+            Shape { corners, flat, share: part * 0.5 * (b - a).perp_dot(c - a) }
+        };
+        let mut shapes: Vec<Shape> = triangles.map(shape).collect();
+        let area: f64 = shapes.iter().map(|shape| shape.share).sum();
+        for shape in &mut shapes {
+            shape.share /= area;
+        }
+        Self { shapes, area }
     }
 
     /// How distorted an embedding is whose pins have so far to go.
@@ -47,6 +84,12 @@ impl Rest {
         let half: f64 = placed().map(|(element, z)| element.energy(z, Energy::SymmetricDirichlet)).sum();
         let least_determinant = placed().map(|(element, z)| element.determinant(z)).fold(f64::INFINITY, f64::min);
         Progress { energy: 2.0 * half, least_determinant, distance_left }
+    }
+
+    /// How many of the triangles are folded in an embedding.
+    pub(super) fn folded_count(&self, mesh: &DiskMesh, embedding: &Embedding) -> usize {
+        let is_folded = |element: &&Element| element.determinant(element.corners.map(|c| embedding[c as usize])) <= 0.0;
+        self.elements(mesh, embedding).iter().filter(is_folded).count()
     }
 
     /// Mesh and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
@@ -77,7 +120,7 @@ impl Rest {
         Ok((Membrane::new(points.len(), elements, springs.collect(), is_held, similar)?, points))
     }
 
-    /// The faces' energies, at rest when as large as the embedding is now.
+    /// The triangles' energies, at rest when as large as the embedding is now.
     fn elements(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Element> {
         let flat: f64 = mesh
             .faces()
@@ -87,13 +130,25 @@ impl Rest {
             })
             .sum();
         let scale = (flat / self.area).sqrt();
-        let numbers = |face| mesh.face(face).map(VertexId::number);
-        mesh.faces()
-            .zip(&self.triangles)
-            .zip(&self.shares)
-            .map(|((face, shape), &share)| Element::new(numbers(face), shape.map(|z| scale * z), (share, THINNEST)))
-            .collect()
+        let element = |shape: &Shape| {
+            Element::new(shape.corners.map(VertexId::number), shape.flat.map(|z| scale * z), (shape.share, THINNEST))
+        };
+        self.shapes.iter().map(element).collect()
     }
+}
+
+/// For each vertex whether polygons can be convex there: not where just two meet, whose angles make a full turn.
+fn can_be_convex(mesh: &DiskMesh) -> Vec<bool> {
+    let mut meeting = vec![0_u32; mesh.vertex_count()];
+    let mut is_of_polygon = vec![false; mesh.face_count()];
+    for polygon in mesh.polygons() {
+        polygon.corners.iter().for_each(|v| meeting[v.index()] += 1);
+        polygon.faces().for_each(|face| is_of_polygon[face.index()] = true);
+    }
+    for face in mesh.faces().filter(|face| !is_of_polygon[face.index()]) {
+        mesh.face(face).iter().for_each(|v| meeting[v.index()] += 1);
+    }
+    mesh.vertices().map(|v| meeting[v.index()] != 2 || mesh.boundary_place(v).is_some()).collect()
 }
 
 /// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.

@@ -14,7 +14,7 @@ use crate::mesh::{DiskMesh, HalfedgeId};
 
 /// Shape-preserving coefficients of the interior vertices' equations. Boundary rows stay empty.
 pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
-    let mut coefficients = vec![0.0; mesh.halfedge_count()];
+    let mut coefficients = vec![0.0; mesh.link_count()];
     let mut bounded_corners = 0;
     for vertex in mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()) {
         let spokes: Vec<HalfedgeId> = mesh.outgoing(vertex).collect();

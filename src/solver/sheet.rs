@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 
-use super::{Embedding, Pin, PinPositions, Pins, is_planar};
+use super::{Embedding, Pin, PinPositions, Pins, is_one_to_one, is_planar};
 use crate::geom::{PictureFrame, VAxis};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -68,7 +68,12 @@ impl Sheet {
     }
 
     /// Whether an embedding is one-to-one as it is written.
-    pub fn is_planar(&self, mesh: &DiskMesh, embedding: &Embedding) -> bool {
+    pub(super) fn is_one_to_one(&self, mesh: &DiskMesh, embedding: &Embedding) -> bool {
+        is_one_to_one(mesh, &self.written(embedding))
+    }
+
+    /// The same, with convex polygons.
+    pub(super) fn is_planar(&self, mesh: &DiskMesh, embedding: &Embedding) -> bool {
         is_planar(mesh, &self.written(embedding))
     }
 }

@@ -15,7 +15,7 @@ use super::{Embedding, SolveError};
 use crate::linalg::{Analysis, Kind, LinalgError, Scalar};
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
-/// Marks a vertex without a row and a halfedge without an entry.
+/// Marks a vertex without a row and a link without an entry.
 const NONE: u32 = u32::MAX;
 
 /// Which vertices are unknown, and where each coefficient stands in the matrix.
@@ -24,11 +24,11 @@ pub struct FreeSystem {
     free: Vec<VertexId>,
     row_of_vertex: Vec<u32>,
     pattern: SparsityPattern,
-    /// For each halfedge the place of entry (tail, head), `NONE` where an end is pinned.
-    slot_of_halfedge: Vec<u32>,
+    /// For each link the place of entry (tail, head), `NONE` where an end is pinned.
+    slot_of_link: Vec<u32>,
     /// For each row the place of its diagonal entry.
     slot_of_diagonal: Vec<u32>,
-    /// Halfedges from a free to a pinned vertex.
+    /// Links from a free to a pinned vertex.
     to_pinned: Vec<HalfedgeId>,
 }
 
@@ -44,21 +44,21 @@ impl FreeSystem {
         for (row, v) in (0_u32..).zip(&free) {
             row_of_vertex[v.index()] = row;
         }
-        let mut slot_of_halfedge = vec![NONE; mesh.halfedge_count()];
+        let mut slot_of_link = vec![NONE; mesh.link_count()];
         let mut slot_of_diagonal = Vec::with_capacity(free.len());
         let mut to_pinned = Vec::new();
         let mut starts = Vec::with_capacity(free.len() + 1);
-        let mut rows: Vec<usize> = Vec::with_capacity(free.len() + mesh.halfedge_count());
+        let mut rows: Vec<usize> = Vec::with_capacity(free.len() + mesh.link_count());
         let mut column: Vec<(u32, HalfedgeId)> = Vec::new();
         starts.push(0);
         for &v in &free {
             column.clear();
-            for h in mesh.outgoing(v) {
+            for h in mesh.links_from(v) {
                 let row = row_of_vertex[mesh.head(h).index()];
                 if row == NONE {
                     to_pinned.push(h);
                 } else {
-                    // The entry (tail, head) of the halfedge that comes in along this edge stands in this column.
+                    // The entry (tail, head) of the link that comes back stands in this column.
                     column.push((row, mesh.twin(h)));
                 }
             }
@@ -68,7 +68,7 @@ impl FreeSystem {
             let place = |offset: usize| u32::try_from(rows.len() + offset).expect("entries fit");
             slot_of_diagonal.push(place(below));
             for (i, &(_, h)) in column.iter().enumerate() {
-                slot_of_halfedge[h.index()] = place(i + usize::from(i >= below));
+                slot_of_link[h.index()] = place(i + usize::from(i >= below));
             }
             rows.extend(column[..below].iter().map(|&(row, _)| row as usize));
             rows.push(own as usize);
@@ -77,7 +77,7 @@ impl FreeSystem {
         }
         let pattern = SparsityPattern::try_from_offsets_and_indices(free.len(), free.len(), starts, rows)
             .expect("columns were sorted and neighbours are distinct");
-        Self { free, row_of_vertex, pattern, slot_of_halfedge, slot_of_diagonal, to_pinned }
+        Self { free, row_of_vertex, pattern, slot_of_link, slot_of_diagonal, to_pinned }
     }
 
     /// The vertices whose positions are unknown, in the order of the rows.
@@ -106,13 +106,13 @@ impl FreeSystem {
         T: Scalar,
     {
         let mut values = vec![T::ZERO; self.pattern.nnz()];
-        for (h, &coefficient) in mesh.halfedges().zip(&equations.coefficients) {
+        for (h, &coefficient) in mesh.links().zip(&equations.coefficients) {
             let row = self.row_of_vertex[mesh.tail(h).index()];
             if row == NONE {
                 continue;
             }
             values[self.slot_of_diagonal[row as usize] as usize] += coefficient;
-            let slot = self.slot_of_halfedge[h.index()];
+            let slot = self.slot_of_link[h.index()];
             if slot != NONE {
                 values[slot as usize] -= coefficient;
             }

@@ -7,6 +7,14 @@
 //! degree in mesh processing", arXiv 1310.0955.) Both are decided without rounding, for the very numbers given, so
 //! the verdict is a proof. It must be taken again where these numbers are rounded for a file.
 //!
+//! # Polygons
+//!
+//! Other programs cut polygons into triangles by rules of their own. So a polygon with more than three corners has to
+//! turn left at every corner that is convex in space (by a clear angle: [`Polygon`]). In an embedding that is one-to-one
+//! over the triangles of our cut it is then strictly convex, if it is so in space, and every way to cut it gives positive
+//! triangles. Where it is concave in space its own concave corners may stay; that our cut has positive triangles proves
+//! that its outline is simple. An embedding is *planar* where it is one-to-one and no polygon is at fault.
+//!
 //! # 32 bits
 //!
 //! Most programs read texture coordinates into 32 bits. A planar embedding *holds in 32 bits* where the same proof holds
@@ -15,6 +23,7 @@
 //! # What goes wrong, by kind
 //!
 //! * A *flipped face*: its orientation is negative, or zero, or a corner is not finite.
+//! * A *concave polygon*: all its triangles are positive, but it does not turn left at a corner that is convex in space.
 //! * A *boundary crossing*: two boundary edges that meet other than at a shared end (see [`crossings()`]).
 //!   Edges with an end that is not finite take no part; their faces are flipped already.
 //! * An *overwound vertex*: all faces around an interior vertex are positive, yet its link winds around it twice or
@@ -33,15 +42,17 @@ use serde::Serialize;
 
 use super::Embedding;
 use crate::geom::{Orientation, crossings, orientation, turning_number, winding_number};
-use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
+use crate::mesh::{DiskMesh, EdgeId, FaceId, Polygon, VertexId};
 
 /// Whether an embedding is one-to-one, and the elements at fault. All lists ascend.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Verdict {
-    /// Proved one-to-one, as it lies or in a mirror.
+    /// Proved one-to-one, as it lies or in a mirror, however polygons are cut into triangles.
     pub planar: bool,
     /// Faces that are turned over, have area zero, or have a corner that is not finite.
     pub flipped_faces: Vec<FaceId>,
+    /// Polygons that other cuts into triangles would fold, by their first faces.
+    pub concave_polygons: Vec<FaceId>,
     /// Pairs of boundary edges that meet other than at a shared end, the lower id first; at most `CROSSINGS_LISTED`.
     pub boundary_crossings: Vec<[EdgeId; 2]>,
     /// Crossings beyond those listed. The report shows this field only where there are any.
@@ -55,7 +66,7 @@ pub struct Verdict {
     pub zero_area_faces: usize,
     /// The embedding is a mirror image: some face is negative and none is positive.
     pub mirrored: bool,
-    /// Proved one-to-one with its coordinates rounded to 32 bits, too, and mirrored or not as it is in 64.
+    /// Proved planar with its coordinates rounded to 32 bits, too, and mirrored or not as it is in 64.
     #[serde(rename = "f32")]
     pub holds_in_f32: bool,
 }
@@ -82,29 +93,62 @@ pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
     let zero_area_faces = orientations.iter().filter(|&&o| o == Some(Orientation::Collinear)).count();
     let boundary = embedding.boundary(mesh);
     let (boundary_crossings, unlisted_crossings) = boundary_crossings(mesh, &boundary);
-    let planar = flipped_faces.is_empty() && boundary_crossings.is_empty();
-    let overwound_vertices = if planar { Vec::new() } else { overwound_vertices(mesh, embedding, is_upright) };
+    let is_one_to_one = flipped_faces.is_empty() && boundary_crossings.is_empty();
+    let concave_polygons = concave_polygons(mesh, embedding, upright)
+        .filter(|polygon| polygon.faces().all(is_upright))
+        .map(|polygon| polygon.first_face)
+        .collect::<Vec<_>>();
+    let planar = is_one_to_one && concave_polygons.is_empty();
+    let overwound_vertices = if is_one_to_one { Vec::new() } else { overwound_vertices(mesh, embedding, is_upright) };
     Verdict {
         planar,
         flipped_faces,
+        concave_polygons,
         boundary_crossings,
         unlisted_crossings,
         overwound_vertices,
         turning_number: turning_number(&boundary),
         zero_area_faces,
         mirrored,
-        holds_in_f32: planar && sense(mesh, &in_f32(embedding)) == Some(upright),
+        holds_in_f32: planar && planar_sense(mesh, &in_f32(embedding)) == Some(upright),
     }
 }
 
-/// Whether an embedding of a disk is one-to-one, as it lies or in a mirror: what [`verdict`] says, without a list of
-/// what is wrong.
+/// Whether an embedding of a disk is planar, as it lies or in a mirror: what [`verdict`] says, without a list of what is
+/// wrong.
 ///
 /// # Panics
 ///
 /// If the embedding does not have one position per vertex.
 pub fn is_planar(mesh: &DiskMesh, embedding: &Embedding) -> bool {
+    planar_sense(mesh, embedding).is_some()
+}
+
+/// Whether an embedding of a disk is one-to-one, as it lies or in a mirror, polygons being cut as the mesh's faces are.
+///
+/// # Panics
+///
+/// If the embedding does not have one position per vertex.
+pub fn is_one_to_one(mesh: &DiskMesh, embedding: &Embedding) -> bool {
     sense(mesh, embedding).is_some()
+}
+
+/// As [`sense`], where no polygon is at fault either.
+fn planar_sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
+    sense(mesh, embedding).filter(|&upright| concave_polygons(mesh, embedding, upright).next().is_none())
+}
+
+/// Polygons that turn the wrong way, or not at all, at a corner that is convex in space.
+fn concave_polygons<'a>(
+    mesh: &'a DiskMesh,
+    embedding: &'a Embedding,
+    upright: Orientation,
+) -> impl Iterator<Item = Polygon<'a>> {
+    let turns = move |ear: [VertexId; 3]| {
+        let [a, b, c] = ear.map(|v| embedding[v]);
+        orientation(a, b, c) == Some(upright)
+    };
+    mesh.polygons().filter(move |polygon| !polygon.convex_ears().all(turns))
 }
 
 /// The orientation that all faces of a one-to-one embedding have; none where it is not one-to-one.
@@ -181,14 +225,19 @@ fn overwound_vertices(
 }
 
 impl Verdict {
+    /// Whether the embedding is one-to-one, polygons being cut as the mesh's faces are.
+    pub fn is_one_to_one(&self) -> bool {
+        self.flipped_faces.is_empty() && self.boundary_crossings.is_empty()
+    }
+
     /// Boundary crossings, listed or not.
     pub fn crossing_count(&self) -> usize {
         self.boundary_crossings.len() + self.unlisted_crossings
     }
 
-    /// Flipped faces, boundary crossings and overwound vertices together.
+    /// Flipped faces, concave polygons, boundary crossings and overwound vertices together.
     pub fn defect_count(&self) -> usize {
-        self.flipped_faces.len() + self.crossing_count() + self.overwound_vertices.len()
+        self.flipped_faces.len() + self.concave_polygons.len() + self.crossing_count() + self.overwound_vertices.len()
     }
 
     /// What becomes of a planar embedding in 32 bits, in lower-case words; none where it is not planar in 64.
@@ -210,6 +259,7 @@ impl Verdict {
         };
         let faults = [
             counted(self.flipped_faces.len(), "flipped face", "flipped faces"),
+            counted(self.concave_polygons.len(), "concave polygon", "concave polygons"),
             counted(self.crossing_count(), "boundary crossing", "boundary crossings"),
             counted(self.overwound_vertices.len(), "overwound vertex", "overwound vertices"),
             self.mirrored.then(|| "mirrored".to_owned()),

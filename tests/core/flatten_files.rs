@@ -37,17 +37,6 @@ fn the_written_mesh_is_the_one_that_was_read_and_check_agrees_with_the_report() 
 }
 
 #[test]
-fn an_earlier_result_can_be_flattened_again_in_place() {
-    let program = Program::new();
-    example_file(&program, Example::Dome);
-    program.run(&["flatten", "in.obj", "-o", "in.obj"]).expect(0);
-    let once = fs::read(program.path("in.obj")).unwrap();
-    program.run(&["flatten", "in.obj", "-o", "in.obj"]).expect(0);
-    assert!(once == fs::read(program.path("in.obj")).unwrap(), "the second run changed the file");
-    assert_eq!(program.files(), ["in.obj"]);
-}
-
-#[test]
 fn polygons_are_written_back_whole() {
     let program = Program::new();
     // A quad, a pentagon that is not convex, and a triangle, on one strip.

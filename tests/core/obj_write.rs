@@ -151,7 +151,7 @@ fn a_file_is_written_whole_or_not_at_all() {
         Err(io::Error::other("the solver tripped"))
     });
     let message = failed.expect_err("it failed").to_string();
-    assert_eq!(message, format!("cannot write the file: the solver tripped: {}", path.display()));
+    assert_eq!(message, format!("{}: cannot be written: the solver tripped", path.display()));
     assert_eq!(fs::read(&path).expect("it is there"), b"first");
     write_atomically(&path, |out| out.write_all(b"second")).expect("written");
     assert_eq!(fs::read(&path).expect("it is there"), b"second");
@@ -171,7 +171,7 @@ fn a_place_that_cannot_be_written_to_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     for path in [folder.path().join("missing/out.obj"), folder.path().to_owned()] {
         let error = write_atomically(&path, |out| out.write_all(b"x")).expect_err("it cannot be written");
-        assert!(error.to_string().ends_with(&path.display().to_string()), "{error}");
+        assert!(error.to_string().starts_with(&path.display().to_string()), "{error}");
     }
     assert!(listing(folder.path()).is_empty());
 }

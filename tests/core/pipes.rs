@@ -1,12 +1,12 @@
 //! Standard output and standard error that take no more: a closed pipe, a full disk.
 #![cfg(unix)]
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::process::Stdio;
 
-use freebound::examples::Example;
-
-use super::program::{Program, Run, example_file};
+use crate::layers::{rust_files, source_folder};
+use crate::program::{Program, Run};
+use crate::report_schema::TENT;
 
 /// Commands that write to standard output, with the exit status of their work.
 const COMMANDS: [(&[&str], i32); 5] = [
@@ -14,12 +14,12 @@ const COMMANDS: [(&[&str], i32); 5] = [
     (&["check", "in.obj"], 0),
     (&["flatten", "in.obj"], 0),
     (&["flatten", "in.obj", "--report", "-"], 0),
-    (&["figures", "figures"], 0),
+    (&["flatten", "in.obj", "-o", "-"], 0),
 ];
 
 fn program() -> Program {
     let program = Program::new();
-    example_file(&program, Example::Dome);
+    program.write("in.obj", TENT);
     program
 }
 
@@ -52,4 +52,15 @@ fn where_standard_error_takes_nothing_the_status_still_tells() {
     let full = File::options().write(true).open("/dev/full").unwrap();
     let status = program.command(&["flatten", "missing.obj"]).stdout(Stdio::null()).stderr(full).status().unwrap();
     assert_eq!(status.code(), Some(3));
+}
+
+#[test]
+fn no_words_go_around_the_checked_ones() {
+    for path in rust_files(&source_folder()) {
+        let text = fs::read_to_string(&path).unwrap();
+        for name in ["println!(", "print!(", "eprintln!(", "eprint!("] {
+            let is_used = text.lines().any(|line| !line.trim_start().starts_with("//") && line.contains(name));
+            assert!(!is_used, "{} writes with {name}", path.display());
+        }
+    }
 }

@@ -65,7 +65,7 @@ fn a_tube_is_planar_on_every_picture_and_with_one_pin_or_two() {
 #[test]
 fn a_pin_at_a_tenth_and_a_pin_far_away_keep_a_deep_disk_planar() {
     let mesh = disk(stacked(53, 3, &mut Random(11)));
-    for (at, is_near) in [([0.1, 0.1], true), ([1e5, -7e4], false)] {
+    for (at, is_near) in [([0.1, 0.1], true), ([1e9, -7e8], false)] {
         let targets: Targets = [(VertexId::new(0), Target::hard(DVec2::from(at)))].into();
         let problem = Problem { targets, ..Problem::default() };
         let (steps, ending) = steps_of(&mesh, &problem);

@@ -47,6 +47,7 @@ fn a_flat_hexagon_is_planar() {
     let expected = Verdict {
         planar: true,
         flipped_faces: vec![],
+        concave_polygons: vec![],
         boundary_crossings: vec![],
         unlisted_crossings: 0,
         overwound_vertices: vec![],

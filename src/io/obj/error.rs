@@ -1,25 +1,15 @@
 //! Everything that can keep an OBJ file from being read.
 
-use std::path::PathBuf;
-
 /// How many parse faults of a file are kept; the others are only counted.
 pub const MAX_PARSE_FAULTS: usize = 20;
 
-/// Why a file did not become a mesh.
+/// Why a file did not become a mesh. Its name is for the caller to say, who has it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
     /// The file cannot be opened, or reading it broke off.
-    #[error("cannot read the file: {source}: {}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What the operating system says.
-        source: std::io::Error,
-    },
-    /// A stream without a name broke off.
-    #[error("cannot read: {0}")]
-    Stream(#[from] std::io::Error),
+    #[error("cannot be read: {0}")]
+    Unreadable(#[from] std::io::Error),
     /// The file has a format that is known but not read.
     #[error("format not read yet: {0}")]
     NotReadYet(&'static str),
@@ -58,11 +48,15 @@ pub enum ReadError {
 
 impl ReadError {
     /// What to do about it.
-    pub const fn remedy(&self) -> &'static str {
+    pub fn remedy(&self) -> &'static str {
         match self {
-            Self::File { .. } | Self::Stream(_) => "check the path and the permissions",
-            Self::NotReadYet(_) => "convert the file to OBJ",
-            Self::NotText | Self::LineTooLong { .. } => "choose an OBJ file",
+            Self::Unreadable(_) => "check the path and the permissions",
+            // Its triangles share no vertices, so that nothing hangs together.
+            Self::NotReadYet("STL") => {
+                "merge coincident vertices in the program that wrote it, and export the mesh as OBJ (Wavefront)"
+            }
+            Self::NotReadYet(_) => "export the mesh as OBJ (Wavefront) from the program that wrote it",
+            Self::NotText | Self::LineTooLong { .. } => "export the mesh as OBJ (Wavefront), and choose that file",
             Self::Parse { .. } => "mend these lines, or export the file again",
             Self::NoFaces { .. } => "export the surface with its faces",
             Self::TooLarge => "simplify the mesh",

@@ -2,13 +2,40 @@
 
 use super::error::ParseFaultKind;
 
+/// Next line, line separator and paragraph separator in UTF-8.
+const UNICODE_LINE_ENDS: [&[u8]; 3] = ["\u{85}".as_bytes(), "\u{2028}".as_bytes(), "\u{2029}".as_bytes()];
+
 /// Longest piece of a bad word that a message quotes, characters.
 const QUOTED: usize = 40;
 
 /// Words of a line between blanks, up to a comment.
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+    all_words(line).take_while(|word| word[0] != b'#')
+}
+
+/// Whether a comment stands on a line.
+pub(super) fn has_comment(line: &[u8]) -> bool {
+    all_words(line).any(|word| word[0] == b'#')
+}
+
+fn all_words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t' | b'\r' | 0x0B | 0x0C);
-    line.split(is_blank).filter(|word| !word.is_empty()).take_while(|word| word[0] != b'#')
+    line.split(is_blank).filter(|word| !word.is_empty())
+}
+
+/// A statement as it is kept and written: one line to every reader. Its keyword stands before a blank, bytes that some
+/// readers take for the end of a line are blanks, and it does not end with a `\`, behind which a line goes on.
+pub(super) fn statement(line: &[u8]) -> Vec<u8> {
+    let mut text: Vec<u8> = line.iter().map(|&byte| if byte < b' ' { b' ' } else { byte }).collect();
+    for end in UNICODE_LINE_ENDS {
+        while let Some(at) = text.windows(end.len()).position(|bytes| bytes == end) {
+            text.splice(at..at + end.len(), *b" ");
+        }
+    }
+    while let Some(b' ' | b'\\') = text.last() {
+        text.pop();
+    }
+    text.trim_ascii_start().to_vec()
 }
 
 /// The first `N` words as numbers; words behind them are ignored.

@@ -1,9 +1,13 @@
 //! The picture that a mesh's materials name.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::ObjMesh;
+
+/// Keywords of lines that name pictures, beside those that begin with `map_`.
+const PICTURE_KEYWORDS: [&str; 5] = ["bump", "decal", "disp", "norm", "refl"];
 
 /// The picture on most faces, as the materials of an OBJ file at `path` say. `None` where no material that is in use
 /// names a picture. The picture itself need not be there.
@@ -29,6 +33,32 @@ pub fn material_picture(mesh: &ObjMesh, path: &Path) -> Option<PathBuf> {
     }
     // The first of equals, going by their names.
     faces_with.into_iter().rev().max_by_key(|&(_, faces)| faces).map(|(picture, _)| picture.to_owned())
+}
+
+/// The material libraries of an OBJ file at `path`, and the pictures that they name, as far as they are there.
+pub fn material_files(mesh: &ObjMesh, path: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
+        let folder = library.parent().unwrap_or(Path::new(""));
+        let text = fs::read(&library).unwrap_or_default();
+        let pictures = String::from_utf8_lossy(&text)
+            .lines()
+            .filter_map(picture_argument)
+            .map(|argument| picture_of(argument, folder))
+            .collect::<Vec<_>>();
+        found.extend(pictures);
+        found.push(library);
+    }
+    found.retain(|file| file.is_file());
+    found
+}
+
+/// What follows the keyword on a line of a material library that names a picture.
+fn picture_argument(line: &str) -> Option<&str> {
+    let (keyword, argument) = line.trim().split_once(char::is_whitespace)?;
+    let keyword = keyword.to_ascii_lowercase();
+    let is_picture = keyword.starts_with("map_") || PICTURE_KEYWORDS.contains(&keyword.as_str());
+    is_picture.then(|| argument.trim())
 }
 
 /// The material libraries. A line may name several, but a name may also hold blanks.

@@ -6,9 +6,10 @@
 //! | `read`         | reads a file in chunks, with progress                                   |
 //! | `parse`        | lines put together to a mesh                                            |
 //! | `line`         | words of a line: numbers and corners                                    |
+//! | `format`       | formats that are not read, told by name or by beginning                 |
 //! | `error`        | what can be wrong with a file, with line, fault and remedy              |
 //! | `texture`      | the mesh of the texture coordinates: the surface cut in the plane       |
-//! | `material`     | the picture that the materials name                                     |
+//! | `material`     | the files that the materials name                                       |
 //! | `refined`      | a file's mesh with new vertices                                         |
 //! | `write`        | writes a file that reads back bit for bit                               |
 //! | `with_picture` | writes a file, its material and its picture side by side                |
@@ -17,6 +18,7 @@
 //! the file can be written back. Normals, lines, points, vertex colours and comments are not.
 
 mod error;
+mod format;
 mod line;
 mod material;
 mod parse;
@@ -33,7 +35,7 @@ use glam::DVec2;
 use crate::mesh::{PolygonMesh, TriMesh};
 
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
-pub use material::material_picture;
+pub use material::{material_files, material_picture};
 pub use read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
 pub use refined::refined_obj;
 pub use texture::TextureMesh;

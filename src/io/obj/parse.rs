@@ -5,7 +5,8 @@
 use glam::{DVec2, DVec3};
 
 use super::error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError};
-use super::line::{corner, numbers, words};
+use super::format::format_of_word;
+use super::line::{corner, has_comment, numbers, statement, words};
 use super::{NO_TEXTURE, ObjMesh, Statement, Texture};
 use crate::mesh::VertexId;
 
@@ -90,8 +91,7 @@ impl Parser {
             }
             b"f" => self.take_face(words)?,
             b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" => {
-                let text = line.trim_ascii().to_vec();
-                self.mesh.statements.push(Statement { before_face: self.face_count, text });
+                self.mesh.statements.push(Statement { before_face: self.face_count, text: statement(line) });
             }
             _ => {}
         }
@@ -243,10 +243,10 @@ fn resolve(element: &'static str, index: i64, count: usize) -> Result<u32, Parse
         .ok_or(ParseFaultKind::IndexOutOfRange { element, index, count })
 }
 
-/// Whether a line goes on in the next: it ends with a `\` and is no comment, where a path may end so.
+/// Whether a line goes on in the next: it ends with a `\`, and not within a comment, where a path may end so.
 fn goes_on(line: &[u8]) -> bool {
     let line = line.strip_suffix(b"\r").unwrap_or(line);
-    line.ends_with(b"\\") && !line.trim_ascii_start().starts_with(b"#")
+    line.ends_with(b"\\") && !has_comment(line)
 }
 
 /// Puts a blank in place of each `\` and the line end behind it.
@@ -257,14 +257,4 @@ fn join_lines(lines: &[u8], joined: &mut Vec<u8>) {
         joined.extend_from_slice(line.strip_suffix(b"\\").unwrap_or(line));
         joined.push(b' ');
     }
-}
-
-/// What the first word of a file says about its format.
-pub(super) fn format_of_word(word: &[u8]) -> Option<&'static str> {
-    Some(match word {
-        b"OFF" | b"COFF" | b"NOFF" | b"CNOFF" | b"STOFF" | b"4OFF" | b"nOFF" => "OFF",
-        b"ply" => "PLY",
-        b"solid" => "STL",
-        _ => return None,
-    })
 }

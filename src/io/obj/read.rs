@@ -2,15 +2,15 @@
 //!
 //! Understood: `v` (words behind the third number are ignored), `vt`, `f` in all its forms with positive and negative
 //! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines that go on behind a `\`. Anything else is skipped. A
-//! positive index may name an element that comes later in the file.
+//! positive index may name an element that comes later in the file. A line ends with LF, with CR LF, or with CR alone.
 
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use super::line::words;
-use super::parse::{Parser, format_of_word};
+use super::format::{format_of_extension, not_text};
+use super::parse::Parser;
 use super::{ObjMesh, ReadError};
 
 /// Bytes read at once.
@@ -43,18 +43,13 @@ pub fn read_mesh(path: &Path) -> Result<ObjMesh, ReadError> {
 ///
 /// [`ReadError`] says what is wrong with the file.
 pub fn read_mesh_with(path: &Path, watch: &mut dyn FnMut(Progress) -> ControlFlow<()>) -> Result<ObjMesh, ReadError> {
-    let unreadable = |source| ReadError::File { path: path.to_owned(), source };
-    let file = File::open(path).map_err(unreadable)?;
+    let file = File::open(path)?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if let Some(format) = format_of_extension(&extension) {
         return Err(ReadError::NotReadYet(format));
     }
     let total = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|data| data.len());
-    let read = read_obj_with(file, &mut |bytes| watch(Progress { bytes, total }));
-    read.map_err(|error| match error {
-        ReadError::Stream(source) => unreadable(source),
-        other => other,
-    })
+    read_obj_with(file, &mut |bytes| watch(Progress { bytes, total }))
 }
 
 /// Reads OBJ text.
@@ -92,6 +87,7 @@ pub fn read_obj_with(
             Err(error) if error.kind() == ErrorKind::Interrupted => continue,
             Err(error) => return Err(error.into()),
         };
+        end_lines(&mut buffer[..filled + count], filled);
         let fresh = &buffer[filled..filled + count];
         let (has_zero, has_line) = (fresh.contains(&0), fresh.contains(&b'\n'));
         filled += count;
@@ -115,23 +111,14 @@ pub fn read_obj_with(
     parser.finish(&buffer[taken..])
 }
 
-fn format_of_extension(extension: &str) -> Option<&'static str> {
-    Some(match extension {
-        "off" => "OFF",
-        "ply" => "PLY",
-        "stl" => "STL",
-        "gltf" | "glb" => "glTF",
-        _ => return None,
-    })
-}
-
-/// What a file with a zero byte is, going by its beginning.
-fn not_text(head: &[u8], lines_before: u64) -> ReadError {
-    let first_line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
-    let format = match words(first_line).next() {
-        _ if lines_before > 0 => None,
-        _ if head.starts_with(b"glTF") => Some("glTF"),
-        word => word.and_then(format_of_word),
-    };
-    format.map_or(ReadError::NotText, ReadError::NotReadYet)
+/// Makes a line feed of every carriage return that stands alone, as other programs read it. The last byte waits for the
+/// next chunk. `fresh` is where the bytes begin that are new.
+fn end_lines(bytes: &mut [u8], fresh: usize) {
+    let mut at = fresh.saturating_sub(1);
+    while let Some(found) = bytes[at..].iter().position(|&byte| byte == b'\r') {
+        at += found + 1;
+        if bytes.get(at).is_some_and(|&next| next != b'\n') {
+            bytes[at - 1] = b'\n';
+        }
+    }
 }

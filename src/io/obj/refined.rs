@@ -1,12 +1,14 @@
-//! An OBJ file's mesh with new vertices: everything else as it was.
+//! An OBJ file's mesh with new vertices, or with polygons cut into triangles: everything else as it was.
+
+use std::collections::HashSet;
 
 use super::{ObjMesh, Statement};
 use crate::mesh::{PolygonMesh, Refinement, VertexId};
 
 /// The mesh of a file with the new vertices of a refinement of it.
 ///
-/// Old vertices keep their numbers, new ones follow. Polygons without a new vertex stay as they are; any other is
-/// replaced by its triangles, in its place. Statements stay before the faces that they stood before. Texture coordinates
+/// Old vertices keep their numbers, new ones follow. Polygons that are whole in the refinement stay as they are; any
+/// other is replaced by its triangles, in its place. Statements stay before the faces that they stood before. Texture coordinates
 /// are left out: they belong to the mesh as it was.
 ///
 /// # Panics
@@ -21,22 +23,24 @@ pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
         starts.push(u32::try_from(corners.len()).expect("a mesh has fewer than 2^32 corners"));
         u32::try_from(starts.len() - 1).expect("a mesh has fewer than 2^32 faces")
     };
+    let is_whole: HashSet<u32> = disk.polygons().map(|whole| disk.mesh().polygon(whole.first_face)).collect();
     let mut face_count = 0;
     // First of the faces that stand for a polygon of the file.
     let mut first_face = Vec::with_capacity(source.polygons.face_count());
     let mut faces = disk.faces().peekable();
-    for polygon in 0..source.polygons.face_count() {
+    for (number, polygon) in (0..).zip(0..source.polygons.face_count()) {
         first_face.push(face_count);
         let mut triangles = Vec::new();
-        while let Some(face) = faces.next_if(|&face| disk.mesh().polygon(face) as usize == polygon) {
+        while let Some(face) = faces.next_if(|&face| disk.mesh().polygon(face) == number) {
             triangles.push(disk.face(face));
         }
-        if triangles.as_flattened().iter().any(|corner| corner.index() >= old_count) {
+        let is_old = triangles.as_flattened().iter().all(|corner| corner.index() < old_count);
+        if is_old && (triangles.len() <= 1 || is_whole.contains(&number)) {
+            face_count = push(source.polygons.face(polygon));
+        } else {
             for triangle in &triangles {
                 face_count = push(triangle);
             }
-        } else {
-            face_count = push(source.polygons.face(polygon));
         }
     }
     assert!(faces.next().is_none(), "a refinement of this mesh");

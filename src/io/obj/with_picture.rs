@@ -5,7 +5,7 @@ use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::{ObjMesh, Statement, write_obj};
-use crate::io::{PictureFile, WriteError, write_atomically};
+use crate::io::{PictureFile, WriteError, is_same_file, write_atomically};
 use crate::solver::Embedding;
 
 /// Name of the material.
@@ -15,6 +15,16 @@ const MATERIAL: &str = "picture";
 const HEAD: &str = "# Freebound: the picture of ";
 
 impl PictureFile {
+    /// Path of the material library of an OBJ file with a picture: beside it, of the same name, or another where that
+    /// file is not ours.
+    pub fn library_beside(path: &Path) -> PathBuf {
+        let stem = stem_of(path);
+        let head = head_for(path);
+        place_for(path, &[format!("{stem}.mtl"), format!("{stem}-{MATERIAL}.mtl")], |place| {
+            begins_with(place, head.as_bytes())
+        })
+    }
+
     /// Writes a mesh with texture coordinates, v up, whose only material shows this picture.
     ///
     /// Names in the files are relative and without blanks, which not all readers take. A picture that lies in the same
@@ -31,7 +41,7 @@ impl PictureFile {
         coordinates: &Embedding,
     ) -> Result<(), WriteError> {
         let picture_name = put_picture(path, self)?;
-        let library = library_beside(path);
+        let library = Self::library_beside(path);
         let library_name = name_of(&library);
         write_atomically(&library, |out| {
             out.write_all(head_for(path).as_bytes())?;
@@ -57,15 +67,6 @@ fn with_material(mesh: &ObjMesh, library: &str) -> ObjMesh {
     ObjMesh { statements, ..mesh.clone() }
 }
 
-/// Path of the material library of an OBJ file: beside it, of the same name, or another where that file is not ours.
-fn library_beside(path: &Path) -> PathBuf {
-    let stem = stem_of(path);
-    let head = head_for(path);
-    place_for(path, &[format!("{stem}.mtl"), format!("{stem}-{MATERIAL}.mtl")], |place| {
-        begins_with(place, head.as_bytes())
-    })
-}
-
 /// First line of the material library of an OBJ file. One of another mesh's begins otherwise: it may be in use.
 fn head_for(path: &Path) -> String {
     format!("{HEAD}{}\n", name_of(path))
@@ -82,7 +83,7 @@ fn put_picture(mesh: &Path, picture: &PictureFile) -> Result<String, WriteError>
         return put(mesh, &[name], &bytes);
     };
     let name = without_blanks(&name_of(source));
-    if is_same_file(source, &mesh.with_file_name(&name)) {
+    if source.is_file() && is_same_file(source, &mesh.with_file_name(&name)) {
         return Ok(name);
     }
     let bytes = fs::read(source).map_err(|error| WriteError { path: source.to_owned(), source: error })?;
@@ -127,10 +128,6 @@ fn begins_with(place: &Path, head: &[u8]) -> bool {
 /// Whether a file has exactly these contents. It is only read where its length is the same.
 fn holds(place: &Path, bytes: &[u8]) -> bool {
     fs::metadata(place).is_ok_and(|data| data.len() == bytes.len() as u64) && begins_with(place, bytes)
-}
-
-fn is_same_file(a: &Path, b: &Path) -> bool {
-    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
 /// A file name with a number before its extension.

@@ -10,7 +10,7 @@ use super::PROJECT_VERSION;
 #[non_exhaustive]
 pub enum ProjectError {
     /// The file cannot be read.
-    #[error("cannot read the project: {source}: {}", path.display())]
+    #[error("{}: the project cannot be read: {source}", path.display())]
     File {
         /// The file.
         path: PathBuf,
@@ -18,14 +18,14 @@ pub enum ProjectError {
         source: io::Error,
     },
     /// The file is something else.
-    #[error("this is no Freebound project: {}", path.display())]
+    #[error("{}: this is no Freebound project", path.display())]
     NotAProject {
         /// The file.
         path: PathBuf,
     },
     /// The file has a later format.
     #[error(
-        "a newer Freebound wrote this project: its format is {version}, this one reads up to {PROJECT_VERSION}: {}",
+        "{}: a newer Freebound wrote this project: its format is {version}, this one reads up to {PROJECT_VERSION}",
         path.display()
     )]
     Newer {
@@ -35,7 +35,7 @@ pub enum ProjectError {
         version: u64,
     },
     /// A field that cannot be.
-    #[error("line {line}, {field}: {reason}: {}", path.display())]
+    #[error("{}: line {line}, {field}: {reason}", path.display())]
     Malformed {
         /// The file.
         path: PathBuf,

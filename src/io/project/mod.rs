@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::error::ProjectError;
 use self::fields::{SourceFields, pin_list};
+use super::paths::{relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::VAxis;
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
@@ -248,13 +249,6 @@ fn parse<'de, T: Deserialize<'de>>(path: &Path, text: &'de str) -> Result<T, Pro
     Ok(found)
 }
 
-/// The folder that a file is in, from the root, links followed: so that `..` in it means what it says.
-fn whole_folder_of(path: &Path) -> PathBuf {
-    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let folder = whole.parent().unwrap_or(&whole);
-    std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())
-}
-
 /// A file's name in a project that is in `folder`. Folders are divided by slashes on every system.
 fn named(path: &Path, folder: &Path, style: PathStyle) -> io::Result<PathBuf> {
     let own = path.file_name().ok_or_else(|| io::Error::other(format!("{} names no file", path.display())))?;
@@ -268,12 +262,4 @@ fn named(path: &Path, folder: &Path, style: PathStyle) -> io::Result<PathBuf> {
         io::Error::new(io::ErrorKind::InvalidData, text)
     })?;
     Ok(if cfg!(windows) { text.replace('\\', "/").into() } else { found })
-}
-
-/// The way from a folder to a file; `None` where they have no folder in common.
-fn relative(path: &Path, folder: &Path) -> Option<PathBuf> {
-    let shared = path.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
-    let up = folder.components().count() - shared;
-    let down = path.components().skip(shared);
-    (shared > 0).then(|| std::iter::repeat_n(Path::new("..").components(), up).flatten().chain(down).collect())
 }

@@ -63,7 +63,7 @@ impl Rung for Fit {
 fn fitted(task: &Task, mesh: &DiskMesh, start: &Embedding, control: Control<'_>) -> Result<Embedding, SolveError> {
     let held = task.held();
     let fit = |embedding: &Embedding| {
-        Placing::fitting(embedding, &held).best(embedding, |placed| task.sheet.is_planar(mesh, placed))
+        Placing::fitting(embedding, &held).best(embedding, |placed| task.sheet.is_one_to_one(mesh, placed))
     };
     let mut placed = fit(start);
     let mut relaxing = Relaxing::new(mesh, start.clone(), &Pins::new());

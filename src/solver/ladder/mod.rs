@@ -14,13 +14,15 @@
 //! | `schnyder.rs` | the end of rung 3: a grid drawing, planar by theorem |
 //! | `continuation.rs` | rung 4: a planar start fitted to the constraints, then one-to-one on the way to them |
 //! | `matchmaker.rs` | rung 5: new vertices |
-//! | `relax.rs` | what follows: lower distortion; `auto` goes on until the embedding serves |
+//! | `relax.rs` | what follows: lower distortion, convex polygons; `auto` goes on until the embedding serves |
+//! | `cut.rs` | what follows: polygons that cannot be convex, cut into triangles |
 //!
 //! A ladder is asked for one step at a time, so that it can be watched, paused and taken on by hand. A step that is
 //! cancelled leaves the ladder as it was.
 
 mod again;
 mod continuation;
+mod cut;
 mod iterate;
 mod matchmaker;
 mod natural;
@@ -179,7 +181,7 @@ impl Ladder {
     ///
     /// [`SolveError::NotPlanar`] where there is no planar embedding to begin with.
     pub fn relax(&mut self, rounds: usize) -> Result<(), SolveError> {
-        if !self.latest.as_ref().is_some_and(|latest| latest.is_planar) {
+        if !self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one) {
             return Err(SolveError::NotPlanar);
         }
         self.plan.part_mut().relax.begin(Rounds { always: rounds, until_it_serves: 0 });
@@ -220,13 +222,13 @@ impl Ladder {
 
     /// Goes on to the next part of the plan: from the planar start to the constraints only where it is planar.
     fn enter_next_part(&mut self) -> Result<(), SolveError> {
-        let has_start = || self.latest.as_ref().is_some_and(|latest| latest.is_planar);
+        let has_start = || self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one);
         if !self.plan.has_next_part() || (self.plan.part().aim == Aim::PlanarStart && !has_start()) {
             return Err(SolveError::LadderExhausted);
         }
         // A part may have given no step at all.
         if let Some(latest) = &mut self.latest {
-            latest.is_solved = false;
+            (latest.is_solved, latest.is_solved_but_for_polygons) = (false, false);
         }
         self.plan.enter_next_part();
         Ok(())
@@ -237,7 +239,9 @@ impl Ladder {
         control.enter(Phase::Verify).ok();
         let start = Instant::now();
         let task = Arc::clone(&self.plan.part().task);
-        let placing = task.place(mesh, &mut candidate);
+        let refinement = candidate.refinement.clone();
+        let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
+        let placing = task.place(disk, &mut candidate);
         let mut verdict = verdict_of(&task, mesh, &candidate);
         if !verdict.planar || !task.are_met(&candidate.solution.embedding) {
             let is_kept = self.keep_what_is_proved(&mut candidate);
@@ -284,15 +288,19 @@ impl Ladder {
         // A mirror image is one-to-one, but not what the ladder is for.
         let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
         let is_met = part.aim == Aim::PlanarStart || step.unmet().is_empty();
-        let is_proved = step.verdict.planar && is_upright;
+        let is_proved = step.verdict.is_one_to_one() && is_upright;
+        let is_solved_for_faces = is_proved && is_met;
+        // The way from a planar start to the constraints keeps no polygon convex: that follows.
+        let is_solved = is_solved_for_faces && (step.verdict.planar || part.aim == Aim::PlanarStart);
         self.latest = Some(Latest {
             embedding: step.solution.embedding.clone(),
             onward: None,
             pins: step.solution.pins.clone(),
             has_simple_boundary: step.has_simple_boundary(),
-            is_planar: step.verdict.planar,
-            is_solved: is_proved && is_met,
+            is_one_to_one: step.verdict.is_one_to_one(),
+            is_solved,
             is_unplaced: is_proved && !is_met && !part.task.is_constrained(),
+            is_solved_but_for_polygons: is_solved_for_faces && !is_solved,
             refinement: step.refinement.clone(),
         });
         part.look_at(step);

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
+use super::cut::Cut;
 use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
 use super::task::Task;
@@ -37,6 +38,9 @@ const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
 
 /// The most rounds of relaxing until a planar embedding serves.
 const ROUNDS_UNTIL_IT_SERVES: usize = 60;
+
+/// Rounds of relaxing by which polygons become convex.
+const ROUNDS_TO_CONVEX: usize = 30;
 
 /// Every rung but relaxing, which follows all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -162,6 +166,8 @@ pub(super) enum Place {
     Rung(At),
     /// What follows the rungs where they have solved it.
     Relax,
+    /// What follows where they have, but for concave polygons.
+    Cut,
 }
 
 /// Rungs with one aim.
@@ -170,6 +176,7 @@ pub(super) struct Part {
     pub(super) aim: Aim,
     pub(super) task: Arc<Task>,
     pub(super) relax: Relax,
+    cut: Cut,
     flights: Flights,
     rungs: BTreeMap<Kind, Box<dyn Rung>>,
     /// Where the ladder stands, and whether it has taken a step there.
@@ -185,7 +192,17 @@ impl Part {
         let kinds = flights.iter().copied().flatten().chain(&[Iterate]);
         let rungs = kinds.map(|&kind| (kind, kind.rung(kept))).collect();
         let (at, has_stepped, has_begun) = (At::default(), false, false);
-        Self { aim, task: Arc::clone(task), relax: Relax::default(), flights, rungs, at, has_stepped, has_begun }
+        Self {
+            aim,
+            task: Arc::clone(task),
+            relax: Relax::default(),
+            cut: Cut,
+            flights,
+            rungs,
+            at,
+            has_stepped,
+            has_begun,
+        }
     }
 
     fn kind(&self, at: At) -> Kind {
@@ -214,6 +231,13 @@ impl Part {
         {
             return Some(place);
         }
+        if latest.is_some_and(|latest| latest.is_solved_but_for_polygons) {
+            let relaxes = self.relax.has_more(&self.task, latest).then_some(Place::Relax);
+            let follows = relaxes.or_else(|| self.cut.has_more(&self.task, latest).then_some(Place::Cut));
+            if follows.is_some() {
+                return follows;
+            }
+        }
         let (mut at, mut has_stepped) = (self.at, self.has_stepped);
         while let Some(flight) = self.flights.get(at.flight) {
             if self.rung(at).has_more(&self.task, latest) {
@@ -240,7 +264,11 @@ impl Part {
 
     /// Goes to what takes the next step.
     pub(super) fn enter(&mut self, place: Place) -> &mut dyn Rung {
-        let Place::Rung(at) = place else { return &mut self.relax };
+        let at = match place {
+            Place::Relax => return &mut self.relax,
+            Place::Cut => return &mut self.cut,
+            Place::Rung(at) => at,
+        };
         if at != self.at {
             (self.at, self.has_stepped) = (at, false);
         }
@@ -258,7 +286,7 @@ impl Part {
 
     /// Goes on to the next flight. Returns whether there is one.
     pub(super) fn leave_flight(&mut self, place: Place) -> bool {
-        let has_next = place != Place::Relax && self.at.flight + 1 < self.flights.len();
+        let has_next = matches!(place, Place::Rung(_)) && self.at.flight + 1 < self.flights.len();
         if has_next {
             (self.at, self.has_stepped) = (At { flight: self.at.flight + 1, rung: 0 }, false);
         }
@@ -274,9 +302,13 @@ impl Part {
         if step.rung == Method::Relax {
             self.relax.look_at(step);
         } else {
-            let own = || self.rung(self.at).relax_rounds_after(&self.task, step);
-            let rounds = self.task.settings.relax_rounds.unwrap_or_else(own);
-            self.relax.begin(Rounds { always: rounds, until_it_serves: self.rounds_until_it_serves() });
+            let own = || {
+                let keeps_concave = self.aim == Aim::PlanarStart || step.verdict.concave_polygons.is_empty();
+                let to_convex = if keeps_concave { 0 } else { ROUNDS_TO_CONVEX };
+                self.rung(self.at).relax_rounds_after(&self.task, step).max(to_convex)
+            };
+            let always = self.task.settings.relax_rounds.unwrap_or_else(own);
+            self.relax.begin(Rounds { always, until_it_serves: self.rounds_until_it_serves() });
             self.relax.look_at_start(step);
         }
     }

@@ -109,8 +109,10 @@ impl Rung for Relax {
         })
     }
 
-    fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {
-        let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && self.lack.is_some());
+    fn has_more(&self, _: &Task, latest: Option<&Latest>) -> bool {
+        // Polygons that cannot be convex are cut.
+        let may_serve = self.lack.is_some() && latest.is_none_or(|latest| !latest.is_solved_but_for_polygons);
+        let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && may_serve);
         is_wanted && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
     }
 

@@ -70,7 +70,7 @@ impl Task {
             candidate.solution.pins = gauge_in(mesh, embedding);
             return Some("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
         };
-        let placed = placing.best(embedding, |embedding| self.sheet.is_planar(mesh, embedding));
+        let placed = placing.best(embedding, |embedding| self.sheet.is_one_to_one(mesh, embedding));
         let solution = &mut candidate.solution;
         solution.embedding = placed.embedding;
         if !is_open || placed.way.is_none() {

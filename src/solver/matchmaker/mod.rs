@@ -40,7 +40,7 @@ use self::target_graph::TargetGraph;
 use self::triangulate::{Parts, split_collapsing_edges, triangulate};
 use super::outside::{disk_in_plane, outside_of};
 use super::rest::mean_edge_length;
-use super::{Control, Embedding, Outside, Pins, SolveError, is_planar};
+use super::{Control, Embedding, Outside, Pins, SolveError, is_one_to_one};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, VertexId};
 
 /// Length that a new vertex counts for, in mean lengths of an edge.
@@ -91,7 +91,7 @@ pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control
             Ok(places) => places,
         };
         let embedding: Embedding = vertices.iter().map(|&v| places[v as usize]).collect();
-        if is_planar(refinement.disk(), &embedding) {
+        if is_one_to_one(refinement.disk(), &embedding) {
             return Ok(Matched { refinement, embedding });
         }
     }

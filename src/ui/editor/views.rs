@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::geom::Bounds;
-use crate::mesh::{EdgeId, FaceId, VertexId};
+use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 use crate::session::Document;
 use crate::solver::Verdict;
 use crate::ui::{Editor, Element};
@@ -14,6 +14,8 @@ use crate::view::part_around;
 pub enum Defect {
     /// A face that is turned over or has no area.
     Flipped(FaceId),
+    /// A polygon that another cut into triangles would fold, by its first face.
+    Concave(FaceId),
     /// Two boundary edges that meet.
     Crossing([EdgeId; 2]),
     /// An interior vertex that its faces wind around twice.
@@ -21,17 +23,22 @@ pub enum Defect {
 }
 
 impl Defect {
-    /// The defects that a verdict lists: flipped faces, then crossings, then overwound vertices.
+    /// The defects that a verdict lists: flipped faces, then concave polygons, then crossings, then overwound vertices.
     pub(in crate::ui) fn all(verdict: &Verdict) -> impl Iterator<Item = Self> {
         let flipped = verdict.flipped_faces.iter().map(|&face| Self::Flipped(face));
         let crossings = verdict.boundary_crossings.iter().map(|&edges| Self::Crossing(edges));
         let overwound = verdict.overwound_vertices.iter().map(|&vertex| Self::Overwound(vertex));
-        flipped.chain(crossings).chain(overwound)
+        let concave = verdict.concave_polygons.iter().map(|&face| Self::Concave(face));
+        flipped.chain(concave).chain(crossings).chain(overwound)
     }
 
-    fn elements(self) -> Vec<Element> {
+    pub(in crate::ui) fn elements(self, disk: Option<&DiskMesh>) -> Vec<Element> {
         match self {
             Self::Flipped(face) => vec![Element::Face(face)],
+            Self::Concave(first) => {
+                let polygon = disk.and_then(|disk| disk.polygon(first));
+                polygon.map(|polygon| polygon.faces().map(Element::Face).collect()).unwrap_or_default()
+            }
             Self::Crossing(edges) => edges.map(Element::Edge).to_vec(),
             Self::Overwound(vertex) => vec![Element::Vertex(vertex)],
         }
@@ -41,6 +48,7 @@ impl Defect {
     pub fn words(self) -> String {
         match self {
             Self::Flipped(face) => format!("flipped face {face}"),
+            Self::Concave(face) => format!("concave polygon at {face}"),
             Self::Crossing([a, b]) => format!("crossing {a} × {b}"),
             Self::Overwound(vertex) => format!("overwound vertex {vertex}"),
         }
@@ -101,12 +109,13 @@ impl Editor {
     pub(super) fn go_to_defect(&mut self, place: usize) {
         self.selection.set_defect(Some(place));
         if let (Some(scene), Some(defect)) = (self.mesh_scene(), self.defects().get(place)) {
-            let vertices = defect.elements().into_iter().flat_map(|element| scene.vertices_of(element)).collect();
+            let vertices =
+                defect.elements(scene.disk()).into_iter().flat_map(|element| scene.vertices_of(element)).collect();
             self.go_to_vertices(vertices);
         }
     }
 
-    /// Everything that is wrong with the embedding on the screen: flipped faces, crossings, overwound vertices.
+    /// Everything that is wrong with the embedding on the screen: flipped faces, concave polygons, crossings, overwound vertices.
     pub fn defects(&self) -> Vec<Defect> {
         self.session.outcome().map(|outcome| Defect::all(&outcome.step.verdict).collect()).unwrap_or_default()
     }

@@ -38,6 +38,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     }
     let rows = [
         (theme.flipped, "flipped faces", verdict.flipped_faces.len()),
+        (theme.concave, "concave polygons", verdict.concave_polygons.len()),
         (theme.crossing, "boundary crossings", verdict.crossing_count()),
         (theme.overwound, "overwound vertices", verdict.overwound_vertices.len()),
     ];
@@ -85,6 +86,7 @@ fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         for place in range {
             let colour = match defects[place] {
                 Defect::Flipped(_) => theme.flipped,
+                Defect::Concave(_) => theme.concave,
                 Defect::Crossing(_) => theme.crossing,
                 Defect::Overwound(_) => theme.overwound,
             };

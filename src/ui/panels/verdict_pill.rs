@@ -120,6 +120,7 @@ fn preview_words(preview: Option<&Preview>) -> String {
 fn short_verdict(verdict: &Verdict) -> String {
     let counts = [
         (verdict.flipped_faces.len(), ["flipped"; 2]),
+        (verdict.concave_polygons.len(), ["concave"; 2]),
         (verdict.crossing_count(), ["crossing", "crossings"]),
         (verdict.overwound_vertices.len(), ["overwound"; 2]),
     ];

@@ -14,7 +14,7 @@ use crate::geom::Bounds;
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame, Shading};
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
-use crate::ui::{Control, Defect, Editor, Element, Request, Theme, keys_of, theme_of};
+use crate::ui::{Control, Defect, Editor, Request, Theme, keys_of, theme_of};
 use crate::view::{OrbitCamera, PlaneCamera, Sphere, bounds_of};
 
 /// Distance of insets from the pane's edges, points.
@@ -177,8 +177,9 @@ fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<Bounds> {
             let link = around(disk.outgoing(vertex).map(|h| disk.head(h)).collect());
             (plane.position_of(vertex)?, link.size().max_element())
         }
-        Defect::Flipped(face) => {
-            let bounds = around(plane.mesh.vertices_of(Element::Face(face)));
+        Defect::Flipped(_) | Defect::Concave(_) => {
+            let elements = defect.elements(Some(disk)).into_iter();
+            let bounds = around(elements.flat_map(|element| plane.mesh.vertices_of(element)).collect());
             (bounds.middle(), bounds.size().max_element())
         }
     };

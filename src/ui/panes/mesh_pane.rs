@@ -160,6 +160,12 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
             painter.line_segment([a, b], egui::Stroke::new(4.0, theme.crossing));
         }
     }
+    for outline in pane::concave(editor, scene) {
+        let corners: Vec<(Pos2, bool)> = outline.iter().filter_map(|&corner| place(corner)).collect();
+        if corners.len() == outline.len() && corners.iter().any(|(_, is_seen)| *is_seen) {
+            pane::concave_mark(&painter, corners.into_iter().map(|(at, _)| at).collect(), theme);
+        }
+    }
     for at in pane::overwound(editor).into_iter().filter_map(seen) {
         pane::overwound_mark(&painter, at, theme);
     }

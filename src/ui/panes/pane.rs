@@ -1,5 +1,5 @@
 //! What both panes share: places on the screen, header, clicks and boxes, the wheel, marks of defects: crossings orange,
-//! overwound vertices magenta. Flipped faces are drawn with the faces.
+//! overwound vertices magenta, concave polygons brown. Flipped faces are drawn with the faces.
 
 use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
 use glam::{DVec2, DVec3};
@@ -286,7 +286,7 @@ pub(super) fn crossing_point([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> DVec2 {
     a + along * if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 }
 }
 
-/// Crossings and overwound vertices of the embedding.
+/// Crossings, concave polygons and overwound vertices of the embedding.
 pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
     let (painter, theme) = (&ui.painter_at(view.rect), theme_of(ui));
     let at = |vertex: VertexId| plane.position_of(vertex).unwrap_or(DVec2::NAN);
@@ -297,9 +297,24 @@ pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &E
         }
         painter.circle_stroke(view.spot(crossing_point(first, second)), 7.0, Stroke::new(1.5, theme.crossing));
     }
+    for outline in concave(editor, &plane.mesh) {
+        concave_mark(painter, outline.into_iter().map(|v| view.spot(at(v))).collect(), theme);
+    }
     for vertex in overwound(editor) {
         overwound_mark(painter, view.spot(at(vertex)), theme);
     }
+}
+
+/// The outlines of the concave polygons that are marked.
+pub(super) fn concave(editor: &Editor, scene: &MeshScene) -> Vec<Vec<VertexId>> {
+    let (Some(verdict), Some(disk)) = (editor.plane.verdict(), scene.disk()) else { return Vec::new() };
+    let polygons = verdict.concave_polygons.iter().take(MARKS_SHOWN).filter_map(|&face| disk.polygon(face));
+    polygons.map(|polygon| polygon.corners.to_vec()).collect()
+}
+
+/// A heavy outline.
+pub(super) fn concave_mark(painter: &egui::Painter, outline: Vec<Pos2>, theme: &Theme) {
+    painter.add(egui::Shape::closed_line(outline, Stroke::new(3.0, theme.concave)));
 }
 
 /// The overwound vertices that are marked.

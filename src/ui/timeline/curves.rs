@@ -11,7 +11,7 @@ use crate::ui::panels::status::short;
 use crate::ui::{Control, Editor, Request, Theme, remark, theme_of};
 
 /// How many curves there are.
-pub(super) const CURVE_COUNT: usize = 9;
+pub(super) const CURVE_COUNT: usize = 10;
 
 /// A curve is at least so wide, points.
 const LEAST_WIDTH: f32 = 118.0;
@@ -86,6 +86,7 @@ const CURVES: [Curve; CURVE_COUNT] = [
         |record, _| record.equation_residual.filter(|residual| residual.is_finite()),
         |theme| theme.accent,
     ),
+    count("Concave", "concave polygons", |record, _| Some(record.concave_polygons as f64), |theme| theme.concave),
     count(
         "Overwound",
         "overwound vertices",

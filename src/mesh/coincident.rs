@@ -1,0 +1,31 @@
+//! Vertices of different parts of a mesh in one place: faces that look as if they hung together, and do not.
+//!
+//! Triangle soup is the extreme of it: every face has three vertices of its own.
+
+use super::union::DisjointSets;
+use super::{TriMesh, VertexId};
+
+/// The vertices that lie where a vertex with a lower number lies, of a part that none of their faces leads to. Ascending.
+/// Faces lead on to others across vertices. Seams of one part are not meant: a cut surface has them.
+pub(super) fn coincident_vertices(mesh: &TriMesh, triangles: &[[VertexId; 3]]) -> Vec<VertexId> {
+    let mut parts = DisjointSets::new(mesh.vertex_count());
+    let mut used = vec![false; mesh.vertex_count()];
+    for corners in triangles {
+        for corner in corners {
+            parts.join(corners[0].number(), corner.number());
+            used[corner.index()] = true;
+        }
+    }
+    // −0 is 0 here.
+    let bits = |v: VertexId| mesh.positions[v.index()].to_array().map(|x| (x + 0.0).to_bits());
+    let is_looked_at = |v: &VertexId| used[v.index()] && mesh.positions[v.index()].is_finite();
+    let mut by_place: Vec<VertexId> = (0..mesh.vertex_count()).map(VertexId::from_index).filter(is_looked_at).collect();
+    by_place.sort_by_cached_key(|&v| (bits(v), v));
+    let mut found = Vec::new();
+    for group in by_place.chunk_by(|&a, &b| bits(a) == bits(b)) {
+        let first = parts.find(group[0].number());
+        found.extend(group.iter().filter(|v| parts.find(v.number()) != first));
+    }
+    found.sort_unstable();
+    found
+}
