@@ -52,7 +52,7 @@ fn targets_on(mesh: &DiskMesh, count: usize, random: &mut Random) -> Targets {
 
 #[test]
 fn a_tube_is_planar_on_every_picture_and_with_one_pin_or_two() {
-    let mesh = disk(tube(3, 46));
+    let mesh = disk(tube(3, 20));
     let mut random = Random(5);
     for aspect in ASPECTS {
         for count in 0..=2 {
@@ -101,7 +101,7 @@ fn what_is_on_one_line_as_written_is_not_taken_for_planar() {
 
 #[test]
 fn a_finer_and_finer_finger_holds_in_32_bits_and_keeps_its_natural_step() {
-    for along in [6, 14, 24, 40, 60] {
+    for along in [6, 14, 24] {
         let mesh = disk(tube(12, along));
         let steps = assert_proved(&format!("a finger of {along} rings"), &mesh, &Problem::default());
         let natural = &steps[0];
@@ -129,16 +129,15 @@ fn auto_relaxes_a_map_that_serves_nobody_and_not_where_the_user_says_no() {
 #[test]
 fn deep_disks_are_planar_with_eight_pins() {
     let mut random = Random(8);
-    for (name, mesh) in [("stacked", disk(stacked(43, 3, &mut Random(2)))), ("a hand", disk(hand(4)))] {
-        for aspect in [0.3, 16.0 / 9.0] {
-            let targets = targets_on(&mesh, 8, &mut random);
-            assert_proved(&format!("{name}, aspect {aspect}"), &mesh, &on_picture(aspect, targets));
-        }
+    for (name, mesh, aspect) in [("stacked", stacked(43, 3, &mut Random(2)), 0.3), ("a hand", hand(2), 16.0 / 9.0)] {
+        let mesh = disk(mesh);
+        let targets = targets_on(&mesh, 8, &mut random);
+        assert_proved(&format!("{name}, aspect {aspect}"), &mesh, &on_picture(aspect, targets));
     }
 }
 
 #[test]
-#[ignore = "minutes: `cargo test --release -- --ignored large_deep_disks`"]
+#[ignore = "minutes: `cargo test --release --test core -- --ignored deep_disks`"]
 fn large_deep_disks_are_planar_on_every_picture_with_up_to_eight_pins() {
     let mut random = Random(3);
     let tubes = [(3, 46), (5, 80), (8, 60), (12, 140)].map(|(a, l)| (format!("tube {a} x {l}"), disk(tube(a, l))));
@@ -175,12 +174,12 @@ fn the_easy_call_names_why_nothing_is_proved() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(10))]
 
     /// Any stacked triangulation, any picture, up to two pins.
     #[test]
     fn random_deep_disks_are_planar_wherever_they_are_placed(
-        (count, newest, seed) in (5_usize..60, 1_usize..12, any::<u64>()),
+        (count, newest, seed) in (5_usize..50, 1_usize..12, any::<u64>()),
         aspect in 0.11_f64..16.0,
         pins in 0_usize..3,
     ) {
@@ -194,7 +193,7 @@ proptest! {
     #[test]
     fn random_tubes_are_planar_wherever_they_are_placed(
         around in 3_u32..8,
-        along in 1_u32..25,
+        along in 1_u32..14,
         aspect in 0.11_f64..16.0,
         pins in 0_usize..3,
         seed in any::<u64>(),
