@@ -72,6 +72,10 @@ pub struct FlattenArguments {
     /// Map this picture (PNG or JPEG) on the mesh: its aspect counts, and it goes beside the OBJ file, with a material.
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
+    /// Copy the mesh's material libraries and the pictures that they name beside the OBJ file. Without it they stay, and
+    /// the OBJ file names them where they are.
+    #[arg(long, requires = "output", conflicts_with = "picture")]
+    pub copy_materials: bool,
     /// What becomes of the pinned vertices' equations. Without it: of two pins eliminated, of more kept, and kept in
     /// the iteration.
     #[arg(long, value_parser = choice::<Treatment>())]
@@ -117,8 +121,9 @@ pub struct FlattenArguments {
 impl FlattenArguments {
     /// The files to write, apart from the report.
     pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
+        // The mesh comes last: pictures beside it find their names among the others.
         let paths =
-            [(OutputKind::Obj, &self.output), (OutputKind::Svg, &self.svg), (OutputKind::Png, &self.png)].into_iter();
+            [(OutputKind::Svg, &self.svg), (OutputKind::Png, &self.png), (OutputKind::Obj, &self.output)].into_iter();
         paths.filter_map(|(kind, path)| Some((kind, path.as_deref()?))).collect()
     }
 

@@ -16,7 +16,7 @@ use super::summary::{deliver, ending_words, put_report, step_words, summary, war
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::{
-    Constraints, OutputFit, OutputKind, PictureFile, StepReport, StepsFolder, Target, Targets, WriteError,
+    Constraints, Materials, OutputFit, OutputKind, PictureFile, StepReport, StepsFolder, Target, Targets, WriteError,
     material_files,
 };
 use crate::mesh::{DiskMesh, VertexId};
@@ -61,6 +61,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
             fit: arguments.fit,
             svg_fit: arguments.svg_scale.unwrap_or(arguments.fit),
             outputs: arguments.outputs(),
+            materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
         };
@@ -77,11 +78,13 @@ fn refuse_clashes(arguments: &FlattenArguments, places: &Places) -> Result<(), F
             places.spare(path, what)?;
         }
     }
-    if arguments.picture.is_some() && arguments.output.as_deref().is_some_and(is_standard) {
-        let text = "standard output: -o has no folder there for --picture: name a file, or give --aspect alone";
-        return Err(Failure::Usage(text.to_owned()));
+    let beside = [(arguments.picture.is_some(), "--picture"), (arguments.copy_materials, "--copy-materials")];
+    match beside.into_iter().find(|(given, _)| *given && arguments.output.as_deref().is_some_and(is_standard)) {
+        Some((_, option)) => {
+            Err(Failure::Usage(format!("standard output: -o has no folder there for {option}: name a file")))
+        }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// Flattens the built-in face and writes mesh, report and picture into a folder that it names.
@@ -99,6 +102,7 @@ fn flatten_example() -> Result<Status, Failure> {
         fit: OutputFit::Unit,
         svg_fit: OutputFit::Unit,
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
+        materials: Materials::Stay,
         report: Some(&report),
         steps: None,
     };
@@ -153,6 +157,7 @@ struct HeadlessJob<'a> {
     /// Size of the drawing.
     svg_fit: OutputFit,
     outputs: Vec<(OutputKind, &'a Path)>,
+    materials: Materials,
     report: Option<&'a Path>,
     steps: Option<&'a Path>,
 }
@@ -169,6 +174,7 @@ impl HeadlessJob<'_> {
         output.report.seconds.read = read_seconds;
         output.picture = self.document.picture.as_deref();
         output.svg_fit = self.svg_fit;
+        output.materials = self.materials;
         progress.enter("writing");
         let before_writing = Instant::now();
         go_on()?;

@@ -15,6 +15,7 @@
 //! | `raster`      | pictures of meshes without a screen                                        |
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
+//! | `unfinished`  | what is being written aside, to be removed at a sudden end                 |
 //! | `paths`       | which paths lead to one file, and the way from a folder to a file          |
 //! | `stamp`       | what tells one state of a file from another                                |
 
@@ -33,14 +34,15 @@ mod stamp;
 mod steps;
 mod svg;
 mod targets;
+mod unfinished;
 
 pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use obj::{
-    MAX_PARSE_FAULTS, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, Statement, Texture,
-    TextureError, TextureMesh, material_files, material_picture, read_mesh, read_mesh_with, read_obj, read_obj_with,
-    refined_obj, write_obj,
+    MAX_PARSE_FAULTS, Materials, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, Statement,
+    Texture, TextureError, TextureMesh, material_files, material_picture, read_mesh, read_mesh_with, read_obj,
+    read_obj_with, refined_obj, write_obj,
 };
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};
 pub use paths::is_same_file;
@@ -55,3 +57,4 @@ pub use report::{
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;
 pub use targets::{Target, Targets, hard_targets, pins_in_plane};
+pub use unfinished::discard_unfinished;

@@ -8,10 +8,11 @@ use std::path::Path;
 use clap::ValueEnum;
 use glam::{DVec2, DVec3};
 
+use super::obj::{copy_materials, relocated, write_obj_with};
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::{Report, write_report};
 use super::svg::write_svg;
-use super::{ObjMesh, PictureFile, WriteError, refined_obj, write_atomically, write_obj, write_to_standard_output};
+use super::{Materials, ObjMesh, PictureFile, WriteError, refined_obj, write_atomically, write_to_standard_output};
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement};
 use crate::solver::{Embedding, Verdict};
@@ -21,6 +22,9 @@ const PICTURE_SIZE: u32 = 900;
 
 /// Fields of the checker across the layout.
 const CHECKER_FIELDS: f64 = 40.0;
+
+/// Stands for a file without a name: it belongs to the current folder.
+const NAMELESS: &str = "-";
 
 /// Kinds of files that can be written; [`format`](Self::format) says what is known of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +60,7 @@ pub struct Format {
     pub ending: &'static str,
     /// What a dialog asks for, its verb first.
     pub title: &'static str,
-    write: fn(&Output<'_>, &mut BufWriter<File>) -> io::Result<()>,
+    write: fn(&Output<'_>, &Path, &mut BufWriter<File>) -> io::Result<()>,
 }
 
 /// The formats, in the order of [`OutputKind`].
@@ -66,28 +70,31 @@ static FORMATS: [Format; 4] = [
         extension: "obj",
         ending: "-flat.obj",
         title: "Save the mesh with texture coordinates",
-        write: |output, out| write_obj(out, &output.source_mesh(), &output.coordinates),
+        write: |output, path, out| {
+            let mesh = output.source_mesh();
+            write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &output.coordinates)
+        },
     },
     Format {
         name: "SVG drawing",
         extension: "svg",
         ending: "-flat.svg",
         title: "Export a drawing of the layout",
-        write: |output, out| write_svg(out, output.proved(&output.coordinates), output.aspect, output.svg_fit),
+        write: |output, _, out| write_svg(out, output.proved(&output.coordinates), output.aspect, output.svg_fit),
     },
     Format {
         name: "PNG picture",
         extension: "png",
         ending: "-flat.png",
         title: "Export a picture of mesh and layout",
-        write: |output, out| output.picture().write_png(out),
+        write: |output, _, out| output.picture().write_png(out),
     },
     Format {
         name: "JSON report",
         extension: "json",
         ending: "-report.json",
         title: "Export the report",
-        write: |output, out| write_report(out, &output.report),
+        write: |output, _, out| write_report(out, &output.report),
     },
 ];
 
@@ -128,6 +135,10 @@ impl ProvedEmbedding<'_> {
 pub struct Output<'a> {
     /// The file's contents as read.
     pub source: &'a ObjMesh,
+    /// The file that the mesh came from; none where that was a stream, or it is built in.
+    pub source_path: Option<&'a Path>,
+    /// What becomes of its material libraries.
+    pub materials: Materials,
     /// The mesh that the coordinates are of: its triangles, or the refinement's.
     pub mesh: &'a DiskMesh,
     /// The mesh with its new vertices, where there are any.
@@ -178,19 +189,30 @@ impl Output<'_> {
     ///
     /// Where the file cannot be written; the error names it.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
-        match (kind, self.picture) {
-            (OutputKind::Obj, Some(picture)) => picture.write_beside(path, &self.source_mesh(), &self.coordinates),
-            _ => write_atomically(path, |out| (kind.format().write)(self, out)),
+        match (kind, self.picture, self.materials) {
+            (OutputKind::Obj, Some(picture), _) => picture.write_beside(path, &self.source_mesh(), &self.coordinates),
+            (OutputKind::Obj, None, Materials::Copied) => {
+                let mesh = self.source_mesh();
+                let statements = copy_materials(&mesh, self.source_place(), path)?;
+                write_atomically(path, |out| write_obj_with(out, &mesh, &statements, &self.coordinates))
+            }
+            _ => write_atomically(path, |out| (kind.format().write)(self, path, out)),
         }
     }
 
-    /// Writes to standard output. An OBJ file comes without its picture there, which has no place beside it.
+    /// Writes to standard output. An OBJ file comes without its picture there, which has no place beside it, and names
+    /// material libraries as from the current folder.
     ///
     /// # Errors
     ///
     /// Where standard output takes no more.
     pub fn write_to_standard_output(&self, kind: OutputKind) -> Result<(), WriteError> {
-        write_to_standard_output(|out| (kind.format().write)(self, out))
+        write_to_standard_output(|out| (kind.format().write)(self, Path::new(NAMELESS), out))
+    }
+
+    /// Where the mesh came from.
+    fn source_place(&self) -> &Path {
+        self.source_path.unwrap_or(Path::new(NAMELESS))
     }
 
     /// The file's mesh, with the new vertices where there are any.

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::Model;
 use crate::geom::{PictureFrame, VAxis};
 use crate::io::{
-    MeshReport, Output, OutputFit, PinsReport, Placement, Report, Seconds, StepReport, Target, Targets,
+    Materials, MeshReport, Output, OutputFit, PinsReport, Placement, Report, Seconds, StepReport, Target, Targets,
     WeightedPinReport, pins_in_plane, verdict_as_in_file,
 };
 use crate::mesh::{DiskMesh, VertexId};
@@ -221,6 +221,8 @@ impl Outcome {
         };
         Output {
             source: &model.source,
+            source_path: model.path.as_deref(),
+            materials: Materials::default(),
             mesh,
             refinement: step.refinement.as_deref(),
             coordinates,

@@ -7,7 +7,7 @@
 //! | `placing`, `sheet` | size and place of what is not pinned, without a fold; the numbers that are written of it |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
-//! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
+//! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `many_pins`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
 //! | `iterate` | one mean-value iteration (paper §4) |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
 //! | `schnyder` | a drawing in whole numbers, planar by theorem |
@@ -36,6 +36,7 @@ mod iterate;
 mod ladder;
 mod least_squares;
 mod left_kernel;
+mod many_pins;
 mod matchmaker;
 mod membrane;
 mod method;

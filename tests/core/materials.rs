@@ -3,8 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use freebound::io::{material_picture, read_obj};
+use freebound::io::{material_picture, read_mesh, read_obj};
 use tempfile::TempDir;
+
+use crate::program::Program;
+use crate::report_schema::TENT;
 
 /// A folder with these files, whose contents do not matter where they are empty.
 fn folder(files: &[(&str, &str)]) -> TempDir {
@@ -74,4 +77,112 @@ fn without_a_material_in_use_there_is_no_picture() {
     }
     let text = "mtllib m.mtl\nusemtl other\nf 1 2 3\n";
     assert_eq!(picture_in(folder.path(), text), None, "a material that no library has");
+}
+
+/// A program's folder with a mesh, its library and its pictures in a folder of it.
+fn with_materials() -> Program {
+    let program = Program::new();
+    fs::create_dir_all(program.path("in/looks")).unwrap();
+    fs::create_dir(program.path("out")).unwrap();
+    program.write("in/mesh.obj", &format!("mtllib looks/m.mtl gone.mtl\nusemtl skin\n{TENT}"));
+    let library =
+        "# looks\r\nnewmtl skin\r\nKd 1 1 1\r\nmap_Kd -s 1 1 1 the skin.png\r\nbump bump\r\nmap_d gone.png\r\n";
+    program.write("in/looks/m.mtl", library);
+    program.write("in/looks/the skin.png", "pixels of the skin");
+    program.write("in/looks/bump", "pixels of the bumps");
+    program
+}
+
+/// The contents of the picture that a written mesh shows; its library is found by tobj, too.
+fn picture_shown(program: &Program, mesh: &str) -> String {
+    let path = program.path(mesh);
+    let (models, materials) = tobj::load_obj(&path, &tobj::LoadOptions::default()).expect("tobj reads it");
+    let materials = materials.expect("tobj finds the libraries");
+    assert_eq!(materials[models[0].mesh.material_id.expect("a material in use")].name, "skin");
+    fs::read_to_string(material_picture(&read_mesh(&path).unwrap(), &path).expect("a picture")).expect("it is there")
+}
+
+fn listing(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_mesh_in_another_folder_names_its_library_from_there() {
+    let program = with_materials();
+    // What is missing keeps its name, on a line of its own; tobj would stop at it.
+    program.write("in/gone.mtl", "");
+    program.run(&["flatten", "in/mesh.obj", "-o", "out/flat.obj"]).expect(0);
+    let text = fs::read_to_string(program.path("out/flat.obj")).unwrap();
+    assert!(text.contains("\nmtllib ../in/looks/m.mtl\nmtllib ../in/gone.mtl\nusemtl skin\n"), "{text}");
+    assert_eq!(picture_shown(&program, "out/flat.obj"), "pixels of the skin");
+    assert_eq!(listing(&program.path("out")), ["flat.obj"]);
+}
+
+#[test]
+fn in_the_same_folder_and_where_nothing_is_found_the_line_stays() {
+    let program = with_materials();
+    let line = "mtllib looks/m.mtl gone.mtl\n";
+    program.run(&["flatten", "in/mesh.obj", "-o", "in/flat.obj"]).expect(0);
+    assert!(fs::read_to_string(program.path("in/flat.obj")).unwrap().contains(line));
+    fs::remove_file(program.path("in/looks/m.mtl")).unwrap();
+    program.run(&["flatten", "in/mesh.obj", "-o", "out/flat.obj"]).expect(0);
+    assert!(fs::read_to_string(program.path("out/flat.obj")).unwrap().contains(line));
+}
+
+#[test]
+fn copied_materials_need_the_old_folder_no_more() {
+    let program = with_materials();
+    program.write("in/gone.mtl", "");
+    let arguments = ["flatten", "in/mesh.obj", "--copy-materials", "-o", "out/flat.obj"];
+    program.run(&arguments).expect(0);
+    let files = ["bump", "flat.obj", "gone.mtl", "m.mtl", "the_skin.png"];
+    assert_eq!(listing(&program.path("out")), files);
+    let library = fs::read_to_string(program.path("out/m.mtl")).unwrap();
+    assert!(library.contains("map_Kd -s 1 1 1 the_skin.png\r\nbump bump\r\nmap_d gone.png\r\n"), "{library}");
+    program.run(&arguments).expect(0);
+    assert_eq!(listing(&program.path("out")), files, "a second run finds its own files");
+    fs::remove_dir_all(program.path("in")).unwrap();
+    assert_eq!(picture_shown(&program, "out/flat.obj"), "pixels of the skin");
+}
+
+#[test]
+fn copied_materials_never_replace_files_of_others() {
+    let program = with_materials();
+    program.write("in/gone.mtl", "");
+    program.write("out/m.mtl", "newmtl other\n");
+    let arguments = [
+        "flatten",
+        "in/mesh.obj",
+        "--copy-materials",
+        "-o",
+        "out/flat.obj",
+        "--png",
+        "out/the_skin.png",
+        "--svg",
+        "out/bump",
+    ];
+    program.run(&arguments).expect(0);
+    assert_eq!(fs::read_to_string(program.path("out/m.mtl")).unwrap(), "newmtl other\n");
+    assert_eq!(image::open(program.path("out/the_skin.png")).expect("the picture of the run").width(), 1800);
+    assert!(fs::read_to_string(program.path("out/bump")).unwrap().contains("<svg"));
+    assert_eq!(picture_shown(&program, "out/flat.obj"), "pixels of the skin");
+    let names =
+        ["bump", "flat-bump", "flat-m.mtl", "flat-the_skin.png", "flat.obj", "gone.mtl", "m.mtl", "the_skin.png"];
+    assert_eq!(listing(&program.path("out")), names);
+}
+
+#[test]
+fn copying_materials_needs_a_place_and_does_not_go_with_a_picture() {
+    let program = with_materials();
+    for options in [
+        &["--copy-materials"][..],
+        &["--copy-materials", "-o", "-"],
+        &["--copy-materials", "-o", "out/flat.obj", "--picture", "x.png"],
+    ] {
+        program.run(&[&["flatten", "in/mesh.obj"], options].concat()).expect(2);
+    }
+    assert_eq!(listing(&program.path("out")), Vec::<String>::new());
 }

@@ -193,7 +193,7 @@ proptest! {
             for ([place, texture], vertex) in theirs.iter().zip(&mesh.polygons.corners) {
                 let p = mesh.polygons.positions[vertex.index()];
                 prop_assert_eq!(place, texture);
-                prop_assert_eq!(*place, [p.x as f32, p.y as f32]);
+                prop_assert_eq!(*place, p.as_vec3().truncate().to_array());
             }
         }
     }

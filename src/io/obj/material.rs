@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::ObjMesh;
+use super::{ObjMesh, Statement};
 
 /// Keywords of lines that name pictures, beside those that begin with `map_`.
 const PICTURE_KEYWORDS: [&str; 5] = ["bump", "decal", "disp", "norm", "refl"];
@@ -40,7 +40,8 @@ pub fn material_files(mesh: &ObjMesh, path: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
         let folder = library.parent().unwrap_or(Path::new(""));
-        let text = fs::read(&library).unwrap_or_default();
+        // Something that is no regular file, such as a pipe, is not opened: nothing may ever come.
+        let text = if library.is_file() { fs::read(&library).unwrap_or_default() } else { Vec::new() };
         let pictures = String::from_utf8_lossy(&text)
             .lines()
             .filter_map(picture_argument)
@@ -54,26 +55,32 @@ pub fn material_files(mesh: &ObjMesh, path: &Path) -> Vec<PathBuf> {
 }
 
 /// What follows the keyword on a line of a material library that names a picture.
-fn picture_argument(line: &str) -> Option<&str> {
+pub(super) fn picture_argument(line: &str) -> Option<&str> {
     let (keyword, argument) = line.trim().split_once(char::is_whitespace)?;
     let keyword = keyword.to_ascii_lowercase();
     let is_picture = keyword.starts_with("map_") || PICTURE_KEYWORDS.contains(&keyword.as_str());
     is_picture.then(|| argument.trim())
 }
 
-/// The material libraries. A line may name several, but a name may also hold blanks.
+/// A material library as a mesh names it, which need not be there.
+#[derive(Debug)]
+pub(super) struct Library {
+    pub(super) name: String,
+    pub(super) path: PathBuf,
+}
+
+/// The material libraries.
 fn libraries(mesh: &ObjMesh, folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for statement in mesh.statements.iter().filter(|statement| statement.keyword() == b"mtllib") {
-        let names = statement.argument();
-        let whole = place_of(&names, folder);
-        if whole.is_file() {
-            found.push(whole);
-        } else {
-            found.extend(names.split_whitespace().map(|name| place_of(name, folder)));
-        }
-    }
-    found
+    let statements = mesh.statements.iter().filter(|statement| statement.keyword() == b"mtllib");
+    statements.flat_map(|statement| libraries_of(statement, folder)).map(|library| library.path).collect()
+}
+
+/// The material libraries of a line. It may name several, but a name may also hold blanks.
+pub(super) fn libraries_of(statement: &Statement, folder: &Path) -> Vec<Library> {
+    let library = |name: &str| Library { name: name.to_owned(), path: place_of(name, folder) };
+    let names = statement.argument();
+    let whole = library(&names);
+    if whole.path.is_file() { vec![whole] } else { names.split_whitespace().map(library).collect() }
 }
 
 /// How many faces each material is on. A material may come more than once.
@@ -88,17 +95,32 @@ fn faces_by_material(mesh: &ObjMesh) -> Vec<(String, usize)> {
     counted.collect()
 }
 
+/// A picture that a line of a library names.
+#[derive(Debug)]
+pub(super) struct NamedPicture {
+    /// Where its name begins in the argument of the line, bytes.
+    pub(super) begin: usize,
+    pub(super) path: PathBuf,
+}
+
+/// The picture of an argument without blanks around it: its longest end that is the name of a file.
+pub(super) fn picture_within(argument: &str, folder: &Path) -> Option<NamedPicture> {
+    let after_blank = |(at, blank): (usize, &str)| at + blank.len();
+    let begins = std::iter::once(0).chain(argument.match_indices(char::is_whitespace).map(after_blank));
+    let mut found = begins.map(|begin| NamedPicture { begin, path: place_of(&argument[begin..], folder) });
+    found.find(|named| named.path.is_file())
+}
+
 /// The file of a `map_Kd` line. Options such as `-s 1 1 1` may stand before its name, which may hold blanks: the
 /// longest end of the line that is the name of a file.
 fn picture_of(texture: &str, folder: &Path) -> PathBuf {
     let texture = texture.trim();
-    let begins = std::iter::once(0).chain(texture.match_indices(char::is_whitespace).map(|(at, _)| at + 1));
-    let places = begins.map(|begin| place_of(texture[begin..].trim_start(), folder));
-    places.into_iter().find(|place| place.is_file()).unwrap_or_else(|| {
+    let nowhere = || {
         // Nothing is there: for a message, the last word of a line with options, the whole line of one without.
         let name = if texture.starts_with('-') { texture.rsplit(char::is_whitespace).next() } else { None };
         place_of(name.unwrap_or(texture), folder)
-    })
+    };
+    picture_within(texture, folder).map_or_else(nowhere, |found| found.path)
 }
 
 /// A file named in another file of this folder. Backslashes divide folders where no file's name holds them, and a

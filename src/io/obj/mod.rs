@@ -11,14 +11,18 @@
 //! | `texture`      | the mesh of the texture coordinates: the surface cut in the plane       |
 //! | `material`     | the files that the materials name                                       |
 //! | `refined`      | a file's mesh with new vertices                                         |
+//! | `libraries`    | material libraries of a mesh that is written into another folder        |
+//! | `beside`       | files that belong to a mesh and lie beside it                           |
 //! | `write`        | writes a file that reads back bit for bit                               |
 //! | `with_picture` | writes a file, its material and its picture side by side                |
 //!
 //! Vertex order, sharing, positions, polygons, texture coordinates and the statements among the faces are kept, so that
 //! the file can be written back. Normals, lines, points, vertex colours and comments are not.
 
+mod beside;
 mod error;
 mod format;
+mod libraries;
 mod line;
 mod material;
 mod parse;
@@ -35,11 +39,14 @@ use glam::DVec2;
 use crate::mesh::{PolygonMesh, TriMesh};
 
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
+pub use libraries::Materials;
+pub(in crate::io) use libraries::{copy_materials, relocated};
 pub use material::{material_files, material_picture};
 pub use read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};
 pub use refined::refined_obj;
 pub use texture::TextureMesh;
 pub use write::write_obj;
+pub(in crate::io) use write::write_obj_with;
 
 /// Stands in [`Texture::corners`] where a corner has no texture coordinate.
 pub const NO_TEXTURE: u32 = u32::MAX;

@@ -115,6 +115,10 @@ pub fn read_obj_with(
 /// next chunk. `fresh` is where the bytes begin that are new.
 fn end_lines(bytes: &mut [u8], fresh: usize) {
     let mut at = fresh.saturating_sub(1);
+    // Most files have none, and to look for one byte alone is fast.
+    if !bytes[at..].contains(&b'\r') {
+        return;
+    }
     while let Some(found) = bytes[at..].iter().position(|&byte| byte == b'\r') {
         at += found + 1;
         if bytes.get(at).is_some_and(|&next| next != b'\n') {

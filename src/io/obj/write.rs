@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::ObjMesh;
+use super::{ObjMesh, Statement};
 use crate::solver::Embedding;
 
 /// Writes a mesh with one texture coordinate per vertex, or with none if `texture` is empty.
@@ -17,6 +17,16 @@ use crate::solver::Embedding;
 ///
 /// If `texture` is neither empty nor as long as the list of vertices.
 pub fn write_obj(out: &mut impl Write, mesh: &ObjMesh, texture: &Embedding) -> io::Result<()> {
+    write_obj_with(out, mesh, &mesh.statements, texture)
+}
+
+/// As [`write_obj`], with other statements than the mesh's own.
+pub(in crate::io) fn write_obj_with(
+    out: &mut impl Write,
+    mesh: &ObjMesh,
+    statements: &[Statement],
+    texture: &Embedding,
+) -> io::Result<()> {
     let polygons = &mesh.polygons;
     assert!(texture.is_empty() || texture.len() == polygons.positions.len(), "one texture coordinate per vertex");
     for position in &polygons.positions {
@@ -26,7 +36,7 @@ pub fn write_obj(out: &mut impl Write, mesh: &ObjMesh, texture: &Embedding) -> i
         write_numbers(out, b"vt", &coordinate.to_array())?;
     }
     let mut line = Vec::new();
-    let mut statements = mesh.statements.iter().peekable();
+    let mut statements = statements.iter().peekable();
     for face in 0..polygons.face_count() {
         while let Some(statement) = statements.next_if(|statement| statement.before_face as usize <= face) {
             out.write_all(&statement.text)?;

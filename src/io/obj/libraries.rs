@@ -1,0 +1,118 @@
+//! Material libraries of a mesh that is written into another folder: named from there, or copied along.
+
+use std::borrow::Cow;
+use std::convert::Infallible;
+use std::fs;
+use std::path::Path;
+
+use super::beside::put;
+use super::material::{Library, libraries_of, picture_argument, picture_within};
+use super::{ObjMesh, Statement};
+use crate::io::paths::{relative, whole_folder_of};
+use crate::io::{WriteError, is_same_file};
+
+/// What becomes of material libraries where a mesh is written into another folder.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Materials {
+    /// They stay, and the mesh names them where they are.
+    #[default]
+    Stay,
+    /// They are copied beside the mesh, with the pictures that they name.
+    Copied,
+}
+
+/// The statements of the mesh that was read at `from`, for a file at `to`: material libraries that are there are named
+/// from the new place, all else stays as it is.
+pub(in crate::io) fn relocated<'a>(mesh: &'a ObjMesh, from: &Path, to: &Path) -> Cow<'a, [Statement]> {
+    let (old, new) = (whole_folder_of(from), whole_folder_of(to));
+    if old == new {
+        return Cow::Borrowed(&mesh.statements);
+    }
+    let name_from_new = |library: &Library| {
+        if library.path == Path::new(&library.name) && library.path.is_absolute() {
+            return None;
+        }
+        let folder = whole_folder_of(&library.path);
+        let whole = folder.join(library.path.file_name()?);
+        slashed(&relative(&whole, &new).unwrap_or(whole))
+    };
+    let Ok(statements) = with_libraries(mesh, &old, |library| Ok::<_, Infallible>(name_from_new(library)));
+    Cow::Owned(statements)
+}
+
+/// As [`relocated`], and the libraries with their pictures are copied beside `to`, under other names where files of
+/// others have theirs. What is there already with the same contents is left as it is.
+///
+/// # Errors
+///
+/// The file that cannot be read or written.
+pub(in crate::io) fn copy_materials(mesh: &ObjMesh, from: &Path, to: &Path) -> Result<Vec<Statement>, WriteError> {
+    with_libraries(mesh, &whole_folder_of(from), |library| {
+        let name = library.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if is_beside(&library.path, to) {
+            return Ok(Some(name));
+        }
+        let text = read(&library.path)?;
+        let mut copy = Vec::with_capacity(text.len());
+        for line in text.split_inclusive(|&byte| byte == b'\n') {
+            match with_copied_picture(line, &library.path, to)? {
+                Some(changed) => copy.extend_from_slice(changed.as_bytes()),
+                None => copy.extend_from_slice(line),
+            }
+        }
+        put(to, &name, &copy).map(Some)
+    })
+}
+
+/// A line of a library that names a picture, with the name of the copy; none where it names no picture that is there.
+fn with_copied_picture(line: &[u8], library: &Path, to: &Path) -> Result<Option<String>, WriteError> {
+    let Ok(text) = std::str::from_utf8(line) else { return Ok(None) };
+    let Some(argument) = picture_argument(text) else { return Ok(None) };
+    let Some(found) = picture_within(argument, library.parent().unwrap_or(Path::new(""))) else { return Ok(None) };
+    let name = found.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let name = if is_beside(&found.path, to) { name } else { put(to, &name, &read(&found.path)?)? };
+    // The argument is the end of the line, but for blanks.
+    let (line, blanks) = text.split_at(text.trim_end().len());
+    let before = &line[..line.len() - argument.len() + found.begin];
+    Ok(Some(format!("{before}{name}{blanks}")))
+}
+
+/// The statements with other names for the libraries that are there; where there is none, the name stays.
+fn with_libraries<E>(
+    mesh: &ObjMesh,
+    folder: &Path,
+    mut name_of: impl FnMut(&Library) -> Result<Option<String>, E>,
+) -> Result<Vec<Statement>, E> {
+    let mut statements = Vec::with_capacity(mesh.statements.len());
+    for statement in &mesh.statements {
+        let libraries = match statement.keyword() {
+            b"mtllib" => libraries_of(statement, folder),
+            _ => Vec::new(),
+        };
+        if !libraries.iter().any(|library| library.path.is_file()) {
+            statements.push(statement.clone());
+            continue;
+        }
+        // Each on a line of its own, for a name may hold blanks.
+        for library in libraries {
+            let renamed = if library.path.is_file() { name_of(&library)? } else { None };
+            let text = format!("mtllib {}", renamed.unwrap_or(library.name)).into_bytes();
+            statements.push(Statement { before_face: statement.before_face, text });
+        }
+    }
+    Ok(statements)
+}
+
+fn is_beside(file: &Path, mesh: &Path) -> bool {
+    is_same_file(&whole_folder_of(file), &whole_folder_of(mesh))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, WriteError> {
+    fs::read(path).map_err(|source| WriteError { path: path.to_owned(), source })
+}
+
+/// A path as files name it on every system; none where it is not Unicode.
+fn slashed(path: &Path) -> Option<String> {
+    let text = path.to_str()?;
+    Some(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
+}
