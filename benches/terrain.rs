@@ -115,7 +115,7 @@ fn main() {
         table.row([
             family.to_string(),
             found.flipped_faces.len().to_string(),
-            found.crossing_count().to_string(),
+            found.crossing_count_in_words(),
             found.overwound_vertices.len().to_string(),
             found.turning_number.map_or_else(|| "-".to_owned(), |turns| turns.to_string()),
             format!("{:.1e}", linear.residual),

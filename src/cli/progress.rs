@@ -8,12 +8,17 @@ use std::time::{Duration, Instant};
 
 use super::exit::INTERRUPTED as INTERRUPTED_CODE;
 use super::say::warn;
+use crate::io::discard_unfinished;
+use crate::solver::SolveError;
 
 /// Work shorter than this goes by without a word.
 const QUIET: Duration = Duration::from_millis(500);
 
 /// Time between two looks at the clock.
 const TICK: Duration = Duration::from_millis(100);
+
+/// Time that work has to stop by itself once it is asked to. With what it takes to end the process, a tenth of a second.
+const GRACE: Duration = Duration::from_millis(50);
 
 /// The flag that Ctrl-C raises.
 pub(super) static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -23,17 +28,28 @@ pub(super) fn is_interrupted() -> bool {
     INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// Makes Ctrl-C raise the flag; a second one ends the process at once. Files are written aside and renamed, so
-/// neither leaves one half-written.
+/// Makes Ctrl-C and the system's wish to end the program raise the flag. Work that has not stopped a moment later is left
+/// where it is; a second signal does not wait for that moment. Files are written aside and renamed, so neither leaves one
+/// half-written.
 pub(super) fn stop_on_interrupt() {
     let handler = || {
-        if INTERRUPTED.swap(true, Ordering::Relaxed) {
-            std::process::exit(INTERRUPTED_CODE.into());
+        let is_second = INTERRUPTED.swap(true, Ordering::Relaxed);
+        let clock = std::thread::Builder::new().name("last moment".to_owned());
+        if is_second || clock.spawn(|| end_after(GRACE)).is_err() {
+            end_after(Duration::ZERO);
         }
     };
     if let Err(error) = ctrlc::set_handler(handler) {
         warn(format_args!("Ctrl-C will end the program without clearing up: {error}"));
     }
+}
+
+/// Ends the process as an interrupted one, whatever it is doing.
+fn end_after(time: Duration) {
+    std::thread::sleep(time);
+    discard_unfinished();
+    warn(SolveError::Cancelled);
+    std::process::exit(INTERRUPTED_CODE.into());
 }
 
 /// What the program is doing, shown on a terminal once it takes over half a second.

@@ -12,50 +12,79 @@
 //! A binary tree of bounding boxes over the edges in polygon order: neighbours lie together, so that the boxes are
 //! small and nothing needs sorting. Every edge asks the tree for the later edges whose boxes its own box meets.
 //! On a boundary of n short edges that is n log n; on edges most of whose boxes overlap (n long parallel edges
-//! aslant) it is quadratic, as any method over boxes is.
+//! aslant) it is quadratic, as any method over boxes is. The search ends with the first [`CROSSINGS_LISTED`] pairs: of n
+//! random edges nearly a quarter of all pairs cross, and nobody looks at them.
 
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::{Bounds, Orientation, orientation};
 
-/// The most pairs that [`Crossings::pairs`] lists, in less than a megabyte; all are counted.
+/// The most pairs that are looked for, listed in less than a megabyte.
 pub const CROSSINGS_LISTED: usize = 100_000;
 
 /// Edges that share the work of one task.
-const EDGES_PER_TASK: usize = 512;
+const EDGES_PER_TASK: usize = 256;
+
+/// The most tasks that run side by side before the pairs are counted. Not the number of threads, on which no result may
+/// depend.
+const TASKS_PER_ROUND: usize = 64;
 
 /// Pairs of crossing edges.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Crossings {
     /// Numbers of edges, the lower first, in ascending order: the first [`CROSSINGS_LISTED`] of all.
     pub pairs: Vec<[u32; 2]>,
-    /// How many there are in all.
-    pub count: usize,
+    /// Whether there are more than these.
+    pub has_more: bool,
 }
 
-/// Finds all pairs of edges of a closed polygon that meet other than at a shared end.
+/// Finds the pairs of edges of a closed polygon that meet other than at a shared end, up to [`CROSSINGS_LISTED`] of them.
 ///
 /// # Panics
 ///
 /// If the polygon has 2³² edges or more.
 pub fn crossings(polygon: &[DVec2]) -> Crossings {
+    // One more than are listed tells that there are more.
+    let mut pairs = first_crossings(polygon, CROSSINGS_LISTED + 1);
+    let has_more = pairs.len() > CROSSINGS_LISTED;
+    pairs.truncate(CROSSINGS_LISTED);
+    Crossings { pairs, has_more }
+}
+
+/// Whether no two edges of a closed polygon meet other than at a shared end.
+///
+/// # Panics
+///
+/// If the polygon has 2³² edges or more.
+pub fn is_simple(polygon: &[DVec2]) -> bool {
+    first_crossings(polygon, 1).is_empty()
+}
+
+/// The first `most` pairs of all.
+fn first_crossings(polygon: &[DVec2], most: usize) -> Vec<[u32; 2]> {
     let tree = BoxTree::new(polygon);
-    let tasks: Vec<usize> = (0..polygon.len()).step_by(EDGES_PER_TASK).collect();
-    let found: Vec<Crossings> = tasks
-        .into_par_iter()
-        .map(|begin| {
-            let mut found = Crossings::default();
-            let mut pending = Vec::new();
+    let task_count = polygon.len().div_ceil(EDGES_PER_TASK);
+    let mut pairs = Vec::new();
+    let (mut round, mut done) = (1, 0);
+    while done < task_count && pairs.len() < most {
+        let missing = most - pairs.len();
+        let of_task = |task: usize| {
+            let begin = task * EDGES_PER_TASK;
+            let (mut found, mut pending) = (Vec::new(), Vec::new());
             for edge in begin..(begin + EDGES_PER_TASK).min(polygon.len()) {
-                tree.add_later_crossings(edge, &mut pending, &mut found);
+                tree.add_later_crossings(edge, &mut pending, &mut found, missing);
             }
             found
-        })
-        .collect();
-    let count = found.iter().map(|part| part.count).sum();
-    let pairs = found.into_iter().flat_map(|part| part.pairs).take(CROSSINGS_LISTED).collect();
-    Crossings { pairs, count }
+        };
+        let tasks = done..(done + round).min(task_count);
+        done = tasks.end;
+        // Where nearly all edges cross, the first task alone finds enough.
+        round = (2 * round).min(TASKS_PER_ROUND);
+        let found: Vec<Vec<[u32; 2]>> = tasks.into_par_iter().map(of_task).collect();
+        pairs.extend(found.into_iter().flatten().take(missing));
+    }
+    pairs
 }
 
 /// Whether two closed segments meet: points where their length is zero; none where an end is not finite.
@@ -108,13 +137,20 @@ impl<'a> BoxTree<'a> {
         [self.polygon[edge], self.polygon[(edge + 1) % self.polygon.len()]]
     }
 
-    /// Adds the crossings of an edge with later edges, in ascending order. `pending` is room to work in.
-    fn add_later_crossings(&self, edge: usize, pending: &mut Vec<(usize, usize)>, found: &mut Crossings) {
+    /// Adds the crossings of an edge with later edges, in ascending order, until there are `most`. `pending` is room to
+    /// work in.
+    fn add_later_crossings(
+        &self,
+        edge: usize,
+        pending: &mut Vec<(usize, usize)>,
+        found: &mut Vec<[u32; 2]>,
+        most: usize,
+    ) {
         let bounds = self.boxes[self.leaf_count + edge];
         // Nodes to look at with the end of the range of edges below them; the left child is taken first.
         pending.clear();
         pending.push((1, self.leaf_count));
-        while let Some((node, end)) = pending.pop() {
+        while let Some((node, end)) = pending.pop().filter(|_| found.len() < most) {
             if end <= edge + 1 || !bounds.meets(self.boxes[node]) {
                 continue;
             }
@@ -123,10 +159,7 @@ impl<'a> BoxTree<'a> {
                 pending.push((2 * node + 1, end));
                 pending.push((2 * node, end - half));
             } else if self.edges_cross(edge, end - 1) {
-                found.count += 1;
-                if found.pairs.len() < CROSSINGS_LISTED {
-                    found.pairs.push([edge, end - 1].map(|e| u32::try_from(e).expect("checked in new")));
-                }
+                found.push([edge, end - 1].map(|e| u32::try_from(e).expect("checked in new")));
             }
         }
     }

@@ -23,7 +23,7 @@ mod triangulation;
 
 pub use bounds::Bounds;
 pub use clip::{clip_polygon, clip_segment};
-pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, segments_meet};
+pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::convex_hull;
 pub use orient::{Orientation, orientation};
 pub use picture::Picture;

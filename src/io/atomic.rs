@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use super::unfinished::Unfinished;
+
 /// Bytes gathered before they are handed to the operating system.
 const BUFFER: usize = 256 << 10;
 
@@ -106,6 +108,7 @@ fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     }
     let aside = builder.tempfile_in(folder_of(&target))?;
     let (file, aside) = aside.into_parts();
+    let _unfinished = Unfinished::new(&aside);
     if let Some(permissions) = permissions {
         file.set_permissions(permissions)?;
     }

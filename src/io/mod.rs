@@ -15,6 +15,7 @@
 //! | `raster`      | pictures of meshes without a screen                                        |
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
+//! | `unfinished`  | what is being written aside, to be removed at a sudden end                 |
 //! | `paths`       | which paths lead to one file, and the way from a folder to a file          |
 //! | `stamp`       | what tells one state of a file from another                                |
 
@@ -33,6 +34,7 @@ mod stamp;
 mod steps;
 mod svg;
 mod targets;
+mod unfinished;
 
 pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
@@ -55,3 +57,4 @@ pub use report::{
 pub use stamp::FileStamp;
 pub use steps::StepsFolder;
 pub use targets::{Target, Targets, hard_targets, pins_in_plane};
+pub use unfinished::discard_unfinished;

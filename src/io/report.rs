@@ -245,7 +245,7 @@ impl StepReport {
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
             concave_polygons: verdict.concave_polygons.len(),
-            boundary_crossings: verdict.crossing_count(),
+            boundary_crossings: verdict.boundary_crossings.len(),
             overwound_vertices: verdict.overwound_vertices.len(),
             turning_number: verdict.turning_number,
             max_move: step.max_move,

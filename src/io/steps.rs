@@ -10,6 +10,7 @@ use super::WriteError;
 use super::paths::is_same_file;
 use super::report::StepReport;
 use super::svg::write_step_svg;
+use super::unfinished::Unfinished;
 use crate::mesh::DiskMesh;
 use crate::solver::{Choice as _, Step};
 
@@ -21,6 +22,7 @@ const TABLE: &str = "steps.csv";
 pub struct StepsFolder {
     target: PathBuf,
     aside: TempDir,
+    _unfinished: Unfinished,
     names: Vec<String>,
     table: csv::Writer<Vec<u8>>,
 }
@@ -40,7 +42,8 @@ impl StepsFolder {
         let near = target.ancestors().find(|folder| folder.is_dir()).unwrap_or(here);
         let aside = tempfile::Builder::new().prefix(".freebound-").tempdir_in(near).map_err(named)?;
         let table = csv::Writer::from_writer(Vec::new());
-        Ok(Self { target: target.to_owned(), aside, names: Vec::new(), table })
+        let unfinished = Unfinished::new(aside.path());
+        Ok(Self { target: target.to_owned(), aside, _unfinished: unfinished, names: Vec::new(), table })
     }
 
     /// Whether filling a folder would replace this file in it.

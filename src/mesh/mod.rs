@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `ids.rs` | typed indices of vertices, halfedges, edges, faces |
-//! | `polygon.rs`, `triangulate.rs` | polygons as a file gives them, cut into triangles |
+//! | `polygon.rs`, `triangulate.rs`, `blockers.rs` | polygons as a file gives them, cut into triangles |
 //! | `triangles.rs` | triangles that share vertices |
 //! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
 //! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
@@ -13,6 +13,7 @@
 //! | `volume.rs` | which side of a surface is the outside |
 
 mod area;
+mod blockers;
 mod coincident;
 mod diagnosis;
 mod diagonals;

@@ -9,11 +9,15 @@
 //! A corner where only two polygons meet, inside the surface, is *bare*. Were it clipped from both, the two ears would be
 //! the same triangle.
 //!
-//! Time: linear for convex polygons, `n` times the reflex corners at worst.
+//! Time: linear for convex polygons. Whether a triangle holds a corner is asked of a tree of boxes (`blockers.rs`), and a
+//! corner that is no ear is asked again only when a neighbour of it was clipped.
+
+use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 use robust::{Coord, orient2d};
 
+use super::blockers::Blockers;
 use super::polygons::newell_normal;
 
 /// A diagonal has to be better than the first by this factor, so that rounding does not decide between equals.
@@ -66,7 +70,7 @@ fn in_best_plane(points: &[DVec3]) -> Vec<DVec2> {
 }
 
 /// Twice the signed area, with the exact sign.
-fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let coord = |p: DVec2| Coord { x: p.x, y: p.y };
     orient2d(coord(a), coord(b), coord(c))
 }
@@ -76,78 +80,71 @@ struct Ring<'a> {
     points: &'a [DVec2],
     next: Vec<usize>,
     previous: Vec<usize>,
-    /// Corners that do not turn left: only these can lie in an ear. May hold corners that have changed since.
-    blockers: Vec<usize>,
-    clipped: Vec<bool>,
+    /// Corners that did not turn left in the beginning: only these can lie in an ear.
+    blockers: Blockers<'a>,
+    /// Corners that may be ears. The others were none when they were last looked at, with the neighbours they have now.
+    candidates: BTreeSet<usize>,
+    /// Whether other corners than bare ones were ears so far.
+    spares_bare: bool,
 }
 
-impl Ring<'_> {
-    /// Whether the polygon turns left here. With a NaN it does not.
-    fn is_convex(&self, at: usize) -> bool {
-        turn(self.points[self.previous[at]], self.points[at], self.points[self.next[at]]) > 0.0
+impl<'a> Ring<'a> {
+    fn new(points: &'a [DVec2]) -> Self {
+        let n = points.len();
+        let next: Vec<usize> = (1..n).chain([0]).collect();
+        let previous: Vec<usize> = [n - 1].into_iter().chain(0..n - 1).collect();
+        let turns_left = |at: usize| turn(points[previous[at]], points[at], points[next[at]]) > 0.0;
+        let blockers = Blockers::new(points, (0..n).filter(|&at| !turns_left(at)).collect());
+        Self { points, next, previous, blockers, candidates: (0..n).collect(), spares_bare: true }
     }
 
+    /// Whether the polygon turns left here, which with a NaN it does not, and no corner lies in the triangle.
     fn is_ear(&self, at: usize) -> bool {
-        if !self.is_convex(at) {
-            return false;
-        }
-        let corners = [self.previous[at], at, self.next[at]].map(|c| self.points[c]);
+        let corners = [self.previous[at], at, self.next[at]].map(|corner| self.points[corner]);
         let [a, b, c] = corners;
-        let holds = |p: DVec2| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
-        // Corners at the same place as one of the ear's own (a bridge to a hole) do not block it.
-        !self.blockers.iter().any(|&v| !self.clipped[v] && !corners.contains(&self.points[v]) && holds(self.points[v]))
+        turn(a, b, c) > 0.0 && !self.blockers.any_in(corners)
     }
 
-    /// Forgets blockers that are clipped or turn left by now.
-    fn drop_idle_blockers(&mut self) {
-        let mut blockers = std::mem::take(&mut self.blockers);
-        blockers.retain(|&v| !self.clipped[v] && !self.is_convex(v));
-        self.blockers = blockers;
+    /// The first ear from a corner on, not a bare one if there is another. None where the polygon is not simple.
+    fn ear_from(&mut self, mut at: usize, is_bare: &impl Fn(usize) -> bool) -> Option<usize> {
+        for is_second_look in [false, true] {
+            if is_second_look {
+                // Where the polygon touches itself, what was clipped may have lain in an ear.
+                self.spares_bare = false;
+                self.candidates.extend(std::iter::successors(Some(at), |&v| Some(self.next[v]).filter(|&v| v != at)));
+            }
+            while let Some(&candidate) = self.candidates.range(at..).next().or(self.candidates.first()) {
+                if !(self.spares_bare && is_bare(candidate)) && self.is_ear(candidate) {
+                    return Some(candidate);
+                }
+                self.candidates.remove(&candidate);
+                at = candidate;
+            }
+        }
+        None
     }
 
     fn clip(&mut self, at: usize) -> [usize; 3] {
         let (before, after) = (self.previous[at], self.next[at]);
         self.next[before] = after;
         self.previous[after] = before;
-        self.clipped[at] = true;
+        self.blockers.remove(at);
+        self.candidates.remove(&at);
+        self.candidates.extend([before, after]);
         [before, at, after]
     }
 }
 
 fn clip_ears(points: &[DVec2], is_bare: &impl Fn(usize) -> bool, emit: &mut impl FnMut([usize; 3])) {
-    let n = points.len();
-    let mut ring = Ring {
-        points,
-        next: (1..n).chain([0]).collect(),
-        previous: [n - 1].into_iter().chain(0..n - 1).collect(),
-        blockers: Vec::new(),
-        clipped: vec![false; n],
-    };
-    ring.blockers = (0..n).filter(|&v| !ring.is_convex(v)).collect();
+    let mut ring = Ring::new(points);
     let mut at = 1;
-    let mut remaining = n;
-    let mut tried = 0;
-    // Bare corners are spared until no other one is an ear.
-    let mut spares = true;
-    let mut simple = true;
-    while remaining > 3 {
-        // When all corners were tried in vain, the polygon is not simple, and looking for more ears is idle.
-        if tried >= remaining {
-            (simple, tried) = (simple && spares, 0);
-            spares = false;
-        }
-        if simple && !(ring.is_ear(at) && !(spares && is_bare(at))) {
-            tried += 1;
-            at = ring.next[at];
-            continue;
-        }
-        let triangle = ring.clip(at);
+    let mut is_simple = true;
+    for _ in 3..points.len() {
+        // Where there is none, looking for more is idle.
+        let ear = is_simple.then(|| ring.ear_from(at, is_bare)).flatten();
+        is_simple = ear.is_some();
+        let triangle = ring.clip(ear.unwrap_or(at));
         emit(triangle);
-        remaining -= 1;
-        tried = 0;
-        if remaining.is_power_of_two() {
-            ring.drop_idle_blockers();
-        }
         // Goes past the new side, so that ears are taken all around rather than from one corner.
         at = ring.next[triangle[2]];
     }

@@ -53,7 +53,9 @@ impl StopConditions {
     /// Why a run is at rest after a step, if it is. `ending` is what the run says after that step.
     pub fn reason(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
         self.reason_for_good(outcome, ending)
-            .or_else(|| (self.crossing && outcome.step.verdict.crossing_count() > 0).then_some(Stop::Crossing))
+            .or_else(|| {
+                (self.crossing && !outcome.step.verdict.boundary_crossings.is_empty()).then_some(Stop::Crossing)
+            })
             .or_else(|| (self.at_step == Some(outcome.step.index)).then_some(Stop::AtStep))
     }
 

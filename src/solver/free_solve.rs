@@ -10,13 +10,17 @@ use rayon::prelude::*;
 
 use super::equations::Equations;
 use super::least_squares::{Factored, LeastSquares, Rest, Spring};
+use super::many_pins::ManyPins;
 use super::system::{FreeSystem, Site};
 use super::{Control, Embedding, Hold, LinearSolve, Phase, PhaseSeconds, PinPositions, Pins, SolveError, Treatment};
-use crate::linalg::{Analysis, Answer, Factor};
+use crate::linalg::{Analysis, Answer, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
 const GRADIENT_LIMIT: f64 = 1e-10;
+
+/// With more pins than this that least squares has to treat, their rows go sparse. Both ways cost the same near here.
+const FEW: usize = 64;
 
 /// Equations, matrix and factors; for least squares also what the pins add.
 #[derive(Debug)]
@@ -24,9 +28,25 @@ pub(super) struct FreeSolve {
     equations: Equations<Complex<f64>>,
     matrix: CscMatrix<Complex<f64>>,
     factor: Factor<Complex<f64>>,
-    least_squares: Option<LeastSquares>,
+    least_squares: Option<Ways>,
     /// Pins whose equations are not kept.
     eliminated: Vec<VertexId>,
+}
+
+/// The two ways of least squares.
+#[derive(Debug)]
+enum Ways {
+    Few(LeastSquares),
+    Many(ManyPins),
+}
+
+impl Ways {
+    fn springs(&self) -> &[Spring] {
+        match self {
+            Self::Few(few) => &few.rest.springs,
+            Self::Many(many) => &many.springs,
+        }
+    }
 }
 
 pub(super) struct Setup<'a> {
@@ -48,11 +68,13 @@ pub(super) struct Start<'a> {
 /// How pins enter a system.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layout {
-    /// The vertices without unknown and equation in the factors, ascending: where all equations are kept all pins and a
-    /// gauge, otherwise the exact pins.
+    /// The vertices without unknown in the factors, ascending: all pins and a gauge where all equations are kept and pins
+    /// are few, otherwise the exact pins.
     pub(super) left_out: Vec<VertexId>,
     /// Whether the equations of those are kept beside the factors; otherwise they are pins, eliminated.
     pub(super) keeps_equations: bool,
+    /// Whether least squares has too many pins to treat them one by one.
+    has_many: bool,
     pub(super) holds: BTreeMap<VertexId, Hold>,
 }
 
@@ -68,17 +90,27 @@ impl Layout {
         let mut left_out: Vec<VertexId> = exact.map(|(&v, _)| v).collect();
         // One pin alone does not fix the similarity: the rest without its equation would still be singular.
         let keeps_equations = treatment != Treatment::Eliminate || left_out.len() < 2;
-        if keeps_equations {
+        let springs = pins.len() - left_out.len();
+        let has_many = springs + if keeps_equations { pins.len() } else { 0 } > FEW;
+        if keeps_equations && !has_many {
             left_out = pins.keys().copied().collect();
             left_out.extend(gauge(&left_out)?);
             left_out.sort_unstable();
             left_out.dedup();
         }
-        Ok(Self { left_out, keeps_equations, holds })
+        Ok(Self { left_out, keeps_equations, has_many, holds })
     }
 
     pub(super) fn system(&self, mesh: &DiskMesh) -> FreeSystem {
         FreeSystem::new(mesh, |v| self.left_out.binary_search(&v).is_ok())
+    }
+
+    /// Orders and analyses the system that is factored.
+    pub(super) fn analysis(&self, site: Site<'_>, kind: Kind) -> Result<Analysis, SolveError> {
+        match self.rest(1.0).filter(|_| self.has_many) {
+            Some(rest) => ManyPins::new(site, rest).analysis(site),
+            None => site.system.analysis(kind),
+        }
     }
 
     /// What least squares has to treat, if anything. For `unit` see [`Setup::unit`].
@@ -104,16 +136,24 @@ impl FreeSolve {
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
         let Setup { equations, unit, analysis, layout } = setup;
-        let named = |error| site.system.named(error);
         let start = Instant::now();
-        let matrix = site.system.negated_matrix(site.mesh, &equations);
+        let mut rest = layout.rest(unit);
+        let many = rest.take_if(|_| layout.has_many).map(|rest| ManyPins::new(site, rest));
+        let matrix = match &many {
+            Some(many) => many.matrix(site, &equations),
+            None => site.system.negated_matrix(site.mesh, &equations),
+        };
         seconds.assemble += start.elapsed().as_secs_f64();
         control.enter(Phase::Factor)?;
         let start = Instant::now();
+        let named = |error| match &many {
+            Some(many) => many.named(site, error),
+            None => site.system.named(error),
+        };
         let factor = analysis.factor(&matrix, control.cancel()).map_err(named)?;
         let factored = Factored { matrix: &matrix, factor: &factor, cancel: control.cancel() };
-        let ready = |rest| LeastSquares::new(site, &equations, rest, &factored).map_err(named);
-        let least_squares = layout.rest(unit).map(ready).transpose()?;
+        let few = rest.map(|rest| LeastSquares::new(site, &equations, rest, &factored).map_err(named)).transpose()?;
+        let least_squares = few.map(Ways::Few).or(many.map(Ways::Many));
         seconds.factor += start.elapsed().as_secs_f64();
         let eliminated = if layout.keeps_equations { Vec::new() } else { layout.left_out.clone() };
         Ok(Self { equations, matrix, factor, least_squares, eliminated })
@@ -170,13 +210,16 @@ impl FreeSolve {
             let to_target = targets[&pin.vertex] - start[pin.vertex];
             Complex::new(to_target.x, to_target.y)
         };
-        let to_targets: Vec<_> = least_squares.rest.springs.iter().map(to_target).collect();
-        let moves = least_squares.moves(site, &factored, residuals, &to_targets).map_err(named)?;
+        let to_targets: Vec<_> = least_squares.springs().iter().map(to_target).collect();
+        let moves = match least_squares {
+            Ways::Few(few) => few.moves(site, &factored, residuals, &to_targets).map_err(named)?,
+            Ways::Many(many) => many.moves(site, &factored, residuals, &to_targets)?,
+        };
         // Adding nothing would still make a zero of a negative zero.
         for (z, by) in embedding.iter_mut().zip(moves).filter(|(_, by)| *by != Complex::ZERO) {
             *z += DVec2::new(by.re, by.im);
         }
-        let residual = self.gradient_residual(site.mesh, &embedding, &least_squares.rest.springs, targets);
+        let residual = self.gradient_residual(site.mesh, &embedding, least_squares.springs(), targets);
         Ok((embedding, residual))
     }
 
@@ -209,7 +252,8 @@ impl FreeSolve {
                 *total += most;
             }
         }
-        for vertex in targets.keys().filter(|v| springs.iter().all(|pin| pin.vertex != **v)) {
+        let is_exact = |v: &VertexId| springs.binary_search_by_key(v, |pin| pin.vertex).is_err();
+        for vertex in targets.keys().filter(|&v| is_exact(v)) {
             sums[vertex.index()] = (Complex::ZERO, 0.0);
         }
         for pin in springs {

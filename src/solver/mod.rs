@@ -6,7 +6,7 @@
 //! | `pins`, `conflicts`, `scale` | pins and gauge; pins that contradict each other; size and place of what is not pinned |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
-//! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
+//! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `many_pins`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
 //! | `iterate` | one mean-value iteration (paper §4) |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
 //! | `schnyder` | a drawing in whole numbers, planar by theorem |
@@ -34,6 +34,7 @@ mod iterate;
 mod ladder;
 mod least_squares;
 mod left_kernel;
+mod many_pins;
 mod matchmaker;
 mod membrane;
 mod method;

@@ -85,7 +85,8 @@ impl Prepared {
                 let equations = convex_equations(mesh, settings.family)?;
                 let is_symmetric = matches!(settings.family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
-                let analysis = analyze(&system, is_symmetric, &mut seconds, control)?;
+                let kind = if is_symmetric { Kind::Hermitian } else { Kind::General };
+                let analysis = analyze(|| system.analysis(kind), &mut seconds, control)?;
                 control.enter(Phase::Factor)?;
                 let start = Instant::now();
                 let fixed = FixedSolve::new(Site { mesh, system: &system }, equations, &analysis, control)?;
@@ -105,10 +106,12 @@ impl Prepared {
                 })?;
                 let system = layout.system(mesh);
                 seconds.assemble = start.elapsed().as_secs_f64();
-                let analysis = analyze(&system, is_hermitian, &mut seconds, control)?;
+                let kind = if is_hermitian { Kind::Hermitian } else { Kind::General };
+                let site = Site { mesh, system: &system };
+                let analysis = analyze(|| layout.analysis(site, kind), &mut seconds, control)?;
                 let unit = mean_edge_length(mesh).powf(1.0 - power);
                 let setup = Setup { equations, unit, analysis: &analysis, layout: &layout };
-                let free = FreeSolve::new(Site { mesh, system: &system }, setup, &mut seconds, control)?;
+                let free = FreeSolve::new(site, setup, &mut seconds, control)?;
                 (system, Values::Free(Box::new(free)))
             }
         };
@@ -219,15 +222,13 @@ fn free_equations(
 }
 
 fn analyze(
-    system: &FreeSystem,
-    hermitian: bool,
+    analysis: impl FnOnce() -> Result<Analysis, SolveError>,
     seconds: &mut PhaseSeconds,
     control: Control<'_>,
 ) -> Result<Analysis, SolveError> {
     control.enter(Phase::Analyze)?;
     let start = Instant::now();
-    let kind = if hermitian { Kind::Hermitian } else { Kind::General };
-    let analysis = system.analysis(kind)?;
+    let analysis = analysis()?;
     seconds.analyze = start.elapsed().as_secs_f64();
     Ok(analysis)
 }

@@ -41,7 +41,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Embedding;
-use crate::geom::{Orientation, crossings, orientation, turning_number, winding_number};
+use crate::geom::{Orientation, crossings, is_simple, orientation, turning_number, winding_number};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, Polygon, VertexId};
 
 /// Whether an embedding is one-to-one, and the elements at fault. All lists ascend.
@@ -55,9 +55,9 @@ pub struct Verdict {
     pub concave_polygons: Vec<FaceId>,
     /// Pairs of boundary edges that meet other than at a shared end, the lower id first; at most `CROSSINGS_LISTED`.
     pub boundary_crossings: Vec<[EdgeId; 2]>,
-    /// Crossings beyond those listed. The report shows this field only where there are any.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub unlisted_crossings: usize,
+    /// Whether there are more crossings than those listed. The report shows this field only where there are.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub more_crossings: bool,
     /// Interior vertices that their own faces, all positive, wind around twice or more.
     pub overwound_vertices: Vec<VertexId>,
     /// Turning number of the boundary; none where an edge has length zero, turns exactly back or is not finite.
@@ -69,11 +69,6 @@ pub struct Verdict {
     /// Proved planar with its coordinates rounded to 32 bits, too, and mirrored or not as it is in 64.
     #[serde(rename = "f32")]
     pub holds_in_f32: bool,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes fields by reference")]
-fn is_zero(count: &usize) -> bool {
-    *count == 0
 }
 
 /// Decides exactly whether an embedding of a disk is one-to-one.
@@ -92,7 +87,7 @@ pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
     let flipped_faces: Vec<FaceId> = mesh.faces().filter(|&face| !is_upright(face)).collect();
     let zero_area_faces = orientations.iter().filter(|&&o| o == Some(Orientation::Collinear)).count();
     let boundary = embedding.boundary(mesh);
-    let (boundary_crossings, unlisted_crossings) = boundary_crossings(mesh, &boundary);
+    let (boundary_crossings, more_crossings) = boundary_crossings(mesh, &boundary);
     let is_one_to_one = flipped_faces.is_empty() && boundary_crossings.is_empty();
     let concave_polygons = concave_polygons(mesh, embedding, upright)
         .filter(|polygon| polygon.faces().all(is_upright))
@@ -105,7 +100,7 @@ pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
         flipped_faces,
         concave_polygons,
         boundary_crossings,
-        unlisted_crossings,
+        more_crossings,
         overwound_vertices,
         turning_number: turning_number(&boundary),
         zero_area_faces,
@@ -157,7 +152,7 @@ fn sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
     let [a, b, c] = embedding.corners(mesh, mesh.faces().next()?);
     let of_first = orientation(a, b, c).filter(|&first| first != Orientation::Collinear)?;
     let are_alike = orientations(mesh, embedding).all(|other| other == Some(of_first));
-    let is_simple = || crossings(&embedding.boundary(mesh)).count == 0;
+    let is_simple = || is_simple(&embedding.boundary(mesh));
     (are_alike && is_simple()).then_some(of_first)
 }
 
@@ -180,10 +175,9 @@ fn in_f32(embedding: &Embedding) -> Embedding {
 /// Faces or vertices that share the work of one task: enough to outweigh the handing out.
 const FACES_PER_TASK: usize = 4096;
 
-/// Crossings as pairs of edge ids, and the number of those not listed.
-fn boundary_crossings(mesh: &DiskMesh, boundary: &[DVec2]) -> (Vec<[EdgeId; 2]>, usize) {
+/// Crossings as pairs of edge ids, and whether there are more.
+fn boundary_crossings(mesh: &DiskMesh, boundary: &[DVec2]) -> (Vec<[EdgeId; 2]>, bool) {
     let found = crossings(boundary);
-    let unlisted = found.count - found.pairs.len();
     let edge_at = |place: u32| mesh.boundary_edge(place as usize);
     let mut pairs: Vec<[EdgeId; 2]> = found
         .pairs
@@ -194,7 +188,7 @@ fn boundary_crossings(mesh: &DiskMesh, boundary: &[DVec2]) -> (Vec<[EdgeId; 2]>,
         })
         .collect();
     pairs.sort_unstable();
-    (pairs, unlisted)
+    (pairs, found.has_more)
 }
 
 /// Interior vertices around which all faces are upright and the link winds more than once.
@@ -230,14 +224,16 @@ impl Verdict {
         self.flipped_faces.is_empty() && self.boundary_crossings.is_empty()
     }
 
-    /// Boundary crossings, listed or not.
-    pub fn crossing_count(&self) -> usize {
-        self.boundary_crossings.len() + self.unlisted_crossings
+    /// How many boundary crossings there are, in words: more than are listed, or just so many.
+    pub fn crossing_count_in_words(&self) -> String {
+        let more = if self.more_crossings { "more than " } else { "" };
+        format!("{more}{}", self.boundary_crossings.len())
     }
 
-    /// Flipped faces, concave polygons, boundary crossings and overwound vertices together.
+    /// Flipped faces, concave polygons, boundary crossings as far as they are listed, and overwound vertices together.
     pub fn defect_count(&self) -> usize {
-        self.flipped_faces.len() + self.concave_polygons.len() + self.crossing_count() + self.overwound_vertices.len()
+        let crossings = self.boundary_crossings.len();
+        self.flipped_faces.len() + self.concave_polygons.len() + crossings + self.overwound_vertices.len()
     }
 
     /// What becomes of a planar embedding in 32 bits, in lower-case words; none where it is not planar in 64.
@@ -257,10 +253,14 @@ impl Verdict {
             1 => Some(format!("1 {one}")),
             _ => Some(format!("{count} {many}")),
         };
+        let crossings = match self.boundary_crossings.len() {
+            0 | 1 => counted(self.boundary_crossings.len(), "boundary crossing", ""),
+            _ => Some(format!("{} boundary crossings", self.crossing_count_in_words())),
+        };
         let faults = [
             counted(self.flipped_faces.len(), "flipped face", "flipped faces"),
             counted(self.concave_polygons.len(), "concave polygon", "concave polygons"),
-            counted(self.crossing_count(), "boundary crossing", "boundary crossings"),
+            crossings,
             counted(self.overwound_vertices.len(), "overwound vertex", "overwound vertices"),
             self.mirrored.then(|| "mirrored".to_owned()),
         ];

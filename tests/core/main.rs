@@ -34,6 +34,7 @@ mod linalg_matrices;
 mod linalg_mean_value;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
+mod many_pins;
 mod matchmaker;
 mod materials;
 mod mesh;

@@ -1,5 +1,7 @@
 //! Polygons cut into triangles.
 
+use std::time::{Duration, Instant};
+
 use freebound::mesh::{FaceId, PolygonMesh, TriMesh, VertexId};
 use glam::{DQuat, DVec3};
 
@@ -126,4 +128,59 @@ fn a_polygon_with_many_corners_is_cut_in_good_time() {
     let cut = polygon(&points).triangulate();
     assert_eq!(cut.face_count(), points.len() - 2);
     assert!((cut.area() - std::f64::consts::PI).abs() < 1e-6);
+}
+
+/// The places of the corners of all triangles.
+fn places(mesh: &TriMesh) -> Vec<[u32; 3]> {
+    mesh.triangles.iter().map(|t| t.map(VertexId::number)).collect()
+}
+
+#[test]
+fn a_comb_of_many_teeth_and_a_spiral_are_cut_in_good_time() {
+    let teeth = 8_000;
+    let mut comb = vec![[0.0, -1.0, 0.0]];
+    comb.push([2.0 * f64::from(teeth), -1.0, 0.0]);
+    for tooth in (0..teeth).rev() {
+        let x = 2.0 * f64::from(tooth);
+        comb.extend([[x + 2.0, 0.0, 0.0], [x + 1.5, 100.0, 0.0], [x + 1.0, 100.0, 0.0], [x + 0.5, 0.0, 0.0]]);
+    }
+    let mut spiral = Vec::new();
+    let arm = |k: i32, gap: f64| {
+        let angle = 0.01 * f64::from(k);
+        [(angle + gap) * angle.cos(), (angle + gap) * angle.sin(), 0.0]
+    };
+    spiral.extend((200..10_000).map(|k| arm(k, 2.0)));
+    spiral.extend((200..10_000).rev().map(|k| arm(k, 0.0)));
+    for points in [comb, spiral] {
+        let start = Instant::now();
+        let cut = polygon(&points).triangulate();
+        assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+        let next = points.iter().cycle().skip(1);
+        let area = points.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum();
+        assert_eq!(cut.face_count(), points.len() - 2);
+        assert_fills(&cut, DVec3::Z, area);
+    }
+}
+
+#[test]
+fn every_triangle_of_a_polygon_is_an_ear_that_holds_no_corner() {
+    let mut random = Random(23);
+    for _ in 0..40 {
+        let corner_count = 60 + random.below(60);
+        let radius: Vec<f64> = (0..corner_count).map(|_| 0.05 + random.unit()).collect();
+        let spoke = |(k, r): (u32, &f64)| {
+            let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corner_count);
+            [r * angle.cos(), r * angle.sin(), 0.0]
+        };
+        let points: Vec<[f64; 3]> = (0..).zip(&radius).map(spoke).collect();
+        let turn = |a: u32, b: u32, c: u32| {
+            let [a, b, c] = [a, b, c].map(|k| points[k as usize]);
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        };
+        for [a, b, c] in places(&polygon(&points).triangulate()) {
+            let others = (0..corner_count).filter(|&p| ![a, b, c].contains(&p));
+            let inside = others.filter(|&p| turn(a, b, p) > 0.0 && turn(b, c, p) > 0.0 && turn(c, a, p) > 0.0);
+            assert_eq!(inside.count(), 0, "{a} {b} {c}");
+        }
+    }
 }

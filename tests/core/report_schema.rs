@@ -199,7 +199,7 @@ const RUNS: [(&[&str], i32); 15] = [
 /// Described fields that none of these runs writes, with the reason.
 const RARE: [&str; 2] = [
     // More than a thousand crossings.
-    "#/$defs/verdict/properties/unlisted_crossings",
+    "#/$defs/verdict/properties/more_crossings",
     // A rung that falls back to another way.
     "#/$defs/step/properties/note",
 ];

@@ -49,7 +49,7 @@ fn a_flat_hexagon_is_planar() {
         flipped_faces: vec![],
         concave_polygons: vec![],
         boundary_crossings: vec![],
-        unlisted_crossings: 0,
+        more_crossings: false,
         overwound_vertices: vec![],
         turning_number: Some(1),
         zero_area_faces: 0,

@@ -25,7 +25,7 @@ fn v(number: u32) -> VertexId {
 }
 
 /// A bumpy sheet of a few hundred vertices, no two edges alike.
-fn bump(columns: u32) -> TriMesh {
+pub(crate) fn bump(columns: u32) -> TriMesh {
     let mut random = Random(3);
     let mut mesh = crate::makers::grid(columns, columns);
     for x in &mut mesh.positions {
@@ -48,13 +48,13 @@ fn normalised(mesh: &DiskMesh) -> TriMesh {
 type Row = (Vec<(usize, Complex<f64>)>, Complex<f64>);
 
 /// Rows of a dense least-squares problem.
-struct Dense {
+pub(crate) struct Dense {
     rows: Vec<Row>,
 }
 
 impl Dense {
     /// The minimiser with the exact pins at their targets.
-    fn solve(mut self, count: usize, pins: &Pins) -> Embedding {
+    pub(crate) fn solve(mut self, count: usize, pins: &Pins) -> Embedding {
         for (vertex, pin) in pins {
             if let freebound::solver::Hold::Weighted(weight) = pin.hold {
                 let target = Complex::new(pin.target.x, pin.target.y);
@@ -84,7 +84,7 @@ impl Dense {
 }
 
 /// The vertex equations, written down corner by corner at mean edge length 1; those of some vertices left out.
-fn dense_equations(mesh: &DiskMesh, settings: &Settings, without: impl Fn(VertexId) -> bool) -> Dense {
+pub(crate) fn dense_equations(mesh: &DiskMesh, settings: &Settings, without: impl Fn(VertexId) -> bool) -> Dense {
     let mesh = disk(normalised(mesh));
     let mut rows = vec![(Vec::new(), Complex::ZERO); mesh.vertex_count()];
     for face in mesh.faces() {
@@ -101,7 +101,7 @@ fn dense_equations(mesh: &DiskMesh, settings: &Settings, without: impl Fn(Vertex
 }
 
 /// Random constraints of which about a half is exact; at least two are.
-fn mixed(count: u32, weights: impl Fn(&mut Random) -> f64, mesh: &DiskMesh, random: &mut Random) -> Pins {
+pub(crate) fn mixed(count: u32, weights: impl Fn(&mut Random) -> f64, mesh: &DiskMesh, random: &mut Random) -> Pins {
     let mut pins = Pins::new();
     while pins.len() < count as usize {
         let vertex = v(random.below(u32::try_from(mesh.vertex_count()).unwrap()));
@@ -116,7 +116,7 @@ fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Embedding {
     flatten(mesh, settings, pins, Control::unattended()).unwrap().embedding
 }
 
-fn apart(a: &Embedding, b: &Embedding) -> f64 {
+pub(crate) fn apart(a: &Embedding, b: &Embedding) -> f64 {
     largest_move(a, b) / a.bounds().diameter()
 }
 

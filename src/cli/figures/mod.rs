@@ -88,7 +88,7 @@ impl Row {
 
     fn measure_verdict(&mut self, verdict: &Verdict, steps: usize) {
         self.flips = Some(verdict.flipped_faces.len());
-        self.crossings = Some(verdict.crossing_count());
+        self.crossings = Some(verdict.boundary_crossings.len());
         self.turning_number = verdict.turning_number;
         self.steps = Some(steps);
     }

@@ -37,10 +37,10 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
         return;
     }
     let rows = [
-        (theme.flipped, "flipped faces", verdict.flipped_faces.len()),
-        (theme.concave, "concave polygons", verdict.concave_polygons.len()),
-        (theme.crossing, "boundary crossings", verdict.crossing_count()),
-        (theme.overwound, "overwound vertices", verdict.overwound_vertices.len()),
+        (theme.flipped, "flipped faces", verdict.flipped_faces.len().to_string()),
+        (theme.concave, "concave polygons", verdict.concave_polygons.len().to_string()),
+        (theme.crossing, "boundary crossings", verdict.crossing_count_in_words()),
+        (theme.overwound, "overwound vertices", verdict.overwound_vertices.len().to_string()),
     ];
     for (colour, words, count) in rows {
         ui.horizontal(|ui| {

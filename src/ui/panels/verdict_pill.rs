@@ -118,14 +118,17 @@ fn preview_words(preview: Option<&Preview>) -> String {
 
 /// The verdict in the fewest words.
 fn short_verdict(verdict: &Verdict) -> String {
+    let crossings = match verdict.boundary_crossings.len() {
+        1 => "1 crossing".to_owned(),
+        _ => format!("{} crossings", verdict.crossing_count_in_words()),
+    };
     let counts = [
-        (verdict.flipped_faces.len(), ["flipped"; 2]),
-        (verdict.concave_polygons.len(), ["concave"; 2]),
-        (verdict.crossing_count(), ["crossing", "crossings"]),
-        (verdict.overwound_vertices.len(), ["overwound"; 2]),
+        (verdict.flipped_faces.len(), format!("{} flipped", verdict.flipped_faces.len())),
+        (verdict.concave_polygons.len(), format!("{} concave", verdict.concave_polygons.len())),
+        (verdict.boundary_crossings.len(), crossings),
+        (verdict.overwound_vertices.len(), format!("{} overwound", verdict.overwound_vertices.len())),
     ];
-    let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, [one, many])| counted(*count, one, many));
-    words.collect::<Vec<_>>().join(" · ")
+    counts.into_iter().filter(|(count, _)| *count > 0).map(|(_, words)| words).collect::<Vec<_>>().join(" · ")
 }
 
 fn show_pill(ui: &mut egui::Ui, pill: &Pill) -> egui::Response {
