@@ -189,7 +189,8 @@ impl Bend {
         let from = last.map_or(&extended.embedding, |last| &last.solved);
         let has_pockets = !extended.pockets.is_empty();
         let (equations, residuals) = match weights {
-            Weights::Surface if !has_pockets => (barycentric(mesh, 0.0)?, None),
+            // The theorem is about triangles.
+            Weights::Surface if !has_pockets => (barycentric(&mesh.without_polygons(), 0.0)?, None),
             Weights::Uniform => (uniform(&extended.disk), None),
             _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
         };
