@@ -14,7 +14,7 @@
 //! | `schnyder.rs` | the end of rung 3: a grid drawing, planar by theorem |
 //! | `continuation.rs` | rung 4: a planar start fitted to the constraints, then one-to-one on the way to them |
 //! | `matchmaker.rs` | rung 5: new vertices |
-//! | `relax.rs` | what follows: lower distortion, convex polygons |
+//! | `relax.rs` | what follows: lower distortion, convex polygons; `auto` goes on until the embedding serves |
 //! | `cut.rs` | what follows: polygons that cannot be convex, cut into triangles |
 //!
 //! A ladder is asked for one step at a time, so that it can be watched, paused and taken on by hand. A step that is
@@ -41,10 +41,14 @@ pub use self::plan::{Kept, PlanarStart};
 pub use self::step::{Candidate, Progress, Step, largest_move};
 
 use self::plan::{Aim, Plan};
+use self::relax::Rounds;
 use self::rung::{Failure, Footing, Latest, Notes};
 use self::task::Task;
+use super::rest::Rest;
 use super::units::Units;
-use super::{Control, Embedding, Method, Phase, Pins, Settings, SolveError, fixed_pins, gauge_pins, verdict};
+use super::{
+    Control, Embedding, Method, Phase, Pins, Settings, Sheet, SolveError, Verdict, fixed_pins, gauge_pins, verdict,
+};
 use crate::mesh::DiskMesh;
 
 /// Why a ladder has come to its end.
@@ -80,11 +84,19 @@ pub struct Ladder {
 impl Ladder {
     /// A ladder that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
-        let asked = Task::new(settings, pins);
+        let asked = Task::new(settings, pins, Arc::default());
         let units = Units::of(&asked.pins, settings.size);
-        let task = Arc::new(Task::new(units.settings(settings), units.pins(&asked.pins)));
+        let task = Arc::new(asked.in_units(&units));
         let plan = Plan::new(&task, &Kept::default());
         Self { asked, units, task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
+    }
+
+    /// The same with every step proved in the numbers that are written of it, not in those of the plane.
+    #[must_use]
+    pub fn written_on(self, sheet: Sheet) -> Self {
+        let asked = Task { sheet: Arc::new(sheet), ..self.asked };
+        let task = Arc::new(asked.in_units(&self.units));
+        Self { plan: Plan::new(&task, &Kept::default()), asked, task, ..self }
     }
 
     /// The same with what earlier ladders on the mesh have computed, used where it serves.
@@ -178,7 +190,7 @@ impl Ladder {
         if !self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one) {
             return Err(SolveError::NotPlanar);
         }
-        self.plan.part_mut().relax.begin(rounds);
+        self.plan.part_mut().relax.begin(Rounds { always: rounds, until_it_serves: 0 });
         self.ending = (rounds == 0).then_some(Ending::Planar);
         Ok(())
     }
@@ -251,16 +263,29 @@ impl Ladder {
     fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
         control.enter(Phase::Verify).ok();
         let start = Instant::now();
+        let units = self.units_in_force();
+        let task = Arc::clone(&self.plan.part().task);
+        let refinement = candidate.refinement.clone();
+        let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
+        let placing = task.place(disk, &mut candidate);
+        let mut verdict = self.verdict_of(mesh, &candidate);
+        if !verdict.planar || !task.are_met(&candidate.solution.embedding) {
+            let is_kept = self.keep_what_is_proved(&mut candidate);
+            verdict = if is_kept { self.verdict_of(mesh, &candidate) } else { verdict };
+        }
+        if candidate.progress.is_none() && verdict.planar && self.plan.part().rounds_until_it_serves() > 0 {
+            let of = candidate.mesh(mesh);
+            candidate.progress = Some(Rest::new(of).progress(of, &candidate.solution.embedding, 0.0));
+        }
+        let verify_seconds = start.elapsed().as_secs_f64();
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
         let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
-        let units = self.units_in_force();
         let max_move = self.latest.as_ref().map(moved).map(|length| units.length_in_plane(length));
         candidate.take_to_plane(&units, &self.asked.held());
         candidate.solution.embedding.check_finite()?;
-        let verdict = verdict(candidate.mesh(mesh), &candidate.solution.embedding);
-        let verify_seconds = start.elapsed().as_secs_f64();
         self.notes.say(candidate.note.take());
+        self.notes.say(placing);
         candidate.note = self.notes.take();
         let set_aside = match self.plan.part().aim {
             Aim::Constraints => Pins::new(),
@@ -272,6 +297,29 @@ impl Ladder {
         Ok(Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside })
     }
 
+    /// The verdict on a candidate as it is written.
+    fn verdict_of(&self, mesh: &DiskMesh, candidate: &Candidate) -> Verdict {
+        let (units, disk) = (self.units_in_force(), candidate.mesh(mesh));
+        if units.is_plane() {
+            return verdict(disk, &self.plan.part().task.sheet.written(&candidate.solution.embedding));
+        }
+        let mut embedding = candidate.solution.embedding.clone();
+        units.embedding_to_plane(&mut embedding, &self.asked.held());
+        verdict(disk, &self.asked.sheet.written(&embedding))
+    }
+
+    /// Gives back the embedding before a round of relaxing, where that was all that is asked for and this is not.
+    /// Returns whether it did.
+    fn keep_what_is_proved(&self, candidate: &mut Candidate) -> bool {
+        let is_relaxed = candidate.rung == Method::Relax && !self.plan.part().task.is_constrained();
+        let Some(latest) = self.latest.as_ref().filter(|latest| is_relaxed && latest.is_solved) else { return false };
+        candidate.solution.embedding.clone_from(&latest.embedding);
+        candidate.solution.pins.clone_from(&latest.pins);
+        (candidate.outside, candidate.progress) = (None, None);
+        candidate.note = Some("the relaxed embedding would fold in its place: that before is kept".to_owned());
+        true
+    }
+
     /// Remembers a step and decides whether the method has ended.
     fn take_in(&mut self, step: &Step) {
         self.step_count += 1;
@@ -280,7 +328,8 @@ impl Ladder {
         // A mirror image is one-to-one, but not what the ladder is for.
         let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
         let is_met = part.aim == Aim::PlanarStart || step.unmet().is_empty();
-        let is_solved_for_faces = step.verdict.is_one_to_one() && is_upright && is_met;
+        let is_proved = step.verdict.is_one_to_one() && is_upright;
+        let is_solved_for_faces = is_proved && is_met;
         // The way from a planar start to the constraints keeps no polygon convex: that follows.
         let is_solved = is_solved_for_faces && (step.verdict.planar || part.aim == Aim::PlanarStart);
         self.latest = Some(Latest {
@@ -290,6 +339,7 @@ impl Ladder {
             has_simple_boundary: step.has_simple_boundary(),
             is_one_to_one: step.verdict.is_one_to_one(),
             is_solved,
+            is_unplaced: is_proved && !is_met && !part.task.is_constrained(),
             is_solved_but_for_polygons: is_solved_for_faces && !is_solved,
             refinement: step.refinement.clone(),
         });
