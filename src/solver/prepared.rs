@@ -183,7 +183,7 @@ impl Prepared {
         let units = if self.own_places.is_some() { Units::default() } else { Units::of(&held, self.settings.size) };
         let targets = self.own_places.clone().unwrap_or_else(|| targets_of(&units.pins(&held)));
         let site = Site { mesh, system: &self.system };
-        let (embedding, residual) = match &self.values {
+        let (mut embedding, residual) = match &self.values {
             Values::Free(free) => free.solve(site, &targets)?,
             Values::Fixed(fixed) => fixed.solve(site, &targets)?,
         };
