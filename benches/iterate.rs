@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use freebound::mesh::DiskMesh;
 use freebound::solver::{
-    Control, Embedding, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, flatten, largest_move,
+    Control, Embedding, Family, Iteration, Method, Pins, Settings, Treatment, fixed_pins, largest_move, solve_once,
 };
 
 use common::machine::{print_machine, processor_seconds};
@@ -54,7 +54,7 @@ fn main() {
         let (mut analysis, mut moved, mut processor) = (0.0, 0.0, 0.0);
         for _ in 0..ROUNDS {
             let solution =
-                first.run(|| flatten(&mesh, &settings, &Pins::new(), Control::unattended()).expect("solvable"));
+                first.run(|| solve_once(&mesh, &settings, &Pins::new(), Control::unattended()).expect("solvable"));
             let folded = folded(&mesh, &solution.embedding);
             let pinned = held_in(&folded, &solution.pins);
             for (times, treatment) in steps.iter_mut().zip([Treatment::Eliminate, Treatment::LeastSquares]) {
@@ -106,7 +106,7 @@ fn cancelling() {
     let mut table = Table::new("cancelling a least-squares step, seconds until it has stopped", &heads);
     for vertices in [20_000, 100_000] {
         let mesh = DiskMesh::try_from(sheet_of_faces(2 * vertices)).expect("the sheet is a disk");
-        let first = flatten(&mesh, &Settings::default(), &Pins::new(), Control::unattended()).expect("solvable");
+        let first = solve_once(&mesh, &Settings::default(), &Pins::new(), Control::unattended()).expect("solvable");
         let folded = folded(&mesh, &first.embedding);
         let pinned = held_in(&folded, &first.pins);
         let iteration = Iteration::new(&mesh, &folded, &pinned, Treatment::LeastSquares, Control::unattended())

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use freebound::io::{ObjMesh, write_atomically, write_obj};
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Control, Embedding, Family, Method, Pins, Settings, distortion, flatten, verdict};
+use freebound::solver::{Control, Embedding, Family, Method, Pins, Settings, distortion, solve_once, verdict};
 use glam::{DVec2, DVec3};
 
 use common::machine::print_machine;
@@ -108,7 +108,7 @@ fn main() {
     let mut table = Table::new(title, &heads);
     for family in [Family::Conformal, Family::MeanValue] {
         let settings = Settings::new(Method::Natural, family);
-        let (solve, solution) = time(|| flatten(&mesh, &settings, &Pins::new(), Control::unattended()));
+        let (solve, solution) = time(|| solve_once(&mesh, &settings, &Pins::new(), Control::unattended()));
         let solution = solution.expect("a good answer");
         let linear = solution.linear.expect("a linear method");
         let (prove, found) = time(|| verdict(&mesh, &solution.embedding));

@@ -3,6 +3,18 @@
 //! The mathematics is that of Karni, Gotsman and Gortler, "Free-Boundary Linear Parameterization of
 //! 3D Meshes in the Presence of Constraints" (2005), called *the paper* in these pages.
 //!
+//! The easy call reads a mesh, flattens it, and gives a proved result or the reason why there is none:
+//!
+//! ```
+//! use freebound::mesh::DiskMesh;
+//! use freebound::{Options, examples::Example, flatten};
+//!
+//! let mesh = DiskMesh::try_from(Example::Dome.mesh()).expect("a disk");
+//! let step = flatten(&mesh, &Options::default()).expect("method auto always ends planar");
+//! assert!(step.verdict.planar && step.verdict.holds_in_f32);
+//! println!("vertex 0 lies at {}", step.solution.embedding[0]);
+//! ```
+//!
 //! Layers, each importing only from those above it:
 //!
 //! ```text
@@ -42,3 +54,5 @@ pub mod solver;
 #[cfg(feature = "gui")]
 pub mod ui;
 pub mod view;
+
+pub use solver::{FlattenError, Options, flatten};

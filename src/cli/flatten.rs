@@ -11,7 +11,7 @@ use super::exit::conclude;
 use super::places::Places;
 use super::progress::{INTERRUPTED, Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
-use super::standard::{is_standard, read_model};
+use super::standard::{is_standard, name_of_input, read_model};
 use super::summary::{deliver, ending_words, put_report, step_words, summary, warn_of};
 use super::{Failure, Status};
 use crate::examples::Example;
@@ -21,7 +21,7 @@ use crate::io::{
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Outcome, Surface};
-use crate::solver::{Choice as _, Control, Ending, Ladder, Phase, SolveError, Step, conflicts};
+use crate::solver::{Choice as _, Control, Ending, Phase, SolveError, Step, conflicts};
 
 /// Folder that the example is written into, in the current one.
 const FOLDER: &str = "freebound-example";
@@ -128,16 +128,17 @@ fn gather(arguments: &FlattenArguments, vertex_count: usize) -> Result<Targets, 
     let mut targets = file.targets.clone();
     for (vertex, target) in &arguments.pins {
         if let Some(line) = file.lines.get(vertex) {
-            let text = format!("vertex {vertex} is pinned twice: by --pin and on line {line} of {}", place.display());
-            return Err(Failure::Usage(text));
+            let text = format!("line {line}: vertex {vertex} is pinned by --pin, too: leave out one of them");
+            return Err(Failure::Usage(format!("{}: {text}", place.display())));
         }
         if let Some(first) = in_the_way(&file.targets, target) {
             let line = file.lines[&first];
-            let text = format!("--pin puts vertex {vertex} on the same place as line {line} of {}", place.display());
-            return Err(Failure::Usage(format!("{text} does vertex {first}: move one of them, or give a weight")));
+            let text = format!("line {line}: vertex {first} has the target that --pin gives to vertex {vertex}");
+            return Err(Failure::Usage(format!("{}: {text}: move one of them, or give a weight", place.display())));
         }
         if targets.insert(*vertex, *target).is_some() {
-            return Err(Failure::Usage(format!("vertex {vertex} is pinned twice: leave out one of the --pin")));
+            let mesh = name_of_input(&arguments.mesh);
+            return Err(Failure::Usage(format!("{mesh}: vertex {vertex} is pinned twice: leave out one of the --pin")));
         }
     }
     Ok(targets)
@@ -165,10 +166,9 @@ struct HeadlessJob<'a> {
 impl HeadlessJob<'_> {
     /// Flattens, proves, writes, and prints the summary. `start` is when reading began.
     fn run(&self, model: &Model, start: Instant, progress: &Progress) -> Result<Status, Failure> {
-        let mesh = disk_of(model)?;
         let read_seconds = start.elapsed().as_secs_f64();
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
-        let mut solved = self.solve(mesh, folder.as_mut(), progress)?;
+        let mut solved = self.solve(model, folder.as_mut(), progress)?;
         let records = std::mem::take(&mut solved.records);
         let mut output = solved.outcome.finished(model, records, self.fit);
         output.report.seconds.read = read_seconds;
@@ -204,18 +204,19 @@ impl HeadlessJob<'_> {
     /// Takes all steps of the method.
     fn solve(
         &self,
-        mesh: &DiskMesh,
+        model: &Model,
         mut folder: Option<&mut StepsFolder>,
         progress: &Progress,
     ) -> Result<Solved, Failure> {
+        let mesh = disk_of(model)?;
         let report_phase = |phase: Phase| progress.enter(phase.words());
         let control = Control::new(&INTERRUPTED, &report_phase);
         let problem = self.document.problem();
         let (settings, pins) = (problem.settings, problem.pins());
         if settings.method.uses_pins() {
-            warn_of(&conflicts(mesh, &settings.held(&pins)));
+            warn_of(&model.path_words(), &conflicts(mesh, &settings.held(&pins)));
         }
-        let mut run = Ladder::new(settings, pins);
+        let mut run = problem.ladder();
         let placed = |step: Step| Outcome::new(mesh, problem, step);
         let mut records: Vec<StepReport> = Vec::new();
         let mut last: Option<Step> = None;

@@ -26,13 +26,13 @@ fn listed(vertices: &[VertexId]) -> String {
     names.join(", ")
 }
 
-/// Says on standard error which constraints contradict each other, before any work is done on them.
-pub(super) fn warn_of(conflicts: &[Conflict]) {
+/// Says on standard error which constraints on a file's mesh contradict each other, before any work is done on them.
+pub(super) fn warn_of(file: &str, conflicts: &[Conflict]) {
     for conflict in conflicts.iter().take(NAMED) {
-        warn(conflict.words());
+        warn(format_args!("{file}: {}", conflict.words()));
     }
     if conflicts.len() > NAMED {
-        warn(format_args!("and {} more conflicts like these", conflicts.len() - NAMED));
+        warn(format_args!("{file}: and {} more conflicts like these", conflicts.len() - NAMED));
     }
 }
 

@@ -14,6 +14,11 @@ pub struct Similarity {
 }
 
 impl Similarity {
+    /// Multiplies what lies around `from` by `turn`, a complex number, and takes `from` to `to`.
+    pub fn new(turn: DVec2, from: DVec2, to: DVec2) -> Self {
+        Self { turn, from, to }
+    }
+
     /// Where it takes a point.
     pub fn apply(&self, z: DVec2) -> DVec2 {
         self.turn.rotate(z - self.from) + self.to

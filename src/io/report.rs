@@ -192,7 +192,7 @@ pub struct StepReport {
     pub seconds: f64,
     /// Proved one-to-one.
     pub planar: bool,
-    /// Mean energy of the faces' maps, 2 where nothing is distorted; null but in continuation and relaxing, as the
+    /// Mean energy of the faces' maps, 4 where nothing is distorted; null where it was not asked for, as the
     /// next two are.
     pub energy: Option<f64>,
     /// Smallest determinant of a face's map, at equal total areas.

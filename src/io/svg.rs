@@ -129,7 +129,7 @@ impl<'a> Drawing<'a> {
         let crossings = verdict.boundary_crossings.iter().flatten().copied();
         let style = format!(r##"stroke="#e8700a" stroke-width="{}""##, self.frame.length(3.0));
         self.write_edges(out, &style, crossings)?;
-        let concave = verdict.concave_polygons.iter().filter_map(|&face| self.shown.mesh.polygon(face));
+        let concave = verdict.concave_polygons.iter().filter_map(|&face| self.shown.mesh.polygon_of(face));
         let outlines = concave.map(|polygon| polygon.corners.iter().map(|&v| self.at(v)).collect::<Vec<_>>());
         let style = format!(r##"stroke="#864b1c" stroke-width="{}""##, self.frame.length(3.0));
         if !verdict.concave_polygons.is_empty() {

@@ -101,9 +101,15 @@ impl DiskMesh {
         self.polygons.iter()
     }
 
-    /// The polygon that begins with a face.
-    pub fn polygon(&self, first_face: FaceId) -> Option<Polygon<'_>> {
-        self.polygons.at(first_face)
+    /// The polygon that a face is cut from, where that has more than three corners.
+    pub fn polygon_of(&self, face: FaceId) -> Option<Polygon<'_>> {
+        self.polygons.with(face)
+    }
+
+    /// The same surface as triangles alone.
+    #[must_use]
+    pub fn without_polygons(&self) -> Self {
+        self.clone().with_polygons_where(|_, _| false)
     }
 
     /// The same surface without the polygons that `is_whole` denies: they are but their triangles.

@@ -104,9 +104,10 @@ impl Polygons {
         (0..self.first_faces.len()).map(|place| self.polygon(place))
     }
 
-    /// The one that begins with a face.
-    pub(super) fn at(&self, first_face: FaceId) -> Option<Polygon<'_>> {
-        self.first_faces.binary_search(&first_face).ok().map(|place| self.polygon(place))
+    /// The one that a face is cut from.
+    pub(super) fn with(&self, face: FaceId) -> Option<Polygon<'_>> {
+        let place = self.first_faces.partition_point(|&first| first <= face).checked_sub(1)?;
+        Some(self.polygon(place)).filter(|polygon| polygon.faces().any(|own| own == face))
     }
 
     fn polygon(&self, place: usize) -> Polygon<'_> {

@@ -11,7 +11,7 @@ use super::{Command, Document, Session};
 use crate::geom::{Bounds, PictureFrame, Similarity};
 use crate::io::{Constraints, PictureFile, Target, Targets};
 use crate::mesh::VertexId;
-use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, flatten};
+use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, solve_once};
 
 /// The mesh flattened without pins, in the middle of the picture.
 pub(super) struct Flat {
@@ -181,7 +181,7 @@ impl Session {
         let size = GaugeSize::Within(Bounds { low, high });
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
         self.errands.send("fitting the targets", move |cancel| {
-            let solution = flatten(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
+            let solution = solve_once(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
             Errand::Flat(Flat { frame, faces_turned, embedding: solution.map(|solution| solution.embedding) })
         });
     }

@@ -12,8 +12,8 @@ use crate::io::{
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Candidate, Distortion, Embedding, GaugeSize, Hold, Pins, Settings, Step, Verdict, are_held_alike, distortion,
-    to_unit_box, to_unit_square, to_unit_square_by_power_of_two, verdict,
+    Candidate, Distortion, Embedding, GaugeSize, Hold, Ladder, Pins, Settings, Sheet, Step, Verdict, are_held_alike,
+    distortion, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, verdict,
 };
 
 /// What a run is to solve.
@@ -31,6 +31,14 @@ impl Problem {
     /// The pins in the plane.
     pub fn pins(&self) -> Pins {
         pins_in_plane(&self.targets, self.frame)
+    }
+
+    /// The steps that solve it, each proved in the numbers that are written of it.
+    pub fn ladder(&self) -> Ladder {
+        let is_exact = |target: &Target| self.settings.is_exact(target.hold);
+        let exact = self.targets.iter().filter(|(_, target)| is_exact(target));
+        let sheet = Sheet::new(self.frame, exact.map(|(&vertex, target)| (vertex, target.uv)).collect());
+        Ladder::new(self.settings, self.pins()).written_on(sheet)
     }
 
     /// Whether another problem differs in its targets alone: the same vertices, held in the same way.
@@ -99,7 +107,7 @@ impl Outcome {
     /// of the step. The user's pins keep their places, exact ones that are met to the last bit; without any, `fit`
     /// decides the size. `mesh` is the mesh as given.
     ///
-    /// Moving to the unit square rounds. Where that breaks what was planar, the scale is a power of two, so that less
+    /// Moving to the unit square rounds. Where that breaks what was planar, or held in 32 bits, the scale is a power of two, so that less
     /// is rounded, and then nothing is moved, so that nothing is.
     pub fn output(&self, mesh: &DiskMesh, fit: OutputFit) -> (Embedding, Placement, Verdict) {
         type Way = (fn(&mut Embedding), Placement);
@@ -119,12 +127,17 @@ impl Outcome {
             let verdict = verdict(mesh, &coordinates);
             (coordinates, name, verdict)
         };
+        // As much as is proved where it lies: the last way rounds nothing, neither in 64 bits nor in 32.
+        let holds = |verdict: &Verdict| {
+            let Verdict { planar, holds_in_f32, .. } = self.step.verdict;
+            (verdict.planar || !planar) && (verdict.holds_in_f32 || !holds_in_f32)
+        };
         let first = placed(to_unit_square, Placement::Unit);
-        if first.2.planar || !self.step.verdict.planar {
+        if holds(&first.2) {
             return first;
         }
         let others: [Way; 2] = [(to_unit_square_by_power_of_two, Placement::Unit), (to_unit_box, Placement::Unmoved)];
-        let rescued = others.into_iter().map(|(place, name)| placed(place, name)).find(|found| found.2.planar);
+        let rescued = others.into_iter().map(|(place, name)| placed(place, name)).find(|found| holds(&found.2));
         rescued.unwrap_or(first)
     }
 

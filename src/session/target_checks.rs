@@ -8,7 +8,7 @@
 use super::{Background, Session, Wake};
 use crate::geom::look_mirrored;
 use crate::mesh::VertexId;
-use crate::solver::{Conflict, Control, Embedding, Family, Method, Pins, Settings, SolveError, conflicts, flatten};
+use crate::solver::{Conflict, Control, Embedding, Family, Method, Pins, Settings, SolveError, conflicts, solve_once};
 
 /// With fewer pins either fits.
 const LEAST_PINS: usize = 3;
@@ -50,7 +50,7 @@ impl Session {
         let Some(disk) = disk.filter(|_| !is_known && self.document.targets.len() >= LEAST_PINS) else { return };
         flattening.start(revision, move |cancel| {
             let settings = Settings::new(Method::Natural, Family::Conformal);
-            let solution = flatten(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
+            let solution = solve_once(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
             solution.map(|solution| solution.embedding)
         });
     }

@@ -25,7 +25,7 @@ use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
 use super::{
-    Candidate, Control, Embedding, Hold, Method, Outside, Pin, PinPositions, Pins, Progress, SolveError, is_one_to_one,
+    Candidate, Control, Embedding, Hold, Method, Outside, Pin, PinPositions, Pins, Progress, Sheet, SolveError,
 };
 use crate::mesh::DiskMesh;
 
@@ -84,6 +84,8 @@ pub(super) struct Continuation {
     start: Option<Embedding>,
     /// The latest embedding that was not crushed, and the lowest energy so far.
     sound: (Embedding, f64),
+    /// How embeddings are written: what is proved.
+    sheet: Arc<Sheet>,
 }
 
 #[derive(Debug)]
@@ -113,7 +115,13 @@ impl Continuation {
             is_loose: false,
             start,
             sound,
+            sheet: Arc::default(),
         }
+    }
+
+    /// The same with embeddings proved as they are written on a sheet.
+    pub(super) fn written_on(self, sheet: Arc<Sheet>) -> Self {
+        Self { sheet, ..self }
     }
 
     /// Goes back to the latest embedding that is not crushed, where the present one is. Returns whether it is.
@@ -242,7 +250,7 @@ impl Continuation {
         };
         membrane.descend(&mut points, downhill(LOOSE_STEPS), control)?;
         let z = Embedding::of_mesh(mesh, &points);
-        let is_taken = is_one_to_one(mesh, &z);
+        let is_taken = self.sheet.is_one_to_one(mesh, &z);
         if is_taken {
             (self.embedding, self.settled) = (z, None);
         }
@@ -275,7 +283,7 @@ impl Continuation {
         let limits = Limits { until_unfolded: true, ..downhill(UNFOLD_STEPS) };
         let is_unfolded = membrane.descend(&mut z, limits, control)?.least_determinant > 0.0;
         let z = Embedding::of_mesh(mesh, &z);
-        Ok(is_unfolded && is_one_to_one(mesh, &z) && self.settle(mesh, z, membrane, control)?)
+        Ok(is_unfolded && self.sheet.is_one_to_one(mesh, &z) && self.settle(mesh, z, membrane, control)?)
     }
 
     /// Moves the pins as far as no face folds and the boundary stays simple. Returns whether they moved.
@@ -290,7 +298,7 @@ impl Continuation {
         let mut share = (ADVANCE_SHARE * longest).min(1.0);
         while share > SMALLEST_ADVANCE {
             let z = Embedding::of_mesh(mesh, &self.moved(points, moves, share));
-            if is_one_to_one(mesh, &z) {
+            if self.sheet.is_one_to_one(mesh, &z) {
                 return self.settle(mesh, z, membrane, control);
             }
             share *= 0.5;
@@ -312,7 +320,7 @@ impl Continuation {
         let mut z = settled.points.clone();
         settled.membrane.descend(&mut z, downhill(SETTLE_STEPS), control)?;
         let lower = Embedding::of_mesh(mesh, &z);
-        if is_one_to_one(mesh, &lower) {
+        if self.sheet.is_one_to_one(mesh, &lower) {
             self.embedding = lower;
             settled.points = z;
         } else {

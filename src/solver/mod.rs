@@ -3,7 +3,8 @@
 //! | files | what |
 //! |---|---|
 //! | `method`, `family`, `settings`, `choice` | what can be chosen, with its names and words |
-//! | `pins`, `conflicts`, `scale` | pins and gauge; pins that contradict each other; size and place of what is not pinned |
+//! | `pins`, `conflicts` | pins and gauge; pins that contradict each other |
+//! | `placing`, `sheet` | size and place of what is not pinned, without a fold; the numbers that are written of it |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
 //! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `many_pins`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
@@ -12,7 +13,7 @@
 //! | `schnyder` | a drawing in whole numbers, planar by theorem |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
-//! | `ladder/` | a plan of rungs over all of these, each step proved |
+//! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
 //! | `verdict`, `distortion`, `vertex_equation` | what is said of an embedding |
 //! | `control`, `error` | progress and cancelling; why no embedding was produced |
 
@@ -28,6 +29,7 @@ pub mod equations;
 mod error;
 mod family;
 mod fixed_solve;
+mod flatten;
 pub mod foldover_energy;
 mod free_solve;
 mod iterate;
@@ -41,14 +43,15 @@ mod method;
 mod outside;
 mod pieces;
 mod pins;
+mod placing;
 pub mod plane_weights;
 mod prepared;
 mod relaxing;
 mod rest;
-mod scale;
 mod schnyder;
 mod settings;
 mod shape_preserving;
+mod sheet;
 mod solution;
 mod system;
 mod verdict;
@@ -64,6 +67,7 @@ pub use distortion::{Distortion, DistortionSummary, FaceDistortion, Mean, Spread
 pub use embedding::Embedding;
 pub use error::SolveError;
 pub use family::Family;
+pub use flatten::{FlattenError, Options, flatten};
 pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, largest_move};
 pub use matchmaker::{Matched, matched, without_needless_vertices};
@@ -73,11 +77,12 @@ pub use pins::{
     Hold, Pin, PinPositions, Pins, TakenTargets, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins,
     hard_pins,
 };
-pub use prepared::{Prepared, flatten};
-pub use scale::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
+pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
+pub use prepared::{Prepared, solve_once};
 pub use schnyder::schnyder;
 pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;
+pub use sheet::Sheet;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use system::FreeSystem;
 pub use verdict::{Verdict, is_one_to_one, is_planar, verdict};

@@ -21,6 +21,13 @@ pub(super) struct Piece {
     pub(super) face: FaceId,
 }
 
+impl Piece {
+    fn of_face(mesh: &DiskMesh, face: FaceId) -> Self {
+        let side = |k| HalfedgeId::from_index(3 * face.index() + k);
+        Self { corners: mesh.face(face), links: [0, 1, 2].map(side), share: 1.0, face }
+    }
+}
+
 /// The faces in their order, but for those of averaged polygons; then the fans of these.
 pub(super) fn pieces(mesh: &DiskMesh) -> Vec<Piece> {
     let averaged: Vec<Polygon<'_>> = mesh.polygons().filter(Polygon::is_averaged).collect();
@@ -28,30 +35,38 @@ pub(super) fn pieces(mesh: &DiskMesh) -> Vec<Piece> {
     for face in averaged.iter().flat_map(Polygon::faces) {
         is_in_fans[face.index()] = true;
     }
-    let whole = mesh.faces().filter(|face| is_in_fans.get(face.index()) != Some(&true)).map(|face| Piece {
-        corners: mesh.face(face),
-        links: [0, 1, 2].map(|k| HalfedgeId::from_index(3 * face.index() + k)),
-        share: 1.0,
-        face,
-    });
-    let mut pieces: Vec<Piece> = whole.collect();
+    let whole = mesh.faces().filter(|face| is_in_fans.get(face.index()) != Some(&true));
+    let mut pieces: Vec<Piece> = whole.map(|face| Piece::of_face(mesh, face)).collect();
     pieces.par_extend(averaged.par_iter().flat_map_iter(|polygon| fans(mesh, polygon)));
     pieces
 }
 
+/// The pieces with a corner at a vertex; where it has no averaged polygon, its faces counter-clockwise.
+pub(super) fn pieces_at(mesh: &DiskMesh, vertex: VertexId) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    for face in mesh.outgoing(vertex).filter_map(|side| mesh.face_of(side)) {
+        match mesh.polygon_of(face).filter(Polygon::is_averaged) {
+            None => pieces.push(Piece::of_face(mesh, face)),
+            Some(polygon) if pieces.iter().any(|piece| piece.face == polygon.first_face) => {}
+            Some(polygon) => pieces.extend(fans(mesh, &polygon).filter(|piece| piece.corners.contains(&vertex))),
+        }
+    }
+    pieces
+}
+
 /// The triangles of a polygon's fans, each once.
-fn fans(mesh: &DiskMesh, polygon: &Polygon<'_>) -> Vec<Piece> {
-    let (corners, count) = (polygon.corners, polygon.corners.len());
-    let piece = |places: [usize; 3], fans: f64| {
+fn fans<'a>(mesh: &'a DiskMesh, polygon: &Polygon<'a>) -> impl Iterator<Item = Piece> + use<'a> {
+    let (corners, count, face) = (polygon.corners, polygon.corners.len(), polygon.first_face);
+    let piece = move |places: [usize; 3], fans: f64| {
         let corners = places.map(|place| corners[place % count]);
         let links = [0, 1, 2].map(|k| link(mesh, corners[k], corners[(k + 1) % 3]));
-        Piece { corners, links, share: fans / count as f64, face: polygon.first_face }
+        Piece { corners, links, share: fans / count as f64, face }
     };
-    let ears = (0..count).map(|at| piece([at, at + 1, at + 2], 2.0));
+    let ears = (0..count).map(move |at| piece([at, at + 1, at + 2], 2.0));
     let others = (0..count)
-        .flat_map(|apex| (2..count - 2).map(move |ahead| [apex, apex + ahead, apex + ahead + 1]))
-        .map(|places| piece(places, 1.0));
-    ears.chain(others).collect()
+        .flat_map(move |apex| (2..count - 2).map(move |ahead| [apex, apex + ahead, apex + ahead + 1]))
+        .map(move |places| piece(places, 1.0));
+    ears.chain(others)
 }
 
 fn link(mesh: &DiskMesh, from: VertexId, to: VertexId) -> HalfedgeId {

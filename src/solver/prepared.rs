@@ -16,7 +16,7 @@ use super::left_kernel::gauge_or_farthest;
 use super::pins::{
     GAUGE_PINS, PinPositions, Pins, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of,
 };
-use super::scale::complete_gauge;
+use super::placing::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::{FreeSystem, Site};
 use super::{Choice as _, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
@@ -44,12 +44,13 @@ enum Values {
     Fixed(FixedSolve),
 }
 
-/// Solves for an embedding.
+/// Solves for an embedding once, by a linear method or the first rung of another. Nothing is proved of it:
+/// [`flatten`](super::flatten) goes on until it is.
 ///
 /// # Errors
 ///
 /// See [`Prepared::new`] and [`Prepared::solve`].
-pub fn flatten(
+pub fn solve_once(
     mesh: &DiskMesh,
     settings: &Settings,
     pins: &Pins,
@@ -155,6 +156,24 @@ impl Prepared {
     ///
     /// Pins that cannot be, a residual that refinement cannot bring down, or the caller's wish to stop.
     pub fn solve(&self, mesh: &DiskMesh, pins: &Pins, control: Control<'_>) -> Result<Solution, SolveError> {
+        let mut solution = self.solve_unplaced(mesh, pins, control)?;
+        if solution.gauge_completed {
+            let pins = if self.settings.method.uses_pins() { pins } else { &Pins::new() };
+            complete_gauge(mesh, &mut solution.embedding, pins, self.settings.size);
+            for (vertex, pin) in &mut solution.pins {
+                pin.target = solution.embedding[vertex];
+            }
+        }
+        Ok(solution)
+    }
+
+    /// The same where the solver's own places leave it, if fewer than two pins fix the similarity.
+    pub(super) fn solve_unplaced(
+        &self,
+        mesh: &DiskMesh,
+        pins: &Pins,
+        control: Control<'_>,
+    ) -> Result<Solution, SolveError> {
         let pins = if self.settings.method.uses_pins() { pins } else { &Pins::new() };
         check_pins(mesh, pins)?;
         control.enter(Phase::Solve)?;
@@ -162,12 +181,11 @@ impl Prepared {
         let held = self.settings.held(pins);
         let targets = self.own_places.clone().unwrap_or_else(|| targets_of(&held));
         let site = Site { mesh, system: &self.system };
-        let (mut embedding, residual) = match &self.values {
+        let (embedding, residual) = match &self.values {
             Values::Free(free) => free.solve(site, &targets)?,
             Values::Fixed(fixed) => fixed.solve(site, &targets)?,
         };
         let in_force = if self.own_places.is_some() {
-            complete_gauge(mesh, &mut embedding, &held, self.settings.size);
             fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))
         } else {
             held

@@ -13,7 +13,7 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
-use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, SolveError, is_one_to_one, is_planar};
+use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, Sheet, SolveError};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -44,6 +44,8 @@ pub(super) struct Relaxing {
     membrane: Option<Membrane>,
     /// Whether the last round gained next to nothing.
     pub(super) has_converged: bool,
+    /// How embeddings are written: what is proved.
+    sheet: Arc<Sheet>,
 }
 
 impl Relaxing {
@@ -53,7 +55,22 @@ impl Relaxing {
         let with_ears = Rest::with_ears(mesh);
         let progress = rest.progress(mesh, &embedding, 0.0);
         let inner = with_ears.as_ref().map_or(progress, |all| all.progress(mesh, &embedding, 0.0));
-        Self { rest, with_ears, pins: pins.clone(), embedding, progress, inner, membrane: None, has_converged: false }
+        Self {
+            rest,
+            with_ears,
+            pins: pins.clone(),
+            embedding,
+            progress,
+            inner,
+            membrane: None,
+            has_converged: false,
+            sheet: Arc::default(),
+        }
+    }
+
+    /// The same with embeddings proved as they are written on a sheet.
+    pub(super) fn written_on(self, sheet: Arc<Sheet>) -> Self {
+        Self { sheet, ..self }
     }
 
     /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
@@ -87,7 +104,10 @@ impl Relaxing {
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
         let inner = all.progress(mesh, &z, 0.0);
         let is_better = is_drawn || inner.energy <= before.energy;
-        let is_taken = is_better && if folded == 0 { is_planar(mesh, &z) } else { is_one_to_one(mesh, &z) };
+        // What the descent gains by size alone is lost again: an embedding is measured at its own size.
+        let gain = if is_drawn { gain } else { 1.0 - inner.energy / before.energy };
+        let is_taken =
+            is_better && if folded == 0 { self.sheet.is_planar(mesh, &z) } else { self.sheet.is_one_to_one(mesh, &z) };
         let is_unfolding = is_taken && folded > 0 && all.folded_count(mesh, &z) < folded;
         if is_taken {
             let progress = if self.with_ears.is_some() { self.rest.progress(mesh, &z, 0.0) } else { inner };

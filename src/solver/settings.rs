@@ -81,8 +81,8 @@ pub struct Settings {
     pub growth: Growth,
     /// How large the embedding is where the user's pins do not say.
     pub size: GaugeSize,
-    /// The most rounds of relaxing after a planar end; where nobody says, a few after rungs 4 and 5 and after the boundary
-    /// was bent, else none.
+    /// The most rounds of relaxing after a planar end; where nobody says, as many as `auto` needs until the embedding holds in
+    /// 32 bits at a moderate energy, and a few after rungs 4 and 5, the grid, and a boundary that was bent.
     pub relax_rounds: Option<usize>,
     /// Whether edges may be split where the constraints cannot be met otherwise.
     pub new_vertices: bool,

@@ -24,6 +24,7 @@
 
 use glam::DVec2;
 
+use super::pieces::{Piece, pieces_at};
 use super::plane_weights::{corner_weights, edge_radius};
 use super::shape_preserving::ring_weights;
 use super::weights::{Corner, three_point_weights};
@@ -46,7 +47,8 @@ pub struct EquationTerm {
 /// The equation of a vertex, and an embedding put into it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VertexEquation {
-    /// The neighbours, counter-clockwise; on the boundary from one boundary edge to the other.
+    /// The neighbours, counter-clockwise, on the boundary from one boundary edge to the other; then those along diagonals
+    /// of polygons.
     pub terms: Vec<EquationTerm>,
     /// Sum of the weights.
     pub weight_sum: f64,
@@ -119,13 +121,13 @@ pub fn equation_of_step(
     match (source, &step.virtual_boundary) {
         (WeightSource::StepBefore, _) => {
             let before = before.ok_or(NoEquation::StepBeforeMissing)?;
-            Ok((in_plane(&Fan::of_mesh(mesh, vertex), before, embedding), source))
+            Ok((in_plane(mesh, &Fan::of_mesh(mesh, vertex), before, embedding), source))
         }
         (WeightSource::Extended, Some(stages)) if stages.hull.contains(&vertex) => Err(NoEquation::Prescribed),
         (WeightSource::Extended, Some(stages)) if !stages.weights_of_before => Err(NoEquation::OtherWeights),
         (WeightSource::Extended, Some(stages)) => {
             let fan = Fan::of_extended(mesh, stages, vertex);
-            Ok((in_plane(&fan, &stages.before, &stages.solved), source))
+            Ok((in_plane(mesh, &fan, &stages.before, &stages.solved), source))
         }
         // Without stages the virtual boundary has solved the natural equations, some of the boundary pinned.
         (WeightSource::Surface | WeightSource::Extended, _) => {
@@ -135,21 +137,38 @@ pub fn equation_of_step(
     }
 }
 
-/// What lies around a vertex: the other two corners of each face, counter-clockwise.
+/// What lies around a vertex.
 struct Fan {
     vertex: VertexId,
-    corners: Vec<[VertexId; 2]>,
+    /// The other two corners of each triangle, and how much it counts.
+    corners: Vec<([VertexId; 2], f64)>,
+    /// The neighbours along edges, counter-clockwise; then those along diagonals of polygons.
+    neighbours: Vec<VertexId>,
+    /// The first and the last of the neighbours along edges at a boundary vertex, by their places.
+    ends: Option<[usize; 2]>,
 }
 
 impl Fan {
-    fn of_mesh(mesh: &DiskMesh, vertex: VertexId) -> Self {
+    /// With the faces alone: as polygons are cut.
+    fn of_faces(mesh: &DiskMesh, vertex: VertexId) -> Self {
         let inner = mesh.outgoing(vertex).filter(|&h| !mesh.is_outer(h));
-        Self { vertex, corners: inner.map(|h| [mesh.head(h), mesh.tail(mesh.previous(h))]).collect() }
+        Self::new(vertex, inner.map(|h| ([mesh.head(h), mesh.tail(mesh.previous(h))], 1.0)).collect())
+    }
+
+    /// With the mean over the fans of polygons, as weights are summed.
+    fn of_mesh(mesh: &DiskMesh, vertex: VertexId) -> Self {
+        let faces = Self::of_faces(mesh, vertex);
+        let around = |piece: Piece| {
+            let k = piece.corners.iter().position(|&corner| corner == vertex).unwrap_or(0);
+            ([1, 2].map(|ahead| piece.corners[(k + ahead) % 3]), piece.share)
+        };
+        let neighbours = mesh.links_from(vertex).map(|link| mesh.head(link)).collect();
+        Self { corners: pieces_at(mesh, vertex).into_iter().map(around).collect(), neighbours, ..faces }
     }
 
     /// With the faces of the outside, which close the fan of a boundary vertex that is not on the hull.
     fn of_extended(mesh: &DiskMesh, stages: &VirtualBoundary, vertex: VertexId) -> Self {
-        let Self { mut corners, .. } = Self::of_mesh(mesh, vertex);
+        let Self { mut corners, .. } = Self::of_faces(mesh, vertex);
         let from_pocket = |&[a, b, c]: &[VertexId; 3]| match vertex {
             v if v == a => Some([b, c]),
             v if v == b => Some([c, a]),
@@ -157,32 +176,32 @@ impl Fan {
             _ => None,
         };
         let mut outside: Vec<[VertexId; 2]> = stages.pockets.iter().filter_map(from_pocket).collect();
-        while let Some(&[_, last]) = corners.last()
+        while let Some(&([_, last], _)) = corners.last()
             && let Some(place) = outside.iter().position(|&[first, _]| first == last)
         {
-            corners.push(outside.swap_remove(place));
+            corners.push((outside.swap_remove(place), 1.0));
         }
-        Self { vertex, corners }
+        Self::new(vertex, corners)
     }
 
-    fn is_closed(&self) -> bool {
-        matches!((self.corners.first(), self.corners.last()), (Some([first, _]), Some([_, last])) if first == last)
-    }
-
-    /// The neighbours in turn, each once.
-    fn neighbours(&self) -> Vec<VertexId> {
-        let last = self.corners.last().filter(|_| !self.is_closed()).map(|&[_, last]| last);
-        self.corners.iter().map(|&[first, _]| first).chain(last).collect()
+    /// Of triangles in turn.
+    fn new(vertex: VertexId, corners: Vec<([VertexId; 2], f64)>) -> Self {
+        let is_closed = matches!((corners.first(), corners.last()), (Some(([a, _], _)), Some(([_, b], _))) if a == b);
+        let last = corners.last().filter(|_| !is_closed).map(|&([_, last], _)| last);
+        let neighbours: Vec<VertexId> = corners.iter().map(|&([first, _], _)| first).chain(last).collect();
+        let ends = (!is_closed).then(|| [0, neighbours.len() - 1]);
+        Self { vertex, corners, neighbours, ends }
     }
 
     /// Adds up what each corner gives to its two edges.
     fn sums(&self, shares: impl Fn(VertexId, VertexId) -> [f64; 2]) -> Vec<f64> {
-        let mut sums = vec![0.0; self.neighbours().len()];
-        let count = sums.len();
-        for (place, &[next, previous]) in self.corners.iter().enumerate() {
-            let [to_next, to_previous] = shares(next, previous);
-            sums[place] += to_next;
-            sums[(place + 1) % count] += to_previous;
+        let mut sums = vec![0.0; self.neighbours.len()];
+        for &(ends, part) in &self.corners {
+            for (end, share) in ends.into_iter().zip(shares(ends[0], ends[1])) {
+                if let Some(place) = self.neighbours.iter().position(|&v| v == end) {
+                    sums[place] += part * share;
+                }
+            }
         }
         sums
     }
@@ -190,16 +209,16 @@ impl Fan {
 
 /// Weights computed in space.
 fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: VertexId) -> VertexEquation {
-    let fan = Fan::of_mesh(mesh, vertex);
-    let neighbours = fan.neighbours();
+    let power = family.power();
+    let fan = if power.is_some() { Fan::of_mesh(mesh, vertex) } else { Fan::of_faces(mesh, vertex) };
     let centre = mesh.position(vertex);
-    let arms: Vec<_> = neighbours.iter().map(|&v| mesh.position(v) - centre).collect();
-    let Some(power) = family.power() else {
+    let arms: Vec<_> = fan.neighbours.iter().map(|&v| mesh.position(v) - centre).collect();
+    let Some(power) = power else {
+        let ones = vec![1.0; arms.len()];
         let weights = match family {
-            Family::ShapePreserving if fan.is_closed() => ring_weights(&arms).0,
-            _ => vec![1.0; neighbours.len()],
+            Family::ShapePreserving if fan.ends.is_none() => ring_weights(&arms).0,
+            _ => ones.clone(),
         };
-        let ones = vec![1.0; neighbours.len()];
         return put_together(&fan, embedding, [weights, ones.clone(), ones]);
     };
     let shares = |next, previous| {
@@ -212,17 +231,17 @@ fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: Ve
 }
 
 /// Mean-value weights of one embedding, another one put into them.
-fn in_plane(fan: &Fan, weights_from: &Embedding, embedding: &Embedding) -> VertexEquation {
+fn in_plane(mesh: &DiskMesh, fan: &Fan, weights_from: &Embedding, embedding: &Embedding) -> VertexEquation {
     let at = |v: VertexId| weights_from[v];
     let shares = |next, previous| corner_weights([fan.vertex, next, previous].map(at));
     let weights = fan.sums(shares);
-    let mut radii: Vec<f64> = fan.neighbours().iter().map(|&v| at(v).distance(at(fan.vertex))).collect();
+    let mut radii: Vec<f64> = fan.neighbours.iter().map(|&v| at(v).distance(at(fan.vertex))).collect();
     // The edges of the i-term are as long as their faces say.
-    if let (Some(&[next, previous]), Some(first)) = (fan.corners.first(), radii.first_mut()) {
-        *first = edge_radius([fan.vertex, next, previous].map(at), 0);
-    }
-    if let (false, Some(&[next, previous]), Some(last)) = (fan.is_closed(), fan.corners.last(), radii.last_mut()) {
-        *last = edge_radius([fan.vertex, next, previous].map(at), 2);
+    if let Some([first, last]) = fan.ends {
+        let faces = Fan::of_faces(mesh, fan.vertex).corners;
+        let corners = |face: &([VertexId; 2], f64)| [fan.vertex, face.0[0], face.0[1]].map(at);
+        radii[first] = edge_radius(corners(&faces[0]), 0);
+        radii[last] = edge_radius(corners(&faces[faces.len() - 1]), 2);
     }
     let ones = vec![1.0; weights.len()];
     put_together(fan, embedding, [weights, ones, radii])
@@ -230,7 +249,7 @@ fn in_plane(fan: &Fan, weights_from: &Embedding, embedding: &Embedding) -> Verte
 
 /// The equation from k, d and r of each neighbour.
 fn put_together(fan: &Fan, embedding: &Embedding, [weights, offsets, radii]: [Vec<f64>; 3]) -> VertexEquation {
-    let neighbours = fan.neighbours();
+    let neighbours = &fan.neighbours;
     let place = embedding[fan.vertex];
     let arms: Vec<DVec2> = neighbours.iter().map(|v| embedding[v] - place).collect();
     let weight_sum: f64 = weights.iter().sum();
@@ -240,11 +259,10 @@ fn put_together(fan: &Fan, embedding: &Embedding, [weights, offsets, radii]: [Ve
         .map(|(&neighbour, (&weight, &offset))| EquationTerm { neighbour, weight, offset, share: weight / weight_sum });
     let sum: DVec2 = weights.iter().zip(&arms).map(|(&k, &arm)| k * arm).sum();
     let turned = |place: usize| (offsets[place] / radii[place] * arms[place]).perp();
-    let last = neighbours.len() - 1;
-    let boundary_term = if fan.is_closed() { DVec2::ZERO } else { turned(last) - turned(0) };
+    let boundary_term = fan.ends.map(|[first, last]| turned(last) - turned(first));
     // An entry of the matrix is k, on the boundary's edges k ± i d/r.
     let size = |place: usize| {
-        let is_end = !fan.is_closed() && (place == 0 || place == last);
+        let is_end = fan.ends.is_some_and(|ends| ends.contains(&place));
         let turned = if is_end { offsets[place] / radii[place] } else { 0.0 };
         weights[place].hypot(turned) * arms[place].length()
     };
@@ -253,7 +271,7 @@ fn put_together(fan: &Fan, embedding: &Embedding, [weights, offsets, radii]: [Ve
         terms: terms.collect(),
         weight_sum,
         barycentre: place + sum / weight_sum,
-        offset_vector: (!fan.is_closed()).then(|| boundary_term / weight_sum),
-        residual: if whole > 0.0 { (sum + boundary_term).length() / whole } else { 0.0 },
+        offset_vector: boundary_term.map(|term| term / weight_sum),
+        residual: if whole > 0.0 { (sum + boundary_term.unwrap_or_default()).length() / whole } else { 0.0 },
     }
 }

@@ -202,7 +202,8 @@ fn texture_coordinates_that_make_no_disk_are_unusable() {
 /// Ctrl-C, sent to a process that this test started.
 #[cfg(target_os = "linux")]
 mod interrupt {
-    use std::process::{Child, Command};
+    use std::io::Write as _;
+    use std::process::{Child, Command, Stdio};
     use std::time::{Duration, Instant};
 
     use super::*;
@@ -269,6 +270,24 @@ mod interrupt {
                 }
             }
         }
+    }
+
+    #[test]
+    fn waiting_for_a_mesh_on_standard_input_is_interrupted() {
+        let program = Program::new();
+        program.write("out.json", "of an earlier run");
+        let mut command = program.command(&["flatten", "-", "-o", "out.obj", "--report", "out.json"]);
+        let mut child = command.stdin(Stdio::piped()).spawn().expect("the program starts");
+        // A mesh as far as it has come: it must not be taken for the whole.
+        let mut input = child.stdin.take().expect("a pipe");
+        input.write_all(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("the program reads");
+        interrupt(&child);
+        let start = Instant::now();
+        let run = Run::from(child.wait_with_output().expect("the program ends"));
+        drop(input);
+        assert_eq!(run.status, Some(130), "{run:?}");
+        assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+        assert!(program.files().is_empty(), "{:?}", program.files());
     }
 
     #[test]

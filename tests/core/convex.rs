@@ -6,8 +6,8 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::{
-    BoundaryShape, Control, Embedding, Family, Method, Pins, Prepared, Settings, flatten, hard_pins, shape_preserving,
-    verdict,
+    BoundaryShape, Control, Embedding, Family, Method, Pins, Prepared, Settings, hard_pins, shape_preserving,
+    solve_once, verdict,
 };
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -25,7 +25,7 @@ fn convex(shape: BoundaryShape, family: Family) -> Settings {
 }
 
 fn embed(mesh: &DiskMesh, settings: &Settings, name: &str) -> Embedding {
-    let solution = flatten(mesh, settings, &Pins::new(), Control::unattended())
+    let solution = solve_once(mesh, settings, &Pins::new(), Control::unattended())
         .unwrap_or_else(|error| panic!("{name}, {settings:?}: {error}"));
     assert!(
         solution.linear.unwrap().residual <= RESIDUAL,

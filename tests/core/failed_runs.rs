@@ -77,7 +77,8 @@ fn every_message_names_the_file_first() {
     for (name, text) in [("empty.obj", ""), ("mesh.stl", "solid\n"), ("bad.txt", "0 x y\n"), ("text.png", "none")] {
         program.write(name, text);
     }
-    let cases: [(&[&str], i32, &str); 8] = [
+    program.write("pins.txt", "0 0 0\n1 1 0\n");
+    let cases: [(&[&str], i32, &str); 11] = [
         (&["flatten", "missing.obj"], 3, "missing.obj: cannot be read: "),
         (&["flatten", "empty.obj"], 3, "empty.obj: the file has no faces; "),
         (&["flatten", "mesh.stl"], 3, "mesh.stl: format not read yet: STL; merge coincident vertices"),
@@ -86,6 +87,9 @@ fn every_message_names_the_file_first() {
         (&["flatten", "tent.obj", "--picture", "text.png"], 3, "text.png: the picture cannot be read: "),
         (&["flatten", "tent.obj", "-o", "no/out.obj"], 1, "no/out.obj: cannot be written: "),
         (&["flatten", "tent.obj", "--pin", "7:0,0"], 2, "tent.obj: vertex v7 is pinned"),
+        (&["flatten", "tent.obj", "--pin", "0:0,0", "--pin", "0:0,1"], 2, "tent.obj: vertex v0 is pinned twice"),
+        (&["flatten", "tent.obj", "--constraints", "pins.txt", "--pin", "1:1,1"], 2, "pins.txt: line 2: vertex v1"),
+        (&["flatten", "tent.obj", "--constraints", "pins.txt", "--pin", "2:1,0"], 2, "pins.txt: line 2: vertex v1"),
     ];
     for (arguments, status, words) in cases {
         let run = program.run(arguments).expect(status);

@@ -49,6 +49,7 @@ mod odd_obj;
 mod pins;
 mod pipes;
 mod places;
+mod placing;
 mod polygon;
 mod program;
 mod raster;

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::{
-    Control, Embedding, Family, Iteration, Method, Pin, Pins, Settings, Solution, SolveError, Treatment, flatten,
+    Control, Embedding, Family, Iteration, Method, Pin, Pins, Settings, Solution, SolveError, Treatment, solve_once,
 };
 use glam::DVec2;
 
@@ -18,7 +18,7 @@ const AGREE: f64 = 1e-9;
 const FAMILIES: [Family; 4] = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(0.5)];
 
 fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Solution {
-    flatten(mesh, settings, pins, Control::unattended()).unwrap()
+    solve_once(mesh, settings, pins, Control::unattended()).unwrap()
 }
 
 /// Every `step`th vertex, held as `hold` says.
@@ -162,6 +162,6 @@ fn thousands_of_pins_are_solved_for_in_good_time_and_stop_when_asked() {
     assert!(start.elapsed() < Duration::from_secs(120), "{:?}", start.elapsed());
     let cancel = std::sync::atomic::AtomicBool::new(false);
     let raise = |phase| cancel.store(phase == freebound::solver::Phase::Factor, std::sync::atomic::Ordering::Relaxed);
-    let stopped = flatten(&mesh, &settings, &pins, Control::new(&cancel, &raise));
+    let stopped = solve_once(&mesh, &settings, &pins, Control::new(&cancel, &raise));
     assert_eq!(stopped, Err(SolveError::Cancelled));
 }

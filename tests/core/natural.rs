@@ -9,8 +9,8 @@ use freebound::linalg::{Analysis, Kind, LinalgError};
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::{
-    Control, Embedding, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, fixed_pins, flatten,
-    gauge_pins, hard_pins, verdict,
+    Control, Embedding, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, fixed_pins, gauge_pins,
+    hard_pins, solve_once, verdict,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
@@ -65,7 +65,7 @@ fn bits(embedding: &Embedding) -> Vec<[u64; 2]> {
 fn conformal_flattens_all_disks_of_the_corpus_and_proves_all_but_one() {
     for entry in corpus_disks() {
         let mesh = entry.disk();
-        let solution = flatten(&mesh, &natural(Family::Conformal), &Pins::new(), Control::unattended()).unwrap();
+        let solution = solve_once(&mesh, &natural(Family::Conformal), &Pins::new(), Control::unattended()).unwrap();
         assert!(solution.embedding.iter().all(|z| z.is_finite()), "{}", entry.file);
         assert!(
             solution.linear.unwrap().residual <= RESIDUAL,
@@ -96,7 +96,7 @@ fn lscm_is_the_conformal_natural_boundary() {
         let mesh = entry.disk();
         let [lscm, natural] = [Method::Lscm, Method::Natural].map(|method| {
             let settings = Settings::new(method, Family::Conformal);
-            flatten(&mesh, &settings, &Pins::new(), Control::unattended()).unwrap().embedding
+            solve_once(&mesh, &settings, &Pins::new(), Control::unattended()).unwrap().embedding
         });
         let error = distance(&lscm, &natural);
         // The system of the corridors is so close to singular that the rounding of its entries alone, which the two
@@ -179,7 +179,7 @@ fn a_dense_solve_written_corner_by_corner_agrees() {
     for (name, mesh) in corpus.chain(built_in).filter(|(_, mesh)| mesh.vertex_count() <= DENSE_LIMIT) {
         let pins = fixed_pins(gauge_pins(&mesh));
         for settings in free_methods() {
-            let found = flatten(&mesh, &settings, &pins, Control::unattended()).unwrap().embedding;
+            let found = solve_once(&mesh, &settings, &pins, Control::unattended()).unwrap().embedding;
             let error = distance(&found, &dense_solution(&mesh, &settings, &pins));
             assert!(error <= 1e-9, "{name}, {settings:?}: {error:e}");
         }
@@ -231,7 +231,7 @@ fn the_free_unsymmetric_methods_solve_the_disks_of_the_corpus() {
     for entry in corpus_disks() {
         let mesh = entry.disk();
         for settings in families.into_iter().chain([levy]) {
-            let solved = flatten(&mesh, &settings, &Pins::new(), Control::unattended());
+            let solved = solve_once(&mesh, &settings, &Pins::new(), Control::unattended());
             if entry.file == CORRIDORS {
                 assert!(matches!(solved, Err(SolveError::Singular { .. })), "{settings:?}");
                 continue;
@@ -265,7 +265,7 @@ fn a_preparation_used_again_gives_the_bits_of_a_fresh_solve() {
         assert!(prepared.serves(&settings, &second));
         for pins in [&first, &second, &first] {
             let again = prepared.solve(&mesh, pins, Control::unattended()).unwrap();
-            let fresh = flatten(&mesh, &settings, pins, Control::unattended()).unwrap();
+            let fresh = solve_once(&mesh, &settings, pins, Control::unattended()).unwrap();
             assert_eq!(bits(&again.embedding), bits(&fresh.embedding), "{settings:?}");
             assert_eq!(
                 again.linear.unwrap().residual.to_bits(),
@@ -295,7 +295,7 @@ fn a_preparation_serves_only_its_own_settings_and_vertices() {
 fn two_runs_have_the_same_bits() {
     let mesh = face();
     for settings in free_methods() {
-        let [a, b] = [(); 2].map(|()| flatten(&mesh, &settings, &Pins::new(), Control::unattended()).unwrap());
+        let [a, b] = [(); 2].map(|()| solve_once(&mesh, &settings, &Pins::new(), Control::unattended()).unwrap());
         assert_eq!(bits(&a.embedding), bits(&b.embedding), "{settings:?}");
         assert_eq!(a.linear.unwrap().residual.to_bits(), b.linear.unwrap().residual.to_bits(), "{settings:?}");
     }
@@ -320,7 +320,7 @@ fn a_flag_raised_in_any_phase_stops_the_solve_there() {
     for settings in free_methods() {
         let phases = std::sync::Mutex::new(Vec::new());
         let listen = |phase| phases.lock().unwrap().push(phase);
-        flatten(&mesh, &settings, &Pins::new(), Control::new(&AtomicBool::new(false), &listen)).unwrap();
+        solve_once(&mesh, &settings, &Pins::new(), Control::new(&AtomicBool::new(false), &listen)).unwrap();
         let phases = phases.into_inner().unwrap();
         assert!(phases.len() >= 3, "{phases:?}");
         // A flag raised in the last phase may come too late.
@@ -329,7 +329,7 @@ fn a_flag_raised_in_any_phase_stops_the_solve_there() {
             let hear = |phase| {
                 raised.fetch_or(phase == *last, Ordering::Relaxed);
             };
-            let stopped = flatten(&mesh, &settings, &Pins::new(), Control::new(&raised, &hear)).unwrap_err();
+            let stopped = solve_once(&mesh, &settings, &Pins::new(), Control::new(&raised, &hear)).unwrap_err();
             assert_eq!(stopped, SolveError::Cancelled, "{settings:?}, raised while {}", last.words());
         }
     }

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{
-    BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, farthest_pair, flatten, gauge_pins,
-    hard_pins, to_true_area, to_unit_square,
+    BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, farthest_pair, gauge_pins,
+    hard_pins, solve_once, to_true_area, to_unit_square,
 };
 use glam::{DVec2, DVec3};
 
@@ -25,7 +25,7 @@ fn pins(list: &[(u32, [f64; 2])]) -> Pins {
 }
 
 fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Result<Embedding, SolveError> {
-    flatten(mesh, settings, pins, Control::unattended()).map(|solution| solution.embedding)
+    solve_once(mesh, settings, pins, Control::unattended()).map(|solution| solution.embedding)
 }
 
 /// Total area of the embedding's faces, turned ones counted as they lie.
@@ -43,7 +43,7 @@ fn pins_are_met_bit_for_bit() {
     let mesh = dome();
     let wanted = pins(&[(3, [0.1, -0.7]), (17, [1e-17, 2.0 / 3.0]), (40, [-3.3, 1.1]), (55, [-0.0, 5e-324])]);
     for settings in free_methods() {
-        let solution = flatten(&mesh, &settings, &wanted, Control::unattended()).unwrap();
+        let solution = solve_once(&mesh, &settings, &wanted, Control::unattended()).unwrap();
         for (vertex, target) in &wanted {
             let found = solution.embedding[vertex];
             assert_eq!(
@@ -63,7 +63,7 @@ fn one_pin_moves_the_default_solution_onto_its_target() {
     let (vertex, target) = (VertexId::new(23), DVec2::new(7.25, -3.5));
     for settings in free_methods() {
         let free = solve(&mesh, &settings, &Pins::new()).unwrap();
-        let pinned = flatten(&mesh, &settings, &hard_pins([(vertex, target)]), Control::unattended()).unwrap();
+        let pinned = solve_once(&mesh, &settings, &hard_pins([(vertex, target)]), Control::unattended()).unwrap();
         let shift = target - free[vertex.index()];
         assert_eq!(pinned.embedding[vertex], target);
         assert!(pinned.gauge_completed);

@@ -6,7 +6,9 @@ use std::f64::consts::PI;
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Embedding, Family, Method, Pins, Settings, equations, flatten, hard_pins, verdict};
+use freebound::solver::{
+    Control, Embedding, Family, Method, Pins, Settings, equations, hard_pins, solve_once, verdict,
+};
 use glam::{DVec2, DVec3};
 use nalgebra::DMatrix;
 use num_complex::Complex;
@@ -43,7 +45,7 @@ fn distance_up_to_similarity(plane: &[DVec2], embedding: &Embedding) -> f64 {
 }
 
 fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins, name: &str) -> Embedding {
-    flatten(mesh, settings, pins, Control::unattended())
+    solve_once(mesh, settings, pins, Control::unattended())
         .unwrap_or_else(|error| panic!("{name}, {settings:?}: {error}"))
         .embedding
 }

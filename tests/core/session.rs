@@ -8,7 +8,7 @@ use freebound::examples::Example;
 use freebound::io::{OutputFit, OutputKind, Target, read_mesh};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document, Place, RecentFiles, SaveRequest, Session, Severity, StopConditions};
-use freebound::solver::{BoundaryShape, Control, Family, Method, Settings, flatten};
+use freebound::solver::{BoundaryShape, Control, Family, Method, Settings, solve_once};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -108,7 +108,7 @@ fn a_drag_ends_where_a_fresh_solve_would() {
     assert!(session.is_current());
     let disk = session.model().expect("open").disk().expect("a disk");
     let document = session.document();
-    let fresh = flatten(disk, &document.settings, &document.pins(), Control::unattended()).expect("solvable");
+    let fresh = solve_once(disk, &document.settings, &document.pins(), Control::unattended()).expect("solvable");
     assert_eq!(fresh.embedding, session.outcome().expect("solved").step.solution.embedding);
 }
 

@@ -6,7 +6,7 @@ use freebound::examples::Example;
 use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Session};
-use freebound::solver::{Control, Embedding, Hold, flatten, verdict};
+use freebound::solver::{Control, Embedding, Hold, solve_once, verdict};
 use glam::DVec2;
 
 use crate::session::{opened, settle, settled};
@@ -29,7 +29,7 @@ fn with_constraints() -> Session {
 fn first_solve(session: &Session) -> Embedding {
     let document = session.document();
     let disk = session.model().expect("open").disk().expect("a disk");
-    flatten(disk, &document.problem().settings, &document.pins(), Control::unattended()).unwrap().embedding
+    solve_once(disk, &document.problem().settings, &document.pins(), Control::unattended()).unwrap().embedding
 }
 
 #[test]

@@ -6,8 +6,8 @@ use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::plane_weights::natural_in_plane;
 use freebound::solver::{
-    Control, Embedding, Family, Iteration, Method, Pin, Pins, Prepared, Settings, SolveError, Treatment, flatten,
-    hard_pins, largest_move,
+    Control, Embedding, Family, Iteration, Method, Pin, Pins, Prepared, Settings, SolveError, Treatment, hard_pins,
+    largest_move, solve_once,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
@@ -113,7 +113,7 @@ pub(crate) fn mixed(count: u32, weights: impl Fn(&mut Random) -> f64, mesh: &Dis
 }
 
 fn solve(mesh: &DiskMesh, settings: &Settings, pins: &Pins) -> Embedding {
-    flatten(mesh, settings, pins, Control::unattended()).unwrap().embedding
+    solve_once(mesh, settings, pins, Control::unattended()).unwrap().embedding
 }
 
 pub(crate) fn apart(a: &Embedding, b: &Embedding) -> f64 {
@@ -247,7 +247,7 @@ fn the_face_takes_its_landmarks_with_any_weight() {
             let landmarks = Example::Face.landmarks();
             let pins: Pins = landmarks.iter().map(|l| (l.vertex, Pin::weighted(l.target.into(), weight))).collect();
             let settings = Settings::new(Method::Natural, family);
-            let solved = flatten(&mesh, &settings, &pins, Control::unattended());
+            let solved = solve_once(&mesh, &settings, &pins, Control::unattended());
             let residual = solved.map(|solution| solution.linear.unwrap().residual);
             assert!(residual.as_ref().is_ok_and(|&residual| residual < 1e-12), "{weight} {family}: {residual:?}");
         }
@@ -302,7 +302,7 @@ fn weights_that_pull_nowhere_are_refused_and_weighted_constraints_may_share_a_pl
     let settings = Settings::default();
     for weight in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let pins = Pins::from([(v(1), Pin::hard(DVec2::ZERO)), (v(2), Pin::weighted(DVec2::X, weight))]);
-        let error = flatten(&mesh, &settings, &pins, Control::unattended()).unwrap_err();
+        let error = solve_once(&mesh, &settings, &pins, Control::unattended()).unwrap_err();
         assert!(matches!(error, SolveError::WeightNotPositive { vertex, .. } if vertex == v(2)), "{error}");
     }
     let shared = Pins::from([
@@ -311,7 +311,7 @@ fn weights_that_pull_nowhere_are_refused_and_weighted_constraints_may_share_a_pl
         (v(30), Pin::hard(DVec2::X)),
         (v(31), Pin::weighted(DVec2::ZERO, 1.0)),
     ]);
-    assert!(flatten(&mesh, &settings, &shared, Control::unattended()).is_ok());
+    assert!(solve_once(&mesh, &settings, &shared, Control::unattended()).is_ok());
 }
 
 #[test]

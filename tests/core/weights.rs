@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::solver::weights::{Corner, CornerWeights, three_point_weights};
-use freebound::solver::{Control, Family, Method, Pins, Settings, flatten};
+use freebound::solver::{Control, Family, Method, Pins, Settings, solve_once};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
@@ -170,7 +170,7 @@ fn a_scaled_mesh_has_the_same_embedding_scaled() {
     let mesh = bumpy(1.0);
     for settings in free_methods() {
         let flat = |mesh: &DiskMesh| {
-            flatten(mesh, &settings, &Pins::new(), Control::unattended())
+            solve_once(mesh, &settings, &Pins::new(), Control::unattended())
                 .unwrap_or_else(|error| panic!("{settings:?}: {error}"))
                 .embedding
         };

@@ -123,7 +123,7 @@ impl Solving {
             running.set_goal(|_| goal);
             return;
         }
-        let run = Ladder::new(task.problem.settings, task.problem.pins()).with_kept(&self.kept);
+        let run = task.problem.ladder().with_kept(&self.kept);
         self.spawn(task, run, goal);
     }
 

@@ -5,9 +5,9 @@
 //! ones' boundary is simple far more often, and stays free.
 
 use super::Candidate;
-use super::rung::{Failure, Footing, Latest, Notes, Rung};
+use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
-use crate::solver::{Control, Family, Method, Pins, Settings, flatten};
+use crate::solver::{Control, Family, Method, Pins, Settings, solve_once};
 
 #[derive(Debug, Default)]
 pub(super) struct Again {
@@ -17,13 +17,12 @@ pub(super) struct Again {
 impl Rung for Again {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let settings = Settings { size: from.task.settings.size, ..Settings::new(Method::Natural, Family::default()) };
-        let mut solution = flatten(from.mesh, &settings, &Pins::new(), control)
+        let mut solution = solve_once(from.mesh, &settings, &Pins::new(), control)
             .map_err(|error| Failure::of("starting again", error))?;
         self.is_done = true;
-        let mut notes = Notes::default();
-        notes.say("started again with conformal weights and the farthest boundary vertices as pins".to_owned());
-        from.task.fit(from.mesh, &mut solution, &mut notes);
-        Ok(Candidate { note: notes.take(), ..Candidate::new(Method::Natural, settings.family, solution) })
+        solution.pins = Pins::new();
+        let note = "started again with conformal weights and the farthest boundary vertices as pins".to_owned();
+        Ok(Candidate { note: Some(note), ..Candidate::new(Method::Natural, settings.family, solution) })
     }
 
     fn has_more(&self, task: &Task, latest: Option<&Latest>) -> bool {

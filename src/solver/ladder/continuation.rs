@@ -3,20 +3,22 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use glam::DVec2;
-
 use super::plan::PlanarStart;
 use super::rung::{Failure, Footing, Handover, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Ending, Step};
-use crate::geom::Similarity;
 use crate::mesh::DiskMesh;
 use crate::solver::continuation::Continuation;
-use crate::solver::{Control, Embedding, Method, Pins, SolveError, is_one_to_one};
+use crate::solver::placing::Placing;
+use crate::solver::relaxing::Relaxing;
+use crate::solver::{Control, Embedding, Method, Pins, SolveError};
 
 /// Rounds of relaxing that follow: the first answer is not the best. More where springs have yet to pull.
 const ROUNDS: usize = 3;
 const ROUNDS_WITH_SPRINGS: usize = 30;
+
+/// Rounds of relaxing at most until a planar start can be moved to where it fits the constraints.
+const ROUNDS_BEFORE_FITTING: usize = 30;
 
 fn rounds_after(task: &Task) -> usize {
     if task.held().values().any(|pin| !pin.hold.is_exact()) { ROUNDS_WITH_SPRINGS } else { ROUNDS }
@@ -31,7 +33,8 @@ pub(super) struct Fit {
 }
 
 impl Rung for Fit {
-    fn step(&mut self, Footing { task, mesh, latest }: Footing<'_>, _: Control<'_>) -> Result<Candidate, Failure> {
+    fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
+        let Footing { task, mesh, latest } = from;
         let began = Instant::now();
         let of_latest = || {
             let embedding = latest?.embedding.clone();
@@ -39,7 +42,7 @@ impl Rung for Fit {
         };
         let start = self.start.clone().or_else(of_latest).ok_or(SolveError::NotPlanar)?;
         let held = task.held();
-        let embedding = fitted(mesh, start.embedding.clone(), &held);
+        let embedding = fitted(task, mesh, &start.embedding, control)?;
         self.is_done = true;
         let progress = Continuation::new(mesh, embedding.clone(), &held).progress(mesh);
         let candidate = Candidate::one_to_one(Method::Continuation, embedding, &held);
@@ -55,18 +58,26 @@ impl Rung for Fit {
     }
 }
 
-/// An embedding moved by the similarity that fits the pins best; by a shift alone where none does, or where rounding
-/// would fold it; not at all where even that would.
-fn fitted(mesh: &DiskMesh, embedding: Embedding, pins: &Pins) -> Embedding {
-    let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v], pin.target]).collect();
-    let holds = |embedding: &Embedding| is_one_to_one(mesh, embedding);
-    let fit = |similarity: Similarity| embedding.iter().map(|&z| similarity.apply(z)).collect::<Embedding>();
-    if let Some(embedding) = Similarity::fitting(&pairs).map(fit).filter(holds) {
-        return embedding;
+/// An embedding where it fits the pins best. One that would fold there is relaxed until it does not; where that helps
+/// no more, it stays where it lies.
+fn fitted(task: &Task, mesh: &DiskMesh, start: &Embedding, control: Control<'_>) -> Result<Embedding, SolveError> {
+    let held = task.held();
+    let fit = |embedding: &Embedding| {
+        Placing::fitting(embedding, &held).best(embedding, |placed| task.sheet.is_one_to_one(mesh, placed))
+    };
+    let mut placed = fit(start);
+    let mut relaxing = Relaxing::new(mesh, start.clone(), &Pins::new());
+    for _ in 0..ROUNDS_BEFORE_FITTING {
+        if placed.is_as_wished || relaxing.has_converged {
+            break;
+        }
+        match relaxing.round(mesh, control) {
+            Ok(relaxed) => placed = fit(&relaxed.solution.embedding),
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+            Err(_) => break,
+        }
     }
-    let shift = pairs.iter().map(|[is, wanted]| *wanted - *is).sum::<DVec2>() / pairs.len().max(1) as f64;
-    let shifted = embedding.iter().map(|&z| z + shift).collect::<Embedding>();
-    if holds(&shifted) { shifted } else { embedding }
+    Ok(placed.embedding)
 }
 
 #[derive(Debug, Default)]
@@ -89,7 +100,8 @@ impl Rung for Continue {
         let (began, held) = (Instant::now(), task.held());
         if let Stage::Begin = self.stage {
             let start = latest.ok_or(SolveError::NotPlanar)?.embedding.clone();
-            self.stage = Stage::UnderWay(Box::new(Continuation::new(mesh, start, &held)));
+            let sheet = Arc::clone(&task.sheet);
+            self.stage = Stage::UnderWay(Box::new(Continuation::new(mesh, start, &held).written_on(sheet)));
         }
         let Stage::UnderWay(continuation) = &mut self.stage else { return Err(SolveError::Unmet.into()) };
         match continuation.step(mesh, control) {

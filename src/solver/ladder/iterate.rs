@@ -3,7 +3,6 @@
 use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Ending, Step, gauge_in};
-use crate::solver::scale::complete_gauge;
 use crate::solver::{Control, Family, Iteration, Method, SolveError};
 
 /// The most iterations of a ladder that has other ways to the constraints.
@@ -45,7 +44,7 @@ impl Iterate {
     fn iterated(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
         let Footing { task, mesh, latest } = from;
         let Some(latest) = latest else { return Err(SolveError::Cancelled) };
-        let Task { settings, pins: asked } = task;
+        let Task { settings, pins: asked, .. } = task;
         let pins = if latest.pins.len() >= 2 { latest.pins.clone() } else { gauge_in(mesh, &latest.embedding) };
         if self.iteration.as_ref().is_none_or(|iteration| !iteration.serves(&pins)) {
             let treatment = settings.treatment_on(Method::Iterate, asked.len());
@@ -55,13 +54,6 @@ impl Iterate {
         let mut solution = iteration.step(mesh, &latest.embedding, control)?;
         if self.taken == 0 {
             solution.seconds.analyze = iteration.analyze_seconds;
-        }
-        if task.has_open_gauge() {
-            complete_gauge(mesh, &mut solution.embedding, asked, settings.size);
-            solution.gauge_completed = true;
-            for (vertex, pin) in &mut solution.pins {
-                pin.target = solution.embedding[vertex];
-            }
         }
         Ok(Candidate::new(Method::Iterate, Family::MeanValue, solution))
     }

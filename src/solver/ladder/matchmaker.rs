@@ -9,7 +9,7 @@ use super::{Candidate, Ending, Step};
 use crate::mesh::DiskMesh;
 use crate::solver::matchmaker::{Matched, matched, without_needless_vertices};
 use crate::solver::relaxing::Relaxing;
-use crate::solver::{Control, Method, Pins, SolveError};
+use crate::solver::{Control, Method, SolveError};
 
 /// Rounds of relaxing before new vertices are looked at again, and how often they are at most.
 const ROUNDS_BEFORE_REMOVAL: usize = 10;
@@ -39,15 +39,23 @@ enum Stage {
 impl Rung for Match {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let Footing { task, mesh, latest } = from;
-        let (began, held) = (Instant::now(), task.held());
+        let (began, held, sheet) = (Instant::now(), task.held(), &*task.sheet);
+        // What lies on one line, or folds, is judged in the numbers that are written.
+        let bare = |written: Matched| {
+            let Matched { refinement, embedding } = without_needless_vertices(mesh, written);
+            let embedding = if sheet.is_plain() { embedding } else { sheet.in_plane(&embedding, &held) };
+            Matched { refinement, embedding }
+        };
         let (found, looks_left) = match &self.stage {
             Stage::Begin => {
                 let latest = latest.ok_or(SolveError::NotPlanar)?;
                 let start = latest.onward.as_ref().unwrap_or(&latest.embedding);
-                (without_needless_vertices(mesh, matched(mesh, start, &held, control)?), REMOVALS)
+                let pins = sheet.written_pins(&held);
+                (bare(matched(mesh, &sheet.written(start), &pins, control)?), REMOVALS)
             }
             Stage::Refined { found: before, looks_left } => {
-                let found = without_needless_vertices(mesh, relaxed(before, &held, control)?);
+                let Matched { refinement, embedding } = relaxed(before, task, control)?;
+                let found = bare(Matched { embedding: sheet.written(&embedding).into_owned(), refinement });
                 let count = before.refinement.new_vertices().len();
                 let taken_out = count - found.refinement.new_vertices().len();
                 let is_worthwhile = taken_out as f64 > WORTHWHILE * count as f64;
@@ -79,9 +87,10 @@ impl Rung for Match {
 }
 
 /// The same with its embedding relaxed.
-fn relaxed(found: &Matched, pins: &Pins, control: Control<'_>) -> Result<Matched, SolveError> {
+fn relaxed(found: &Matched, task: &Task, control: Control<'_>) -> Result<Matched, SolveError> {
     let disk: &DiskMesh = found.refinement.disk();
-    let mut relaxing = Relaxing::new(disk, found.embedding.clone(), pins);
+    let sheet = Arc::clone(&task.sheet);
+    let mut relaxing = Relaxing::new(disk, found.embedding.clone(), &task.held()).written_on(sheet);
     let mut embedding = found.embedding.clone();
     for _ in 0..ROUNDS_BEFORE_REMOVAL {
         embedding = relaxing.round(disk, control)?.solution.embedding;

@@ -14,7 +14,7 @@
 //! | `schnyder.rs` | the end of rung 3: a grid drawing, planar by theorem |
 //! | `continuation.rs` | rung 4: a planar start fitted to the constraints, then one-to-one on the way to them |
 //! | `matchmaker.rs` | rung 5: new vertices |
-//! | `relax.rs` | what follows: lower distortion, convex polygons |
+//! | `relax.rs` | what follows: lower distortion, convex polygons; `auto` goes on until the embedding serves |
 //! | `cut.rs` | what follows: polygons that cannot be convex, cut into triangles |
 //!
 //! A ladder is asked for one step at a time, so that it can be watched, paused and taken on by hand. A step that is
@@ -41,9 +41,13 @@ pub use self::plan::{Kept, PlanarStart};
 pub use self::step::{Candidate, Progress, Step, largest_move};
 
 use self::plan::{Aim, Plan};
+use self::relax::Rounds;
 use self::rung::{Failure, Footing, Latest, Notes};
 use self::task::Task;
-use super::{Control, Embedding, Method, Phase, Pins, Settings, SolveError, fixed_pins, gauge_pins, verdict};
+use super::rest::Rest;
+use super::{
+    Control, Embedding, Method, Phase, Pins, Settings, Sheet, SolveError, Verdict, fixed_pins, gauge_pins, verdict,
+};
 use crate::mesh::DiskMesh;
 
 /// Why a ladder has come to its end.
@@ -76,9 +80,17 @@ pub struct Ladder {
 impl Ladder {
     /// A ladder that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
-        let task = Arc::new(Task::new(settings, pins));
+        let task = Arc::new(Task::new(settings, pins, Arc::default()));
         let plan = Plan::new(&task, &Kept::default());
         Self { task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
+    }
+
+    /// The same with every step proved in the numbers that are written of it, not in those of the plane.
+    #[must_use]
+    pub fn written_on(self, sheet: Sheet) -> Self {
+        let Task { settings, pins, .. } = &*self.task;
+        let task = Arc::new(Task::new(*settings, pins.clone(), Arc::new(sheet)));
+        Self { plan: Plan::new(&task, &Kept::default()), task, ..self }
     }
 
     /// The same with what earlier ladders on the mesh have computed, used where it serves.
@@ -172,7 +184,7 @@ impl Ladder {
         if !self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one) {
             return Err(SolveError::NotPlanar);
         }
-        self.plan.part_mut().relax.begin(rounds);
+        self.plan.part_mut().relax.begin(Rounds { always: rounds, until_it_serves: 0 });
         self.ending = (rounds == 0).then_some(Ending::Planar);
         Ok(())
     }
@@ -226,13 +238,26 @@ impl Ladder {
     fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Step {
         control.enter(Phase::Verify).ok();
         let start = Instant::now();
-        let verdict = verdict(candidate.mesh(mesh), &candidate.solution.embedding);
+        let task = Arc::clone(&self.plan.part().task);
+        let refinement = candidate.refinement.clone();
+        let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
+        let placing = task.place(disk, &mut candidate);
+        let mut verdict = verdict_of(&task, mesh, &candidate);
+        if !verdict.planar || !task.are_met(&candidate.solution.embedding) {
+            let is_kept = self.keep_what_is_proved(&mut candidate);
+            verdict = if is_kept { verdict_of(&task, mesh, &candidate) } else { verdict };
+        }
+        if candidate.progress.is_none() && verdict.planar && self.plan.part().rounds_until_it_serves() > 0 {
+            let of = candidate.mesh(mesh);
+            candidate.progress = Some(Rest::new(of).progress(of, &candidate.solution.embedding, 0.0));
+        }
         let verify_seconds = start.elapsed().as_secs_f64();
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
         let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
         let max_move = self.latest.as_ref().map(moved);
         self.notes.say(candidate.note.take());
+        self.notes.say(placing);
         candidate.note = self.notes.take();
         let set_aside = match self.plan.part().aim {
             Aim::Constraints => Pins::new(),
@@ -244,6 +269,18 @@ impl Ladder {
         Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside }
     }
 
+    /// Gives back the embedding before a round of relaxing, where that was all that is asked for and this is not.
+    /// Returns whether it did.
+    fn keep_what_is_proved(&self, candidate: &mut Candidate) -> bool {
+        let is_relaxed = candidate.rung == Method::Relax && !self.plan.part().task.is_constrained();
+        let Some(latest) = self.latest.as_ref().filter(|latest| is_relaxed && latest.is_solved) else { return false };
+        candidate.solution.embedding.clone_from(&latest.embedding);
+        candidate.solution.pins.clone_from(&latest.pins);
+        (candidate.outside, candidate.progress) = (None, None);
+        candidate.note = Some("the relaxed embedding would fold in its place: that before is kept".to_owned());
+        true
+    }
+
     /// Remembers a step and decides whether the method has ended.
     fn take_in(&mut self, step: &Step) {
         self.step_count += 1;
@@ -251,7 +288,8 @@ impl Ladder {
         // A mirror image is one-to-one, but not what the ladder is for.
         let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
         let is_met = part.aim == Aim::PlanarStart || step.unmet().is_empty();
-        let is_solved_for_faces = step.verdict.is_one_to_one() && is_upright && is_met;
+        let is_proved = step.verdict.is_one_to_one() && is_upright;
+        let is_solved_for_faces = is_proved && is_met;
         // The way from a planar start to the constraints keeps no polygon convex: that follows.
         let is_solved = is_solved_for_faces && (step.verdict.planar || part.aim == Aim::PlanarStart);
         self.latest = Some(Latest {
@@ -261,6 +299,7 @@ impl Ladder {
             has_simple_boundary: step.has_simple_boundary(),
             is_one_to_one: step.verdict.is_one_to_one(),
             is_solved,
+            is_unplaced: is_proved && !is_met && !part.task.is_constrained(),
             is_solved_but_for_polygons: is_solved_for_faces && !is_solved,
             refinement: step.refinement.clone(),
         });
@@ -275,6 +314,11 @@ impl Ladder {
         }
         Some(if latest.is_some_and(|latest| latest.is_solved) { Ending::Planar } else { part.ending() })
     }
+}
+
+/// The verdict on a candidate as it is written.
+fn verdict_of(task: &Task, mesh: &DiskMesh, candidate: &Candidate) -> Verdict {
+    verdict(candidate.mesh(mesh), &task.sheet.written(&candidate.solution.embedding))
 }
 
 /// The default gauge pins where they lie in an embedding.

@@ -15,13 +15,13 @@ pub(super) struct Natural {
 
 impl Rung for Natural {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
-        let Task { settings, pins } = from.task;
+        let Task { settings, pins, .. } = from.task;
         let prepared = match self.prepared.take().filter(|prepared| prepared.serves(settings, pins)) {
             Some(prepared) => prepared,
             None => Arc::new(Prepared::new(from.mesh, settings, pins, control).map_err(failure)?),
         };
         self.prepared = Some(Arc::clone(&prepared));
-        let solution = prepared.solve(from.mesh, pins, control).map_err(failure)?;
+        let solution = prepared.solve_unplaced(from.mesh, pins, control).map_err(failure)?;
         let rung = match settings.method {
             Method::Auto | Method::Iterate | Method::VirtualBoundary => Method::Natural,
             other => other,

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
 use super::cut::Cut;
-use super::relax::Relax;
+use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
@@ -35,6 +35,9 @@ const CONTINUED: Flights = &[&[Fit, Continuation]];
 const MATCHED: Flights = &[&[Fit, Matchmaker]];
 /// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
 const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
+
+/// The most rounds of relaxing until a planar embedding serves.
+const ROUNDS_UNTIL_IT_SERVES: usize = 60;
 
 /// Rounds of relaxing by which polygons become convex.
 const ROUNDS_TO_CONVEX: usize = 30;
@@ -106,7 +109,10 @@ impl Plan {
         let kept = Kept { planar_start, ..kept.clone() };
         let part = |flights| Part::new(task, Aim::Constraints, flights, &kept);
         let unconstrained = Settings { size: task.settings.size, ..Settings::default() };
-        let start = || Part::new(&Arc::new(Task::new(unconstrained, Pins::new())), Aim::PlanarStart, LADDER, &kept);
+        let start = || {
+            let task = Task::new(unconstrained, Pins::new(), Arc::clone(&task.sheet));
+            Part::new(&Arc::new(task), Aim::PlanarStart, LADDER, &kept)
+        };
         let from_start = |flights| kept.planar_start.is_none().then(start).into_iter().chain([part(flights)]);
         let parts = match task.settings.method {
             Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
@@ -214,9 +220,16 @@ impl Part {
 
     /// What takes the next step; none where the part is at its end.
     pub(super) fn next(&self, latest: Option<&Latest>) -> Option<Place> {
+        let relax = || self.relax.has_more(&self.task, latest).then_some(Place::Relax);
         if latest.is_some_and(|latest| latest.is_solved) {
             let improves = self.rung(self.at).improves().then_some(Place::Rung(self.at));
-            return improves.or_else(|| self.relax.has_more(&self.task, latest).then_some(Place::Relax));
+            return improves.or_else(relax).or_else(|| self.drawing().filter(|_| self.is_too_fine()).map(Place::Rung));
+        }
+        // What is too fine for its place may fit there once it has relaxed.
+        if latest.is_some_and(|latest| latest.is_unplaced)
+            && let Some(place) = relax()
+        {
+            return Some(place);
         }
         if latest.is_some_and(|latest| latest.is_solved_but_for_polygons) {
             let relaxes = self.relax.has_more(&self.task, latest).then_some(Place::Relax);
@@ -235,6 +248,18 @@ impl Part {
             has_stepped = false;
         }
         None
+    }
+
+    /// Whether a planar embedding is too fine to serve, however much it is relaxed.
+    fn is_too_fine(&self) -> bool {
+        self.rounds_until_it_serves() > 0 && self.relax.is_too_fine()
+    }
+
+    /// The grid drawing, where the part has one that is still to come: no face of it is fine.
+    fn drawing(&self) -> Option<At> {
+        let flight = self.flights.iter().position(|flight| flight[0] == Schnyder)?;
+        let at = At { flight, rung: 0 };
+        self.rung(at).has_more(&self.task, None).then_some(at)
     }
 
     /// Goes to what takes the next step.
@@ -282,8 +307,17 @@ impl Part {
                 let to_convex = if keeps_concave { 0 } else { ROUNDS_TO_CONVEX };
                 self.rung(self.at).relax_rounds_after(&self.task, step).max(to_convex)
             };
-            self.relax.begin(self.task.settings.relax_rounds.unwrap_or_else(own));
+            let always = self.task.settings.relax_rounds.unwrap_or_else(own);
+            self.relax.begin(Rounds { always, until_it_serves: self.rounds_until_it_serves() });
+            self.relax.look_at_start(step);
         }
+    }
+
+    /// Whether a planar end is relaxed until it serves, and by how many rounds at most.
+    pub(super) fn rounds_until_it_serves(&self) -> usize {
+        let settings = &self.task.settings;
+        let is_wanted = settings.method == Method::Auto && settings.relax_rounds.is_none();
+        if is_wanted { ROUNDS_UNTIL_IT_SERVES } else { 0 }
     }
 
     /// Why the ladder ends where this was its last part, and it is not solved.

@@ -1,30 +1,84 @@
 //! What follows a planar embedding: rounds of relaxing, each of lower distortion.
+//!
+//! `auto` goes on with them until the embedding *serves*: until it holds in 32 bits, as most programs read it, and its
+//! energy is moderate, so that a picture on it keeps some texels everywhere.
 
 use std::sync::Arc;
 use std::time::Instant;
 
-use glam::DVec2;
-
 use super::rung::{Failure, Footing, Handover, Latest, Rung};
 use super::task::Task;
-use super::{Candidate, Step, gauge_in};
-use crate::geom::Similarity;
-use crate::mesh::DiskMesh;
+use super::{Candidate, Step};
 use crate::solver::relaxing::Relaxing;
-use crate::solver::scale::complete_gauge;
-use crate::solver::{Control, Outside, Pins, SolveError};
+use crate::solver::{Control, Pins, SolveError};
+
+/// A mean symmetric Dirichlet energy up to this is moderate; 4 is the least.
+const MODERATE_ENERGY: f64 = 20.0;
+
+/// An embedding is far from the origin where it is so many of its sizes away: there it has fewer digits.
+const FAR: f64 = 8.0;
+
+/// How many rounds may follow.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Rounds {
+    /// Whatever they come to.
+    pub(super) always: usize,
+    /// As long as the embedding does not serve.
+    pub(super) until_it_serves: usize,
+}
 
 #[derive(Debug, Default)]
 pub(super) struct Relax {
     relaxing: Option<Relaxing>,
     /// Rounds that may still follow.
-    rounds_left: usize,
+    left: Rounds,
+    /// Why the latest embedding does not serve.
+    lack: Option<Lack>,
+}
+
+/// What an embedding lacks to serve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Lack {
+    /// It folds in 32 bits; whether that is because it lies far from the origin.
+    Digits { is_far: bool },
+    /// Its energy is so high.
+    Energy(f64),
+}
+
+impl Lack {
+    /// What a step lacks; the energy is no matter where it only begins a way to constraints.
+    fn of(step: &Step) -> Option<Self> {
+        if !step.verdict.holds_in_f32 {
+            let bounds = step.solution.embedding.bounds();
+            let is_far = bounds.middle().abs().max_element() > FAR * bounds.size().max_element();
+            return Some(Self::Digits { is_far });
+        }
+        let energy = step.progress.filter(|_| !step.is_of_planar_start()).map(|progress| progress.energy);
+        energy.filter(|&energy| energy > MODERATE_ENERGY).map(Self::Energy)
+    }
+
+    fn words(self) -> String {
+        match self {
+            Self::Digits { .. } => "it does not hold in 32 bits".to_owned(),
+            Self::Energy(energy) => format!("its energy is {energy:.0}, over {MODERATE_ENERGY}"),
+        }
+    }
 }
 
 impl Relax {
     /// Lets so many rounds follow, from the latest embedding on.
-    pub(super) fn begin(&mut self, rounds: usize) {
-        (self.relaxing, self.rounds_left) = (None, rounds);
+    pub(super) fn begin(&mut self, rounds: Rounds) {
+        (self.relaxing, self.left) = (None, rounds);
+    }
+
+    /// Takes in the step that rounds may follow.
+    pub(super) fn look_at_start(&mut self, step: &Step) {
+        self.lack = Lack::of(step);
+    }
+
+    /// Whether the latest embedding is finer than 32 bits, wherever it lies.
+    pub(super) fn is_too_fine(&self) -> bool {
+        self.lack == Some(Lack::Digits { is_far: false })
     }
 
     fn round(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
@@ -33,13 +87,15 @@ impl Relax {
         let latest = latest.ok_or(SolveError::NotPlanar)?;
         let refinement = latest.refinement.clone();
         let mesh = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
-        let held = if task.has_open_gauge() { Pins::new() } else { task.held() };
-        let relaxing = self.relaxing.get_or_insert_with(|| Relaxing::new(mesh, latest.embedding.clone(), &held));
-        let mut candidate = relaxing.round(mesh, control)?;
-        if held.is_empty() {
-            place(task, mesh, &mut candidate);
-        }
-        Ok(Candidate { refinement, ..candidate.since(start) })
+        // Up to two pins only say where the embedding is to lie: it is brought there after the round.
+        let is_constrained = task.is_constrained();
+        let held = if is_constrained { task.held() } else { Pins::new() };
+        let sheet = if is_constrained { Arc::clone(&task.sheet) } else { Arc::default() };
+        let begin = || Relaxing::new(mesh, latest.embedding.clone(), &held).written_on(sheet);
+        let candidate = self.relaxing.get_or_insert_with(begin).round(mesh, control)?;
+        let lack = self.lack.filter(|_| self.left.always == 0);
+        let note = lack.map(|lack| format!("relaxed because {}", lack.words()));
+        Ok(Candidate { refinement, note, ..candidate.since(start) })
     }
 }
 
@@ -53,24 +109,16 @@ impl Rung for Relax {
         })
     }
 
-    fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {
-        self.rounds_left > 0 && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
+    fn has_more(&self, _: &Task, latest: Option<&Latest>) -> bool {
+        // Polygons that cannot be convex are cut.
+        let may_serve = self.lack.is_some() && latest.is_none_or(|latest| !latest.is_solved_but_for_polygons);
+        let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && may_serve);
+        is_wanted && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
     }
 
-    fn look_at(&mut self, _: &Step) {
-        self.rounds_left = self.rounds_left.saturating_sub(1);
-    }
-}
-
-/// Moves an embedding that no pins hold to where it is asked for, its outside with it.
-fn place(task: &Task, mesh: &DiskMesh, candidate: &mut Candidate) {
-    let solution = &mut candidate.solution;
-    let before = solution.embedding.clone();
-    complete_gauge(mesh, &mut solution.embedding, &task.pins, task.settings.size);
-    solution.pins = gauge_in(mesh, &solution.embedding);
-    let pairs: Vec<[DVec2; 2]> = before.iter().zip(&solution.embedding).map(|(a, b)| [*a, *b]).collect();
-    if let (Some(similarity), Some(outside)) = (Similarity::fitting(&pairs), &candidate.outside) {
-        let frame = outside.frame.iter().map(|&z| similarity.apply(z)).collect();
-        candidate.outside = Some(Arc::new(Outside { frame, triangles: outside.triangles.clone() }));
+    fn look_at(&mut self, step: &Step) {
+        self.left.always = self.left.always.saturating_sub(1);
+        self.left.until_it_serves = self.left.until_it_serves.saturating_sub(1);
+        self.lack = Lack::of(step);
     }
 }

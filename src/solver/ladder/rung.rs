@@ -55,6 +55,8 @@ pub(super) struct Latest {
     pub(super) is_one_to_one: bool,
     /// Whether it is all that its part of the plan is for.
     pub(super) is_solved: bool,
+    /// Whether it is planar but not where up to two pins want it: the numbers there would fold it.
+    pub(super) is_unplaced: bool,
     /// Whether it would be, if no polygon were concave.
     pub(super) is_solved_but_for_polygons: bool,
     /// The mesh with new vertices that it is of.

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::rung::{Failure, Footing, Latest, Notes, Rung};
+use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Step};
 use crate::solver::{Control, Method, Pins, schnyder};
@@ -17,14 +17,10 @@ pub(super) struct Draw {
 }
 
 impl Rung for Draw {
-    fn step(&mut self, Footing { task, mesh, .. }: Footing<'_>, _: Control<'_>) -> Result<Candidate, Failure> {
+    fn step(&mut self, from: Footing<'_>, _: Control<'_>) -> Result<Candidate, Failure> {
         let began = Instant::now();
-        let mut notes = Notes::default();
-        let mut candidate = Candidate::one_to_one(Method::Schnyder, schnyder(mesh), &Pins::new());
-        // A similarity rounds by far less than the least face is high: nothing folds below ten million vertices.
-        task.fit(mesh, &mut candidate.solution, &mut notes);
         self.is_done = true;
-        Ok(Candidate { note: notes.take(), ..candidate.since(began) })
+        Ok(Candidate::one_to_one(Method::Schnyder, schnyder(from.mesh), &Pins::new()).since(began))
     }
 
     fn has_more(&self, _: &Task, _: Option<&Latest>) -> bool {

@@ -1,22 +1,26 @@
 //! What is asked for: settings and pins.
 
-use super::gauge_in;
-use super::rung::Notes;
+use std::sync::Arc;
+
+use super::{Candidate, gauge_in};
+use crate::geom::Similarity;
 use crate::mesh::DiskMesh;
 use crate::solver::pins::GAUGE_PINS;
-use crate::solver::scale::fit_gauge;
-use crate::solver::{Conflict, Method, Pins, Settings, Solution, SolveError, check_pins, conflicts};
+use crate::solver::placing::Placing;
+use crate::solver::{Conflict, Embedding, Method, Outside, Pins, Settings, Sheet, SolveError, check_pins, conflicts};
 
 #[derive(Debug)]
 pub(super) struct Task {
     pub(super) settings: Settings,
     pub(super) pins: Pins,
+    /// How embeddings are written: what is proved.
+    pub(super) sheet: Arc<Sheet>,
 }
 
 impl Task {
     /// Pins count only where the method uses them.
-    pub(super) fn new(settings: Settings, pins: Pins) -> Self {
-        Self { settings, pins: if settings.method.uses_pins() { pins } else { Pins::new() } }
+    pub(super) fn new(settings: Settings, pins: Pins, sheet: Arc<Sheet>) -> Self {
+        Self { settings, pins: if settings.method.uses_pins() { pins } else { Pins::new() }, sheet }
     }
 
     /// Whether the pins are constraints: up to two exact ones only fix the similarity.
@@ -53,16 +57,46 @@ impl Task {
         }
     }
 
-    /// Moves an embedding to where up to two pins want it.
-    pub(super) fn fit(&self, mesh: &DiskMesh, solution: &mut Solution, notes: &mut Notes) {
-        let is_fitted = fit_gauge(mesh, &mut solution.embedding, &self.pins, self.settings.size);
-        if !is_fitted {
-            notes.say("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
+    /// Moves a candidate to where up to two pins, or none, want it, without a fold. Constraints hold it where it is.
+    /// Returns a note where it could not be moved.
+    pub(super) fn place(&self, mesh: &DiskMesh, candidate: &mut Candidate) -> Option<String> {
+        let embedding = &candidate.solution.embedding;
+        let is_open = self.has_open_gauge();
+        if self.is_constrained() || (!is_open && self.are_met(embedding)) {
+            return None;
         }
-        solution.gauge_completed = self.has_open_gauge();
-        let has_both = self.pins.len() == GAUGE_PINS && is_fitted;
-        solution.pins = if has_both { self.pins.clone() } else { gauge_in(mesh, &solution.embedding) };
+        candidate.solution.gauge_completed = is_open;
+        let Some(placing) = Placing::of_gauge(mesh, embedding, &self.pins, self.settings.size) else {
+            candidate.solution.pins = gauge_in(mesh, embedding);
+            return Some("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
+        };
+        let placed = placing.best(embedding, |embedding| self.sheet.is_one_to_one(mesh, embedding));
+        let solution = &mut candidate.solution;
+        solution.embedding = placed.embedding;
+        if !is_open || placed.way.is_none() {
+            solution.pins.clone_from(&self.pins);
+        } else if solution.pins.is_empty() {
+            solution.pins = gauge_in(mesh, &solution.embedding);
+        } else {
+            for (vertex, pin) in &mut solution.pins {
+                pin.target = solution.embedding[vertex];
+            }
+        }
+        if let (Some(way), Some(outside)) = (placed.way, &candidate.outside) {
+            candidate.outside = Some(Arc::new(moved(outside, way)));
+        }
+        placed.way.is_none().then(|| "not yet moved to its place, whose numbers would fold it".to_owned())
     }
+
+    /// Whether all pins lie on their targets.
+    pub(super) fn are_met(&self, embedding: &Embedding) -> bool {
+        self.pins.iter().all(|(vertex, pin)| embedding[vertex] == pin.target)
+    }
+}
+
+fn moved(outside: &Outside, way: Similarity) -> Outside {
+    let frame = outside.frame.iter().map(|&z| way.apply(z)).collect();
+    Outside { frame, triangles: outside.triangles.clone() }
 }
 
 /// Checks that no two exact targets are so near that numbers between them run out.

@@ -23,7 +23,7 @@ use crate::solver::equations::{barycentric, uniform};
 use crate::solver::plane_weights::{mean_value_in_plane, residuals_in_plane};
 use crate::solver::{
     Control, Embedding, Extended, Family, Growth, Method, PhaseSeconds, PinPositions, Pins, Settings, Solution,
-    SolveError, Treatment, VirtualBoundary, fixed_pins, flatten,
+    SolveError, Treatment, VirtualBoundary, fixed_pins, solve_once,
 };
 
 /// Least share of the circle between neighbouring pins, relative to an even share: in 64 bits they must stay apart,
@@ -91,7 +91,7 @@ impl Default for Bend {
 impl Rung for Bend {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         let mut candidate = self.bent(from, control).map_err(|error| self.failure(error))?;
-        from.task.fit(from.mesh, &mut candidate.solution, &mut self.notes);
+        candidate.solution.pins = Pins::new();
         candidate.bent_vertices = if self.pinned > 2 { self.pinned } else { 0 };
         Ok(Candidate { note: self.notes.take(), ..candidate })
     }
@@ -160,7 +160,7 @@ impl Bend {
             // At last only weights that cannot fail will do.
             let family = if is_last { Family::MeanValue } else { task.settings.family };
             let settings = Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Natural, family) };
-            let solved = flatten(mesh, &settings, &fixed_pins(on_circle(mesh, pinned)), control);
+            let solved = solve_once(mesh, &settings, &fixed_pins(on_circle(mesh, pinned)), control);
             if solved == Err(SolveError::Cancelled) {
                 return Err(SolveError::Cancelled);
             }
@@ -189,7 +189,8 @@ impl Bend {
         let from = last.map_or(&extended.embedding, |last| &last.solved);
         let has_pockets = !extended.pockets.is_empty();
         let (equations, residuals) = match weights {
-            Weights::Surface if !has_pockets => (barycentric(mesh, 0.0)?, None),
+            // The theorem is about triangles.
+            Weights::Surface if !has_pockets => (barycentric(&mesh.without_polygons(), 0.0)?, None),
             Weights::Uniform => (uniform(&extended.disk), None),
             _ => (mean_value_in_plane(&extended.disk, from), Some(residuals_in_plane(&extended.disk, from))),
         };

@@ -36,7 +36,7 @@ impl Defect {
         match self {
             Self::Flipped(face) => vec![Element::Face(face)],
             Self::Concave(first) => {
-                let polygon = disk.and_then(|disk| disk.polygon(first));
+                let polygon = disk.and_then(|disk| disk.polygon_of(first));
                 polygon.map(|polygon| polygon.faces().map(Element::Face).collect()).unwrap_or_default()
             }
             Self::Crossing(edges) => edges.map(Element::Edge).to_vec(),

@@ -308,7 +308,7 @@ pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &E
 /// The outlines of the concave polygons that are marked.
 pub(super) fn concave(editor: &Editor, scene: &MeshScene) -> Vec<Vec<VertexId>> {
     let (Some(verdict), Some(disk)) = (editor.plane.verdict(), scene.disk()) else { return Vec::new() };
-    let polygons = verdict.concave_polygons.iter().take(MARKS_SHOWN).filter_map(|&face| disk.polygon(face));
+    let polygons = verdict.concave_polygons.iter().take(MARKS_SHOWN).filter_map(|&face| disk.polygon_of(face));
     polygons.map(|polygon| polygon.corners.to_vec()).collect()
 }
 

@@ -1,0 +1,56 @@
+//! The easy call: a disk in, a proved embedding out, or the reason why there is none.
+
+use super::{Control, Ladder, Pins, Settings, SolveError, Step};
+use crate::mesh::{DiskMesh, VertexId};
+
+/// What [`flatten`] is to do; by default all that it can, without constraints.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// Method and weights: `auto` by default, a ladder of ways.
+    pub settings: Settings,
+    /// Vertices with their places in the plane.
+    pub pins: Pins,
+}
+
+/// Why [`flatten`] gives nothing that is proved, with the last step that it took.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FlattenError {
+    /// No step could be taken.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+
+    /// The method came to its end before the embedding was one-to-one.
+    #[error("not planar: {}; method auto goes on until it is", .0.verdict.summary())]
+    NotPlanar(Box<Step>),
+
+    /// The embedding is one-to-one, but does not meet all exact pins.
+    #[error("planar, but pinned vertices are not on their targets: {}", listed(&.0.unmet()))]
+    Unmet(Box<Step>),
+}
+
+/// Flattens a disk: takes all steps of the method, and gives the last one, proved one-to-one with its exact pins on their
+/// targets to the last bit. [`Step::mesh`] is the mesh that it is of: edges may have been split for the pins, unless
+/// [`Settings::new_vertices`] says no.
+///
+/// To watch or to stop it, climb a [`Ladder`].
+///
+/// # Errors
+///
+/// Pins or settings that cannot be, or a method that does not end planar with the pins met: `auto` without pins always
+/// does.
+pub fn flatten(mesh: &DiskMesh, options: &Options) -> Result<Step, FlattenError> {
+    let mut last = None;
+    let mut ladder = Ladder::new(options.settings, options.pins.clone());
+    let ending = ladder.finish(mesh, Control::unattended(), |step| last = Some(step));
+    match (last, ending) {
+        (Some(step), _) if !step.verdict.planar => Err(FlattenError::NotPlanar(Box::new(step))),
+        (Some(step), _) if !step.unmet().is_empty() => Err(FlattenError::Unmet(Box::new(step))),
+        (Some(step), Ok(_)) => Ok(step),
+        (_, ending) => Err(ending.err().unwrap_or(SolveError::LadderExhausted).into()),
+    }
+}
+
+fn listed(vertices: &[VertexId]) -> String {
+    vertices.iter().map(VertexId::to_string).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,204 @@
+//! Placing: an embedding that is proved is brought to where it is asked for, and no face folds on the way.
+//!
+//! A similarity in 64 bits rounds, and rounding folds what is fine. Each wish therefore has several *ways*, tried in turn
+//! until one is proved: as wished; by a power of two, which rounds nothing; by a shift that is a multiple of the largest
+//! coordinate's last digit, which rounds that one not at all. Where none will do, the embedding stays where it lies: what
+//! is proved is never given up for a place.
+
+use glam::DVec2;
+
+use super::equations::length_scale;
+use super::{Embedding, GaugeSize, Pins};
+use crate::geom::{Bounds, Similarity};
+use crate::mesh::{DiskMesh, VertexId};
+
+/// What is wanted of an embedding's place.
+#[derive(Debug)]
+pub(super) struct Placing {
+    /// Ways to it, the best first.
+    ways: Vec<Similarity>,
+    /// Vertices that end on these places to the last bit.
+    anchors: Vec<(VertexId, DVec2)>,
+}
+
+/// An embedding in its place.
+#[derive(Debug)]
+pub(super) struct Placed {
+    pub(super) embedding: Embedding,
+    /// The way that it took; none where each would have folded it, and it lies as before.
+    pub(super) way: Option<Similarity>,
+    /// Whether that was the first.
+    pub(super) is_as_wished: bool,
+}
+
+impl Placing {
+    /// To where up to two pins want an embedding; at the size asked for where they do not say. None where two pins have
+    /// fallen together, and no similarity takes them to their targets.
+    pub(super) fn of_gauge(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins, size: GaugeSize) -> Option<Self> {
+        let anchors: Vec<(VertexId, DVec2)> = pins.iter().map(|(&vertex, pin)| (vertex, pin.target)).take(2).collect();
+        let ways = match (&anchors[..], size) {
+            (&[(first, a), (second, b)], _) => {
+                let (is, wanted) = (embedding[second] - embedding[first], b - a);
+                // The quotient wanted / is of complex numbers.
+                let turn = DVec2::new(is.dot(wanted), is.perp_dot(wanted)) / is.length_squared();
+                if !turn.is_finite() || turn == DVec2::ZERO {
+                    return None;
+                }
+                let [from, to] = [embedding[first].midpoint(embedding[second]), a.midpoint(b)];
+                [[embedding[first], a], [embedding[second], b], [from, to]]
+                    .map(|[from, to]| Similarity::new(turn, from, to))
+                    .into()
+            }
+            (&[(vertex, target)], _) => {
+                let factors = with_power_of_two(factor_of(mesh, embedding, size), f64::round);
+                factors.map(|factor| scaled(factor, embedding[vertex], target)).into()
+            }
+            (_, GaugeSize::TrueArea) => {
+                let factors = with_power_of_two(factor_of(mesh, embedding, size), f64::round);
+                factors.map(|factor| scaled(factor, DVec2::ZERO, DVec2::ZERO)).into()
+            }
+            (_, GaugeSize::Within(into)) => {
+                let (from, to) = (embedding.bounds().middle(), into.middle());
+                let [factor, power] = with_power_of_two(factor_of(mesh, embedding, size), f64::floor);
+                let shift = rounding_alike(to - power * from, power * extent_of(embedding));
+                let unmoved = scaled(power, DVec2::ZERO, DVec2::ZERO);
+                vec![scaled(factor, from, to), scaled(power, from, to), scaled(power, DVec2::ZERO, shift), unmoved]
+            }
+        };
+        Some(Self { ways, anchors })
+    }
+
+    /// To where an embedding fits pins best, in the sum of squares; the targets are not met by that.
+    pub(super) fn fitting(embedding: &Embedding, pins: &Pins) -> Self {
+        let pairs: Vec<[DVec2; 2]> = pins.iter().map(|(v, pin)| [embedding[v], pin.target]).collect();
+        let shift = pairs.iter().map(|[is, wanted]| *wanted - *is).sum::<DVec2>() / pairs.len().max(1) as f64;
+        let alike = rounding_alike(shift, extent_of(embedding));
+        let shifts = [shift, alike].map(|shift| scaled(1.0, DVec2::ZERO, shift));
+        Self { ways: Similarity::fitting(&pairs).into_iter().chain(shifts).collect(), anchors: Vec::new() }
+    }
+
+    /// The embedding in the place that is wished for.
+    pub(super) fn as_wished(&self, embedding: &Embedding) -> Embedding {
+        self.along(&self.ways[0], embedding)
+    }
+
+    /// The embedding by the first way that a proof `holds` on. One that does not hold as it lies goes as wished.
+    pub(super) fn best(&self, embedding: &Embedding, holds: impl Fn(&Embedding) -> bool) -> Placed {
+        let wished = self.as_wished(embedding);
+        if holds(&wished) || !holds(embedding) {
+            return Placed { embedding: wished, way: Some(self.ways[0]), is_as_wished: true };
+        }
+        let others = self.ways[1..].iter().map(|way| (way, self.along(way, embedding)));
+        match others.into_iter().find(|(_, placed)| holds(placed)) {
+            Some((way, placed)) => Placed { embedding: placed, way: Some(*way), is_as_wished: false },
+            None => Placed { embedding: embedding.clone(), way: None, is_as_wished: false },
+        }
+    }
+
+    fn along(&self, way: &Similarity, embedding: &Embedding) -> Embedding {
+        let mut placed: Embedding = embedding.iter().map(|&z| way.apply(z)).collect();
+        for &(vertex, target) in &self.anchors {
+            placed[vertex] = target;
+        }
+        placed
+    }
+}
+
+/// Moves an embedding to where fewer than two pins want it, without a proof.
+pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins, size: GaugeSize) {
+    if let Some(placing) = Placing::of_gauge(mesh, embedding, pins, size) {
+        *embedding = placing.as_wished(embedding);
+    }
+}
+
+/// Multiplies by a factor and moves one point onto another.
+fn scaled(factor: f64, from: DVec2, to: DVec2) -> Similarity {
+    Similarity::new(DVec2::new(factor, 0.0), from, to)
+}
+
+/// A factor, and the power of two next to it.
+fn with_power_of_two(factor: f64, next: fn(f64) -> f64) -> [f64; 2] {
+    [factor, next(factor.log2()).exp2()]
+}
+
+/// A shift changed to a multiple of the last digit of numbers as large as `extent`, so that these round to themselves.
+fn rounding_alike(shift: DVec2, extent: f64) -> DVec2 {
+    let digit = extent.next_up() - extent;
+    if digit.is_finite() && digit > 0.0 { (shift / digit).round() * digit } else { shift }
+}
+
+/// The factor that gives an embedding the size asked for; 1 where it has no finite extent.
+fn factor_of(mesh: &DiskMesh, embedding: &Embedding, size: GaugeSize) -> f64 {
+    let factor = match size {
+        GaugeSize::TrueArea => true_area_factor(mesh, embedding),
+        GaugeSize::Within(into) => (into.size() / embedding.bounds().size()).min_element(),
+    };
+    if factor.is_finite() && factor > 0.0 { factor } else { 1.0 }
+}
+
+/// The factor to the total area of the surface. Both areas are summed at a size near 1, so that no square of a length
+/// overflows or vanishes.
+fn true_area_factor(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
+    let (in_space, in_plane) = (length_scale(mesh), 1.0 / extent_of(embedding));
+    let surface: f64 = mesh
+        .faces()
+        .map(|face| {
+            let [a, b, c] = mesh.mesh().corners(face).map(|x| x * in_space);
+            (b - a).cross(c - a).length()
+        })
+        .sum();
+    let flat: f64 = mesh
+        .faces()
+        .map(|face| {
+            let [a, b, c] = mesh.face(face).map(|v| embedding[v] * in_plane);
+            (b - a).perp_dot(c - a).abs()
+        })
+        .sum();
+    (surface / flat).sqrt() * (in_plane / in_space)
+}
+
+/// Scales an embedding about the origin to the total area of the surface; one without a finite area stays as it is.
+pub fn to_true_area(mesh: &DiskMesh, embedding: &mut Embedding) {
+    let factor = factor_of(mesh, embedding, GaugeSize::TrueArea);
+    for z in embedding.iter_mut() {
+        *z *= factor;
+    }
+}
+
+/// Largest coordinate by amount.
+fn extent_of(embedding: &Embedding) -> f64 {
+    embedding.iter().fold(0.0, |m, z| m.max(z.abs().max_element()))
+}
+
+/// As [`to_unit_square`], but scaled by a power of two alone: the one rounding is that of the move.
+pub fn to_unit_square_by_power_of_two(embedding: &mut Embedding) {
+    let Bounds { low, .. } = embedding.bounds();
+    for z in embedding.iter_mut() {
+        *z -= low;
+    }
+    to_unit_box(embedding);
+}
+
+/// Scales an embedding about the origin by a power of two, so that no coordinate lies beyond −1 or 1. No digit is lost
+/// unless a coordinate is too small for 64 bits afterwards.
+pub fn to_unit_box(embedding: &mut Embedding) {
+    let extent = extent_of(embedding);
+    if extent.is_finite() && extent > 0.0 {
+        let factor = (-extent.log2().ceil()).exp2();
+        for z in embedding.iter_mut() {
+            *z *= factor;
+        }
+    }
+}
+
+/// Moves and scales an embedding uniformly to fill the unit square's width or height from the origin on; one without a
+/// finite extent stays as it is.
+pub fn to_unit_square(embedding: &mut Embedding) {
+    let bounds = embedding.bounds();
+    let extent = bounds.size().max_element();
+    if extent.is_finite() && extent > 0.0 {
+        for z in embedding.iter_mut() {
+            *z = (*z - bounds.low) / extent;
+        }
+    }
+}
