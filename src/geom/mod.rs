@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `orient.rs` | the side of a line that a point lies on, exactly |
-//! | `bounds.rs`, `clip.rs` | boxes; segments and polygons cut to one |
+//! | `bounds.rs`, `clip.rs`, `box_tree.rs` | boxes; segments and polygons cut to one; which of many boxes meet |
 //! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; where it meets itself |
 //! | `hull.rs` | the convex hull |
 //! | `triangulation.rs` | triangulations of points, and of what lies outside a polygon |
@@ -12,6 +12,7 @@
 //! | `picture.rs`, `picture_frame.rs` | a picture, and how texture coordinates lie in the plane |
 
 mod bounds;
+mod box_tree;
 mod clip;
 mod crossings;
 mod hull;
@@ -24,6 +25,7 @@ mod similarity;
 mod triangulation;
 
 pub use bounds::Bounds;
+pub use box_tree::{BoxTree, place_along_curve};
 pub use clip::{clip_polygon, clip_segment};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::convex_hull;

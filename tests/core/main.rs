@@ -70,6 +70,7 @@ mod session_recovery;
 mod session_run;
 mod session_timeline;
 mod shapes;
+mod signals;
 mod steps;
 mod verdict;
 mod verdict_cases;

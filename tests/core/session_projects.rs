@@ -308,8 +308,9 @@ fn faults_of_a_project_name_line_and_field() {
     ];
     for (text, expected) in cases {
         let (found, remedy) = said_of(&text);
-        assert!(found.starts_with(expected), "{found}\nand not\n{expected}\nof\n{text}");
-        assert!(found.contains("work.freebound") && remedy.is_some());
+        let (file, fault) = found.split_once(": ").expect("the file comes first");
+        assert!(fault.starts_with(expected), "{found}\nand not\n{expected}\nof\n{text}");
+        assert!(file.ends_with("work.freebound") && remedy.is_some());
     }
 }
 
