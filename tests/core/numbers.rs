@@ -84,6 +84,11 @@ fn targets_far_from_the_origin_are_no_matter() {
 #[test]
 fn targets_of_any_order_of_magnitude_give_the_same_map_to_the_last_bit() {
     let mesh = disk(sheet());
+    // Without relaxing, which goes on where a map does not hold in 32 bits: those end at 2^±149.
+    let last_of = |mesh: &DiskMesh, method: Method, pins: &Pins| {
+        let settings = Settings { relax_rounds: Some(0), ..Settings::new(method, Family::default()) };
+        steps_of(mesh, settings, pins).unwrap().pop().unwrap()
+    };
     for method in CONSTRAINED {
         let near = last_of(&mesh, method, &hard_pins(corners()));
         for exponent in [-900, -540, 532, 900] {
