@@ -23,7 +23,7 @@ pub struct Arguments {
 }
 
 const EXIT_HELP: &str = "Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input, \
-                         4 finished but not planar or a constraint not met, 130 interrupted.";
+                         4 not planar, a constraint not met, or no result by this method, 130 interrupted.";
 
 /// The commands that need no screen.
 #[derive(Debug, Subcommand)]

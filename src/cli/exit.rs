@@ -8,7 +8,7 @@ use super::say::warn;
 use super::standard::name_of_input;
 use crate::io::{ConstraintsError, PictureError, ReadError, TextureError, WriteError};
 use crate::mesh::Diagnosis;
-use crate::solver::SolveError;
+use crate::solver::{Choice as _, Method, SolveError};
 
 /// Our fault, or the system's.
 const INTERNAL: u8 = 1;
@@ -19,11 +19,14 @@ const WRONG_USE: u8 = 2;
 /// A file that cannot be used.
 pub(super) const UNUSABLE_INPUT: u8 = 3;
 
-/// [`Status::FallsShort`].
+/// [`Status::FallsShort`], and no embedding at all.
 pub(super) const FALLS_SHORT: u8 = 4;
 
 /// What to do where only some corners have texture coordinates.
 pub(super) const TEXTURE_REMEDY: &str = "give every corner texture coordinates, or none";
+
+/// What to do where a single method gives no embedding.
+pub(super) const METHOD_REMEDY: &str = "try --method auto";
 
 /// Ended by Ctrl-C.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -74,6 +77,14 @@ pub enum Failure {
     /// The solver gave no embedding. The name of the mesh is said before it.
     #[error("{0}")]
     Solve(#[from] SolveError),
+    /// A single method gave none.
+    #[error("{method}: {error}; {METHOD_REMEDY}")]
+    Method {
+        /// The method's name.
+        method: &'static str,
+        /// Why it gave none.
+        error: SolveError,
+    },
     /// A result could not be written.
     #[error("{0}")]
     Write(#[from] WriteError),
@@ -86,37 +97,53 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 130 interrupted. Every error is named, so that a new
-    /// one has to choose.
-    pub const fn code(&self) -> u8 {
+    /// A method's failure: where another may do better, with that hint.
+    pub fn of_method(method: Method, error: SolveError) -> Self {
+        if error.is_failure_of_method() && method != Method::Auto {
+            return Self::Method { method: method.name(), error };
+        }
+        Self::Solve(error)
+    }
+
+    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 4 no embedding by this method, 130 interrupted. Every
+    /// error is named, so that a new one has to choose.
+    pub fn code(&self) -> u8 {
         match self {
-            Self::Read { error: ReadError::Cancelled, .. } | Self::Solve(SolveError::Cancelled) => INTERRUPTED,
+            Self::Read { error: ReadError::Cancelled, .. } => INTERRUPTED,
             Self::Read { .. }
             | Self::Constraints(_)
             | Self::Picture(_)
             | Self::Texture { .. }
-            | Self::NotADisk { .. }
-            | Self::Solve(SolveError::NotFinite { .. } | SolveError::TargetsTooNear { .. }) => UNUSABLE_INPUT,
-            Self::Write(_)
-            | Self::StandardOutput(_)
-            | Self::Solve(
-                SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. },
-            ) => INTERNAL,
-            Self::Usage(_)
-            | Self::Solve(
-                SolveError::CoincidentPins { .. }
-                | SolveError::NoSuchVertex { .. }
-                | SolveError::TargetNotFinite { .. }
-                | SolveError::WeightNotPositive { .. }
-                | SolveError::FamilyNotApplicable { .. }
-                | SolveError::BoundaryTooShort { .. }
-                | SolveError::TooManyPins { .. }
-                | SolveError::Unmet
-                | SolveError::TooFine
-                | SolveError::NotPlanar
-                | SolveError::LadderExhausted,
-            ) => WRONG_USE,
+            | Self::NotADisk { .. } => UNUSABLE_INPUT,
+            Self::Write(error) if error.is_not_finite() => FALLS_SHORT,
+            Self::Write(_) | Self::StandardOutput(_) => INTERNAL,
+            Self::Usage(_) => WRONG_USE,
+            Self::Solve(error) | Self::Method { error, .. } => code_of_solve(error),
         }
+    }
+}
+
+const fn code_of_solve(error: &SolveError) -> u8 {
+    match error {
+        SolveError::Cancelled => INTERRUPTED,
+        SolveError::TargetsTooNear { .. } => UNUSABLE_INPUT,
+        SolveError::NotFinite { .. }
+        | SolveError::Unmet
+        | SolveError::TooFine
+        | SolveError::NotPlanar
+        | SolveError::AllBent
+        | SolveError::LadderExhausted { .. }
+        | SolveError::OutOfRange { .. }
+        | SolveError::Singular { .. }
+        | SolveError::ResidualTooLarge { .. }
+        | SolveError::Linear { .. } => FALLS_SHORT,
+        SolveError::CoincidentPins { .. }
+        | SolveError::NoSuchVertex { .. }
+        | SolveError::TargetNotFinite { .. }
+        | SolveError::WeightNotPositive { .. }
+        | SolveError::FamilyNotApplicable { .. }
+        | SolveError::BoundaryTooShort { .. }
+        | SolveError::TooManyPins { .. } => WRONG_USE,
     }
 }
 
@@ -129,7 +156,9 @@ fn on_each_line(path: &str, message: &impl Display) -> String {
 /// The message of a failure, the name of the file first.
 pub(super) fn message_of(failure: &Failure, subject: Option<Subject<'_>>) -> String {
     match (failure, subject) {
-        (Failure::Solve(error), Some(Subject { mesh, .. })) => format!("{}: {error}", name_of_input(mesh)),
+        (Failure::Solve(_) | Failure::Method { .. }, Some(Subject { mesh, .. })) => {
+            format!("{}: {failure}", name_of_input(mesh))
+        }
         _ => failure.to_string(),
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::Failure;
-use super::exit::{FALLS_SHORT, TEXTURE_REMEDY, UNUSABLE_INPUT, message_of};
+use super::exit::{FALLS_SHORT, METHOD_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, message_of};
 use super::say::warn;
 use super::standard::name_of_input;
 use super::summary::put_report;
@@ -57,6 +57,7 @@ fn remedy_and_faults(failure: &Failure) -> (Option<&'static str>, Vec<FaultRepor
         Failure::Constraints(error) => (None, FaultReport::of_constraints(error)),
         Failure::Texture { error, .. } => (Some(TEXTURE_REMEDY), FaultReport::of_texture(error)),
         Failure::NotADisk { diagnosis, .. } => (None, FaultReport::of_diagnosis(diagnosis)),
+        Failure::Method { .. } => (Some(METHOD_REMEDY), Vec::new()),
         _ => (None, Vec::new()),
     }
 }
@@ -75,7 +76,7 @@ fn kind_of(failure: &Failure) -> &'static str {
         Failure::Picture(_) => "picture",
         Failure::Texture { .. } => "texture-coordinates",
         Failure::NotADisk { .. } => "not-a-disk",
-        Failure::Solve(_) => "not-solved",
+        Failure::Solve(error) | Failure::Method { error, .. } => error.name(),
         Failure::Write(_) | Failure::StandardOutput(_) => "not-written",
         Failure::Usage(_) => "wrong-use",
     }

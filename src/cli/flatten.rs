@@ -171,6 +171,7 @@ impl HeadlessJob<'_> {
         let mut solved = self.solve(model, folder.as_mut(), progress)?;
         let records = std::mem::take(&mut solved.records);
         let mut output = solved.outcome.finished(model, records, self.fit);
+        output.coordinates.check_finite().map_err(|error| Failure::of_method(self.document.settings.method, error))?;
         output.report.seconds.read = read_seconds;
         output.picture = self.document.picture.as_deref();
         output.svg_fit = self.svg_fit;
@@ -227,7 +228,7 @@ impl HeadlessJob<'_> {
                 // Where a rung fails, the steps before it are written.
                 Err(error) => match last {
                     Some(before) => return Ok(Solved { outcome: placed(before), records, ending: Err(error) }),
-                    None => return Err(error.into()),
+                    None => return Err(Failure::of_method(settings.method, error)),
                 },
             };
             progress.reach(step_words(&step));

@@ -123,6 +123,9 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
     if report.new_vertices > 0 {
         lines.push(format!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len()));
     }
+    let falls_short = report.verdict.as_ref().is_some_and(|verdict| !verdict.planar);
+    let noted = report.steps.iter().filter(|_| falls_short).filter_map(|step| Some((step.index, step.note.as_ref()?)));
+    lines.extend(noted.map(|(index, note)| format!("step {index}: {note}")));
     lines.extend(report.pins.as_ref().and_then(pins_words));
     if let Some(distortion) = &report.distortion {
         lines.push(format!(

@@ -18,7 +18,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Bounds, Orientation, orientation};
+use super::{Bounds, BoxTree, Orientation, orientation};
 
 /// The most pairs that are looked for, listed in less than a megabyte.
 pub const CROSSINGS_LISTED: usize = 100_000;
@@ -63,7 +63,7 @@ pub fn is_simple(polygon: &[DVec2]) -> bool {
 
 /// The first `most` pairs of all.
 fn first_crossings(polygon: &[DVec2], most: usize) -> Vec<[u32; 2]> {
-    let tree = BoxTree::new(polygon);
+    let edges = Polygon::new(polygon);
     let task_count = polygon.len().div_ceil(EDGES_PER_TASK);
     let mut pairs = Vec::new();
     let (mut round, mut done) = (1, 0);
@@ -71,11 +71,8 @@ fn first_crossings(polygon: &[DVec2], most: usize) -> Vec<[u32; 2]> {
         let missing = most - pairs.len();
         let of_task = |task: usize| {
             let begin = task * EDGES_PER_TASK;
-            let (mut found, mut pending) = (Vec::new(), Vec::new());
-            for edge in begin..(begin + EDGES_PER_TASK).min(polygon.len()) {
-                tree.add_later_crossings(edge, &mut pending, &mut found, missing);
-            }
-            found
+            let range = begin..(begin + EDGES_PER_TASK).min(polygon.len());
+            range.flat_map(|edge| edges.later_crossings(edge)).take(missing).collect()
         };
         let tasks = done..(done + round).min(task_count);
         done = tasks.end;
@@ -112,68 +109,39 @@ fn box_around([a, b]: [DVec2; 2]) -> Bounds {
     if a.is_finite() && b.is_finite() { Bounds::of([a, b]) } else { Bounds::EMPTY }
 }
 
-/// Boxes over ranges of edges: node 1 is the root, node k has the children 2k and 2k + 1, the leaves come last.
-struct BoxTree<'a> {
-    polygon: &'a [DVec2],
-    boxes: Vec<Bounds>,
-    leaf_count: usize,
+/// A closed polygon, with a tree over its edges.
+struct Polygon<'a> {
+    corners: &'a [DVec2],
+    tree: BoxTree,
 }
 
-impl<'a> BoxTree<'a> {
-    fn new(polygon: &'a [DVec2]) -> Self {
-        assert!(u32::try_from(polygon.len()).is_ok(), "a polygon has fewer than 2^32 edges");
-        let leaf_count = polygon.len().next_power_of_two();
-        let mut tree = Self { polygon, boxes: vec![Bounds::EMPTY; 2 * leaf_count], leaf_count };
-        for edge in 0..polygon.len() {
-            tree.boxes[leaf_count + edge] = box_around(tree.segment(edge));
-        }
-        for node in (1..leaf_count).rev() {
-            tree.boxes[node] = tree.boxes[2 * node].union(tree.boxes[2 * node + 1]);
-        }
-        tree
+impl<'a> Polygon<'a> {
+    fn new(corners: &'a [DVec2]) -> Self {
+        assert!(u32::try_from(corners.len()).is_ok(), "a polygon has fewer than 2^32 edges");
+        let boxes = (0..corners.len()).map(|edge| box_around(segment(corners, edge)));
+        Self { corners, tree: BoxTree::new(boxes) }
     }
 
-    fn segment(&self, edge: usize) -> [DVec2; 2] {
-        [self.polygon[edge], self.polygon[(edge + 1) % self.polygon.len()]]
-    }
-
-    /// Adds the crossings of an edge with later edges, in ascending order, until there are `most`. `pending` is room to
-    /// work in.
-    fn add_later_crossings(
-        &self,
-        edge: usize,
-        pending: &mut Vec<(usize, usize)>,
-        found: &mut Vec<[u32; 2]>,
-        most: usize,
-    ) {
-        let bounds = self.boxes[self.leaf_count + edge];
-        // Nodes to look at with the end of the range of edges below them; the left child is taken first.
-        pending.clear();
-        pending.push((1, self.leaf_count));
-        while let Some((node, end)) = pending.pop().filter(|_| found.len() < most) {
-            if end <= edge + 1 || !bounds.meets(self.boxes[node]) {
-                continue;
-            }
-            if node < self.leaf_count {
-                let half = self.leaf_count >> (node.ilog2() + 1);
-                pending.push((2 * node + 1, end));
-                pending.push((2 * node, end - half));
-            } else if self.edges_cross(edge, end - 1) {
-                found.push([edge, end - 1].map(|e| u32::try_from(e).expect("checked in new")));
-            }
-        }
+    /// The crossings of an edge with later edges, in ascending order.
+    fn later_crossings(&self, edge: usize) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let crossing = self.tree.later(edge).filter(move |&later| self.edges_cross(edge, later));
+        crossing.map(move |later| [edge, later].map(|e| u32::try_from(e).expect("checked in new")))
     }
 
     /// Whether two edges, the lower first, whose boxes meet, meet other than at a shared end.
     fn edges_cross(&self, lower: usize, higher: usize) -> bool {
-        let ([a, b], [c, d]) = (self.segment(lower), self.segment(higher));
+        let [[a, b], [c, d]] = [lower, higher].map(|edge| segment(self.corners, edge));
         // In a triangle the first and the last edge share a corner, as all pairs do.
         if lower + 1 == higher {
             folds_back(a, b, d)
-        } else if lower == 0 && higher + 1 == self.polygon.len() {
+        } else if lower == 0 && higher + 1 == self.corners.len() {
             folds_back(c, a, b)
         } else {
             straddles([a, b], [c, d]) && straddles([c, d], [a, b])
         }
     }
+}
+
+fn segment(corners: &[DVec2], edge: usize) -> [DVec2; 2] {
+    [corners[edge], corners[(edge + 1) % corners.len()]]
 }

@@ -3,14 +3,16 @@
 //! | file | what |
 //! |---|---|
 //! | `orient.rs` | the side of a line that a point lies on, exactly |
-//! | `bounds.rs`, `clip.rs` | boxes; segments and polygons cut to one |
+//! | `bounds.rs`, `clip.rs`, `box_tree.rs` | boxes; segments and polygons cut to one; which of many boxes meet |
 //! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; where it meets itself |
 //! | `hull.rs` | the convex hull |
 //! | `triangulation.rs` | triangulations of points, and of what lies outside a polygon |
 //! | `similarity.rs` | the similarity that fits pairs of points best; whether pairs look mirrored |
+//! | `power.rs` | powers of two as factors |
 //! | `picture.rs`, `picture_frame.rs` | a picture, and how texture coordinates lie in the plane |
 
 mod bounds;
+mod box_tree;
 mod clip;
 mod crossings;
 mod hull;
@@ -18,10 +20,12 @@ mod orient;
 mod picture;
 mod picture_frame;
 mod polygon;
+mod power;
 mod similarity;
 mod triangulation;
 
 pub use bounds::Bounds;
+pub use box_tree::{BoxTree, place_along_curve};
 pub use clip::{clip_polygon, clip_segment};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::convex_hull;
@@ -29,5 +33,6 @@ pub use orient::{Orientation, orientation};
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};
 pub use polygon::{turning_number, winding_number};
+pub use power::power_of_two_near;
 pub use similarity::{Similarity, look_mirrored};
 pub use triangulation::{delaunay_triangles, outside_triangles};

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
+use super::door::check_finite;
 use super::{Target, Targets};
 use crate::mesh::VertexId;
 use crate::solver::{Hold, TakenTargets};
@@ -183,8 +184,9 @@ fn parse_line(text: &str) -> Result<(VertexId, Target), ConstraintFault> {
 ///
 /// # Errors
 ///
-/// What `out` says.
+/// What `out` says, and targets that are infinite or not numbers.
 pub fn write_constraints(out: &mut impl Write, targets: &Targets) -> io::Result<()> {
+    check_finite(targets.values().map(|target| &target.uv))?;
     writeln!(out, "# vertex u v [weight]; vertices count from 0, without a weight a target is met exactly")?;
     for (vertex, Target { uv, hold }) in targets {
         write!(out, "{} {:?} {:?}", vertex.number(), uv.x, uv.y)?;

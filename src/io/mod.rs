@@ -15,12 +15,14 @@
 //! | `raster`      | pictures of meshes without a screen                                        |
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
+//! | `door`        | what every writer asks of its coordinates                                  |
 //! | `unfinished`  | what is being written aside, to be removed at a sudden end                 |
 //! | `paths`       | which paths lead to one file, and the way from a folder to a file          |
 //! | `stamp`       | what tells one state of a file from another                                |
 
 mod atomic;
 mod constraints;
+mod door;
 mod error_report;
 pub mod figure;
 mod obj;

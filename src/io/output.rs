@@ -8,6 +8,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use glam::{DVec2, DVec3};
 
+use super::door::check_finite;
 use super::obj::{copy_materials, relocated, write_obj_with};
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::{Report, write_report};
@@ -187,8 +188,9 @@ impl Output<'_> {
     ///
     /// # Errors
     ///
-    /// Where the file cannot be written; the error names it.
+    /// Where the file cannot be written, or coordinates are infinite or not numbers; the error names the file.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
+        self.check().map_err(|source| WriteError { path: path.to_owned(), source })?;
         match (kind, self.picture, self.materials) {
             (OutputKind::Obj, Some(picture), _) => picture.write_beside(path, &self.source_mesh(), &self.coordinates),
             (OutputKind::Obj, None, Materials::Copied) => {
@@ -207,7 +209,15 @@ impl Output<'_> {
     ///
     /// Where standard output takes no more.
     pub fn write_to_standard_output(&self, kind: OutputKind) -> Result<(), WriteError> {
-        write_to_standard_output(|out| (kind.format().write)(self, Path::new(NAMELESS), out))
+        write_to_standard_output(|out| {
+            self.check()?;
+            (kind.format().write)(self, Path::new(NAMELESS), out)
+        })
+    }
+
+    /// Lets finite coordinates pass.
+    fn check(&self) -> io::Result<()> {
+        check_finite(&self.coordinates)
     }
 
     /// Where the mesh came from.

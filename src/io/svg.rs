@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use glam::DVec2;
 
+use super::door::check_finite;
 use super::{OutputFit, ProvedEmbedding};
 use crate::geom::{Bounds, Similarity};
 use crate::mesh::{DiskMesh, EdgeId, VertexId};
@@ -76,7 +77,10 @@ impl<'a> Drawing<'a> {
     }
 
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let DVec2 { x: width, y: height } = self.frame.page();
+        let page = self.frame.page();
+        let outside = self.outside.iter().flat_map(|outside| &outside.embedding);
+        check_finite(self.shown.embedding.iter().chain(outside).chain([&page]))?;
+        let DVec2 { x: width, y: height } = page;
         let size =
             if self.frame.is_to_scale { format!(r#"width="{width}" height="{height}" "#) } else { String::new() };
         writeln!(

@@ -15,6 +15,7 @@ use super::edges::{EdgeTable, side_ends};
 use super::fault::{FaceList, Fault};
 use super::orientation::Orientation;
 use super::topology::Topology;
+use super::unit::take_unit;
 use super::{DiskMesh, FaceId, TriMesh, VertexId};
 
 /// Everything that can be said about a mesh before it is flattened.
@@ -85,7 +86,7 @@ impl TryFrom<TriMesh> for DiskMesh {
     ///
     /// The diagnosis, if there are faults.
     fn try_from(mesh: TriMesh) -> Result<Self, Self::Error> {
-        Self::unless(mesh, |_| true)
+        Self::unless(mesh, |_| true, |mesh| take_unit(&mut mesh.positions))
     }
 }
 
@@ -96,13 +97,19 @@ impl DiskMesh {
     ///
     /// The diagnosis, if there are other faults than faces without area.
     pub fn of_topology(mesh: TriMesh) -> Result<Self, Box<Diagnosis>> {
-        Self::unless(mesh, |fault| !matches!(fault, Fault::ZeroArea(_)))
+        Self::unless(mesh, |fault| !matches!(fault, Fault::ZeroArea(_)), |_| 1.0)
     }
 
-    fn unless(mesh: TriMesh, is_grave: impl Fn(&Fault) -> bool) -> Result<Self, Box<Diagnosis>> {
+    /// Takes a mesh without grave faults, in the units that it is brought to.
+    fn unless(
+        mut mesh: TriMesh,
+        is_grave: impl Fn(&Fault) -> bool,
+        take_unit: impl FnOnce(&mut TriMesh) -> f64,
+    ) -> Result<Self, Box<Diagnosis>> {
         match examine(&mesh) {
             (diagnosis, Some(table)) if !diagnosis.faults.iter().any(is_grave) => {
-                Ok(Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears))
+                let unit = take_unit(&mut mesh);
+                Ok(Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears).in_units_of(unit))
             }
             (diagnosis, _) => Err(Box::new(diagnosis)),
         }

@@ -17,6 +17,7 @@ use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
 #[derive(Clone, Debug)]
 pub struct DiskMesh {
     mesh: TriMesh,
+    unit: f64,
     twin: Vec<u32>,
     edge: Vec<u32>,
     halfedge_of_edge: Vec<u32>,
@@ -77,6 +78,7 @@ impl DiskMesh {
         let polygons = Polygons::of(&mesh);
         let disk = Self {
             mesh,
+            unit: 1.0,
             twin,
             edge,
             halfedge_of_edge,
@@ -130,12 +132,23 @@ impl DiskMesh {
         &self.ears
     }
 
+    /// The same with positions in units of this length.
+    pub(super) fn in_units_of(self, unit: f64) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// The length that positions are in units of: a power of two, 1 but for meshes of the largest and smallest sizes,
+    /// which are brought to the middle of the range of numbers.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
     /// Positions and triangles.
     pub fn mesh(&self) -> &TriMesh {
         &self.mesh
     }
 
-    /// Position of a vertex, mesh units.
+    /// Position of a vertex, in units of [`unit`](Self::unit).
     pub fn position(&self, vertex: VertexId) -> DVec3 {
         self.mesh.positions[vertex.index()]
     }

@@ -7,6 +7,7 @@
 //! | `triangles.rs` | triangles that share vertices |
 //! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
 //! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
+//! | `unit.rs` | meshes of the largest and smallest sizes, brought to the middle of the range of numbers |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
 //! | `polygons.rs`, `diagonals.rs` | the polygons that a disk's triangles are cut from, and their other diagonals |
 //! | `refinement.rs` | a disk with new vertices on its edges |
@@ -29,6 +30,7 @@ mod topology;
 mod triangles;
 mod triangulate;
 mod union;
+mod unit;
 mod volume;
 
 pub use diagnosis::{Diagnosis, diagnose};

@@ -119,7 +119,7 @@ impl Outcome {
             return self.as_it_lies(mesh, Placement::Picture);
         }
         if fit == OutputFit::True {
-            return (embedding.clone(), Placement::True, self.step.verdict.clone());
+            return self.at_true_size(mesh);
         }
         let placed = |place: fn(&mut Embedding), name| {
             let mut coordinates = embedding.clone();
@@ -139,6 +139,17 @@ impl Outcome {
         let others: [Way; 2] = [(to_unit_square_by_power_of_two, Placement::Unit), (to_unit_box, Placement::Unmoved)];
         let rescued = others.into_iter().map(|(place, name)| placed(place, name)).find(|found| holds(&found.2));
         rescued.unwrap_or(first)
+    }
+
+    /// The embedding as large as the surface in its file, and the verdict on it. `mesh` is the step's own.
+    fn at_true_size(&self, mesh: &DiskMesh) -> (Embedding, Placement, Verdict) {
+        let (embedding, unit) = (&self.step.solution.embedding, mesh.unit());
+        if unit == 1.0 {
+            return (embedding.clone(), Placement::True, self.step.verdict.clone());
+        }
+        let coordinates: Embedding = embedding.iter().map(|&z| z * unit).collect();
+        let verdict = verdict(mesh, &coordinates);
+        (coordinates, Placement::True, verdict)
     }
 
     /// The texture coordinates of the embedding where it lies, the user's pins on their own numbers, and the verdict on

@@ -14,15 +14,16 @@
 //!
 //! # Method
 //!
-//! Exact predicates. Pinned edges are found by walking around the pins, crossings among them by a sweep over their
-//! boxes, near targets by a grid: near linear in the number of pins.
+//! Exact predicates. Pinned edges are found by walking around the pins, crossings among them by a tree of
+//! their boxes, near targets by a grid: near linear in the number of pins.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
-use super::{PinPositions, Pins};
-use crate::geom::{Bounds, Orientation, folds_back, orientation, segments_meet};
+use super::units::Units;
+use super::{GaugeSize, PinPositions, Pins};
+use crate::geom::{Bounds, BoxTree, Orientation, folds_back, orientation, place_along_curve, segments_meet};
 use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
 
 /// The greatest number of conflicts of each kind that are listed: more than anybody mends by hand.
@@ -91,7 +92,9 @@ impl Conflict {
 /// are too near, at most [`CONFLICTS_LISTED`] of each. Only exact pins count; those without a vertex or a finite
 /// target are left out.
 pub fn conflicts(mesh: &DiskMesh, pins: &Pins) -> Vec<Conflict> {
-    let targets: PinPositions = pins
+    // At a size where differences of targets are numbers.
+    let targets: PinPositions = Units::of(pins, GaugeSize::TrueArea)
+        .pins(pins)
         .iter()
         .filter(|(vertex, pin)| pin.hold.is_exact() && vertex.index() < mesh.vertex_count() && pin.target.is_finite())
         .map(|(&vertex, pin)| (vertex, pin.target))
@@ -142,15 +145,12 @@ fn crossing_edges(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
         Some(PinnedEdge { ends, segment, bounds: Bounds::of(segment) })
     };
     let mut edges: Vec<PinnedEdge> = pinned.into_iter().filter_map(edge).collect();
-    edges.sort_by(|a, b| a.bounds.low.x.total_cmp(&b.bounds.low.x).then(a.ends.cmp(&b.ends)));
-    let later = |i: usize| {
-        let first = &edges[i];
-        let may_meet = move |second: &&PinnedEdge| second.bounds.low.x <= first.bounds.high.x;
-        edges[i + 1..].iter().take_while(may_meet).map(move |second| [first, second])
-    };
-    let conflict =
-        |[first, second]: &[&PinnedEdge; 2]| first.bounds.meets(second.bounds) && first.conflicts_with(second);
-    let found = (0..edges.len()).flat_map(later).filter(conflict).take(CONFLICTS_LISTED);
+    let whole = edges.iter().fold(Bounds::EMPTY, |whole, edge| whole.union(edge.bounds));
+    edges.sort_by_cached_key(|edge| (place_along_curve(whole, edge.bounds.middle()), edge.ends));
+    let tree = BoxTree::new(edges.iter().map(|edge| edge.bounds));
+    let edges = &edges;
+    let pairs = (0..edges.len()).flat_map(|first| tree.later(first).map(move |later| [&edges[first], &edges[later]]));
+    let found = pairs.filter(|[first, second]| first.conflicts_with(second)).take(CONFLICTS_LISTED);
     let mut pairs: Vec<[[VertexId; 2]; 2]> =
         found.map(|[first, second]| [first.ends.min(second.ends), first.ends.max(second.ends)]).collect();
     pairs.sort_unstable();

@@ -5,6 +5,7 @@ use std::slice::SliceIndex;
 
 use glam::DVec2;
 
+use super::SolveError;
 use crate::geom::Bounds;
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 
@@ -21,6 +22,18 @@ impl Embedding {
     /// Positions of the boundary loop's vertices.
     pub fn boundary(&self, mesh: &DiskMesh) -> Vec<DVec2> {
         mesh.boundary_loop().iter().map(|&v| self[v]).collect()
+    }
+
+    /// Says where numbers are infinite, or none at all.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::OutOfRange`] with the first such vertex.
+    pub fn check_finite(&self) -> Result<(), SolveError> {
+        match self.iter().position(|z| !z.is_finite()) {
+            Some(vertex) => Err(SolveError::OutOfRange { vertex: VertexId::from_index(vertex) }),
+            None => Ok(()),
+        }
     }
 
     /// The box around it.

@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use super::pieces::{Piece, pieces};
 use super::weights::{Corner, CornerWeights, three_point_weights};
 use super::{Embedding, Family, SolveError};
+use crate::geom::power_of_two_near;
 use crate::linalg::Scalar;
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
@@ -213,12 +214,13 @@ fn sum_pieces<T: Scalar>(
     Ok(Equations { coefficients, bounded_corners })
 }
 
-/// A factor that brings the mesh to a size near 1, so that no power of a length overflows.
+/// A factor that brings the mesh to edges of a length near 1, so that no power of a length overflows: a power of two, so
+/// that multiplying rounds nothing, and differences of neighbouring positions stay exact.
 pub(super) fn length_scale(mesh: &DiskMesh) -> f64 {
     let positions = &mesh.mesh().positions;
     let extent = positions.iter().fold(0.0_f64, |m, x| m.max((*x - positions[0]).abs().max_element()));
     let per_edge = extent / (mesh.face_count() as f64).sqrt();
-    if per_edge > 0.0 { 1.0 / per_edge } else { 1.0 }
+    power_of_two_near(per_edge).recip()
 }
 
 /// Mean length of the edges at the size that [`length_scale`] brings the mesh to.

@@ -104,9 +104,23 @@ pub enum SolveError {
     #[error("only a planar embedding can be relaxed: make it planar first")]
     NotPlanar,
 
-    /// The last rung of the ladder has no further step.
-    #[error("the whole boundary is on a circle, and 64-bit numbers still cannot hold the faces apart")]
-    LadderExhausted,
+    /// The virtual boundary has no further vertex to bend.
+    #[error("the whole boundary is on a circle, and no weights give a planar embedding")]
+    AllBent,
+
+    /// No rung of a ladder has a further step.
+    #[error("no rung gives a planar embedding: {reasons}")]
+    LadderExhausted {
+        /// Which rungs failed, and why.
+        reasons: String,
+    },
+
+    /// A position that 64-bit numbers cannot hold.
+    #[error("vertex {vertex} comes to lie beyond the range of 64-bit numbers")]
+    OutOfRange {
+        /// The first such vertex.
+        vertex: VertexId,
+    },
 
     /// The linear solver found the matrix singular.
     #[error("the system is singular at vertex {vertex}: choose other pins or another family")]
@@ -136,6 +150,50 @@ pub enum SolveError {
     /// The caller asked the solve to stop.
     #[error("the solve was cancelled")]
     Cancelled,
+}
+
+impl SolveError {
+    /// A fixed lower-case name, for reports and tests.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::NotFinite { .. } => "weight-not-finite",
+            Self::CoincidentPins { .. } => "coincident-pins",
+            Self::NoSuchVertex { .. } => "no-such-vertex",
+            Self::TargetNotFinite { .. } => "target-not-finite",
+            Self::WeightNotPositive { .. } => "weight-not-positive",
+            Self::FamilyNotApplicable { .. } => "family-not-applicable",
+            Self::BoundaryTooShort { .. } => "boundary-too-short",
+            Self::TooManyPins { .. } => "too-many-pins",
+            Self::TargetsTooNear { .. } => "targets-too-near",
+            Self::Unmet => "unmet",
+            Self::TooFine => "too-fine",
+            Self::NotPlanar => "not-planar",
+            Self::AllBent => "all-bent",
+            Self::LadderExhausted { .. } => "ladder-exhausted",
+            Self::OutOfRange { .. } => "out-of-range",
+            Self::Singular { .. } => "singular",
+            Self::ResidualTooLarge { .. } => "residual-too-large",
+            Self::Linear { .. } => "linear-solver",
+            Self::Cancelled => "cancelled",
+        }
+    }
+
+    /// Whether a method came to nothing with pins and settings that may be: another method may give an embedding.
+    pub const fn is_failure_of_method(&self) -> bool {
+        matches!(
+            self,
+            Self::NotFinite { .. }
+                | Self::Unmet
+                | Self::TooFine
+                | Self::NotPlanar
+                | Self::AllBent
+                | Self::LadderExhausted { .. }
+                | Self::OutOfRange { .. }
+                | Self::Singular { .. }
+                | Self::ResidualTooLarge { .. }
+                | Self::Linear { .. }
+        )
+    }
 }
 
 /// An error that belongs to no vertex.

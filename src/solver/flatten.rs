@@ -47,7 +47,7 @@ pub fn flatten(mesh: &DiskMesh, options: &Options) -> Result<Step, FlattenError>
         (Some(step), _) if !step.verdict.planar => Err(FlattenError::NotPlanar(Box::new(step))),
         (Some(step), _) if !step.unmet().is_empty() => Err(FlattenError::Unmet(Box::new(step))),
         (Some(step), Ok(_)) => Ok(step),
-        (_, ending) => Err(ending.err().unwrap_or(SolveError::LadderExhausted).into()),
+        (_, ending) => Err(ending.err().unwrap_or(SolveError::NotPlanar).into()),
     }
 }
 

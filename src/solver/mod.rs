@@ -5,6 +5,7 @@
 //! | `method`, `family`, `settings`, `choice` | what can be chosen, with its names and words |
 //! | `pins`, `conflicts` | pins and gauge; pins that contradict each other |
 //! | `placing`, `sheet` | size and place of what is not pinned, without a fold; the numbers that are written of it |
+//! | `units` | the units of a solve: near the origin and near size 1, wherever the targets are |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
 //! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `many_pins`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
@@ -54,6 +55,7 @@ mod shape_preserving;
 mod sheet;
 mod solution;
 mod system;
+mod units;
 mod verdict;
 mod vertex_equation;
 mod virtual_boundary;

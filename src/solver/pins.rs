@@ -55,6 +55,12 @@ impl Pin {
     /// The weight of a constraint that nobody weighed: medium, between what the mesh wants and what the pins want.
     pub const DEFAULT_WEIGHT: f64 = 1.0;
 
+    /// The least weight that counts: lighter pins pull as this one does, which hardly moves anything.
+    pub(super) const LEAST_WEIGHT: f64 = 1e-12;
+
+    /// The greatest weight that counts: heavier pins pull as this one does, to within rounding of their targets.
+    pub(super) const GREATEST_WEIGHT: f64 = 1e12;
+
     /// A constraint that is met exactly.
     pub const fn hard(target: DVec2) -> Self {
         Self { target, hold: Hold::Hard }

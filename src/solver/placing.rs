@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::equations::length_scale;
 use super::{Embedding, GaugeSize, Pins};
-use crate::geom::{Bounds, Similarity};
+use crate::geom::{Bounds, Similarity, power_of_two_near};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// What is wanted of an embedding's place.
@@ -139,7 +139,7 @@ fn factor_of(mesh: &DiskMesh, embedding: &Embedding, size: GaugeSize) -> f64 {
 /// The factor to the total area of the surface. Both areas are summed at a size near 1, so that no square of a length
 /// overflows or vanishes.
 fn true_area_factor(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
-    let (in_space, in_plane) = (length_scale(mesh), 1.0 / extent_of(embedding));
+    let (in_space, in_plane) = (length_scale(mesh), power_of_two_near(embedding.bounds().size().max_element()).recip());
     let surface: f64 = mesh
         .faces()
         .map(|face| {

@@ -28,7 +28,7 @@ use super::Embedding;
 use super::equations::{Equations, mean_length};
 use super::pieces::{Piece, pieces};
 use super::weights::bounded;
-use crate::geom::{Orientation, orientation};
+use crate::geom::{Orientation, orientation, power_of_two_near};
 use crate::mesh::{DiskMesh, FaceId};
 
 /// Height of a degenerate face, and least length of its edges, relative to its longest edge. Thin enough to leave its
@@ -95,7 +95,7 @@ fn scale_of(embedding: &Embedding, face_count: usize) -> f64 {
     let first = embedding.first().copied().unwrap_or_default();
     let extent = embedding.iter().fold(0.0_f64, |m, z| m.max((*z - first).abs().max_element()));
     let mean_length = extent / (face_count.max(1) as f64).sqrt();
-    if mean_length.is_normal() { mean_length.log2().round().exp2().recip() } else { 1.0 }
+    power_of_two_near(mean_length).recip()
 }
 
 /// Mean length of the edges of an embedding at the size that its equations are those of.

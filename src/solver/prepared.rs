@@ -19,6 +19,7 @@ use super::pins::{
 use super::placing::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::system::{FreeSystem, Site};
+use super::units::Units;
 use super::{Choice as _, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
@@ -179,20 +180,22 @@ impl Prepared {
         control.enter(Phase::Solve)?;
         let start = Instant::now();
         let held = self.settings.held(pins);
-        let targets = self.own_places.clone().unwrap_or_else(|| targets_of(&held));
+        let units = if self.own_places.is_some() { Units::default() } else { Units::of(&held, self.settings.size) };
+        let targets = self.own_places.clone().unwrap_or_else(|| targets_of(&units.pins(&held)));
         let site = Site { mesh, system: &self.system };
-        let (embedding, residual) = match &self.values {
+        let (mut embedding, residual) = match &self.values {
             Values::Free(free) => free.solve(site, &targets)?,
             Values::Fixed(fixed) => fixed.solve(site, &targets)?,
-        };
-        let in_force = if self.own_places.is_some() {
-            fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))
-        } else {
-            held
         };
         let linear = match &self.values {
             Values::Free(free) => free.numbers(mesh, &embedding, residual),
             Values::Fixed(fixed) => fixed.numbers(site, &embedding, residual),
+        };
+        let in_force = if self.own_places.is_some() {
+            fixed_pins(targets.keys().map(|&vertex| (vertex, embedding[vertex])))
+        } else {
+            units.embedding_to_plane(&mut embedding, &held);
+            held
         };
         Ok(Solution {
             embedding,

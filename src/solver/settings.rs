@@ -131,10 +131,16 @@ impl Settings {
         hold.is_exact() && self.treatment != Some(Treatment::Weighted)
     }
 
-    /// How this treatment holds a pin: it may weigh one that is to be met exactly.
+    /// How this treatment holds a pin: it may weigh one that is to be met exactly, and no pin is weighed so lightly or so
+    /// heavily that it makes no difference any more.
     pub fn hold_of(&self, asked: Hold) -> Hold {
-        let is_weighed = asked.is_exact() && !self.is_exact(asked);
-        if is_weighed { Hold::Weighted(Pin::DEFAULT_WEIGHT) } else { asked }
+        match asked {
+            Hold::Weighted(weight) if asked.invalid_weight().is_none() => {
+                Hold::Weighted(weight.clamp(Pin::LEAST_WEIGHT, Pin::GREATEST_WEIGHT))
+            }
+            _ if asked.is_exact() && !self.is_exact(asked) => Hold::Weighted(Pin::DEFAULT_WEIGHT),
+            _ => asked,
+        }
     }
 
     /// The user's pins as this treatment holds them.

@@ -1,10 +1,12 @@
 //! Constraints that cannot be met together, by hand-made cases.
 
+use std::time::{Duration, Instant};
+
 use freebound::mesh::{DiskMesh, FaceId, VertexId};
 use freebound::solver::{CONFLICTS_LISTED, Conflict, Pin, Pins, conflicts, hard_pins};
 use glam::DVec2;
 
-use crate::makers::{fan, grid};
+use crate::makers::{disk, fan, grid};
 
 /// Hard pins on vertices of a mesh.
 fn pinned(places: &[(u32, [f64; 2])]) -> Pins {
@@ -120,4 +122,23 @@ fn of_a_mesh_with_every_vertex_astray_only_so_many_are_listed() {
     let found = conflicts(&mesh, &hard_pins(mesh.vertices().map(|v| (v, place(v).truncate()))));
     let crossings = found.iter().filter(|conflict| matches!(conflict, Conflict::CrossingEdges { .. })).count();
     assert_eq!(crossings, CONFLICTS_LISTED);
+}
+
+#[test]
+fn edges_one_above_the_other_are_looked_through_in_good_time() {
+    let rungs = 20_000;
+    let mesh = disk(grid(1, rungs));
+    // A ladder so wide that, seen from above, all rungs lie on each other.
+    let wide = |v: VertexId| mesh.position(v).truncate() * DVec2::new(1e4, 1.0);
+    let targets = mesh.vertices().map(|v| (v, Pin::hard(wide(v))));
+    let start = Instant::now();
+    assert_eq!(conflicts(&mesh, &targets.clone().collect()), []);
+    assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+    // One rung laid across the next three.
+    let pins: Pins = targets
+        .map(|(v, pin)| if v.index() == 1001 { (v, Pin::hard(wide(v) + 3.5 * DVec2::Y)) } else { (v, pin) })
+        .collect();
+    let found = conflicts(&mesh, &pins);
+    assert!(found.iter().any(|conflict| matches!(conflict, Conflict::CrossingEdges { .. })), "{found:?}");
+    assert!(found.iter().all(|conflict| conflict.vertices().contains(&VertexId::new(1001))), "{found:?}");
 }

@@ -49,7 +49,7 @@ pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
         Statement { before_face, text: statement.text.clone() }
     };
     let mut positions = source.polygons.positions.clone();
-    positions.extend_from_slice(&disk.mesh().positions[old_count..]);
+    positions.extend(disk.mesh().positions[old_count..].iter().map(|&position| position * disk.unit()));
     let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
     ObjMesh {
         polygons: PolygonMesh { positions, corners, starts: (!are_triangles).then_some(starts) },

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::{ObjMesh, Statement};
+use crate::io::door::check_finite;
 use crate::solver::Embedding;
 
 /// Writes a mesh with one texture coordinate per vertex, or with none if `texture` is empty.
@@ -11,7 +12,7 @@ use crate::solver::Embedding;
 ///
 /// # Errors
 ///
-/// What `out` says.
+/// What `out` says, and texture coordinates that are infinite or not numbers.
 ///
 /// # Panics
 ///
@@ -29,6 +30,7 @@ pub(in crate::io) fn write_obj_with(
 ) -> io::Result<()> {
     let polygons = &mesh.polygons;
     assert!(texture.is_empty() || texture.len() == polygons.positions.len(), "one texture coordinate per vertex");
+    check_finite(texture)?;
     for position in &polygons.positions {
         write_numbers(out, b"v", &position.to_array())?;
     }

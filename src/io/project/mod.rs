@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::error::ProjectError;
 use self::fields::{SourceFields, pin_list};
+use super::door::check_finite;
 use super::paths::{relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::VAxis;
@@ -220,6 +221,7 @@ impl ProjectFile {
     /// [`WriteError`] names the path and says what went wrong.
     pub fn write(&self, path: &Path, style: PathStyle) -> Result<(), WriteError> {
         let failed = |source| WriteError { path: path.to_owned(), source };
+        check_finite(self.targets.values().map(|target| &target.uv)).map_err(failed)?;
         let mut project = self.clone();
         let folder = whole_folder_of(path);
         for source in [Some(&mut project.mesh), project.picture.as_mut()].into_iter().flatten() {

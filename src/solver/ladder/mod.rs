@@ -45,6 +45,7 @@ use self::relax::Rounds;
 use self::rung::{Failure, Footing, Latest, Notes};
 use self::task::Task;
 use super::rest::Rest;
+use super::units::Units;
 use super::{
     Control, Embedding, Method, Phase, Pins, Settings, Sheet, SolveError, Verdict, fixed_pins, gauge_pins, verdict,
 };
@@ -68,6 +69,9 @@ pub enum Ending {
 /// A method under way on one mesh with one set of pins.
 #[derive(Debug)]
 pub struct Ladder {
+    asked: Task,
+    units: Units,
+    /// What is asked for, in units of the solve, as all but steps are.
     task: Arc<Task>,
     plan: Plan,
     step_count: usize,
@@ -80,17 +84,19 @@ pub struct Ladder {
 impl Ladder {
     /// A ladder that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
-        let task = Arc::new(Task::new(settings, pins, Arc::default()));
+        let asked = Task::new(settings, pins, Arc::default());
+        let units = Units::of(&asked.pins, settings.size);
+        let task = Arc::new(asked.in_units(&units));
         let plan = Plan::new(&task, &Kept::default());
-        Self { task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
+        Self { asked, units, task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
     }
 
     /// The same with every step proved in the numbers that are written of it, not in those of the plane.
     #[must_use]
     pub fn written_on(self, sheet: Sheet) -> Self {
-        let Task { settings, pins, .. } = &*self.task;
-        let task = Arc::new(Task::new(*settings, pins.clone(), Arc::new(sheet)));
-        Self { plan: Plan::new(&task, &Kept::default()), task, ..self }
+        let asked = Task { sheet: Arc::new(sheet), ..self.asked };
+        let task = Arc::new(asked.in_units(&self.units));
+        Self { plan: Plan::new(&task, &Kept::default()), asked, task, ..self }
     }
 
     /// The same with what earlier ladders on the mesh have computed, used where it serves.
@@ -108,12 +114,12 @@ impl Ladder {
 
     /// What was asked for.
     pub fn settings(&self) -> &Settings {
-        &self.task.settings
+        &self.asked.settings
     }
 
     /// The user's pins.
     pub fn pins(&self) -> &Pins {
-        &self.task.pins
+        &self.asked.pins
     }
 
     /// How many steps it has taken.
@@ -169,7 +175,7 @@ impl Ladder {
         if matches!(candidate, Err(SolveError::Unmet)) {
             self.ending = Some(Ending::Unmet);
         }
-        let step = self.proved(candidate?, mesh, control);
+        let step = self.proved(candidate?, mesh, control)?;
         self.take_in(&step);
         Ok(step)
     }
@@ -203,17 +209,20 @@ impl Ladder {
             let task = Arc::clone(&self.plan.part().task);
             let from = Footing { task: &task, mesh, latest };
             let Failure { error, handover } = match self.plan.part_mut().enter(place).step(from, control) {
-                Ok(candidate) => return Ok(candidate),
+                Ok(candidate) => match candidate.solution.embedding.check_finite() {
+                    Ok(()) => return Ok(candidate),
+                    Err(error) => Failure::of(candidate.rung.as_rung(), error),
+                },
                 Err(failure) => failure,
             };
             let Some(handover) = handover else { return Err(error) };
+            self.notes.say(handover.note);
             if !self.plan.part_mut().leave_flight(place) {
                 if !self.plan.has_next_part() {
-                    return Err(error);
+                    return Err(self.given_up(error));
                 }
                 self.enter_next_part()?;
             }
-            self.notes.say(handover.note);
             if let Some(latest) = &mut self.latest {
                 latest.onward = handover.embedding;
             }
@@ -224,7 +233,8 @@ impl Ladder {
     fn enter_next_part(&mut self) -> Result<(), SolveError> {
         let has_start = || self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one);
         if !self.plan.has_next_part() || (self.plan.part().aim == Aim::PlanarStart && !has_start()) {
-            return Err(SolveError::LadderExhausted);
+            let reasons = "the planar start without the constraints is not planar".to_owned();
+            return Err(self.given_up(SolveError::LadderExhausted { reasons }));
         }
         // A part may have given no step at all.
         if let Some(latest) = &mut self.latest {
@@ -234,18 +244,34 @@ impl Ladder {
         Ok(())
     }
 
+    /// The error of a ladder that gives up: which rungs failed, and why.
+    fn given_up(&mut self, error: SolveError) -> SolveError {
+        match self.notes.take() {
+            Some(reasons) if self.task.settings.method == Method::Auto && error != SolveError::Unmet => {
+                SolveError::LadderExhausted { reasons }
+            }
+            _ => error,
+        }
+    }
+
+    /// Those of the part under way: a planar start lies in the plane where it lies.
+    fn units_in_force(&self) -> Units {
+        if self.plan.part().aim == Aim::Constraints { self.units } else { Units::default() }
+    }
+
     /// A candidate with its verdict, handed over even where the caller has asked to stop: the rung has moved on.
-    fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Step {
+    fn proved(&mut self, mut candidate: Candidate, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
         control.enter(Phase::Verify).ok();
         let start = Instant::now();
+        let units = self.units_in_force();
         let task = Arc::clone(&self.plan.part().task);
         let refinement = candidate.refinement.clone();
         let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
         let placing = task.place(disk, &mut candidate);
-        let mut verdict = verdict_of(&task, mesh, &candidate);
+        let mut verdict = self.verdict_of(mesh, &candidate);
         if !verdict.planar || !task.are_met(&candidate.solution.embedding) {
             let is_kept = self.keep_what_is_proved(&mut candidate);
-            verdict = if is_kept { verdict_of(&task, mesh, &candidate) } else { verdict };
+            verdict = if is_kept { self.verdict_of(mesh, &candidate) } else { verdict };
         }
         if candidate.progress.is_none() && verdict.planar && self.plan.part().rounds_until_it_serves() > 0 {
             let of = candidate.mesh(mesh);
@@ -255,7 +281,9 @@ impl Ladder {
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
         let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
-        let max_move = self.latest.as_ref().map(moved);
+        let max_move = self.latest.as_ref().map(moved).map(|length| units.length_in_plane(length));
+        candidate.take_to_plane(&units, &self.asked.held());
+        candidate.solution.embedding.check_finite()?;
         self.notes.say(candidate.note.take());
         self.notes.say(placing);
         candidate.note = self.notes.take();
@@ -263,10 +291,21 @@ impl Ladder {
             Aim::Constraints => Pins::new(),
             Aim::PlanarStart => {
                 candidate.prepared = None;
-                self.task.held()
+                self.asked.held()
             }
         };
-        Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside }
+        Ok(Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside })
+    }
+
+    /// The verdict on a candidate as it is written.
+    fn verdict_of(&self, mesh: &DiskMesh, candidate: &Candidate) -> Verdict {
+        let (units, disk) = (self.units_in_force(), candidate.mesh(mesh));
+        if units.is_plane() {
+            return verdict(disk, &self.plan.part().task.sheet.written(&candidate.solution.embedding));
+        }
+        let mut embedding = candidate.solution.embedding.clone();
+        units.embedding_to_plane(&mut embedding, &self.asked.held());
+        verdict(disk, &self.asked.sheet.written(&embedding))
     }
 
     /// Gives back the embedding before a round of relaxing, where that was all that is asked for and this is not.
@@ -284,6 +323,7 @@ impl Ladder {
     /// Remembers a step and decides whether the method has ended.
     fn take_in(&mut self, step: &Step) {
         self.step_count += 1;
+        let units = self.units_in_force();
         let part = self.plan.part_mut();
         // A mirror image is one-to-one, but not what the ladder is for.
         let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
@@ -293,9 +333,9 @@ impl Ladder {
         // The way from a planar start to the constraints keeps no polygon convex: that follows.
         let is_solved = is_solved_for_faces && (step.verdict.planar || part.aim == Aim::PlanarStart);
         self.latest = Some(Latest {
-            embedding: step.solution.embedding.clone(),
+            embedding: units.embedding(&step.solution.embedding),
             onward: None,
-            pins: step.solution.pins.clone(),
+            pins: units.pins(&step.solution.pins),
             has_simple_boundary: step.has_simple_boundary(),
             is_one_to_one: step.verdict.is_one_to_one(),
             is_solved,
@@ -314,11 +354,6 @@ impl Ladder {
         }
         Some(if latest.is_some_and(|latest| latest.is_solved) { Ending::Planar } else { part.ending() })
     }
-}
-
-/// The verdict on a candidate as it is written.
-fn verdict_of(task: &Task, mesh: &DiskMesh, candidate: &Candidate) -> Verdict {
-    verdict(candidate.mesh(mesh), &task.sheet.written(&candidate.solution.embedding))
 }
 
 /// The default gauge pins where they lie in an embedding.

@@ -36,10 +36,5 @@ impl Rung for Natural {
 
 /// Other rungs may make good what is wrong with the system, but not what the user got wrong.
 fn failure(error: SolveError) -> Failure {
-    match error {
-        SolveError::Singular { .. } | SolveError::ResidualTooLarge { .. } | SolveError::Linear { .. } => {
-            Failure::of("the natural boundary", error)
-        }
-        other => other.into(),
-    }
+    if error.is_failure_of_method() { Failure::of("the natural boundary", error) } else { error.into() }
 }

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::PlanarStart;
 use crate::mesh::{DiskMesh, Refinement, VertexId};
+use crate::solver::units::Units;
 use crate::solver::{Embedding, Family, Method, Outside, Pin, Pins, Prepared, Solution, Verdict, VirtualBoundary};
 
 /// An embedding, and what made it.
@@ -47,6 +48,21 @@ impl Candidate {
         let gauge_completed = pins.len() < 2;
         let solution = Solution { embedding, pins: pins.clone(), gauge_completed, ..Solution::default() };
         Self::new(rung, Family::default(), solution)
+    }
+
+    /// Takes it from units of the solve to the plane, vertices on the targets asked for to the last bit.
+    pub(super) fn take_to_plane(&mut self, units: &Units, asked: &Pins) {
+        if units.is_plane() {
+            return;
+        }
+        units.embedding_to_plane(&mut self.solution.embedding, asked);
+        units.pins_to_plane(&mut self.solution.pins, asked);
+        if let Some(progress) = &mut self.progress {
+            progress.distance_left = units.length_in_plane(progress.distance_left);
+        }
+        if let Some(outside) = &mut self.outside {
+            units.to_plane(&mut Arc::make_mut(outside).frame);
+        }
     }
 
     /// The same, computed since `start`.

@@ -7,6 +7,7 @@ use crate::geom::Similarity;
 use crate::mesh::DiskMesh;
 use crate::solver::pins::GAUGE_PINS;
 use crate::solver::placing::Placing;
+use crate::solver::units::Units;
 use crate::solver::{Conflict, Embedding, Method, Outside, Pins, Settings, Sheet, SolveError, check_pins, conflicts};
 
 #[derive(Debug)]
@@ -21,6 +22,13 @@ impl Task {
     /// Pins count only where the method uses them.
     pub(super) fn new(settings: Settings, pins: Pins, sheet: Arc<Sheet>) -> Self {
         Self { settings, pins: if settings.method.uses_pins() { pins } else { Pins::new() }, sheet }
+    }
+
+    /// The same in units of a solve. Where these are not the plane's own, rungs prove what they solve, and what is written
+    /// is proved of every step.
+    pub(super) fn in_units(&self, units: &Units) -> Self {
+        let sheet = if units.is_plane() { Arc::clone(&self.sheet) } else { Arc::default() };
+        Self { settings: units.settings(self.settings), pins: units.pins(&self.pins), sheet }
     }
 
     /// Whether the pins are constraints: up to two exact ones only fix the similarity.

@@ -173,7 +173,7 @@ impl Bend {
                 }
             }
         }
-        Err(SolveError::LadderExhausted)
+        Err(SolveError::AllBent)
     }
 
     /// Solves mesh and outside together, and peels the outside off.

@@ -77,7 +77,7 @@ pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control
     let vertices = exact().map(|(&v, _)| v).chain(corners).map(VertexId::number).collect();
     let cells = Subdivision::new(&surroundings.disk, &surroundings.places);
     let mut paths = Paths::new(cells, &graph, vertices, surroundings.frame.len());
-    paths.lay_all(&mut Router::new(CROSSING * mean_edge_length(mesh, start)), control)?;
+    paths.lay_all(&mut Router::new(CROSSING * mean_edge_length(mesh, start), control))?;
     let Paths { mut cells, lines, .. } = paths;
     split_collapsing_edges(&mut cells, &graph);
     let parts = triangulate(&mut cells, &graph, &surroundings.disk);

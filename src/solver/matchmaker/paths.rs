@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 use super::router::{Length, Move, Router, Sector, Terminal, Way};
 use super::subdivision::{Role, Subdivision};
 use super::target_graph::TargetGraph;
-use crate::solver::{Control, Phase, SolveError};
+use crate::solver::SolveError;
 
 #[derive(Debug)]
 pub(super) struct Paths<'a> {
@@ -54,19 +54,18 @@ impl<'a> Paths<'a> {
         paths
     }
 
-    pub(super) fn lay_all(&mut self, router: &mut Router, control: Control<'_>) -> Result<(), SolveError> {
+    pub(super) fn lay_all(&mut self, router: &mut Router<'_>) -> Result<(), SolveError> {
         let mut is_connected: Vec<bool> = (0..self.graph.points.len()).map(|end| end >= self.target_count).collect();
         let mut waiting = BinaryHeap::new();
         for end in (0..).take(is_connected.len()).filter(|&end| is_connected[end as usize]) {
             self.wait_at(end, &is_connected, &mut waiting);
         }
         while let Some(Reverse(Waiting { edge, .. })) = waiting.peek().copied() {
-            control.enter(Phase::Solve)?;
             let [a, b] = self.graph.edges[edge as usize];
             let [from, to] = if is_connected[a as usize] { [a, b] } else { [b, a] };
             if is_connected[to as usize] {
                 waiting.pop();
-            } else if self.lay_or_wait(edge, from, router, &mut waiting) {
+            } else if self.lay_or_wait(edge, from, router, &mut waiting)? {
                 is_connected[to as usize] = true;
                 self.wait_at(to, &is_connected, &mut waiting);
             }
@@ -75,8 +74,7 @@ impl<'a> Paths<'a> {
             waiting.push(self.waiting(edge));
         }
         while let Some(Reverse(Waiting { edge, .. })) = waiting.peek().copied() {
-            control.enter(Phase::Solve)?;
-            self.lay_or_wait(edge, self.graph.edges[edge as usize][0], router, &mut waiting);
+            self.lay_or_wait(edge, self.graph.edges[edge as usize][0], router, &mut waiting)?;
         }
         Ok(())
     }
@@ -102,20 +100,19 @@ impl<'a> Paths<'a> {
         &mut self,
         edge: u32,
         from: u32,
-        router: &mut Router,
+        router: &mut Router<'_>,
         waiting: &mut BinaryHeap<Reverse<Waiting>>,
-    ) -> bool {
+    ) -> Result<bool, SolveError> {
         waiting.pop();
         let to = self.other_end(edge, from);
-        let way = router.way(&self.cells, &self.terminal(from, to), &self.terminal(to, from));
-        let Way { length, moves } = way.expect("ends of one region are joined within it");
+        let Way { length, moves } = router.way(&self.cells, &self.terminal(from, to), &self.terminal(to, from))?;
         let is_shortest = waiting.peek().is_none_or(|Reverse(next)| length <= next.bound.0);
         if is_shortest {
             self.lay(edge, from, &moves);
         } else {
             waiting.push(Reverse(Waiting { bound: Length(length), edge }));
         }
-        is_shortest
+        Ok(is_shortest)
     }
 
     /// The other end of an edge.

@@ -10,6 +10,10 @@ use std::collections::BinaryHeap;
 use glam::DVec2;
 
 use super::subdivision::{NONE, Role, Subdivision};
+use crate::solver::{Control, Phase, SolveError};
+
+/// Nodes that are gone on from between two looks at whether the caller wants to stop.
+const NODES_BETWEEN_LOOKS: usize = 4096;
 
 /// One part of a way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +112,8 @@ struct Link {
 
 /// Searches ways. Nodes are crossings (twice the halfedge) and vertices (twice the vertex and one).
 #[derive(Debug)]
-pub(super) struct Router {
+pub(super) struct Router<'a> {
+    control: Control<'a>,
     known: Vec<Known>,
     run: u32,
     heap: BinaryHeap<Reverse<Reached>>,
@@ -116,23 +121,32 @@ pub(super) struct Router {
     crossing: f64,
 }
 
-impl Router {
+impl<'a> Router<'a> {
     /// A router to which a new point is worth so much length.
-    pub(super) fn new(crossing: f64) -> Self {
-        Self { known: Vec::new(), run: 0, heap: BinaryHeap::new(), crossing }
+    pub(super) fn new(crossing: f64, control: Control<'a>) -> Self {
+        Self { control, known: Vec::new(), run: 0, heap: BinaryHeap::new(), crossing }
     }
 
-    /// The shortest way. `None` where there is none at all.
-    pub(super) fn way(&mut self, cells: &Subdivision, start: &Terminal, goal: &Terminal) -> Option<Way> {
+    /// The shortest way between two ends of one region, which are always joined within it.
+    ///
+    /// # Errors
+    ///
+    /// The caller's wish to stop.
+    pub(super) fn way(&mut self, cells: &Subdivision, start: &Terminal, goal: &Terminal) -> Result<Way, SolveError> {
         self.run += 1;
         self.heap.clear();
         let size = 2 * cells.halfedge_count().max(cells.vertex_count());
         self.known.resize(size, Known { run: 0, length: 0.0, from: NONE, by: Move::Along(NONE) });
         let begin = 2 * start.vertex + 1;
         self.reach(cells, goal, Link { node: begin, from: begin, by: Move::Along(NONE) });
-        while let Some(Reverse(Reached { length: Length(length), node, .. })) = self.heap.pop() {
+        for count in 0_usize.. {
+            if count.is_multiple_of(NODES_BETWEEN_LOOKS) {
+                self.control.enter(Phase::Solve)?;
+            }
+            let Reverse(reached) = self.heap.pop().expect("ends of one region are joined within it");
+            let Reached { length: Length(length), node, .. } = reached;
             if node == 2 * goal.vertex + 1 {
-                return Some(Way { length, moves: self.moves(begin, node) });
+                return Ok(Way { length, moves: self.moves(begin, node) });
             }
             if length > self.known[node as usize].length {
                 continue;
@@ -145,7 +159,7 @@ impl Router {
                 self.leave_vertex(cells, node, &Sector::around(cells, node / 2), goal);
             }
         }
-        None
+        unreachable!("the count has no end")
     }
 
     /// Goes on from a vertex.

@@ -1,0 +1,28 @@
+//! Powers of two as factors: multiplying by one rounds nothing.
+
+/// The greatest power, as an exponent, that has a normal number for its reciprocal.
+const GREATEST: f64 = 1022.0;
+
+/// The power of two nearest to a number, in ratio, among those that have a normal reciprocal; 1 for what is not positive
+/// and finite.
+pub fn power_of_two_near(number: f64) -> f64 {
+    let is_usable = number > 0.0 && number.is_finite();
+    if is_usable { number.log2().round().clamp(-GREATEST, GREATEST).exp2() } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multiplying_and_dividing_by_a_power_of_two_gives_every_number_back() {
+        for number in [1.0, 3.0, 0.1, 1e-300, 1.7e308, 5e-324, 1e160] {
+            let power = power_of_two_near(number);
+            assert!((number / power) * power == number, "{number:e}");
+            assert!((0.2..=4.0).contains(&(number / power)) || number < f64::MIN_POSITIVE, "{number:e}");
+        }
+        for none in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(power_of_two_near(none) == 1.0, "{none}");
+        }
+    }
+}
