@@ -208,7 +208,7 @@ fn the_summary_names_rung_and_number_of_steps() {
         auto.contains("auto, conformal weights: planar: proved one-to-one after 1 step (natural boundary)"),
         "{auto}"
     );
-    let iterated = said(&[&["--family", "mean-value"][..], &FOLDING].concat());
+    let iterated = said(&[&["--family", "mean-value", "--relax", "0"][..], &FOLDING].concat());
     assert!(iterated.contains("steps (iteration)"), "{iterated}");
     let bent = said(&[&["--family", "mean-value", "--method", "virtual-boundary"][..], &FOLDING].concat());
     assert!(bent.contains("after 2 steps (virtual boundary)"), "{bent}");

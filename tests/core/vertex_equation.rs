@@ -12,7 +12,7 @@ use glam::DVec2;
 use num_complex::Complex;
 
 use crate::common::corpus_disks;
-use crate::makers::{Random, disk, grid};
+use crate::makers::{Random, disk, grid, honeycomb, quad_sheet};
 
 /// Sums in another order, relative to the sizes of their terms.
 const ROUNDING: f64 = 1e-12;
@@ -52,7 +52,7 @@ fn assert_is_row(
     vertex: VertexId,
 ) {
     let row: Vec<(VertexId, Complex<f64>)> =
-        mesh.outgoing(vertex).map(|h| (mesh.head(h), all.coefficients[h.index()])).collect();
+        mesh.links_from(vertex).map(|h| (mesh.head(h), all.coefficients[h.index()])).collect();
     let sum: f64 = row.iter().map(|(_, a)| a.re).sum();
     assert_eq!(
         found.terms.iter().map(|term| term.neighbour).collect::<Vec<_>>(),
@@ -83,6 +83,27 @@ fn each_equation_is_a_row_of_the_system() {
         for vertex in mesh.vertices() {
             let found = equation(&mesh, &step, vertex);
             assert_is_row(&mesh, &found, &all, &embedding, vertex);
+        }
+    }
+}
+
+#[test]
+fn each_equation_on_polygons_is_a_row_of_the_system_with_their_diagonals() {
+    for polygons in [quad_sheet(4, 3, 0.1, &mut Random(5)), honeycomb(3, 3, 0.03, &mut Random(6))] {
+        let mesh = disk(polygons.triangulate());
+        let (before, after) = (at_random(mesh.vertex_count(), 7), at_random(mesh.vertex_count(), 8));
+        for family in [Family::Conformal, Family::MeanValue] {
+            let all = equations::natural(&mesh, family.power().unwrap()).unwrap();
+            let mut step = step_with(&mesh, family, after.clone());
+            for vertex in mesh.vertices() {
+                assert_is_row(&mesh, &equation(&mesh, &step, vertex), &all, &after, vertex);
+            }
+            step.candidate.rung = Method::Iterate;
+            let all = natural_in_plane(&mesh, &before);
+            for vertex in mesh.vertices() {
+                let (found, _) = equation_of_step(&mesh, &step, Some(&before), vertex).unwrap();
+                assert_is_row(&mesh, &found, &all, &after, vertex);
+            }
         }
     }
 }

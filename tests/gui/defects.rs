@@ -6,6 +6,7 @@ use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::solver::{Family, Method, Settings};
 use freebound::ui::Defect;
+use glam::DVec2;
 
 use crate::harness::{Window, corpus, sheet};
 
@@ -59,6 +60,27 @@ fn the_list_of_defects_jumps_to_a_face_in_both_panes() {
         assert!(window.plane_view().contains(window.place_in_plane(embedding[corner])));
         assert!(window.mesh_view().contains(window.place_on_mesh(corner)));
     }
+}
+
+#[test]
+fn a_concave_polygon_is_listed_and_shown_with_all_its_corners() {
+    let folder = tempfile::tempdir().expect("a folder for files");
+    let path = folder.path().join("quad.obj");
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").expect("a folder for files");
+    let mut window = Window::with_file(&path);
+    window.editor_mut().session.handle(Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
+    let corners = [0, 1, 2, 3].map(VertexId::new);
+    window.editor_mut().session.handle(Action::Fix(corners.to_vec()));
+    // Both triangles stay positive, but the other diagonal lies outside.
+    for (vertex, [x, y]) in corners.into_iter().zip([[0.7, 0.7], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) {
+        window.editor_mut().session.handle(Action::MovePin { vertex, target: DVec2::new(x, y) });
+    }
+    window.editor_mut().session.handle(Action::EndGesture);
+    window.settle();
+    let [Defect::Concave(face)] = window.editor().defects()[..] else { panic!("{:?}", window.editor().defects()) };
+    window.click("Defects 1");
+    window.click(&format!("concave polygon at {face}"));
+    assert_eq!(*window.editor().selection.vertices(), corners.into_iter().collect());
 }
 
 #[test]
