@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::args::CheckArguments;
+use super::failed::await_report;
 use super::flatten::{disk_of, go_on};
 use super::places::Places;
 use super::standard::read_model;
@@ -16,7 +17,9 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let start = Instant::now();
     let places = Places::of_check(arguments);
     places.spare(&arguments.mesh, "the mesh")?;
+    await_report(arguments.report.as_deref());
     let model = read_model(&arguments.mesh)?;
+    places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
     let texture = match model.source.texture_mesh() {
         Ok(texture) => texture,

@@ -14,7 +14,7 @@ use crate::solver::{Choice as _, Method, SolveError};
 const INTERNAL: u8 = 1;
 
 /// Options that do not go together; clap's number too.
-const WRONG_USE: u8 = 2;
+pub(super) const WRONG_USE: u8 = 2;
 
 /// A file that cannot be used.
 pub(super) const UNUSABLE_INPUT: u8 = 3;

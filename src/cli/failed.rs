@@ -1,10 +1,12 @@
 //! The report of a run that came to nothing. The report of an earlier run is never left in its place.
 
 use std::fs;
-use std::path::Path;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use super::Failure;
-use super::exit::{FALLS_SHORT, METHOD_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, message_of};
+use super::exit::{FALLS_SHORT, METHOD_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of};
 use super::say::warn;
 use super::standard::name_of_input;
 use super::summary::put_report;
@@ -22,14 +24,14 @@ impl Subject<'_> {
     /// nothing. Where a run broke off there is none, and wrong use leaves everything as it is.
     pub(super) fn report_failure(self, failure: &Failure) {
         let Some(path) = self.report else { return };
-        match (failure, failure.code()) {
-            (_, UNUSABLE_INPUT | FALLS_SHORT) => {
+        match failure.code() {
+            WRONG_USE => {}
+            UNUSABLE_INPUT | FALLS_SHORT if may_be_replaced(path) => {
                 if let Err(error) = put_report(&self.report_of(failure), path) {
                     forget(path);
                     warn(error);
                 }
             }
-            (Failure::Usage(_), _) => {}
             _ => forget(path),
         }
     }
@@ -42,10 +44,37 @@ impl Subject<'_> {
     }
 }
 
+/// Where the report of a run under way goes: should it be interrupted, that of an earlier run goes.
+static AWAITED: Mutex<Option<PathBuf>> = Mutex::new(None);
+
+/// Says where the report of the run goes.
+pub(super) fn await_report(path: Option<&Path>) {
+    if let Ok(mut awaited) = AWAITED.lock() {
+        *awaited = path.map(Path::to_owned);
+    }
+}
+
+/// Takes away the report of an earlier run in the place of the one that will not come.
+pub(super) fn forget_awaited() {
+    if let Some(path) = AWAITED.lock().ok().and_then(|mut awaited| awaited.take()) {
+        forget(&path);
+    }
+}
+
+/// Whether a file is a report, as far as its first byte tells, or none at all. A run that has failed early does not know
+/// all files that it reads.
+fn may_be_replaced(path: &Path) -> bool {
+    let mut first = [b'{'];
+    let begins = fs::File::open(path).and_then(|mut file| file.read(&mut first));
+    !path.is_file() || (begins.is_ok() && first == [b'{'])
+}
+
 /// Takes away what an earlier run has reported.
 fn forget(path: &Path) {
-    if path.is_file()
-        && let Err(error) = fs::remove_file(path)
+    if !may_be_replaced(path) {
+        warn(format_args!("{}: no report of an earlier run, left as it is", path.display()));
+    } else if path.is_file()
+        && let Err(error) = fs::canonicalize(path).and_then(fs::remove_file)
     {
         warn(format_args!("{}: the report of an earlier run cannot be removed: {error}", path.display()));
     }

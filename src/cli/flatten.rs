@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use super::args::FlattenArguments;
 use super::exit::conclude;
+use super::failed::await_report;
 use super::places::Places;
 use super::progress::{INTERRUPTED, Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
@@ -17,7 +18,6 @@ use super::{Failure, Status};
 use crate::examples::Example;
 use crate::io::{
     Constraints, Materials, OutputFit, OutputKind, PictureFile, StepReport, StepsFolder, Target, Targets, WriteError,
-    material_files,
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Outcome, Surface};
@@ -38,16 +38,15 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     }
     let places = Places::of_flatten(arguments);
     refuse_clashes(arguments, &places)?;
+    await_report(arguments.report.as_deref());
     set_threads(arguments.threads)?;
-    let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
     let progress = Progress::default();
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
         let model = read_model(&arguments.mesh)?;
-        for file in material_files(&model.source, &arguments.mesh) {
-            places.spare(&file, "a file that the mesh's materials name")?;
-        }
+        places.spare_materials(&model.source, &arguments.mesh)?;
+        let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         let targets = gather(arguments, disk_of(&model)?.vertex_count())?;
         let document = Document {
             targets,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::Failure;
 use super::args::{CheckArguments, FlattenArguments};
 use super::standard::is_standard;
-use crate::io::{PictureFile, StepsFolder, is_same_file};
+use crate::io::{ObjMesh, PictureFile, StepsFolder, is_same_file, material_files};
 
 /// A file that is written.
 struct Place {
@@ -49,6 +49,13 @@ impl Places {
             }));
         }
         Ok(())
+    }
+
+    /// Refuses to write over files that the mesh's materials name.
+    pub(super) fn spare_materials(&self, source: &ObjMesh, mesh: &Path) -> Result<(), Failure> {
+        material_files(source, mesh)
+            .iter()
+            .try_for_each(|file| self.spare(file, "a file that the mesh's materials name"))
     }
 
     /// Refuses to write over a file that is read. `what` it is, in words.

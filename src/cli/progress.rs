@@ -7,6 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
 use super::exit::INTERRUPTED as INTERRUPTED_CODE;
+use super::failed::forget_awaited;
 use super::say::warn;
 use crate::io::discard_unfinished;
 use crate::solver::SolveError;
@@ -19,6 +20,9 @@ const TICK: Duration = Duration::from_millis(100);
 
 /// Time that work has to stop by itself once it is asked to. With what it takes to end the process, a tenth of a second.
 const GRACE: Duration = Duration::from_millis(50);
+
+/// Time for the last word.
+const LAST_WORD: Duration = Duration::from_millis(10);
 
 /// The flag that Ctrl-C raises.
 pub(super) static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -35,8 +39,8 @@ pub(super) fn stop_on_interrupt() {
     let handler = || {
         let is_second = INTERRUPTED.swap(true, Ordering::Relaxed);
         let clock = std::thread::Builder::new().name("last moment".to_owned());
-        if is_second || clock.spawn(|| end_after(GRACE)).is_err() {
-            end_after(Duration::ZERO);
+        if is_second || clock.spawn(end_after_grace).is_err() {
+            end();
         }
     };
     if let Err(error) = ctrlc::set_handler(handler) {
@@ -44,11 +48,19 @@ pub(super) fn stop_on_interrupt() {
     }
 }
 
+/// Ends the process as an interrupted one if it has not ended by itself, and says so where somebody reads it.
+fn end_after_grace() {
+    std::thread::sleep(GRACE);
+    // Standard error may be blocked.
+    std::thread::spawn(|| warn(SolveError::Cancelled));
+    std::thread::sleep(LAST_WORD);
+    end();
+}
+
 /// Ends the process as an interrupted one, whatever it is doing.
-fn end_after(time: Duration) {
-    std::thread::sleep(time);
+fn end() {
     discard_unfinished();
-    warn(SolveError::Cancelled);
+    forget_awaited();
     std::process::exit(INTERRUPTED_CODE.into());
 }
 

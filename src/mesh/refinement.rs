@@ -62,7 +62,7 @@ impl Refinement {
         Ok(Self { disk: disk.with_polygons_where(is_whole), new_vertices, source })
     }
 
-    /// A mesh some of whose polygons are but their triangles: those that begin with one of these faces.
+    /// A mesh some of whose polygons are but their triangles: those that begin with one of these faces, which ascend.
     ///
     /// # Errors
     ///
@@ -71,10 +71,10 @@ impl Refinement {
         Self::new(mesh, Vec::new(), &BTreeMap::new()).map(|whole| whole.without_polygons(first_faces))
     }
 
-    /// The same with further polygons that are but their triangles: those that begin with one of these faces.
+    /// The same with further polygons that are but their triangles: those that begin with one of these faces, which ascend.
     #[must_use]
     pub fn without_polygons(self, first_faces: &[FaceId]) -> Self {
-        let is_whole = |polygon: &Polygon<'_>, _: &TriMesh| !first_faces.contains(&polygon.first_face);
+        let is_whole = |polygon: &Polygon<'_>, _: &TriMesh| first_faces.binary_search(&polygon.first_face).is_err();
         Self { disk: self.disk.with_polygons_where(is_whole), ..self }
     }
 

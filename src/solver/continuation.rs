@@ -210,10 +210,19 @@ impl Continuation {
         Candidate { progress: Some(progress), outside: Some(outside), ..candidate }
     }
 
+    /// Whether a step has brought all exact pins onto their targets: there is no further way.
+    pub(super) fn is_at_its_end(&self) -> bool {
+        !self.distances.is_empty() && !self.targets.is_empty() && self.has_arrived()
+    }
+
+    fn has_arrived(&self) -> bool {
+        self.targets.iter().all(|(v, target)| self.embedding[v] == *target)
+    }
+
     /// Whether further steps are of no use.
     fn is_stuck(&self) -> bool {
         let (all, count) = (&self.distances, self.distances.len());
-        let has_arrived = self.targets.iter().all(|(v, target)| self.embedding[v] == *target);
+        let has_arrived = self.has_arrived();
         let is_almost_there = || matches!(all[..], [first, .., now] if now <= HARDLY_ANY * first);
         let is_slow = || count > PATIENCE && all[count - 1] > SHORTER * all[count - 1 - PATIENCE];
         !has_arrived && (count >= MOST_STEPS || is_almost_there() || is_slow())

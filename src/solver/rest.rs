@@ -42,20 +42,25 @@ impl Rest {
         Self::of(mesh, mesh.faces().map(|face| (mesh.face(face), 1.0)))
     }
 
-    /// The faces, and the triangles at the corners of polygons, by half each: while none of these folds, polygons stay
-    /// convex. `None` where there are no polygons.
+    /// The faces, and the triangles at the corners of polygons, both together with the polygon's area: while none of these
+    /// folds, polygons stay convex. `None` where there are no polygons.
     pub(super) fn with_ears(mesh: &DiskMesh) -> Option<Self> {
         let mut parts = vec![1.0; mesh.face_count()];
         let can_be_convex = can_be_convex(mesh);
         let mut ears = Vec::new();
         for polygon in mesh.polygons() {
-            let convex = polygon.convex_ears().filter(|[_, v, _]| can_be_convex[v.index()]);
-            let first = ears.len();
-            ears.extend(convex.map(|corners| (corners, 0.5)));
+            let convex: Vec<[VertexId; 3]> =
+                polygon.convex_ears().filter(|[_, v, _]| can_be_convex[v.index()]).collect();
+            let of_ears: f64 = convex.iter().map(|&ear| area(mesh, ear)).sum();
+            if of_ears <= 0.0 {
+                continue;
+            }
             // The ears of a quad are its triangles, of either cut.
-            let is_all = polygon.corners.len() == 4 && ears.len() - first == 4;
+            let is_all = polygon.corners.len() == 4 && convex.len() == 4;
             let of_cut = if is_all { 0.0 } else { 0.5 };
+            let whole: f64 = polygon.faces().map(|face| area(mesh, mesh.face(face))).sum();
             polygon.faces().for_each(|face| parts[face.index()] = of_cut);
+            ears.extend(convex.into_iter().map(|ear| (ear, (1.0 - of_cut) * whole / of_ears)));
         }
         let faces = mesh.faces().map(|face| (mesh.face(face), parts[face.index()])).filter(|(_, part)| *part > 0.0);
         (!ears.is_empty()).then(|| Self::of(mesh, faces.chain(ears)))
@@ -135,6 +140,12 @@ impl Rest {
         };
         self.shapes.iter().map(element).collect()
     }
+}
+
+/// Area of a triangle in space.
+fn area(mesh: &DiskMesh, corners: [VertexId; 3]) -> f64 {
+    let [a, b, c] = corners.map(|v| mesh.position(v));
+    0.5 * (b - a).cross(c - a).length()
 }
 
 /// For each vertex whether polygons can be convex there: not where just two meet, whose angles make a full turn.

@@ -50,6 +50,11 @@ impl Units {
         Self { scale, origin: (nearest / step).trunc() * step }
     }
 
+    /// The same with the plane's origin.
+    pub(super) fn about_origin(self) -> Self {
+        Self { origin: DVec2::ZERO, ..self }
+    }
+
     /// Whether they change nothing, as for ordinary targets.
     pub(super) fn is_plane(&self) -> bool {
         self.scale == 1.0 && self.origin == DVec2::ZERO

@@ -275,7 +275,7 @@ mod interrupt {
     #[test]
     fn waiting_for_a_mesh_on_standard_input_is_interrupted() {
         let program = Program::new();
-        program.write("out.json", "of an earlier run");
+        program.write("out.json", "{}");
         let mut command = program.command(&["flatten", "-", "-o", "out.obj", "--report", "out.json"]);
         let mut child = command.stdin(Stdio::piped()).spawn().expect("the program starts");
         // A mesh as far as it has come: it must not be taken for the whole.

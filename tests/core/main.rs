@@ -16,6 +16,7 @@ mod convex_polygons;
 mod diagnosis;
 mod disk_oracle;
 mod distortion;
+mod endless;
 mod examples;
 mod failed_runs;
 mod figures;

@@ -117,9 +117,9 @@ fn true_area_holds_at_sizes_whose_squares_no_double_holds() {
         let mesh = grid(3, 2);
         let positions = mesh.positions.iter().map(|&p| p * scale).collect();
         let mesh = disk(TriMesh { positions, ..mesh });
-        let mut embedding: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate() / scale * 1e-9).collect();
+        let mut embedding: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate() * 1e-9).collect();
         to_true_area(&mesh, &mut embedding);
-        let corner = embedding[3].x / scale;
+        let corner = embedding[3].x * (mesh.unit() / scale);
         assert!((corner - 3.0).abs() < 1e-12, "scale {scale}: {corner}");
     }
 }

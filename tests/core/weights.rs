@@ -173,6 +173,9 @@ fn a_scaled_mesh_has_the_same_embedding_scaled() {
             solve_once(mesh, &settings, &Pins::new(), Control::unattended())
                 .unwrap_or_else(|error| panic!("{settings:?}: {error}"))
                 .embedding
+                .iter()
+                .map(|&z| z * mesh.unit())
+                .collect::<Vec<_>>()
         };
         let expected = flat(&mesh);
         let size = expected.iter().fold(0.0_f64, |m, z| m.max(z.length()));

@@ -78,9 +78,15 @@ fn libraries(mesh: &ObjMesh, folder: &Path) -> Vec<PathBuf> {
 /// The material libraries of a line. It may name several, but a name may also hold blanks.
 pub(super) fn libraries_of(statement: &Statement, folder: &Path) -> Vec<Library> {
     let library = |name: &str| Library { name: name.to_owned(), path: place_of(name, folder) };
-    let names = statement.argument();
-    let whole = library(&names);
+    let argument = statement.argument();
+    // A comment may follow, but a name may also hold its sign.
+    let names = if library(&argument).path.is_file() { &argument } else { before_comment(&argument) };
+    let whole = library(names);
     if whole.path.is_file() { vec![whole] } else { names.split_whitespace().map(library).collect() }
+}
+
+fn before_comment(argument: &str) -> &str {
+    argument.split_once(" #").map_or(argument, |(names, _)| names.trim_end())
 }
 
 /// How many faces each material is on. A material may come more than once.

@@ -104,7 +104,9 @@ impl Rung for Continue {
             self.stage = Stage::UnderWay(Box::new(Continuation::new(mesh, start, &held).written_on(sheet)));
         }
         let Stage::UnderWay(continuation) = &mut self.stage else { return Err(SolveError::Unmet.into()) };
-        match continuation.step(mesh, control) {
+        // Where it has arrived and the ladder still asks, other numbers than these fold: those that are written.
+        let next = if continuation.is_at_its_end() { Err(SolveError::Unmet) } else { continuation.step(mesh, control) };
+        match next {
             Ok(candidate) => return Ok(candidate.since(began)),
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
             // What cannot be solved is stuck, too.

@@ -10,7 +10,7 @@ use super::Candidate;
 use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
 use crate::mesh::Refinement;
-use crate::solver::{Control, Method, SolveError, verdict};
+use crate::solver::{Control, Method, SolveError};
 
 /// The cut: one step after a step that has no other fault.
 #[derive(Debug, Default)]
@@ -20,11 +20,10 @@ impl Rung for Cut {
     fn step(&mut self, Footing { mesh, latest, .. }: Footing<'_>, _: Control<'_>) -> Result<Candidate, Failure> {
         let began = Instant::now();
         let latest = latest.ok_or(SolveError::NotPlanar)?;
-        let disk = latest.refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
-        let concave = verdict(disk, &latest.embedding).concave_polygons;
+        let concave = &latest.concave_polygons;
         let refinement = match &latest.refinement {
-            Some(refinement) => (**refinement).clone().without_polygons(&concave),
-            None => Refinement::of_cut_polygons(mesh, &concave).map_err(|_| SolveError::NotPlanar)?,
+            Some(refinement) => (**refinement).clone().without_polygons(concave),
+            None => Refinement::of_cut_polygons(mesh, concave).map_err(|_| SolveError::NotPlanar)?,
         };
         let note = match concave.len() {
             1 => "1 polygon cannot be convex here: it is cut into triangles".to_owned(),
@@ -35,6 +34,7 @@ impl Rung for Cut {
     }
 
     fn has_more(&self, task: &Task, latest: Option<&Latest>) -> bool {
-        task.adds_vertices() && latest.is_some_and(|latest| latest.is_solved_but_for_polygons)
+        task.adds_vertices()
+            && latest.is_some_and(|latest| latest.is_solved_but_for_polygons && !latest.concave_polygons.is_empty())
     }
 }

@@ -83,7 +83,7 @@ impl Ladder {
     /// A ladder that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
         let asked = Task::new(settings, pins, Arc::default());
-        let units = Units::of(&asked.pins, settings.size);
+        let units = asked.units();
         let task = Arc::new(asked.in_units(&units));
         let plan = Plan::new(&task, &Kept::default());
         Self { asked, units, task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
@@ -93,8 +93,9 @@ impl Ladder {
     #[must_use]
     pub fn written_on(self, sheet: Sheet) -> Self {
         let asked = Task { sheet: Arc::new(sheet), ..self.asked };
-        let task = Arc::new(asked.in_units(&self.units));
-        Self { plan: Plan::new(&task, &Kept::default()), asked, task, ..self }
+        let units = asked.units();
+        let task = Arc::new(asked.in_units(&units));
+        Self { plan: Plan::new(&task, &Kept::default()), asked, units, task, ..self }
     }
 
     /// The same with what earlier ladders on the mesh have computed, used where it serves.
@@ -273,6 +274,7 @@ impl Ladder {
             is_solved,
             is_unplaced: is_proved && !is_met && !part.task.is_constrained(),
             is_solved_but_for_polygons: is_solved_for_faces && !is_solved,
+            concave_polygons: step.verdict.concave_polygons.clone(),
             refinement: step.refinement.clone(),
         });
         part.look_at(step);

@@ -234,7 +234,8 @@ impl Part {
         if latest.is_some_and(|latest| latest.is_solved_but_for_polygons) {
             let relaxes = self.relax.has_more(&self.task, latest).then_some(Place::Relax);
             let follows = relaxes.or_else(|| self.cut.has_more(&self.task, latest).then_some(Place::Cut));
-            if follows.is_some() {
+            // Where constraints are met there is no further way to them.
+            if follows.is_some() || self.task.is_constrained() {
                 return follows;
             }
         }
@@ -303,7 +304,10 @@ impl Part {
             self.relax.look_at(step);
         } else {
             let own = || {
-                let keeps_concave = self.aim == Aim::PlanarStart || step.verdict.concave_polygons.is_empty();
+                let method = self.task.settings.method;
+                let is_for_planar = method == Method::Auto || method.is_one_to_one();
+                let is_start = self.aim == Aim::PlanarStart;
+                let keeps_concave = !is_for_planar || is_start || step.verdict.concave_polygons.is_empty();
                 let to_convex = if keeps_concave { 0 } else { ROUNDS_TO_CONVEX };
                 self.rung(self.at).relax_rounds_after(&self.task, step).max(to_convex)
             };

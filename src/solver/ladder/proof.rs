@@ -32,7 +32,9 @@ impl Ladder {
         let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
         let placing = task.place(disk, &mut candidate);
         let mut verdict = self.verdict_of(mesh, &candidate);
-        if !verdict.planar || !task.are_met(&candidate.solution.embedding) {
+        let is_start = self.plan.part().aim == Aim::PlanarStart;
+        let is_proved = verdict.planar || (is_start && verdict.is_one_to_one());
+        if !is_proved || !task.are_met(&candidate.solution.embedding) {
             let is_kept = self.keep_what_is_proved(&mut candidate);
             verdict = if is_kept { self.verdict_of(mesh, &candidate) } else { verdict };
         }

@@ -48,7 +48,7 @@ enum Lack {
 impl Lack {
     /// What a step lacks; the energy is no matter where it only begins a way to constraints.
     fn of(step: &Step) -> Option<Self> {
-        if !step.verdict.holds_in_f32 {
+        if step.verdict.planar && !step.verdict.holds_in_f32 {
             let bounds = step.solution.embedding.bounds();
             let is_far = bounds.middle().abs().max_element() > FAR * bounds.size().max_element();
             return Some(Self::Digits { is_far });

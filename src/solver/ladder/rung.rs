@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::task::Task;
 use super::{Candidate, Ending, Step};
-use crate::mesh::{DiskMesh, Refinement};
+use crate::mesh::{DiskMesh, FaceId, Refinement};
 use crate::solver::{Control, Embedding, Pins, SolveError};
 
 pub(super) trait Rung: std::fmt::Debug + Send {
@@ -57,8 +57,9 @@ pub(super) struct Latest {
     pub(super) is_solved: bool,
     /// Whether it is planar but not where up to two pins want it: the numbers there would fold it.
     pub(super) is_unplaced: bool,
-    /// Whether it would be, if no polygon were concave.
+    /// Whether it would be, if no polygon were concave; and the polygons that are, by their first faces.
     pub(super) is_solved_but_for_polygons: bool,
+    pub(super) concave_polygons: Vec<FaceId>,
     /// The mesh with new vertices that it is of.
     pub(super) refinement: Option<Arc<Refinement>>,
 }

@@ -24,6 +24,13 @@ impl Task {
         Self { settings, pins: if settings.method.uses_pins() { pins } else { Pins::new() }, sheet }
     }
 
+    /// The units of its solves. Placing and pictures that are not square round in the numbers that are written: there the
+    /// origin stays, so that rungs prove these.
+    pub(super) fn units(&self) -> Units {
+        let units = Units::of(&self.pins, self.settings.size);
+        if self.is_constrained() && self.sheet.is_plain() { units } else { units.about_origin() }
+    }
+
     /// The same in units of a solve. Where these are not the plane's own, rungs prove what they solve, and what is written
     /// is proved of every step.
     pub(super) fn in_units(&self, units: &Units) -> Self {
@@ -78,7 +85,11 @@ impl Task {
             candidate.solution.pins = gauge_in(mesh, embedding);
             return Some("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
         };
-        let placed = placing.best(embedding, |embedding| self.sheet.is_one_to_one(mesh, embedding));
+        let is_planar = self.sheet.is_planar(mesh, embedding);
+        let placed = placing.best(embedding, |embedding| match is_planar {
+            true => self.sheet.is_planar(mesh, embedding),
+            false => self.sheet.is_one_to_one(mesh, embedding),
+        });
         let solution = &mut candidate.solution;
         solution.embedding = placed.embedding;
         if !is_open || placed.way.is_none() {
