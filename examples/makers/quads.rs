@@ -22,14 +22,14 @@ pub(crate) fn honeycomb(columns: u32, rows: u32, roughness: f64, random: &mut Ra
     // Rows of zigzags; a cell has three vertices of the zigzag below it and three of the one above.
     let stride = 2 * columns + 2;
     let place = |x: u32, y: u32| {
-        let up = if (x + y) % 2 == 0 { 0.0 } else { 1.0 / 3.0 };
+        let up = if (x + y).is_multiple_of(2) { 0.0 } else { 1.0 / 3.0 };
         [f64::from(x) / 2.0, f64::from(y) + up]
     };
     let places = (0..=rows).flat_map(|y| (0..stride).map(move |x| place(x, y))).collect();
     let faces = (0..rows * columns).map(|k| {
         let (x, y) = (k % columns, k / columns);
         // The cell stands where the zigzag below has its low point in the middle.
-        let v = y * stride + 2 * x + if y % 2 == 0 { 1 } else { 0 };
+        let v = y * stride + 2 * x + u32::from(y.is_multiple_of(2));
         vec![v, v + 1, v + 2, v + 2 + stride, v + 1 + stride, v + stride]
     });
     polygon_mesh(places, faces, [f64::from(columns), f64::from(rows)], roughness, random)
@@ -53,11 +53,11 @@ fn polygon_mesh(
         corners.extend(face);
         starts.push(u32::try_from(corners.len()).expect("a small mesh"));
     }
-    keep_used(positions, &corners, starts)
+    keep_used(&positions, &corners, starts)
 }
 
 /// Without the vertices that no polygon has.
-fn keep_used(positions: Vec<DVec3>, corners: &[u32], starts: Vec<u32>) -> PolygonMesh {
+fn keep_used(positions: &[DVec3], corners: &[u32], starts: Vec<u32>) -> PolygonMesh {
     let mut used = corners.to_vec();
     used.sort_unstable();
     used.dedup();

@@ -52,7 +52,7 @@ pub(super) fn stop_on_interrupt() {
 fn end_after_grace() {
     std::thread::sleep(GRACE);
     // Standard error may be blocked.
-    std::thread::spawn(|| warn(SolveError::Cancelled));
+    std::thread::Builder::new().name("last word".to_owned()).spawn(|| warn(SolveError::Cancelled)).ok();
     std::thread::sleep(LAST_WORD);
     end();
 }

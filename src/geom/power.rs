@@ -18,11 +18,11 @@ mod tests {
     fn multiplying_and_dividing_by_a_power_of_two_gives_every_number_back() {
         for number in [1.0, 3.0, 0.1, 1e-300, 1.7e308, 5e-324, 1e160] {
             let power = power_of_two_near(number);
-            assert!((number / power) * power == number, "{number:e}");
+            assert_eq!(((number / power) * power).to_bits(), number.to_bits(), "{number:e}");
             assert!((0.2..=4.0).contains(&(number / power)) || number < f64::MIN_POSITIVE, "{number:e}");
         }
         for none in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(power_of_two_near(none) == 1.0, "{none}");
+            assert_eq!(power_of_two_near(none).to_bits(), 1.0_f64.to_bits(), "{none}");
         }
     }
 }

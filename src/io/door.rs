@@ -29,6 +29,6 @@ pub(super) fn check_finite<'a>(coordinates: impl IntoIterator<Item = &'a DVec2>)
 impl WriteError {
     /// Whether nothing was written because coordinates are infinite or not numbers.
     pub fn is_not_finite(&self) -> bool {
-        self.source.get_ref().is_some_and(|inner| inner.is::<NotFinite>())
+        matches!(self.source.get_ref(), Some(inner) if inner.is::<NotFinite>())
     }
 }

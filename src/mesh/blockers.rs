@@ -105,9 +105,9 @@ fn halves(range: Range<usize>) -> [Range<usize>; 2] {
 /// Whether a box lies beyond one side of a counter-clockwise triangle: then so does its corner nearest to the inside.
 fn misses(low: DVec2, high: DVec2, [a, b, c]: [DVec2; 3]) -> bool {
     let beyond = |[from, to]: [DVec2; 2]| {
-        let x = if to.y > from.y { low.x } else { high.x };
-        let y = if to.x > from.x { high.y } else { low.y };
-        turn(from, to, DVec2::new(x, y)) < 0.0
+        let side = if to.y > from.y { low.x } else { high.x };
+        let edge = if to.x > from.x { high.y } else { low.y };
+        turn(from, to, DVec2::new(side, edge)) < 0.0
     };
     [[a, b], [b, c], [c, a]].into_iter().any(beyond)
 }

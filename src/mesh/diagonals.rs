@@ -48,7 +48,7 @@ impl Diagonals {
     /// Where a link comes from and where it runs to.
     pub(super) fn ends(&self, link: usize) -> [VertexId; 2] {
         let [low, high] = self.ends[link / 2];
-        if link % 2 == 0 { [low, high] } else { [high, low] }
+        if link.is_multiple_of(2) { [low, high] } else { [high, low] }
     }
 
     /// Links that leave a vertex.

@@ -144,7 +144,7 @@ impl Outcome {
     /// The embedding as large as the surface in its file, and the verdict on it. `mesh` is the step's own.
     fn at_true_size(&self, mesh: &DiskMesh) -> (Embedding, Placement, Verdict) {
         let (embedding, unit) = (&self.step.solution.embedding, mesh.unit());
-        if unit == 1.0 {
+        if unit.to_bits() == 1.0_f64.to_bits() {
             return (embedding.clone(), Placement::True, self.step.verdict.clone());
         }
         let coordinates: Embedding = embedding.iter().map(|&z| z * unit).collect();

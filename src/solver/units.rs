@@ -57,7 +57,7 @@ impl Units {
 
     /// Whether they change nothing, as for ordinary targets.
     pub(super) fn is_plane(&self) -> bool {
-        self.scale == 1.0 && self.origin == DVec2::ZERO
+        *self == Self::default()
     }
 
     fn place(&self, z: DVec2) -> DVec2 {
@@ -93,7 +93,7 @@ impl Units {
     }
 
     /// Takes places to the plane.
-    pub(super) fn to_plane(&self, places: &mut [DVec2]) {
+    pub(super) fn places_to_plane(&self, places: &mut [DVec2]) {
         if !self.is_plane() {
             for w in places {
                 *w = self.place_in_plane(*w);
@@ -110,7 +110,7 @@ impl Units {
         let is_met = |(vertex, pin): &(&VertexId, &Pin)| embedding[*vertex] == self.place(pin.target);
         let met: Vec<(VertexId, DVec2)> =
             asked.iter().filter(is_met).map(|(&vertex, pin)| (vertex, pin.target)).collect();
-        self.to_plane(embedding);
+        self.places_to_plane(embedding);
         for (vertex, target) in met {
             embedding[vertex] = target;
         }

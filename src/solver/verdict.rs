@@ -46,6 +46,7 @@ use crate::mesh::{DiskMesh, EdgeId, FaceId, Polygon, VertexId};
 
 /// Whether an embedding is one-to-one, and the elements at fault. All lists ascend.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[expect(clippy::struct_excessive_bools, reason = "the report's fields")]
 pub struct Verdict {
     /// Proved one-to-one, as it lies or in a mirror, however polygons are cut into triangles.
     pub planar: bool,

@@ -133,7 +133,7 @@ fn edges_one_above_the_other_are_looked_through_in_good_time() {
     let targets = mesh.vertices().map(|v| (v, Pin::hard(wide(v))));
     let start = Instant::now();
     assert_eq!(conflicts(&mesh, &targets.clone().collect()), []);
-    assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_mins(1), "{:?}", start.elapsed());
     // One rung laid across the next three.
     let pins: Pins = targets
         .map(|(v, pin)| if v.index() == 1001 { (v, Pin::hard(wide(v) + 3.5 * DVec2::Y)) } else { (v, pin) })

@@ -25,7 +25,7 @@ fn ears(points: &[DVec3]) -> Cut {
         let corners = |at: usize| [left[(at + count - 1) % count], left[at], left[(at + 1) % count]];
         let turn = |at: usize| {
             let [a, b, c] = corners(at).map(|k| points[k]);
-            (b - a).normalize().cross((c - b).normalize()).dot(normal)
+            (b - a).normalize_or_zero().cross((c - b).normalize_or_zero()).dot(normal)
         };
         let best = (0..count).filter(|&at| turn(at) > 0.0).min_by(|&a, &b| turn(a).total_cmp(&turn(b)));
         let best = best.expect("a polygon that is convex in space has ears");
@@ -38,13 +38,13 @@ fn ears(points: &[DVec3]) -> Cut {
 
 fn normal_of(points: &[DVec3]) -> DVec3 {
     let turns = (1..points.len() - 1).map(|k| (points[k] - points[0]).cross(points[k + 1] - points[0]));
-    turns.sum::<DVec3>().normalize()
+    turns.sum::<DVec3>().normalize_or_zero()
 }
 
 /// Whether every corner turns left in space, by an angle that cannot be doubted.
 fn is_convex_in_space(points: &[DVec3]) -> bool {
     let (normal, count) = (normal_of(points), points.len());
-    let side = |k: usize| (points[(k + 1) % count] - points[k % count]).normalize();
+    let side = |k: usize| (points[(k + 1) % count] - points[k % count]).normalize_or_zero();
     (0..count).all(|k| side(k).cross(side(k + 1)).dot(normal) > 1e-4)
 }
 
@@ -153,7 +153,7 @@ fn a_dart_of_positive_triangles_is_named_as_a_concave_polygon() {
     let polygon = disk.polygons().next().expect("two quads");
     // An end of the diagonal of the cut goes over the other diagonal: both triangles stay positive.
     let is_end = |v: &VertexId| polygon.faces().all(|face| disk.face(face).contains(v));
-    let at = polygon.corners.iter().position(|v| is_end(v)).expect("the cut has a diagonal");
+    let at = polygon.corners.iter().position(is_end).expect("the cut has a diagonal");
     let [tip, side, far, other] = [0, 1, 2, 3].map(|k| polygon.corners[(at + k) % 4]);
     let middle = flat[side].midpoint(flat[other]);
     flat[tip] = middle.lerp(flat[far], 0.1);

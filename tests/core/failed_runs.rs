@@ -1,5 +1,6 @@
 //! What a run leaves that came to nothing: a report with the error, and no report of an earlier run.
 
+use std::fmt::Write as _;
 use std::fs;
 
 use serde_json::{Value, json};
@@ -103,7 +104,7 @@ fn triangle_soup_is_told_to_merge_its_vertices() {
     let corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]];
     for triangle in [[0, 1, 2], [0, 2, 3]] {
         for [x, y, z] in triangle.map(|corner: usize| corners[corner]) {
-            text += &format!("v {x} {y} {z}\n");
+            writeln!(text, "v {x} {y} {z}").unwrap();
         }
     }
     text += "f 1 2 3\nf 4 5 6\n";

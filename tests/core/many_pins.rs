@@ -147,7 +147,7 @@ fn all_vertices_pinned_is_a_copy() {
         let start = Instant::now();
         let found = solve(&mesh, &settings, &pins).embedding;
         assert!(found.iter().copied().eq(pins.values().map(|pin| pin.target)));
-        assert!(start.elapsed() < Duration::from_secs(60), "{family}: {:?}", start.elapsed());
+        assert!(start.elapsed() < Duration::from_mins(1), "{family}: {:?}", start.elapsed());
     }
 }
 
@@ -159,7 +159,7 @@ fn thousands_of_pins_are_solved_for_in_good_time_and_stop_when_asked() {
     let start = Instant::now();
     solve(&mesh, &settings, &pins);
     // One by one, these take minutes.
-    assert!(start.elapsed() < Duration::from_secs(120), "{:?}", start.elapsed());
+    assert!(start.elapsed() < Duration::from_mins(2), "{:?}", start.elapsed());
     let cancel = std::sync::atomic::AtomicBool::new(false);
     let raise = |phase| cancel.store(phase == freebound::solver::Phase::Factor, std::sync::atomic::Ordering::Relaxed);
     let stopped = solve_once(&mesh, &settings, &pins, Control::new(&cancel, &raise));

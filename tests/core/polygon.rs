@@ -154,7 +154,7 @@ fn a_comb_of_many_teeth_and_a_spiral_are_cut_in_good_time() {
     for points in [comb, spiral] {
         let start = Instant::now();
         let cut = polygon(&points).triangulate();
-        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+        assert!(start.elapsed() < Duration::from_mins(1), "{:?}", start.elapsed());
         let next = points.iter().cycle().skip(1);
         let area = points.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum();
         assert_eq!(cut.face_count(), points.len() - 2);

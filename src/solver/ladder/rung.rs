@@ -45,6 +45,7 @@ pub(super) struct Footing<'a> {
 
 /// What is remembered of the latest step.
 #[derive(Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "independent answers, each asked for by another rung")]
 pub(super) struct Latest {
     pub(super) embedding: Embedding,
     /// Start of the next rung, where it is not this step.

@@ -61,7 +61,7 @@ impl Candidate {
             progress.distance_left = units.length_in_plane(progress.distance_left);
         }
         if let Some(outside) = &mut self.outside {
-            units.to_plane(&mut Arc::make_mut(outside).frame);
+            units.places_to_plane(&mut Arc::make_mut(outside).frame);
         }
     }
 

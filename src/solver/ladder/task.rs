@@ -86,10 +86,11 @@ impl Task {
             return Some("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
         };
         let is_planar = self.sheet.is_planar(mesh, embedding);
-        let placed = placing.best(embedding, |embedding| match is_planar {
-            true => self.sheet.is_planar(mesh, embedding),
-            false => self.sheet.is_one_to_one(mesh, embedding),
-        });
+        let holds = |embedding: &Embedding| {
+            let sheet = &self.sheet;
+            if is_planar { sheet.is_planar(mesh, embedding) } else { sheet.is_one_to_one(mesh, embedding) }
+        };
+        let placed = placing.best(embedding, holds);
         let solution = &mut candidate.solution;
         solution.embedding = placed.embedding;
         if !is_open || placed.way.is_none() {

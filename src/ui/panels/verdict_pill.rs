@@ -97,9 +97,10 @@ fn of_step(step: &Step) -> Pill {
         0 => String::new(),
         _ => format!(". The mesh has {}", counted(new, "new vertex", "new vertices")),
     };
-    let in_f32 = match step.verdict.holds_in_f32 {
-        true => "It holds in 32 bits, too, into which most programs read texture coordinates",
-        false => "It does not hold in 32 bits, into which most programs read texture coordinates: relax it",
+    let in_f32 = if step.verdict.holds_in_f32 {
+        "It holds in 32 bits, too, into which most programs read texture coordinates"
+    } else {
+        "It does not hold in 32 bits, into which most programs read texture coordinates: relax it"
     };
     let tip = format!("Exact arithmetic shows that no two faces overlap. {in_f32}{note}");
     Pill::new(Sign::Good, format!("Planar: proved · {rung}"), tip)
