@@ -46,8 +46,9 @@ pub fn flatten(mesh: &DiskMesh, options: &Options) -> Result<Step, FlattenError>
     match (last, ending) {
         (Some(step), _) if !step.verdict.planar => Err(FlattenError::NotPlanar(Box::new(step))),
         (Some(step), _) if !step.unmet().is_empty() => Err(FlattenError::Unmet(Box::new(step))),
-        (Some(step), Ok(_)) => Ok(step),
-        (_, ending) => Err(ending.err().unwrap_or(SolveError::NotPlanar).into()),
+        // What is proved stays so where a further step, to make it better, has failed.
+        (Some(step), _) => Ok(step),
+        (None, ending) => Err(ending.err().unwrap_or(SolveError::NotPlanar).into()),
     }
 }
 

@@ -117,8 +117,8 @@ impl Rung for Relax {
     }
 
     fn look_at(&mut self, step: &Step) {
-        self.left.always = self.left.always.saturating_sub(1);
-        self.left.until_it_serves = self.left.until_it_serves.saturating_sub(1);
+        let left = if self.left.always > 0 { &mut self.left.always } else { &mut self.left.until_it_serves };
+        *left = left.saturating_sub(1);
         self.lack = Lack::of(step);
     }
 }
