@@ -17,7 +17,7 @@ const SIZE: f64 = 1000.0;
 const MARGIN: f64 = 20.0;
 
 /// Draws texture coordinates, v upwards, for a picture of this aspect (width over height). Flipped faces are red, crossing
-/// boundary edges orange, concave polygons outlined in brown, overwound vertices magenta. The page is the unit square where the picture lies, larger where
+/// boundary edges orange, concave polygons outlined in olive, overwound vertices magenta. The page is the unit square where the picture lies, larger where
 /// the embedding leaves it; or a unit of the drawing is a unit of the mesh.
 pub(super) fn write_svg(
     out: &mut impl Write,
@@ -135,7 +135,7 @@ impl<'a> Drawing<'a> {
         self.write_edges(out, &style, crossings)?;
         let concave = verdict.concave_polygons.iter().filter_map(|&face| self.shown.mesh.polygon_of(face));
         let outlines = concave.map(|polygon| polygon.corners.iter().map(|&v| self.at(v)).collect::<Vec<_>>());
-        let style = format!(r##"stroke="#864b1c" stroke-width="{}""##, self.frame.length(3.0));
+        let style = format!(r##"stroke="#6e7b00" stroke-width="{}""##, self.frame.length(3.0));
         if !verdict.concave_polygons.is_empty() {
             self.write_closed(out, &style, outlines)?;
         }

@@ -99,6 +99,10 @@ pub(in crate::ui) fn counted(count: usize, one: &str, many: &str) -> String {
 
 /// The words with a capital at the beginning.
 pub fn sentence(words: &str) -> String {
+    // A message begins with the file's name where it has one, and that is spelt as it is.
+    if words.split(' ').next().is_some_and(|first| first.contains(['.', '/', '\\'])) {
+        return words.to_owned();
+    }
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

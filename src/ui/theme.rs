@@ -120,7 +120,7 @@ const fn theme(tone: Column) -> Theme {
     Theme {
         flipped: on_screen(palette.flipped),
         crossing: tone.colour(0x00E8_700A, 0x00FF_9A3D),
-        concave: tone.colour(0x0086_4B1C, 0x00D9_A071),
+        concave: tone.colour(0x006E_7B00, 0x00D4_E157),
         overwound: tone.colour(0x00C0_26A8, 0x00F0_6BD8),
         pin: tone.colour(0x002F_5BD8, 0x007B_9BFF),
         constraint: tone.colour(0x0000_8FA3, 0x002B_D4E6),

@@ -21,6 +21,14 @@ use crate::harness::{Window, corpus, sheet, write_obj};
 const USABLE: [&str; 1] = ["raw_polygonfaces.obj"];
 
 #[test]
+fn a_sentence_has_a_capital_but_a_file_keeps_its_name() {
+    assert_eq!(sentence("the mesh is open"), "The mesh is open");
+    for words in ["work.freebound: line 1, mesh: missing", "folder/in: not read", "out.obj is written"] {
+        assert_eq!(sentence(words), words);
+    }
+}
+
+#[test]
 fn every_bad_file_of_the_corpus_says_what_is_wrong_and_what_to_do() {
     let Some(corpus) = corpus() else { return };
     let mut files: Vec<PathBuf> =

@@ -1,5 +1,5 @@
 //! What both panes share: places on the screen, header, clicks and boxes, the wheel, marks of defects: crossings orange,
-//! overwound vertices magenta, concave polygons brown. Flipped faces are drawn with the faces.
+//! overwound vertices magenta, concave polygons olive. Flipped faces are drawn with the faces.
 
 use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
 use glam::{DVec2, DVec3};
