@@ -30,8 +30,8 @@ pub enum FlattenError {
 }
 
 /// Flattens a disk: takes all steps of the method, and gives the last one, proved one-to-one with its exact pins on their
-/// targets to the last bit. [`Candidate::mesh`](super::Candidate::mesh) is the mesh that it is of: edges may have been split for the pins, unless
-/// [`Settings::new_vertices`] says no.
+/// targets to the last bit. [`Candidate::mesh`](super::Candidate::mesh) is the mesh that it is of: edges may have been
+/// split for the pins, and polygons cut, unless [`Settings::new_vertices`] says no.
 ///
 /// To watch or to stop it, climb a [`Ladder`].
 ///

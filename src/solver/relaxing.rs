@@ -106,7 +106,7 @@ impl Relaxing {
         let is_better = is_drawn || inner.energy <= before.energy;
         // What the descent gains by size alone is lost again: an embedding is measured at its own size.
         let gain = if is_drawn { gain } else { 1.0 - inner.energy / before.energy };
-        let must_be_planar = folded == 0 && self.sheet.is_planar(mesh, &self.embedding);
+        let must_be_planar = folded == 0 && self.with_ears.is_some() && self.sheet.is_planar(mesh, &self.embedding);
         let is_taken = is_better
             && if must_be_planar { self.sheet.is_planar(mesh, &z) } else { self.sheet.is_one_to_one(mesh, &z) };
         let is_unfolding = is_taken && folded > 0 && all.folded_count(mesh, &z) < folded;
