@@ -7,7 +7,7 @@ use eframe::wgpu;
 use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::{Pipelines, Target};
-use super::plan::{Draw, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
+use super::plan::{Draw, Faces, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;
 
@@ -251,8 +251,9 @@ impl Scene<'_> {
             calls += 1;
         }
         pass.set_pipeline(faces);
-        for draw in &plan.faces {
+        for Faces { draw, opacity } in &plan.faces {
             if self.bind(&mut pass, draw) {
+                pass.set_blend_constant(wgpu::Color { r: *opacity, g: *opacity, b: *opacity, a: 1.0 });
                 pass.draw(0..draw.count, 0..1);
                 calls += 1;
             }

@@ -19,6 +19,7 @@ mod magnifier;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
 mod messages;
+mod pane_shading;
 mod panels;
 mod pictures;
 mod render;

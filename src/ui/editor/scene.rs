@@ -227,7 +227,9 @@ impl Paint {
             by_values(scale, &outcome.distortion.faces.iter().map(of).collect::<Vec<f64>>())
         };
         match (key.shading, base) {
-            (Shading::Plain | Shading::Checker | Shading::Picture, _) | (Shading::Move, None) => plain(flipped),
+            (Shading::Plain | Shading::Checker | Shading::Picture | Shading::SeeThrough, _) | (Shading::Move, None) => {
+                plain(flipped)
+            }
             (Shading::Angle, _) => by(Scale::Angle, |face| face.angle),
             (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
             (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),

@@ -7,7 +7,7 @@ use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::io::OutputFit;
 use crate::session::Action;
-use crate::ui::{Control, Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of, theme_of};
+use crate::ui::{Control, Editor, Pane, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of, theme_of};
 
 pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let bar = ui.max_rect();
@@ -161,7 +161,8 @@ fn view_menu(menu: &mut Menu<'_>) {
     let editor = menu.editor;
     menu.part("Shading", |menu| {
         for shading in Shading::ALL {
-            menu.choice(editor.look.shading == shading, shading.title(), Request::SetShading(shading));
+            let is_on = Pane::BOTH.into_iter().any(|pane| editor.shading(pane) == shading);
+            menu.choice(is_on, shading.title(), Request::SetShading(shading));
         }
     });
     menu.choice(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);

@@ -44,7 +44,7 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
         sharp.asks(Request::ToggleSharp, requests);
     });
     if document.picture.is_some() {
-        let mut percent = editor.look.opacity * 100.0;
+        let mut percent = editor.appearance().opacity * 100.0;
         let slider = egui::Slider::new(&mut percent, 0.0..=100.0).suffix(" %").fixed_decimals(0);
         let label = ui.weak("Opacity behind the embedding");
         let slider = ui.add(slider).labelled_by(label.id);

@@ -3,12 +3,17 @@
 use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Stroke, Vec2};
 
 use crate::ui::theme::{on_screen, rgb, theme_of};
-use crate::ui::{Editor, Shading};
+use crate::ui::{Editor, Pane, Shading};
+
+/// Whether the embedding's pane has a legend of its own: where that of the mesh's pane does not speak for both.
+pub(super) fn plane_has_own(editor: &Editor) -> bool {
+    editor.layout.mesh_hidden() || editor.shading(Pane::Plane) != editor.shading(Pane::Mesh)
+}
 
 /// The scale of a shading by numbers: bar, histogram, numbers.
-pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor) {
-    let Some(legend) = editor.look.legend() else { return };
-    let title = match (editor.look.shading, editor.plane.moved_from(&editor.session)) {
+pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
+    let Some(legend) = editor.look.legend(pane) else { return };
+    let title = match (editor.shading(pane), editor.plane.moved_from(&editor.session)) {
         (Shading::Move, Some(base)) => format!("Move from step {}, plane units", base.step.index),
         (shading, _) => shading.title().to_owned(),
     };
@@ -48,7 +53,7 @@ pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor) {
 pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
     let Some(step) = editor.plane.ghost_step().filter(|_| rect.width() >= 180.0) else { return };
     let theme = theme_of(ui);
-    let height = if editor.layout.mesh_hidden() && editor.look.legend().is_some() { 124.0 } else { 32.0 };
+    let height = if plane_has_own(editor) && editor.look.legend(Pane::Plane).is_some() { 124.0 } else { 32.0 };
     let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(150.0, 20.0));
     ui.painter_at(rect).rect_filled(place, 4.0, theme.panel.gamma_multiply(0.92));
     let middle = place.left_center() + Vec2::new(8.0, 0.0);
@@ -61,8 +66,8 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
 }
 
 /// Says why nothing is coloured where moves are asked for and there are none.
-pub(super) fn no_move_note(ui: &egui::Ui, rect: Rect, editor: &Editor) {
-    if editor.look.shading == Shading::Move && editor.look.legend().is_none() && editor.plane.scene().is_some() {
+pub(super) fn no_move_note(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
+    if editor.shading(pane) == Shading::Move && editor.look.legend(pane).is_none() && editor.plane.scene().is_some() {
         let at = rect.left_bottom() + Vec2::new(12.0, -12.0);
         let words = "No step before this one is kept: nothing has moved";
         let ink = theme_of(ui).weak_text;

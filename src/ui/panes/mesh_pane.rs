@@ -9,7 +9,7 @@ use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis, PinKind};
 use super::{bars, legend, magnifier};
 use crate::mesh::VertexId;
-use crate::render::{self, LineLayer, MeshFrame, PaneId, Style};
+use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::ui::editor::scene::MeshScene;
 use crate::ui::editor::views::picture_box;
 use crate::ui::{Editor, Pane, Request, Shading, Theme, Tool, theme_of};
@@ -17,6 +17,9 @@ use crate::view::{OrbitCamera, Visibility};
 
 /// Fields of the checker across the embedding.
 const CHECKER_FIELDS: f64 = 40.0;
+
+/// Opacity of faces that a picture shows through.
+const THIN_FILL: f32 = 0.3;
 
 /// Marks drawn at most for a large selection.
 const MARKS_SHOWN: usize = 2000;
@@ -60,8 +63,8 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, frame(editor, &scene, camera, theme)));
     }
     marks(ui, view, editor, &scene);
-    legend::legend(ui, rect, editor);
-    legend::no_move_note(ui, rect, editor);
+    legend::legend(ui, rect, editor, Pane::Mesh);
+    legend::no_move_note(ui, rect, editor, Pane::Mesh);
     magnifier::over_mesh(ui, view, editor, &scene);
 }
 
@@ -97,9 +100,9 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         lines: vec![boundary_line(scene, theme)],
-        picture: editor.look.picture_layer(picture_box(editor.session.document())),
-        paint: editor.plane.preview_paint().or(editor.look.paint().map(|paint| &paint.faces)).map(Arc::clone),
-        style: style(editor),
+        picture: picture_layer(editor),
+        paint: editor.plane.preview_paint().or(editor.look.paint(Pane::Mesh).map(|paint| &paint.faces)).map(Arc::clone),
+        style: style(editor, Pane::Mesh),
         palette: theme.palette,
         camera,
         plane,
@@ -111,10 +114,16 @@ pub(super) fn boundary_line(scene: &MeshScene, theme: &Theme) -> LineLayer {
     LineLayer { edges: Arc::clone(&scene.boundary), colour: theme.boundary, width_in_points: 1.5 }
 }
 
-/// How faces look, in both panes.
-pub(super) fn style(editor: &Editor) -> Style {
-    let shading = match editor.look.shading {
-        Shading::Plain => render::Shading::Plain,
+/// The picture as the panes draw it.
+pub(super) fn picture_layer(editor: &Editor) -> Option<PictureLayer> {
+    editor.look.picture_layer(picture_box(editor.session.document()), editor.appearance().opacity)
+}
+
+/// How faces look in a pane.
+pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
+    let chosen = editor.shading(pane);
+    let shading = match chosen {
+        Shading::Plain | Shading::SeeThrough => render::Shading::Plain,
         Shading::Picture if editor.has_picture() => render::Shading::Picture,
         Shading::Checker | Shading::Picture => render::Shading::Checker,
         // What was measured belongs to another embedding than the one that follows a drag.
@@ -127,6 +136,7 @@ pub(super) fn style(editor: &Editor) -> Style {
         shading,
         wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 },
         check_size: extent / CHECKER_FIELDS,
+        face_opacity: if chosen == Shading::SeeThrough { THIN_FILL } else { 1.0 },
         ..Style::default()
     }
 }
