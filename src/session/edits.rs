@@ -11,9 +11,9 @@ use super::{Command, Document, Session};
 use crate::geom::{Bounds, PictureFrame, Similarity};
 use crate::io::{Constraints, PictureFile, Target, Targets};
 use crate::mesh::VertexId;
-use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, solve_once};
+use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Ladder, Method, Pins, Settings, SolveError};
 
-/// The mesh flattened without pins, in the middle of the picture.
+/// The mesh flattened without pins, upright in the middle of the picture.
 pub(super) struct Flat {
     /// The picture's frame.
     frame: PictureFrame,
@@ -181,8 +181,8 @@ impl Session {
         let size = GaugeSize::Within(Bounds { low, high });
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
         self.errands.send("fitting the targets", move |cancel| {
-            let solution = solve_once(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
-            Errand::Flat(Flat { frame, faces_turned, embedding: solution.map(|solution| solution.embedding) })
+            let step = Ladder::new(settings, Pins::new()).step(&disk, Control::new(cancel, &|_| {}));
+            Errand::Flat(Flat { frame, faces_turned, embedding: step.map(|step| step.candidate.solution.embedding) })
         });
     }
 
