@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::errands::Errand;
 use super::{Command, Document, Session};
-use crate::geom::{Bounds, PictureFrame, Similarity};
+use crate::geom::{Bounds, PictureFrame, Similarity, VAxis};
 use crate::io::{Constraints, PictureFile, Target, Targets};
 use crate::mesh::VertexId;
 use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Ladder, Method, Pins, Settings, SolveError};
@@ -50,6 +50,17 @@ impl Session {
         if settings != self.document.settings {
             self.slide(Command::SetSettings(settings));
         }
+    }
+
+    /// Chooses where v = 0 is. The targets keep their places on the picture.
+    pub(super) fn set_v_axis(&mut self, v_axis: VAxis) {
+        if v_axis == self.document.v_axis {
+            return;
+        }
+        let mirrored = |target: &Target| Target { uv: DVec2::new(target.uv.x, 1.0 - target.uv.y), ..*target };
+        let targets = self.document.targets.iter().map(|(&vertex, target)| pin(vertex, mirrored(target)));
+        let commands = std::iter::once(Command::SetVAxis(v_axis)).chain(targets).collect();
+        self.edit(commands);
     }
 
     /// Turns the faces around.

@@ -29,10 +29,10 @@ fn last_step(mesh: &DiskMesh, problem: &Problem) -> Step {
 /// A plane sheet with its vertices in the reverse order, turned in space.
 fn reversed(turn: impl Fn(DVec3) -> DVec3) -> DiskMesh {
     let TriMesh { positions, triangles, .. } = grid(6, 4);
-    let count = positions.len();
-    let other = |v: VertexId| VertexId::from_index(count - 1 - v.index());
+    let last = u32::try_from(positions.len()).unwrap() - 1;
     let positions = positions.into_iter().rev().map(turn).collect();
-    disk(TriMesh::new(positions, triangles.into_iter().map(|corners| corners.map(other)).collect()))
+    let triangles: Vec<[u32; 3]> = triangles.iter().map(|corners| corners.map(|v| last - v.number())).collect();
+    disk(TriMesh::new(positions, &triangles))
 }
 
 /// The turn that takes vertices in the plane nearest to where they are seen, radians; and the error that stays, over the

@@ -4,6 +4,7 @@
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod actions;
+mod artist;
 mod compare;
 mod constrained;
 mod constraint_rows;
@@ -21,6 +22,7 @@ mod makers;
 mod messages;
 mod pane_shading;
 mod panels;
+mod picture_filter;
 mod pictures;
 mod render;
 mod render_work;

@@ -42,12 +42,12 @@ fn each_pane_has_a_shading_of_its_own_in_its_bar() {
 #[test]
 fn panes_that_are_coloured_alike_share_colours_and_one_legend() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
-    window.shade(Shading::Stretch);
+    window.shade(Shading::Area);
     window.settle();
     let faces =
         |window: &Window, pane| std::sync::Arc::as_ptr(&window.editor().look.paint(pane).expect("painted").faces);
     assert_eq!(faces(&window, Pane::Mesh), faces(&window, Pane::Plane));
-    assert_eq!(window.words().iter().filter(|words| *words == "Stretch").count(), 3, "two menus, one legend");
+    assert_eq!(window.words().iter().filter(|words| *words == "Area distortion").count(), 3, "two menus, one legend");
     window.choose("Shading of the mesh", "Plain");
     window.choose("Shading of the embedding", "Checker");
     assert_eq!(faces(&window, Pane::Mesh), faces(&window, Pane::Plane), "neither has a number for each face");

@@ -179,6 +179,8 @@ pub enum Request {
     ToggleCurves,
     /// Takes up a tool.
     SetTool(Tool),
+    /// Takes up the constrain tool with a vertex, whose place is to come.
+    TakeVertex(VertexId),
     /// Colours faces in the pane under the pointer, or in both where it is over neither.
     SetShading(Shading),
     /// Colours faces in one pane.

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis, PinKind};
-use super::{bars, legend, magnifier};
+use super::{bars, legend, magnifier, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::ui::editor::scene::MeshScene;
@@ -17,6 +17,9 @@ use crate::view::{OrbitCamera, Visibility};
 
 /// Fields of the checker across the embedding.
 const CHECKER_FIELDS: f64 = 40.0;
+
+/// Opacity of the mark of a selected vertex that the mesh hides.
+const HIDDEN: f32 = 0.4;
 
 /// Opacity of faces that a picture shows through.
 const THIN_FILL: f32 = 0.3;
@@ -59,6 +62,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         requests.push(Request::AddToSelection(vertices.filter(inside).collect()));
     }
     pane::click(ui, &response, editor, requests);
+    vertex_menu::of_pane(&response, editor, requests);
     if editor.host.has_gpu() {
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, frame(editor, &scene, camera, theme)));
     }
@@ -193,8 +197,10 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
             pin.kind.mark(&painter, at, theme, Emphasis::strong_if(editor.selection.vertices().contains(&pin.vertex)));
         }
     }
-    for at in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| seen(vertex)) {
-        pane::halo(&painter, at, theme.selection, 6.0);
+    for (at, is_seen) in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| place(vertex)) {
+        // What is hidden shows through the mesh, dimmed: "go to" may lead there.
+        let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
+        pane::halo(&painter, at, colour, 6.0);
     }
     if let Some((vertex, at)) = editor.pointer.vertex().and_then(|vertex| Some((vertex, seen(vertex)?))) {
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });

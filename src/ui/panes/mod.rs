@@ -11,6 +11,7 @@
 //! | `magnifier.rs` | the insets that magnify a defect, and the halves of a pair |
 //! | `pin_drag.rs` | a pin dragged with the pointer |
 //! | `pins.rs` | kinds of pins and their marks |
+//! | `vertex_menu.rs` | what a secondary click on a vertex or a pin offers |
 
 mod bars;
 pub(super) mod constrain;
@@ -21,6 +22,7 @@ pub(super) mod pane;
 pub(super) mod pin_drag;
 pub(super) mod pins;
 pub(super) mod plane_pane;
+pub(super) mod vertex_menu;
 
 pub use constrain::{Half, Intent};
 pub use pins::PinKind;

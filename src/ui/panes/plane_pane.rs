@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, style};
 use super::pane::{self, Viewport};
-use super::{bars, constrain, legend, magnifier, pin_drag, pins};
+use super::{bars, constrain, legend, magnifier, pin_drag, pins, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::Surface;
@@ -51,6 +51,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
         requests.push(Request::AddToSelection(within(view, chosen, editor, &plane)));
     }
     pane::click(ui, &response, editor, requests);
+    vertex_menu::of_pane(&response, editor, requests);
     marks(ui, view, editor, &plane);
     equation_table::draw(ui, view, editor, &plane);
     if !plane.is_stage() {

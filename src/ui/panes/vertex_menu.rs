@@ -24,40 +24,31 @@ pub(super) fn of_pane(response: &Response, editor: &mut Editor, requests: &mut V
 pub(in crate::ui) fn vertex_menu(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut Vec<Request>) {
     ui.weak(vertex.to_string());
     let document = editor.session.document();
-    let mut entry = |ui: &mut egui::Ui, words: &str, request: Request| {
-        if ui.button(words).asks(request, requests) {
-            ui.close();
-        }
-    };
     match document.targets.get(&vertex) {
         _ if editor.is_new_vertex(vertex) => {
             ui.weak("New: it belongs to this embedding alone");
         }
         Some(target) => {
             hold_entries(ui, vertex, target.hold, requests);
-            let mut entry = |ui: &mut egui::Ui, words: &str, request: Request| {
-                if ui.button(words).asks(request, requests) {
-                    ui.close();
-                }
-            };
-            entry(ui, "Choose another place", Request::TakeVertex(vertex));
-            entry(ui, "Free", Action::Unpin(vec![vertex]).into());
+            entry(ui, "Choose another place", [Request::TakeVertex(vertex)], requests);
+            entry(ui, "Free", [Action::Unpin(vec![vertex]).into()], requests);
         }
         None if document.settings.method.uses_pins() => {
-            entry(ui, "Fix where it lies", Action::Fix(vec![vertex]).into());
-            entry(ui, "Choose its place", Request::TakeVertex(vertex));
+            entry(ui, "Fix where it lies", [Action::Fix(vec![vertex]).into()], requests);
+            entry(ui, "Choose its place", [Request::TakeVertex(vertex)], requests);
         }
         None => {}
     }
     ui.separator();
-    for (words, request) in [
-        ("Go to", vec![Request::GoTo(vec![vertex])]),
-        ("Its equation", vec![Request::Select(vec![vertex]), Request::ShowTab(Tab::Vertex)]),
-    ] {
-        if ui.button(words).clicked() {
-            requests.extend(request);
-            ui.close();
-        }
+    entry(ui, "Go to", [Request::GoTo(vec![vertex])], requests);
+    entry(ui, "Its equation", [Request::Select(vec![vertex]), Request::ShowTab(Tab::Vertex)], requests);
+}
+
+/// An entry that asks for something and closes the menu.
+fn entry<const N: usize>(ui: &mut egui::Ui, words: &str, asks: [Request; N], requests: &mut Vec<Request>) {
+    if ui.button(words).clicked() {
+        requests.extend(asks);
+        ui.close();
     }
 }
 
