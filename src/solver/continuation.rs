@@ -342,5 +342,11 @@ impl Continuation {
 
 /// Newton steps that fold nothing.
 fn downhill(steps: usize) -> Limits {
-    Limits { unfolded: Energy::Foldover(0.0), steps, until_unfolded: false, tolerance: TOLERANCE }
+    Limits {
+        unfolded: Energy::Foldover(0.0),
+        steps,
+        until_unfolded: false,
+        keeps_unfolded: false,
+        tolerance: TOLERANCE,
+    }
 }

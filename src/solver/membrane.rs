@@ -6,6 +6,7 @@
 //!
 //! Some points are held; the others move. While a triangle is folded, ε follows the smallest determinant, as in "Foldover-free
 //! maps in 50 lines of code" (see the module `foldover_energy`); once all are unfolded ε is 0, and no step leaves that state.
+//! On request it is so for each triangle by itself: those that are unfolded have a barrier while others unfold.
 
 use glam::DVec2;
 use nalgebra_sparse::CscMatrix;
@@ -25,6 +26,9 @@ const MODELS: usize = 8 * CHUNK;
 
 /// ε² where a triangle is folded: a little, and a share of the worst determinant's square.
 const EPSILON_SQUARED: [f64; 2] = [1e-12, 0.04];
+
+/// The least ε² where unfolded triangles have barriers: folded ones end well unfolded, not without area.
+const EPSILON_SQUARED_BESIDE_BARRIERS: f64 = 1e-4;
 
 /// The share of the longest unfolded step that is taken at most.
 const STEP_SHARE: f64 = 0.9;
@@ -71,6 +75,8 @@ pub(super) struct Limits {
     pub(super) unfolded: Energy,
     /// Whether to stop as soon as no triangle is folded.
     pub(super) until_unfolded: bool,
+    /// Whether triangles that are not folded stay so while others are.
+    pub(super) keeps_unfolded: bool,
     /// A step that lowers the energy by a smaller share of it is the last.
     pub(super) tolerance: f64,
 }
@@ -80,6 +86,28 @@ pub(super) struct Descent {
     pub(super) least_determinant: f64,
     /// The share of the energy that was gained since the triangles were unfolded.
     pub(super) gain: f64,
+}
+
+/// Which energy each element has.
+struct Energies {
+    unfolded: Energy,
+    folded: Energy,
+    /// By element; empty where all are as the unfolded ones.
+    is_folded: Vec<bool>,
+}
+
+impl Energies {
+    fn all(energy: Energy) -> Self {
+        Self { unfolded: energy, folded: energy, is_folded: Vec::new() }
+    }
+
+    fn is_folded(&self, element: usize) -> bool {
+        self.is_folded.get(element) == Some(&true)
+    }
+
+    fn of(&self, element: usize) -> Energy {
+        if self.is_folded(element) { self.folded } else { self.unfolded }
+    }
 }
 
 impl Membrane {
@@ -127,12 +155,13 @@ impl Membrane {
         element.corners.map(|corner| z[corner as usize])
     }
 
-    /// The energy; infinite where ε = 0 and a triangle is folded.
-    pub(super) fn energy(&self, z: &[DVec2], energy: Energy) -> f64 {
-        let of_chunk = |chunk: &[Element]| -> f64 {
-            chunk.iter().map(|element| element.energy(Self::corners(element, z), energy)).sum()
+    /// The energy; infinite where a triangle is folded that has a barrier.
+    fn energy(&self, z: &[DVec2], energies: &Energies) -> f64 {
+        let of_chunk = |(chunk, elements): (usize, &[Element])| -> f64 {
+            let numbered = (chunk * CHUNK..).zip(elements);
+            numbered.map(|(at, element)| element.energy(Self::corners(element, z), energies.of(at))).sum()
         };
-        let sums: Vec<f64> = self.elements.par_chunks(CHUNK).map(of_chunk).collect();
+        let sums: Vec<f64> = self.elements.par_chunks(CHUNK).enumerate().map(of_chunk).collect();
         let pulled =
             |spring: &Spring| 0.5 * spring.stiffness * z[spring.point as usize].distance_squared(spring.target);
         sums.iter().sum::<f64>() + self.springs.iter().map(pulled).sum::<f64>()
@@ -151,12 +180,14 @@ impl Membrane {
     }
 
     /// Gradient by unknown, and Hessian. Where points are moved by `shift`, the gradient is that of the model there.
-    fn linearise(&self, z: &[DVec2], energy: Energy, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
+    fn linearise(&self, z: &[DVec2], energies: &Energies, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
         let mut gradient = vec![0.0; 2 * self.unknowns.len()];
         let mut values = vec![0.0; self.pattern.nnz()];
-        for (block, slots) in self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS)) {
-            let model = |element: &Element| element.model(Self::corners(element, z), energy);
-            let models: Vec<Model> = block.par_iter().with_min_len(CHUNK / 8).map(model).collect();
+        let blocks = self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS));
+        for (first, (block, slots)) in (0..).step_by(MODELS).zip(blocks) {
+            let model =
+                |(at, element): (usize, &Element)| element.model(Self::corners(element, z), energies.of(first + at));
+            let models: Vec<Model> = block.par_iter().enumerate().with_min_len(CHUNK / 8).map(model).collect();
             for ((element, slots), mut model) in block.iter().zip(slots).zip(models) {
                 if let Some(shift) = shift {
                     let [a, b, c] = Self::corners(element, shift);
@@ -252,7 +283,7 @@ impl Membrane {
         shift: &[DVec2],
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
-        let (gradient, hessian) = self.linearise(z, Energy::Foldover(0.0), Some(shift));
+        let (gradient, hessian) = self.linearise(z, &Energies::all(Energy::Foldover(0.0)), Some(shift));
         let mut moves = self.direction(&gradient, hessian, control)?;
         for (move_, shift) in moves.iter_mut().zip(shift) {
             *move_ += *shift;
@@ -270,11 +301,9 @@ impl Membrane {
             if least > 0.0 && limits.until_unfolded {
                 break;
             }
-            let [floor, share] = EPSILON_SQUARED;
-            let epsilon = (floor + share * least * least).sqrt();
-            let energy = if least > 0.0 { limits.unfolded } else { Energy::Foldover(epsilon) };
-            let Some([before, after]) = self.newton_step(z, &mut trial, energy, control)? else { break };
-            if energy.is_barrier() {
+            let energies = self.energies(z, least, limits);
+            let Some([before, after]) = self.newton_step(z, &mut trial, &energies, control)? else { break };
+            if least > 0.0 {
                 let [first, _] = unfolded_energies.unwrap_or([before, before]);
                 unfolded_energies = Some([first, after]);
                 if before - after < limits.tolerance * before {
@@ -286,27 +315,52 @@ impl Membrane {
         Ok(Descent { least_determinant: self.least_determinant(z), gain })
     }
 
+    /// The energies of a step from where the least determinant is that.
+    fn energies(&self, z: &[DVec2], least: f64, limits: Limits) -> Energies {
+        if least > 0.0 {
+            return Energies::all(limits.unfolded);
+        }
+        let [little, share] = EPSILON_SQUARED;
+        let floor = if limits.keeps_unfolded { EPSILON_SQUARED_BESIDE_BARRIERS } else { little };
+        let folded = Energy::Foldover((floor + share * least * least).sqrt());
+        if !limits.keeps_unfolded {
+            return Energies::all(folded);
+        }
+        let is_folded = |element: &Element| element.determinant(Self::corners(element, z)) <= 0.0;
+        let is_folded = self.elements.par_iter().with_min_len(CHUNK).map(is_folded).collect();
+        Energies { unfolded: limits.unfolded, folded, is_folded }
+    }
+
+    /// The longest step along a direction that folds no element with a barrier.
+    fn longest_within_barriers(&self, z: &[DVec2], direction: &[DVec2], energies: &Energies) -> f64 {
+        let of = |(at, element): (usize, &Element)| {
+            if !energies.of(at).is_barrier() {
+                return f64::INFINITY;
+            }
+            Element::longest_step(Self::corners(element, z), Self::corners(element, direction))
+        };
+        self.elements.par_iter().enumerate().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
+    }
+
     /// One step with line search. Returns the energies before and after, `None` where no step lowers it.
     fn newton_step(
         &self,
         z: &mut [DVec2],
         trial: &mut [DVec2],
-        energy: Energy,
+        energies: &Energies,
         control: Control<'_>,
     ) -> Result<Option<[f64; 2]>, SolveError> {
-        let before = self.energy(z, energy);
-        let (gradient, hessian) = self.linearise(z, energy, None);
+        let before = self.energy(z, energies);
+        let (gradient, hessian) = self.linearise(z, energies, None);
         let direction = self.direction(&gradient, hessian, control)?;
         let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
         let slope: f64 = self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum();
-        let all = self.elements.len();
-        let longest = if energy.is_barrier() { STEP_SHARE * self.longest_step(z, &direction, all) } else { 1.0 };
-        let mut step = longest.min(1.0);
+        let mut step = (STEP_SHARE * self.longest_within_barriers(z, &direction, energies)).min(1.0);
         for _ in 0..HALVINGS {
             for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
                 *trial = *z + step * *direction;
             }
-            let after = self.energy(trial, energy);
+            let after = self.energy(trial, energies);
             if before - after >= -DECREASE * step * slope && after < before {
                 z.copy_from_slice(trial);
                 return Ok(Some([before, after]));

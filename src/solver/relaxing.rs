@@ -97,7 +97,8 @@ impl Relaxing {
         let is_steep = before.least_determinant < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };
-        let limits = Limits { unfolded, steps, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
+        let limits =
+            Limits { unfolded, steps, until_unfolded: false, keeps_unfolded: true, tolerance: 0.1 * TOLERANCE };
         let gain = membrane.descend(&mut z, limits, control)?.gain;
         let z = Embedding::of_mesh(mesh, &z);
         // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
