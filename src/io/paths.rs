@@ -1,6 +1,10 @@
 //! Paths of files: which of them are one file, and the way from a folder to a file.
 
 use std::fs;
+#[cfg(unix)]
+use std::fs::File;
+#[cfg(unix)]
+use std::os::fd::AsFd as _;
 use std::path::{Path, PathBuf};
 
 /// Whether two paths lead to one file, by links of either kind too. Files that are not there are one where they would
@@ -11,6 +15,25 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
         (Err(_), Err(_)) => whole(a) == whole(b),
         _ => false,
     }
+}
+
+/// Whether writing to `place` would replace the file `other`. A device such as `/dev/null` takes any number of files.
+pub fn would_replace(place: &Path, other: &Path) -> bool {
+    let is_device = other.exists() && !other.is_file();
+    !is_device && is_same_file(place, other)
+}
+
+/// Whether a path leads to the file that standard input comes from. Where the system does not tell it is another.
+#[cfg(unix)]
+pub fn is_standard_input(path: &Path) -> bool {
+    let input = std::io::stdin().as_fd().try_clone_to_owned().and_then(|input| File::from(input).metadata());
+    matches!((input, fs::metadata(path)), (Ok(input), Ok(file)) if input.is_file() && is_same_entry(&input, &file))
+}
+
+/// Whether a path leads to the file that standard input comes from. Where the system does not tell it is another.
+#[cfg(not(unix))]
+pub fn is_standard_input(_: &Path) -> bool {
+    false
 }
 
 /// Whether two files are one on the disk, under whatever names.
@@ -30,17 +53,20 @@ fn is_same_whole_path(a: &Path, b: &Path) -> bool {
     matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// A path from the root, links in its folder followed.
-fn whole(path: &Path) -> PathBuf {
-    let folder = whole_folder_of(path);
-    path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))
+/// A path from the root, links followed as far as it is there: so that `..` in it means what it says.
+pub(super) fn whole(path: &Path) -> PathBuf {
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let found = fs::canonicalize(&absolute);
+    found.unwrap_or_else(|_| match (absolute.parent(), absolute.file_name()) {
+        (Some(folder), Some(name)) => whole(folder).join(name),
+        _ => absolute,
+    })
 }
 
-/// The folder that a file is in, from the root, links followed: so that `..` in it means what it says.
+/// The folder that a file is in, from the root, links followed.
 pub(super) fn whole_folder_of(path: &Path) -> PathBuf {
-    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let folder = whole.parent().unwrap_or(&whole);
-    fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    whole(absolute.parent().unwrap_or(&absolute))
 }
 
 /// The way from a folder to a file; `None` where they have no folder in common.
