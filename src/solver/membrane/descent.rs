@@ -22,16 +22,25 @@ const DECREASE: f64 = 1e-4;
 /// Halvings of a step before it counts as none.
 const HALVINGS: usize = 40;
 
+/// What a descent does while some triangle is folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::solver) enum Unfolding {
+    /// Others may fold meanwhile; it goes on when none is folded.
+    Freely,
+    /// The same, but it ends when none is folded.
+    Alone,
+    /// Those that are not folded stay so.
+    BesideBarriers,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::solver) struct Limits {
     /// The most Newton steps.
     pub(in crate::solver) steps: usize,
     /// The energy where no triangle is folded: a barrier.
     pub(in crate::solver) unfolded: Energy,
-    /// Whether to stop as soon as no triangle is folded.
-    pub(in crate::solver) until_unfolded: bool,
-    /// Whether triangles that are not folded stay so while others are.
-    pub(in crate::solver) keeps_unfolded: bool,
+    /// What happens while some triangle is folded.
+    pub(in crate::solver) unfolding: Unfolding,
     /// A step that lowers the energy by a smaller share of it is the last.
     pub(in crate::solver) tolerance: f64,
 }
@@ -78,7 +87,7 @@ impl Membrane {
         for _ in 0..limits.steps {
             control.enter(Phase::Solve)?;
             let least = self.least_determinant(z);
-            if least > 0.0 && limits.until_unfolded {
+            if least > 0.0 && limits.unfolding == Unfolding::Alone {
                 break;
             }
             let energies = self.energies(z, least, limits);
@@ -101,9 +110,10 @@ impl Membrane {
             return Energies::all(limits.unfolded);
         }
         let [little, share] = EPSILON_SQUARED;
-        let floor = if limits.keeps_unfolded { EPSILON_SQUARED_BESIDE_BARRIERS } else { little };
+        let has_barriers = limits.unfolding == Unfolding::BesideBarriers;
+        let floor = if has_barriers { EPSILON_SQUARED_BESIDE_BARRIERS } else { little };
         let folded = Energy::Foldover((floor + share * least * least).sqrt());
-        if !limits.keeps_unfolded {
+        if !has_barriers {
             return Energies::all(folded);
         }
         let is_folded = |element: &Element| element.determinant(Self::corners(element, z)) <= 0.0;

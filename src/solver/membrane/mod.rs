@@ -20,7 +20,7 @@ use super::foldover_energy::{Element, Energy, Model};
 use super::{Control, SolveError};
 use crate::linalg::{Analysis, Factor, Kind, LinalgError};
 use descent::Energies;
-pub(super) use descent::{Descent, Limits};
+pub(super) use descent::{Limits, Unfolding};
 
 /// Elements whose energies are summed by one task: the sum is the same however many threads share it.
 const CHUNK: usize = 2048;
