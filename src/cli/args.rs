@@ -121,7 +121,7 @@ pub struct FlattenArguments {
 impl FlattenArguments {
     /// The files to write, apart from the report.
     pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
-        // The mesh comes last: pictures beside it find their names among the others.
+        // The mesh comes last, so that what it names is there.
         let paths =
             [(OutputKind::Svg, &self.svg), (OutputKind::Png, &self.png), (OutputKind::Obj, &self.output)].into_iter();
         paths.filter_map(|(kind, path)| Some((kind, path.as_deref()?))).collect()

@@ -47,6 +47,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let model = read_model(&arguments.mesh)?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
+        places.spare_copies(arguments, &model.source, picture.as_ref())?;
         let targets = gather(arguments, disk_of(&model)?.vertex_count())?;
         let document = Document {
             targets,

@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 use super::Failure;
 use super::args::{CheckArguments, FlattenArguments};
 use super::standard::is_standard;
-use crate::io::{ObjMesh, PictureFile, StepsFolder, is_same_file, material_files};
+use crate::io::{
+    ObjMesh, PictureFile, StepsFolder, copies_of_materials, is_same_file, is_standard_input, material_files,
+    would_replace,
+};
 
 /// A file that is written.
 struct Place {
@@ -41,14 +44,49 @@ impl Places {
             let Some(first) = self.files[..count].iter().find(|first| clash(&first.path, &second.path)) else {
                 continue;
             };
-            let options = format!("{} and {}", first.option, second.option);
-            return Err(Failure::Usage(if is_standard(&second.path) {
-                format!("standard output: {options} cannot both go there: name a file for one of them")
-            } else {
-                format!("{}: {options} would both write it: give one of them another name", second.path.display())
-            }));
+            return Err(both_write(&second.path, [first.option, second.option]));
+        }
+        match self.files.iter().find(|place| self.is_of_steps(&place.path)) {
+            Some(place) => Err(both_write(&place.path, [place.option, "--steps"])),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses results where copies are to lie beside the mesh: of its picture, or of its materials.
+    ///
+    /// # Errors
+    ///
+    /// Wrong use, or a file to be copied that cannot be read.
+    pub(super) fn spare_copies(
+        &self,
+        arguments: &FlattenArguments,
+        source: &ObjMesh,
+        picture: Option<&PictureFile>,
+    ) -> Result<(), Failure> {
+        let Some(mesh) = arguments.output.as_deref().filter(|path| !is_standard(path)) else { return Ok(()) };
+        let (option, copies) = match picture {
+            Some(picture) => ("--picture", picture.copies_beside(mesh)?),
+            None if arguments.copy_materials => {
+                ("--copy-materials", copies_of_materials(source, &arguments.mesh, mesh)?)
+            }
+            None => return Ok(()),
+        };
+        for copy in &copies {
+            let others = self.files.iter().filter(|place| place.option != option);
+            if let Some(place) = others.into_iter().find(|place| clash(&place.path, copy)) {
+                return Err(both_write(copy, [place.option, option]));
+            }
+            if self.is_of_steps(copy) {
+                return Err(both_write(copy, ["--steps", option]));
+            }
         }
         Ok(())
+    }
+
+    /// Whether a file is the folder of steps, or one that is written into it.
+    fn is_of_steps(&self, path: &Path) -> bool {
+        let is_of = |folder: &PathBuf| StepsFolder::would_replace(folder, path) || is_same_file(path, folder);
+        !is_standard(path) && self.steps.as_ref().is_some_and(is_of)
     }
 
     /// Refuses to write over files that the mesh's materials name.
@@ -65,7 +103,13 @@ impl Places {
             Err(Failure::Usage(format!("{input}: {option} would write over {what}: choose another place for it")))
         };
         if is_standard(input) {
-            return Ok(());
+            return match self.files.iter().find(|place| !is_standard(&place.path) && is_standard_input(&place.path)) {
+                Some(Place { option, path }) => Err(Failure::Usage(format!(
+                    "{}: {option} would write over {what}, which standard input comes from: choose another place for it",
+                    path.display()
+                ))),
+                None => Ok(()),
+            };
         }
         if let Some(place) = self.files.iter().find(|place| clash(&place.path, input)) {
             return over(place.option);
@@ -77,11 +121,16 @@ impl Places {
     }
 }
 
-/// Whether one file would be written over by the other. A device such as `/dev/null` takes any number of them.
+/// Whether one file would be written over by the other.
 fn clash(a: &Path, b: &Path) -> bool {
-    if is_standard(a) || is_standard(b) {
-        return a == b;
-    }
-    let is_device = b.exists() && !b.is_file();
-    !is_device && is_same_file(a, b)
+    if is_standard(a) || is_standard(b) { a == b } else { would_replace(a, b) }
+}
+
+/// The words for two results in one place.
+fn both_write(path: &Path, [first, second]: [&str; 2]) -> Failure {
+    Failure::Usage(if is_standard(path) {
+        format!("standard output: {first} and {second} cannot both go there: name a file for one of them")
+    } else {
+        format!("{}: {first} and {second} would both write it: give one of them another name", path.display())
+    })
 }

@@ -97,20 +97,12 @@ fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Resu
         write(&mut out)?;
         return out.flush();
     }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".freebound-");
-    let permissions = present.map(|data| data.permissions());
-    #[cfg(unix)]
-    {
-        // As any new file, less what the umask takes away; the default of `tempfile` shuts out all others.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let aside = builder.tempfile_in(folder_of(&target))?;
+    // Made as any new file is: what `tempfile` makes by itself shuts out all others.
+    let (_unfinished, aside) =
+        Unfinished::new(|names| names.make_in(folder_of(&target), |path| File::create_new(path)))?;
     let (file, aside) = aside.into_parts();
-    let _unfinished = Unfinished::new(&aside);
-    if let Some(permissions) = permissions {
-        file.set_permissions(permissions)?;
+    if let Some(data) = present {
+        file.set_permissions(data.permissions())?;
     }
     let mut out = BufWriter::with_capacity(BUFFER, file);
     write(&mut out)?;

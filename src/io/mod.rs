@@ -43,11 +43,11 @@ pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_cons
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use obj::{
     MAX_PARSE_FAULTS, Materials, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, Statement,
-    Texture, TextureError, TextureMesh, material_files, material_picture, read_mesh, read_mesh_with, read_obj,
-    read_obj_with, refined_obj, write_obj,
+    Texture, TextureError, TextureMesh, copies_of_materials, material_files, material_picture, read_mesh,
+    read_mesh_with, read_obj, read_obj_with, refined_obj, write_obj,
 };
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};
-pub use paths::is_same_file;
+pub use paths::{is_same_file, is_standard_input, would_replace};
 pub use picture::{PictureError, PictureFile, decode_picture};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 use super::WriteError;
-use super::paths::is_same_file;
+use super::paths::{is_same_file, whole};
 use super::report::StepReport;
 use super::svg::write_step_svg;
-use super::unfinished::Unfinished;
+use super::unfinished::{Unfinished, before_clean_up};
 use crate::mesh::DiskMesh;
 use crate::solver::{Choice as _, Step};
 
@@ -40,15 +40,16 @@ impl StepsFolder {
         }
         let here = Path::new(".");
         let near = target.ancestors().find(|folder| folder.is_dir()).unwrap_or(here);
-        let aside = tempfile::Builder::new().prefix(".freebound-").tempdir_in(near).map_err(named)?;
+        // Its error names the folder aside, which says nothing to anybody.
+        let plain = |error: io::Error| named(error.kind().into());
+        let (unfinished, aside) = Unfinished::new(|names| names.tempdir_in(near)).map_err(plain)?;
         let table = csv::Writer::from_writer(Vec::new());
-        let unfinished = Unfinished::new(aside.path());
         Ok(Self { target: target.to_owned(), aside, _unfinished: unfinished, names: Vec::new(), table })
     }
 
-    /// Whether filling a folder would replace this file in it.
+    /// Whether filling a folder would replace this file in it, whether or not it is there yet.
     pub fn would_replace(folder: &Path, file: &Path) -> bool {
-        let whole = fs::canonicalize(file).unwrap_or_else(|_| file.to_owned());
+        let whole = whole(file);
         let (Some(parent), Some(name)) = (whole.parent(), whole.file_name()) else { return false };
         let name = name.to_string_lossy();
         (name == TABLE || is_drawing_of_a_step(&name)) && is_same_file(parent, folder)
@@ -62,7 +63,7 @@ impl StepsFolder {
     pub fn add(&mut self, mesh: &DiskMesh, step: &Step) -> Result<(), WriteError> {
         let name = format!("step-{:03}-{}.svg", step.index, step.rung.name());
         let write = || {
-            let mut out = BufWriter::new(File::create(self.aside.path().join(&name))?);
+            let mut out = BufWriter::new(before_clean_up(|| File::create(self.aside.path().join(&name)))?);
             write_step_svg(&mut out, mesh, step)?;
             out.flush()
         };
@@ -77,7 +78,8 @@ impl StepsFolder {
         Ok(())
     }
 
-    /// Puts the files in place: the steps of an earlier run go, and those of this one come, the table last.
+    /// Puts the files in place: the steps of an earlier run go, and those of this one come, the table last. A sudden end
+    /// of the program comes before that or after it.
     ///
     /// # Errors
     ///
@@ -98,7 +100,7 @@ impl StepsFolder {
             }
             Ok(())
         };
-        put().map_err(|source| WriteError { path: self.target.clone(), source })
+        before_clean_up(put).map_err(|source| WriteError { path: self.target.clone(), source })
     }
 }
 

@@ -24,6 +24,8 @@ struct OnTable {
     project: Option<PathBuf>,
     /// The document as it was opened or saved; none where it is nowhere but here.
     saved: Option<Document>,
+    /// The file of constraints that was imported last.
+    constraints: Option<PathBuf>,
     /// The project's picture, where it could not be read: it stays in the project until there is another.
     missing_picture: Option<ProjectSource>,
     /// How the person looks at it, to be saved with it.
@@ -72,6 +74,16 @@ impl Files {
     /// Whether a file is being written that a person asked for.
     pub(super) fn is_saving(&self) -> bool {
         self.outputs.is_busy() || self.projects.is_busy()
+    }
+
+    /// The file of constraints that was imported last.
+    pub(super) fn constraints(&self) -> Option<&PathBuf> {
+        self.table.constraints.as_ref()
+    }
+
+    /// Remembers where constraints were imported from.
+    pub(super) fn remember_constraints(&mut self, path: PathBuf) {
+        self.table.constraints = Some(path);
     }
 
     /// The document as a project file holds it.
@@ -151,6 +163,7 @@ impl Files {
             // Where pins are left out, the file keeps them: saving asks for another place.
             project: project.filter(|_| !lost_pins),
             saved: Some(document.clone()).filter(|_| !is_recovered),
+            constraints: None,
             missing_picture: missing_picture.clone(),
             view: view.clone(),
         };

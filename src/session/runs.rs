@@ -141,7 +141,7 @@ impl Session {
         self.disk().is_some() && !(self.is_current() && self.solving.stopped_for_good().is_some())
     }
 
-    /// Whether the newest step is planar, its constraints met, and its run waits to be taken on.
+    /// Whether the newest step is one-to-one, its constraints met, and its run waits to be taken on.
     pub fn can_relax(&self) -> bool {
         self.is_current() && self.solving.can_relax(&self.document.problem())
     }

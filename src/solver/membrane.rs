@@ -133,9 +133,13 @@ impl Membrane {
             chunk.iter().map(|element| element.energy(Self::corners(element, z), energy)).sum()
         };
         let sums: Vec<f64> = self.elements.par_chunks(CHUNK).map(of_chunk).collect();
-        let pulled =
-            |spring: &Spring| 0.5 * spring.stiffness * z[spring.point as usize].distance_squared(spring.target);
-        sums.iter().sum::<f64>() + self.springs.iter().map(pulled).sum::<f64>()
+        sums.iter().sum::<f64>() + self.pull(z)
+    }
+
+    /// The part of the springs in the energy.
+    pub(super) fn pull(&self, z: &[DVec2]) -> f64 {
+        let of = |spring: &Spring| 0.5 * spring.stiffness * z[spring.point as usize].distance_squared(spring.target);
+        self.springs.iter().map(of).sum()
     }
 
     pub(super) fn least_determinant(&self, z: &[DVec2]) -> f64 {

@@ -13,6 +13,7 @@ use serde_json::Value;
 
 use crate::common::corpus_disks;
 use crate::program::{Program, argument, coordinates_by_vertex, example_file};
+use crate::report_schema::TENT;
 
 #[test]
 fn the_written_mesh_is_the_one_that_was_read_and_check_agrees_with_the_report() {
@@ -165,5 +166,23 @@ fn the_picture_has_its_size_and_shows_something_in_both_halves() {
             .map(|(x, y)| picture.get_pixel(half + x, y).0)
             .collect();
         assert!(colours.len() > 2, "the half at {half} shows {} colours", colours.len());
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_error_names_the_file_asked_for_and_none_that_is_written_aside() {
+    let program = Program::new();
+    program.write("in.obj", TENT);
+    let cases = [
+        ("-o", "missing/out.obj"),
+        ("--svg", "in.obj/out.svg"),
+        ("--report", "/proc/report.json"),
+        ("--steps", "/proc/steps"),
+    ];
+    for (option, path) in cases {
+        let run = program.run(&["flatten", "in.obj", option, path]).expect(1);
+        assert!(run.stderr.contains(&format!("freebound: {path}: cannot be written: ")), "{}", run.stderr);
+        assert!(!run.stderr.contains(".freebound-") && !run.stderr.contains("at path"), "{}", run.stderr);
     }
 }

@@ -55,6 +55,7 @@ mod placing;
 mod polygon;
 mod program;
 mod raster;
+mod relaxing;
 mod report_schema;
 mod reproduction;
 mod schnyder;

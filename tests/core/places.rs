@@ -86,9 +86,107 @@ fn two_results_do_not_go_to_one_place() {
         let run = program.run(&[&["flatten", "in.obj"], options].concat()).expect(2);
         assert!(run.stderr.contains(words), "{options:?}: {}", run.stderr);
     }
+    assert_eq!(program.files(), inputs().files(), "told before anything is written");
     // What goes to the null device disturbs nobody.
     #[cfg(unix)]
     program.run(&["flatten", "in.obj", "-o", "/dev/null", "--svg", "/dev/null"]).expect(0);
+}
+
+#[test]
+fn a_result_does_not_lie_where_the_steps_go() {
+    let program = inputs();
+    fs::create_dir(program.path("folder")).unwrap();
+    for is_there in [false, true] {
+        for path in ["steps/step-000-natural.svg", "./steps/steps.csv", "folder/../steps/step-123-relax.svg", "steps"] {
+            for option in ["-o", "--svg", "--png", "--report"] {
+                let run = program.run(&["flatten", "in.obj", option, path, "--steps", "steps"]).expect(2);
+                let words = format!("{option} and --steps would both write it");
+                assert!(run.stderr.contains(&words), "{option} {path}: {}", run.stderr);
+            }
+        }
+        assert_eq!(program.path("steps").is_dir(), is_there, "nothing is computed before");
+        fs::create_dir_all(program.path("steps")).unwrap();
+    }
+    // A drawing of another name disturbs no step.
+    program.run(&["flatten", "in.obj", "--svg", "steps/last.svg", "--steps", "steps"]).expect(0);
+    assert!(program.path("steps/last.svg").is_file() && program.path("steps/steps.csv").is_file());
+}
+
+#[test]
+fn a_result_does_not_lie_where_copies_beside_the_mesh_go() {
+    let program = inputs();
+    fs::create_dir(program.path("out")).unwrap();
+    let materials = &["-o", "out/flat.obj", "--copy-materials"][..];
+    let picture = &["-o", "out/flat.obj", "--picture", "photo.png"][..];
+    let cases = [
+        (materials, "out/looks.mtl"),
+        (materials, "out/skin.png"),
+        (picture, "out/photo.png"),
+        (picture, "./out/flat.mtl"),
+    ];
+    let asserted = |options: &[&str], path: &str| {
+        for option in ["--report", "--svg", "--png"] {
+            let run = program.run(&[&["flatten", "in.obj", option, path], options].concat()).expect(2);
+            let words = format!("{option} and {} would both write it", options[2]);
+            assert!(run.stderr.contains(&words), "{option} {path} {options:?}: {}", run.stderr);
+        }
+    };
+    for (options, path) in cases {
+        asserted(options, path);
+    }
+    assert_eq!(fs::read_dir(program.path("out")).unwrap().count(), 0, "nothing is computed before");
+    // The copies of an earlier run are there, and are not copied again.
+    program.run(&[&["flatten", "in.obj"], materials].concat()).expect(0);
+    program.run(&[&["flatten", "in.obj"], picture].concat()).expect(0);
+    for (options, path) in cases {
+        asserted(options, path);
+    }
+    // Where the first name is another's, the copy has the second one.
+    program.write("out/looks.mtl", "newmtl another\n");
+    asserted(materials, "out/flat-looks.mtl");
+    let report = ["flatten", "in.obj", "--report", "out/flat.json"];
+    program.run(&[&report, materials].concat()).expect(0);
+}
+
+#[test]
+fn copies_do_not_lie_where_the_steps_go() {
+    let program = inputs();
+    fs::copy(program.path("photo.png"), program.path("step-000-natural.svg")).unwrap();
+    let arguments = ["--picture", "step-000-natural.svg", "-o", "steps/flat.obj", "--steps", "steps"];
+    let run = program.run(&[&["flatten", "in.obj"], &arguments[..]].concat()).expect(2);
+    assert!(run.stderr.contains("--steps and --picture would both write it"), "{}", run.stderr);
+    assert!(!program.path("steps").exists());
+}
+
+/// Runs the program with a file as standard input.
+#[cfg(unix)]
+fn fed_from(program: &Program, file: &str, arguments: &[&str]) -> Run {
+    let input = fs::File::open(program.path(file)).unwrap();
+    Run::from(program.command(arguments).stdin(input).output().unwrap())
+}
+
+#[cfg(unix)]
+#[test]
+fn the_file_that_standard_input_comes_from_is_not_written_over() {
+    let program = Program::new();
+    program.write("s.obj", TENT);
+    fs::hard_link(program.path("s.obj"), program.path("hard.obj")).unwrap();
+    let before = fs::read(program.path("s.obj")).unwrap();
+    for path in ["s.obj", "./s.obj", "hard.obj"] {
+        for arguments in [
+            &["flatten", "-", "-o", path][..],
+            &["flatten", "-", "--png", path],
+            &["flatten", "-", "--report", path],
+            &["check", "-", "--report", path],
+        ] {
+            let run = fed_from(&program, "s.obj", arguments).expect(2);
+            let option = arguments[2];
+            let words = format!("{option} would write over the mesh, which standard input comes from");
+            assert!(run.stderr.contains(&words) && run.stderr.contains(path), "{arguments:?}: {}", run.stderr);
+        }
+    }
+    assert!(before == fs::read(program.path("s.obj")).unwrap());
+    fed_from(&program, "s.obj", &["flatten", "-", "-o", "other.obj"]).expect(0);
 }
 
 /// Runs the program with a text on standard input.

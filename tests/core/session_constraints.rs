@@ -205,6 +205,31 @@ fn what_is_not_planar_is_not_relaxed() {
     assert_eq!(session.timeline().records().len(), 1);
 }
 
+#[test]
+fn what_is_one_to_one_but_for_concave_polygons_can_be_relaxed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("quads.obj");
+    let height = |x: u32, y: u32| 0.3 * f64::from(x * y) / 16.0;
+    let vertices = (0..25).map(|k| (k % 5, k / 5)).map(|(x, y)| format!("v {x} {y} {}\n", height(x, y)));
+    let corner = |k: u32| k / 4 * 5 + k % 4 + 1;
+    let quads = (0..16).map(corner).map(|v| format!("f {v} {} {} {}\n", v + 1, v + 6, v + 5));
+    std::fs::write(&path, vertices.chain(quads).collect::<String>()).unwrap();
+    let mut session = session();
+    settled(&mut session, Action::Open(path));
+    settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
+    let at = |x: f64, y: f64| DVec2::new(x, y);
+    place(
+        &mut session,
+        &[(0, at(0.0, 0.0)), (4, at(4.0, 0.0)), (24, at(4.0, 4.0)), (20, at(0.0, 4.0)), (12, at(3.5, 2.5))],
+    );
+    settle(&mut session);
+    let verdict = &session.outcome().expect("solved").step.verdict;
+    assert!(verdict.is_one_to_one() && !verdict.planar, "{}", verdict.summary());
+    assert!(session.can_relax());
+    settled(&mut session, Action::Relax);
+    assert!(session.timeline().records().iter().any(|record| record.rung == Method::Relax));
+}
+
 /// A face's corners with targets that turn it over.
 fn turned() -> [(u32, DVec2); 3] {
     [(30, DVec2::new(3.0, 3.0)), (31, DVec2::new(3.0, 4.0)), (40, DVec2::new(4.0, 3.0))]

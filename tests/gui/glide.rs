@@ -30,6 +30,18 @@ fn drawn(window: &Window) -> Vec<DVec2> {
     window.editor().plane.drawn().expect("solved").positions().to_vec()
 }
 
+/// Shows frames until the sheet is on its way.
+fn step_until_it_moves(window: &mut Window) {
+    for _ in 0..2000 {
+        if window.editor().plane.is_easing() {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(1));
+        window.step();
+    }
+    panic!("the sheet does not move: {}", window.verdict());
+}
+
 /// Shows frames until all is at rest, and looks at each.
 fn each_frame(window: &mut Window, mut look: impl FnMut(&Window)) {
     let mut at_rest = 0;
@@ -62,9 +74,7 @@ fn a_click_on_the_pill_of_a_sheet_that_moves_goes_to_no_defect() {
     window.key(Key::Space);
     window.key(Key::Home);
     window.key_now(Key::ArrowRight);
-    while !window.editor().plane.is_easing() {
-        window.step();
-    }
+    step_until_it_moves(&mut window);
     let pill = |window: &Window| format!("Verdict: {}", window.verdict());
     let click_it = |window: &mut Window| {
         let place = window.rect(egui::accesskit::Role::Button, &pill(window)).center();
@@ -100,9 +110,7 @@ fn the_next_step_waits_until_the_sheet_has_arrived() {
     let mut window = with_four_steps();
     let mut seen = vec![3];
     window.key_now(Key::ArrowLeft);
-    while !window.editor().plane.is_easing() {
-        window.step();
-    }
+    step_until_it_moves(&mut window);
     window.key_now(Key::ArrowLeft);
     assert_eq!(shown(&window), 1, "the step is asked for at once");
     each_frame(&mut window, |window| {
@@ -124,6 +132,7 @@ fn slow_frames_have_no_glide_and_the_sheet_is_there_at_once() {
         window.frame_after(0.1, crate::presses::key(key, Modifiers::NONE));
         while drawn_step(&window) != expected {
             assert!(!window.editor().plane.is_easing());
+            std::thread::sleep(std::time::Duration::from_millis(1));
             window.frame_after(0.1, []);
         }
         assert!(!window.editor().plane.is_easing());

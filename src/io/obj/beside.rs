@@ -1,41 +1,73 @@
 //! Files that belong to a mesh and lie beside it. Files of others are never written over.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::io::{WriteError, write_atomically};
 
-/// Writes a file beside a mesh, unless it is there, and returns its name. Names are without blanks, which not all readers
-/// take. Another file of the same name stays: the copy is told apart by the mesh's name.
-pub(super) fn put(mesh: &Path, name: &str, bytes: &[u8]) -> Result<String, WriteError> {
-    let name = without_blanks(name);
-    let second = format!("{}-{name}", stem_of(mesh));
-    put_under(mesh, &[name, second], bytes)
+/// The place beside a mesh, for copies of other files.
+pub(super) struct Beside<'a> {
+    pub(super) mesh: &'a Path,
+    /// Copies that are only planned, with their contents; none where they are written at once.
+    planned: Option<BTreeMap<PathBuf, Vec<u8>>>,
 }
 
-/// Writes a file beside a mesh under the first of these names that may be used, unless it is there, and returns that name.
-pub(super) fn put_under(mesh: &Path, names: &[String], bytes: &[u8]) -> Result<String, WriteError> {
-    let place = place_for(mesh, names, |place| holds(place, bytes));
-    if !holds(&place, bytes) {
-        write_atomically(&place, |out| out.write_all(bytes))?;
+impl<'a> Beside<'a> {
+    /// Copies are written.
+    pub(super) fn writing(mesh: &'a Path) -> Self {
+        Self { mesh, planned: None }
     }
-    Ok(name_of(&place))
+
+    /// Nothing is written: [`planned`](Self::planned) tells what would be.
+    pub(super) fn planning(mesh: &'a Path) -> Self {
+        Self { mesh, planned: Some(BTreeMap::new()) }
+    }
+
+    /// The files that would lie beside the mesh.
+    pub(super) fn planned(self) -> Vec<PathBuf> {
+        self.planned.unwrap_or_default().into_keys().collect()
+    }
+
+    /// Puts a file beside the mesh, unless it is there, and returns its name. Names are without blanks, which not all
+    /// readers take. Another file of the same name stays: the copy is told apart by the mesh's name.
+    pub(super) fn put(&mut self, name: &str, bytes: &[u8]) -> Result<String, WriteError> {
+        let name = without_blanks(name);
+        let second = format!("{}-{name}", stem_of(self.mesh));
+        self.put_under(&[name, second], bytes)
+    }
+
+    /// Puts a file under the first of these names that may be used, unless it is there, and returns that name.
+    pub(super) fn put_under(&mut self, names: &[String], bytes: &[u8]) -> Result<String, WriteError> {
+        let place = place_for(self.mesh, names, |place| self.may_take(place, bytes));
+        if let Some(planned) = &mut self.planned {
+            planned.insert(place.clone(), bytes.to_vec());
+        } else if !holds(&place, bytes) {
+            write_atomically(&place, |out| out.write_all(bytes))?;
+        }
+        Ok(name_of(&place))
+    }
+
+    fn may_take(&self, place: &Path, bytes: &[u8]) -> bool {
+        match self.planned.as_ref().and_then(|planned| planned.get(place)) {
+            Some(contents) => contents == bytes,
+            None => is_free(place) || holds(place, bytes),
+        }
+    }
 }
 
 /// Where a file that belongs to a mesh may lie without harm to files of others: beside it, under the first of these
-/// names that is free or whose file is ours; after the last of them with a number, from 2 on.
-pub(super) fn place_for(mesh: &Path, names: &[String], is_ours: impl Fn(&Path) -> bool) -> PathBuf {
+/// names that may be taken; after the last of them with a number, from 2 on.
+pub(super) fn place_for(mesh: &Path, names: &[String], may_take: impl Fn(&Path) -> bool) -> PathBuf {
     let last = names.last().map_or("", String::as_str);
     let further = (2_u64..).map(|number| numbered(last, number));
     let mut places = names.iter().cloned().chain(further).map(|name| mesh.with_file_name(name));
-    places
-        .find(|place| place != mesh && (is_free(place) || is_ours(place)))
-        .expect("a folder has fewer files than there are numbers")
+    places.find(|place| place != mesh && may_take(place)).expect("a folder has fewer files than there are numbers")
 }
 
 /// Whether no file is seen there. Where permission to look is missing, writing fails and says so.
-fn is_free(place: &Path) -> bool {
+pub(super) fn is_free(place: &Path) -> bool {
     fs::symlink_metadata(place).is_err()
 }
 

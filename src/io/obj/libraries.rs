@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 use std::convert::Infallible;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::beside::put;
+use super::beside::Beside;
 use super::material::{Library, libraries_of, picture_argument, picture_within};
 use super::{ObjMesh, Statement};
-use crate::io::paths::{relative, whole_folder_of};
+use crate::io::paths::{named_in_files, relative, whole_folder_of};
 use crate::io::{WriteError, is_same_file};
 
 /// What becomes of material libraries where a mesh is written into another folder.
@@ -34,7 +34,7 @@ pub(in crate::io) fn relocated<'a>(mesh: &'a ObjMesh, from: &Path, to: &Path) ->
         }
         let folder = whole_folder_of(&library.path);
         let whole = folder.join(library.path.file_name()?);
-        slashed(&relative(&whole, &new).unwrap_or(whole))
+        named_in_files(&relative(&whole, &new).unwrap_or(whole))
     };
     let Ok(statements) = with_libraries(mesh, &old, |library| Ok::<_, Infallible>(name_from_new(library)));
     Cow::Owned(statements)
@@ -47,30 +47,46 @@ pub(in crate::io) fn relocated<'a>(mesh: &'a ObjMesh, from: &Path, to: &Path) ->
 ///
 /// The file that cannot be read or written.
 pub(in crate::io) fn copy_materials(mesh: &ObjMesh, from: &Path, to: &Path) -> Result<Vec<Statement>, WriteError> {
+    copy(mesh, from, &mut Beside::writing(to))
+}
+
+/// Where the copies of the material libraries and their pictures are to lie beside `to`, if nothing else comes there.
+/// Nothing is written.
+///
+/// # Errors
+///
+/// The file that cannot be read.
+pub fn copies_of_materials(mesh: &ObjMesh, from: &Path, to: &Path) -> Result<Vec<PathBuf>, WriteError> {
+    let mut beside = Beside::planning(to);
+    copy(mesh, from, &mut beside)?;
+    Ok(beside.planned())
+}
+
+fn copy(mesh: &ObjMesh, from: &Path, beside: &mut Beside<'_>) -> Result<Vec<Statement>, WriteError> {
     with_libraries(mesh, &whole_folder_of(from), |library| {
         let name = library.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if is_beside(&library.path, to) {
+        if is_beside(&library.path, beside.mesh) {
             return Ok(Some(name));
         }
         let text = read(&library.path)?;
         let mut copy = Vec::with_capacity(text.len());
         for line in text.split_inclusive(|&byte| byte == b'\n') {
-            match with_copied_picture(line, &library.path, to)? {
+            match with_copied_picture(line, &library.path, beside)? {
                 Some(changed) => copy.extend_from_slice(changed.as_bytes()),
                 None => copy.extend_from_slice(line),
             }
         }
-        put(to, &name, &copy).map(Some)
+        beside.put(&name, &copy).map(Some)
     })
 }
 
 /// A line of a library that names a picture, with the name of the copy; none where it names no picture that is there.
-fn with_copied_picture(line: &[u8], library: &Path, to: &Path) -> Result<Option<String>, WriteError> {
+fn with_copied_picture(line: &[u8], library: &Path, beside: &mut Beside<'_>) -> Result<Option<String>, WriteError> {
     let Ok(text) = std::str::from_utf8(line) else { return Ok(None) };
     let Some(argument) = picture_argument(text) else { return Ok(None) };
     let Some(found) = picture_within(argument, library.parent().unwrap_or(Path::new(""))) else { return Ok(None) };
     let name = found.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let name = if is_beside(&found.path, to) { name } else { put(to, &name, &read(&found.path)?)? };
+    let name = if is_beside(&found.path, beside.mesh) { name } else { beside.put(&name, &read(&found.path)?)? };
     // The argument is the end of the line, but for blanks.
     let (line, blanks) = text.split_at(text.trim_end().len());
     let before = &line[..line.len() - argument.len() + found.begin];
@@ -109,10 +125,4 @@ fn is_beside(file: &Path, mesh: &Path) -> bool {
 
 fn read(path: &Path) -> Result<Vec<u8>, WriteError> {
     fs::read(path).map_err(|source| WriteError { path: path.to_owned(), source })
-}
-
-/// A path as files name it on every system; none where it is not Unicode.
-fn slashed(path: &Path) -> Option<String> {
-    let text = path.to_str()?;
-    Some(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
 }

@@ -39,7 +39,7 @@ use glam::DVec2;
 use crate::mesh::{PolygonMesh, TriMesh};
 
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
-pub use libraries::Materials;
+pub use libraries::{Materials, copies_of_materials};
 pub(in crate::io) use libraries::{copy_materials, relocated};
 pub use material::{material_files, material_picture};
 pub use read::{Progress, read_mesh, read_mesh_with, read_obj, read_obj_with};

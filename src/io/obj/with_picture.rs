@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::beside::{begins_with, name_of, place_for, put, put_under, stem_of, without_blanks};
+use super::beside::{Beside, begins_with, is_free, name_of, place_for, stem_of, without_blanks};
 use super::write::write_obj_with;
 use super::{ObjMesh, Statement};
 use crate::io::{PictureFile, WriteError, is_same_file, write_atomically};
@@ -23,8 +23,20 @@ impl PictureFile {
         let stem = stem_of(path);
         let head = head_for(path);
         place_for(path, &[format!("{stem}.mtl"), format!("{stem}-{MATERIAL}.mtl")], |place| {
-            begins_with(place, head.as_bytes())
+            is_free(place) || begins_with(place, head.as_bytes())
         })
+    }
+
+    /// Where the copy of the picture is to lie beside an OBJ file, if nothing else comes there; nowhere where it needs
+    /// none. Nothing is written.
+    ///
+    /// # Errors
+    ///
+    /// The picture's file, where it cannot be read.
+    pub fn copies_beside(&self, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
+        let mut beside = Beside::planning(path);
+        put_picture(self, &mut beside)?;
+        Ok(beside.planned())
     }
 
     /// Writes a mesh with texture coordinates, v up, whose only material shows this picture.
@@ -42,7 +54,7 @@ impl PictureFile {
         mesh: &ObjMesh,
         coordinates: &Embedding,
     ) -> Result<(), WriteError> {
-        let picture_name = put_picture(path, self)?;
+        let picture_name = put_picture(self, &mut Beside::writing(path))?;
         let library = Self::library_beside(path);
         let library_name = name_of(&library);
         write_atomically(&library, |out| {
@@ -75,18 +87,19 @@ fn head_for(path: &Path) -> String {
 }
 
 /// Puts a picture beside a mesh where it is not there yet, and returns its name.
-fn put_picture(mesh: &Path, picture: &PictureFile) -> Result<String, WriteError> {
+fn put_picture(picture: &PictureFile, beside: &mut Beside<'_>) -> Result<String, WriteError> {
+    let mesh = beside.mesh;
     let Some(source) = &picture.path else {
         let name = format!("{}-{MATERIAL}.png", stem_of(mesh));
         let mut bytes = Vec::new();
         let failed = |source| WriteError { path: mesh.with_file_name(&name), source };
         picture.pixels.write_png(&mut bytes).map_err(failed)?;
-        return put_under(mesh, &[name], &bytes);
+        return beside.put_under(&[name], &bytes);
     };
     let name = without_blanks(&name_of(source));
     if source.is_file() && is_same_file(source, &mesh.with_file_name(&name)) {
         return Ok(name);
     }
     let bytes = fs::read(source).map_err(|error| WriteError { path: source.to_owned(), source: error })?;
-    put(mesh, &name, &bytes)
+    beside.put(&name, &bytes)
 }

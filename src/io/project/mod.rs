@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 pub use self::error::ProjectError;
 use self::fields::{SourceFields, pin_list};
 use super::door::check_finite;
-use super::paths::{relative, whole_folder_of};
+use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::VAxis;
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
@@ -263,9 +263,8 @@ fn named(path: &Path, folder: &Path, style: PathStyle) -> io::Result<PathBuf> {
         PathStyle::Absolute => whole,
         PathStyle::Relative => relative(&whole, folder).unwrap_or(whole),
     };
-    let text = found.to_str().ok_or_else(|| {
+    named_in_files(&found).map(PathBuf::from).ok_or_else(|| {
         let text = format!("the name {} is not Unicode, which a project cannot hold", found.display());
         io::Error::new(io::ErrorKind::InvalidData, text)
-    })?;
-    Ok(if cfg!(windows) { text.replace('\\', "/").into() } else { found })
+    })
 }

@@ -108,11 +108,11 @@ impl Solving {
         self.stop.reason_for_good(self.newest()?, self.ending)
     }
 
-    /// Whether the newest step is planar, its constraints met, and its run waits to be taken on.
+    /// Whether the newest step is one-to-one, its constraints met, and its run waits to be taken on.
     pub(super) fn can_relax(&self, problem: &Problem) -> bool {
-        let is_planar = |newest: &Arc<Outcome>| newest.step.verdict.planar && newest.step.unmet().is_empty();
-        let is_at_rest = self.resting.as_ref().is_some_and(|resting| resting.problem.has_steps_of(problem));
-        is_at_rest && self.newest().is_some_and(is_planar)
+        let is_met = self.newest().is_some_and(|newest| newest.step.unmet().is_empty());
+        let waits = |resting: &Resting| resting.problem.has_steps_of(problem) && resting.run.can_relax();
+        is_met && self.resting.as_ref().is_some_and(waits)
     }
 }
 

@@ -40,8 +40,6 @@ pub struct PlaneView {
     /// The scene that is being made, by the step's revision.
     job: Background<u64, PlaneScene>,
     way: Option<Way>,
-    /// The mesh, by its revision, that is too large to be shown on a way.
-    too_large: Option<u64>,
     preview: Option<PreviewScene>,
     hull: HullView,
     ghost: Option<Ghost>,
@@ -89,7 +87,6 @@ impl PlaneView {
             scene: None,
             job: Background::new("plane scene", wake),
             way: None,
-            too_large: None,
             preview: None,
             hull: HullView::new(wake),
             ghost: None,

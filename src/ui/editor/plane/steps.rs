@@ -8,7 +8,6 @@
 //! leave the pane, or become small in it. A pin that is dragged has the plane stand still under it.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
@@ -26,10 +25,6 @@ pub(in crate::ui::editor) const SECONDS: f64 = 0.25;
 
 /// A way with fewer frames than this is no glide but a stutter: then the sheet is where it goes at once.
 const LEAST_FRAMES: f64 = 5.0;
-
-/// What making the arrays of one frame may take. Where it takes longer, 60 frames a second are out of reach, and the mesh
-/// is shown without a way between its steps.
-const BUDGET: Duration = Duration::from_millis(6);
 
 /// An embedding that could be shown so many times as large is small in its pane.
 const SMALL: f64 = 2.0;
@@ -109,10 +104,9 @@ impl PlaneView {
     /// How long a glide from one sheet to another takes; none where there is none.
     fn glide_to(&self, target: &PlaneScene, before: &PlaneScene, around: Surroundings) -> Option<f64> {
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
-        let is_too_large = self.too_large == Some(target.mesh.model_revision);
         let shows_stage = self.hull_scene().is_some_and(|hull| hull.plane().is_some());
         let is_smooth = |seconds: &f64| around.host.frame_seconds() * LEAST_FRAMES <= *seconds;
-        around.glide.filter(is_smooth).filter(|_| is_same_mesh && !is_too_large && !shows_stage)
+        around.glide.filter(is_smooth).filter(|_| is_same_mesh && !shows_stage)
     }
 
     /// A step is on the screen, at rest.
@@ -143,7 +137,6 @@ impl PlaneView {
             self.finish_ease();
             return;
         }
-        let start = Instant::now();
         // Slow at both ends.
         let eased = share * share * (3.0 - 2.0 * share);
         let positions = way.from.iter().zip(way.target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect();
@@ -156,10 +149,6 @@ impl PlaneView {
             let camera = from.toward(to, eased);
             self.pane.set_camera(camera);
             self.framed = Some(camera);
-        }
-        if start.elapsed() > BUDGET {
-            self.too_large = Some(way.target.mesh.model_revision);
-            self.finish_ease();
         }
         around.host.context().request_repaint();
     }
