@@ -130,6 +130,7 @@ const fn code_of_solve(error: &SolveError) -> u8 {
         SolveError::NotFinite { .. }
         | SolveError::Unmet
         | SolveError::TooFine
+        | SolveError::TooManyNewVertices { .. }
         | SolveError::NotPlanar
         | SolveError::AllBent
         | SolveError::LadderExhausted { .. }

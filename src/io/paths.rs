@@ -1,5 +1,6 @@
 //! Paths of files: which of them are one file, and the way from a folder to a file.
 
+use std::borrow::Cow;
 use std::fs;
 #[cfg(unix)]
 use std::fs::File;
@@ -57,7 +58,7 @@ fn is_same_whole_path(a: &Path, b: &Path) -> bool {
 pub(super) fn whole(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let found = fs::canonicalize(&absolute);
-    found.unwrap_or_else(|_| match (absolute.parent(), absolute.file_name()) {
+    found.map(without_verbatim).unwrap_or_else(|_| match (absolute.parent(), absolute.file_name()) {
         (Some(folder), Some(name)) => whole(folder).join(name),
         _ => absolute,
     })
@@ -75,4 +76,69 @@ pub(super) fn relative(path: &Path, folder: &Path) -> Option<PathBuf> {
     let up = folder.components().count() - shared;
     let down = path.components().skip(shared);
     (shared > 0).then(|| std::iter::repeat_n(Path::new("..").components(), up).flatten().chain(down).collect())
+}
+
+/// A path as files name it on every system, folders divided by slashes; none where it is not Unicode.
+pub(super) fn named_in_files(path: &Path) -> Option<String> {
+    let text = path.to_str()?;
+    Some(if cfg!(windows) { slashed(text) } else { text.to_owned() })
+}
+
+fn without_verbatim(path: PathBuf) -> PathBuf {
+    match path.to_str() {
+        Some(text) if cfg!(windows) => plain(text).into_owned().into(),
+        _ => path,
+    }
+}
+
+/// What Windows puts before a path whose links were followed, and few programs read.
+const VERBATIM: &str = r"\\?\";
+
+/// A path of Windows without the sign that it is meant to the letter, where it can do without.
+fn plain(path: &str) -> Cow<'_, str> {
+    let Some(rest) = path.strip_prefix(VERBATIM) else { return path.into() };
+    if let Some(share) = rest.strip_prefix(r"UNC\") {
+        return format!(r"\\{share}").into();
+    }
+    let is_of_drive = matches!(rest.as_bytes(), [drive, b':', b'\\', ..] if drive.is_ascii_alphabetic());
+    if is_of_drive { rest.into() } else { path.into() }
+}
+
+/// A path of Windows with folders divided by slashes. One that is meant to the letter must keep its backslashes.
+fn slashed(path: &str) -> String {
+    let path = plain(path);
+    if path.starts_with(VERBATIM) { path.into_owned() } else { path.replace('\\', "/") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_of_windows_are_named_as_other_programs_read_them() {
+        for (path, named) in [
+            (r"looks\m.mtl", "looks/m.mtl"),
+            (r"..\in\looks\m.mtl", "../in/looks/m.mtl"),
+            (r"D:\in\m.mtl", "D:/in/m.mtl"),
+            (r"\\?\D:\in\m.mtl", "D:/in/m.mtl"),
+            (r"\\?\UNC\server\share\m.mtl", "//server/share/m.mtl"),
+            (r"\\server\share\m.mtl", "//server/share/m.mtl"),
+            (r"\\?\Volume{b75e2c83}\m.mtl", r"\\?\Volume{b75e2c83}\m.mtl"),
+        ] {
+            assert_eq!(slashed(path), named);
+        }
+    }
+
+    #[test]
+    fn a_path_of_windows_is_plain_wherever_it_can_be() {
+        for (path, expected) in [
+            (r"\\?\C:\a\b", r"C:\a\b"),
+            (r"\\?\UNC\server\share\a", r"\\server\share\a"),
+            (r"C:\a", r"C:\a"),
+            (r"\\?\Volume{b75e2c83}\a", r"\\?\Volume{b75e2c83}\a"),
+            (r"\\?\pipe", r"\\?\pipe"),
+        ] {
+            assert_eq!(plain(path), expected);
+        }
+    }
 }

@@ -45,6 +45,13 @@ impl Session {
         self.solve();
     }
 
+    /// Chooses method and weights. Their own result shows, without the relaxing that was asked for on another one.
+    pub(super) fn choose(&mut self, settings: Settings) {
+        if settings != self.document.settings {
+            self.edit(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
+        }
+    }
+
     /// Chooses method and weights as part of a drag of a slider.
     pub(super) fn slide_settings(&mut self, settings: Settings) {
         if settings != self.document.settings {
@@ -241,7 +248,10 @@ impl Session {
             return self.complain("constraints need a mesh: open one first", None);
         }
         let count = self.vertex_count();
-        self.errands.send("reading the constraints", move |_| Errand::Constraints(Constraints::read(&path, count)));
+        self.errands.send("reading the constraints", move |_| {
+            let read = Constraints::read(&path, count);
+            Errand::Constraints { path, read }
+        });
     }
 
     /// Takes in the errands that came back.
@@ -250,8 +260,11 @@ impl Session {
             match errand {
                 Errand::Picture(Ok(picture)) => self.edit(vec![Command::SetPicture(Some(Arc::new(picture)))]),
                 Errand::Picture(Err(error)) => self.complain(error.to_string(), Some("choose a PNG or JPEG file")),
-                Errand::Constraints(Ok(constraints)) => self.take_constraints(constraints.targets),
-                Errand::Constraints(Err(error)) => self.complain(error.to_string(), None),
+                Errand::Constraints { path, read: Ok(constraints) } => {
+                    self.files.remember_constraints(path);
+                    self.take_constraints(constraints.targets);
+                }
+                Errand::Constraints { read: Err(error), .. } => self.complain(error.to_string(), None),
                 Errand::Flat(flat) => self.take_flat(&flat),
                 Errand::Turned(model) => {
                     self.mesh.take_other_side(*model);

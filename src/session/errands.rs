@@ -1,6 +1,7 @@
 //! Small pieces of work for the document that take time: pictures and constraints to read, faces to turn, an embedding
 //! to fit the targets to. Each becomes one edit when it comes back.
 
+use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::edits::Flat;
@@ -10,8 +11,11 @@ use crate::io::{Constraints, ConstraintsError, PictureError, PictureFile};
 /// What an errand brings back.
 pub(super) enum Errand {
     Picture(Result<PictureFile, PictureError>),
-    /// Constraints for the open mesh.
-    Constraints(Result<Constraints, ConstraintsError>),
+    /// Constraints for the open mesh, from a file.
+    Constraints {
+        path: PathBuf,
+        read: Result<Constraints, ConstraintsError>,
+    },
     /// The open mesh with its faces turned around.
     Turned(Box<Model>),
     /// The open mesh flattened, to fit the targets to.

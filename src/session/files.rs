@@ -24,6 +24,8 @@ struct OnTable {
     project: Option<PathBuf>,
     /// The document as it was opened or saved; none where it is nowhere but here.
     saved: Option<Document>,
+    /// The file of constraints that was imported last.
+    constraints: Option<PathBuf>,
     /// The project's picture, where it could not be read: it stays in the project until there is another.
     missing_picture: Option<ProjectSource>,
     /// How the person looks at it, to be saved with it.
@@ -74,10 +76,21 @@ impl Files {
         self.outputs.is_busy() || self.projects.is_busy()
     }
 
+    /// The file of constraints that was imported last.
+    pub(super) fn constraints(&self) -> Option<&PathBuf> {
+        self.table.constraints.as_ref()
+    }
+
+    /// Remembers where constraints were imported from.
+    pub(super) fn remember_constraints(&mut self, path: PathBuf) {
+        self.table.constraints = Some(path);
+    }
+
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
         project.faces_turned = document.faces_turned;
+        project.relaxed = document.relaxed;
         project.picture = match &document.picture {
             Some(picture) => picture_source(picture, model),
             None => self.table.missing_picture.clone(),
@@ -150,6 +163,7 @@ impl Files {
             // Where pins are left out, the file keeps them: saving asks for another place.
             project: project.filter(|_| !lost_pins),
             saved: Some(document.clone()).filter(|_| !is_recovered),
+            constraints: None,
             missing_picture: missing_picture.clone(),
             view: view.clone(),
         };

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface};
@@ -55,6 +56,9 @@ impl Session {
             let text = "the embedding on the screen does not belong to these settings and pins yet";
             return self.complain(text, Some("save again when it is solved"));
         }
+        if self.refuses_to_replace(&request.path, None) {
+            return;
+        }
         let records = self.timeline().records()[..=outcome.step.index].to_vec();
         let picture = self.document.picture.clone();
         self.files.write(move || {
@@ -67,6 +71,9 @@ impl Session {
 
     /// Saves the project.
     pub(super) fn save_project(&mut self, path: PathBuf) {
+        if self.refuses_to_replace(&path, Some(Role::Project)) {
+            return;
+        }
         match self.model().and_then(|model| self.files.project_file(model, &self.document)) {
             Some(project) => self.files.save_project(path, project, &self.document),
             None => self.complain("there is nothing to save yet: open a mesh first", None),
@@ -79,6 +86,9 @@ impl Session {
         if targets.is_empty() {
             return self.complain("there are no constraints to write: pin a vertex first", None);
         }
+        if self.refuses_to_replace(&path, Some(Role::Constraints)) {
+            return;
+        }
         self.files.write(move || {
             write_durably(&path, |out| write_constraints(out, &targets))?;
             let words = if targets.len() == 1 { "constraint" } else { "constraints" };
@@ -88,6 +98,9 @@ impl Session {
 
     /// Writes a picture of what the screen shows, as a PNG.
     pub fn save_picture(&mut self, path: PathBuf, picture: Picture) {
+        if self.refuses_to_replace(&path, None) {
+            return;
+        }
         self.files.write(move || {
             write_atomically(&path, |out| picture.write_png(out))?;
             Ok(format!("wrote {}", path.display()))

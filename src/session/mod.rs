@@ -11,6 +11,7 @@
 //! | `edits`         | what is done to the document                                               |
 //! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
+//! | `in_use`        | files that are open, which nothing else is written over                    |
 //! | `document`      | part: what the user edits; one edit                                        |
 //! | `history`       | part: undo and redo                                                        |
 //! | `open_mesh`     | part: the open mesh, its faces one way around or the other                 |
@@ -39,6 +40,7 @@ mod errands;
 mod files;
 mod filing;
 mod history;
+mod in_use;
 mod messages;
 mod model;
 mod open_mesh;

@@ -100,6 +100,16 @@ pub enum SolveError {
     #[error("64-bit numbers cannot hold the faces between the targets apart: move targets that are near to each other")]
     TooFine,
 
+    /// Paths between the targets wind around each other.
+    #[error(
+        "the targets lie in such an order that more than {most} new vertices would be needed: use fewer constraints, or \
+         move their targets nearer to the order that the vertices have"
+    )]
+    TooManyNewVertices {
+        /// The most that are made.
+        most: usize,
+    },
+
     /// Relaxing was asked for where faces overlap.
     #[error("only a planar embedding can be relaxed: make it planar first")]
     NotPlanar,
@@ -167,6 +177,7 @@ impl SolveError {
             Self::TargetsTooNear { .. } => "targets-too-near",
             Self::Unmet => "unmet",
             Self::TooFine => "too-fine",
+            Self::TooManyNewVertices { .. } => "too-many-new-vertices",
             Self::NotPlanar => "not-planar",
             Self::AllBent => "all-bent",
             Self::LadderExhausted { .. } => "ladder-exhausted",
@@ -185,6 +196,7 @@ impl SolveError {
             Self::NotFinite { .. }
                 | Self::Unmet
                 | Self::TooFine
+                | Self::TooManyNewVertices { .. }
                 | Self::NotPlanar
                 | Self::AllBent
                 | Self::LadderExhausted { .. }

@@ -28,12 +28,14 @@ pub enum Method {
     Schnyder,
     /// A planar embedding's distortion lowered, one-to-one throughout. A rung only: what follows a method.
     Relax,
+    /// Polygons that cannot be convex, cut into triangles. A rung only, too.
+    Cut,
 }
 
 impl Method {
     /// Whether the choice of family matters.
     pub const fn uses_family(self) -> bool {
-        !matches!(self, Self::Lscm | Self::Levy | Self::Continuation | Self::Matchmaker | Self::Schnyder | Self::Relax)
+        matches!(self, Self::Auto | Self::Natural | Self::Iterate | Self::VirtualBoundary | Self::Convex(_))
     }
 
     /// Whether it iterates, so that a limit of its steps matters.
@@ -48,7 +50,7 @@ impl Method {
 
     /// Whether it keeps every step one-to-one on the way to the constraints.
     pub const fn is_one_to_one(self) -> bool {
-        matches!(self, Self::Continuation | Self::Matchmaker | Self::Relax)
+        matches!(self, Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut)
     }
 
     /// Whether it may bend the boundary, so that the growth of the pinned vertices matters.
@@ -73,7 +75,7 @@ impl Method {
             Self::VirtualBoundary => Ok(WeightSource::Extended),
             Self::Levy => Err(NoEquation::OfTriangles),
             Self::Schnyder => Err(NoEquation::OnGrid),
-            Self::Continuation | Self::Matchmaker | Self::Relax => Err(NoEquation::OfEnergy),
+            Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut => Err(NoEquation::OfEnergy),
         }
     }
 
@@ -94,12 +96,14 @@ impl Method {
             Self::Matchmaker => "new vertices",
             Self::Schnyder => "grid",
             Self::Relax => "relaxed",
+            Self::Cut => "cut polygons",
             other => other.name(),
         }
     }
 }
 
-/// A convex boundary stands for all shapes, which are a choice of their own. Relaxing cannot be chosen: it is a rung only.
+/// A convex boundary stands for all shapes, which are a choice of their own. Relaxing and cutting cannot be chosen: they are
+/// rungs only.
 impl Choice for Method {
     const ALL: &'static [Self] = &[
         Self::Auto,
@@ -154,6 +158,9 @@ impl Choice for Method {
             Self::Relax => Words::new("relax", "Relax")
                 .about("lower distortion of a planar map, one-to-one throughout")
                 .source("ours; energy of Garanzha et al. 2021"),
+            Self::Cut => Words::new("cut", "Cut polygons")
+                .about("polygons that cannot be convex, cut into triangles")
+                .source("ours"),
         }
     }
 }

@@ -10,7 +10,7 @@
 use std::sync::Arc;
 
 use super::foldover_energy::Energy;
-use super::membrane::{Limits, Membrane};
+use super::membrane::{Limits, Membrane, Unfolding};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
 use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, Sheet, SolveError};
@@ -30,6 +30,10 @@ const TOLERANCE: f64 = 1e-3;
 /// Below this determinant the symmetric Dirichlet energy is too steep to begin with.
 const STEEP: f64 = 1e-3;
 
+/// Rounds in a row without a lower energy than ever before, by more than this share, after which it goes round in circles.
+const PATIENCE: usize = 5;
+const LOWER: f64 = 1e-9;
+
 #[derive(Debug)]
 pub(super) struct Relaxing {
     rest: Rest,
@@ -42,6 +46,7 @@ pub(super) struct Relaxing {
     inner: Progress,
     /// That of the round before, whose order of elimination is kept.
     membrane: Option<Membrane>,
+    stall: Stall,
     /// Whether the last round gained next to nothing.
     pub(super) has_converged: bool,
     /// How embeddings are written: what is proved.
@@ -63,6 +68,7 @@ impl Relaxing {
             progress,
             inner,
             membrane: None,
+            stall: Stall::default(),
             has_converged: false,
             sheet: Arc::default(),
         }
@@ -97,8 +103,10 @@ impl Relaxing {
         let is_steep = before.least_determinant < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };
-        let limits = Limits { unfolded, steps, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
+        let unfolding = Unfolding::BesideBarriers;
+        let limits = Limits { unfolded, steps, unfolding, tolerance: 0.1 * TOLERANCE };
         let gain = membrane.descend(&mut z, limits, control)?.gain;
+        let pull = membrane.pull(&z);
         let z = Embedding::of_mesh(mesh, &z);
         // The outside has a small part in the energy that goes down; the faces' own must not go up for it.
         let is_drawn = is_steep || self.pins.values().any(|pin| !pin.hold.is_exact());
@@ -117,6 +125,33 @@ impl Relaxing {
         self.membrane = Some(membrane);
         let is_still_steep = self.inner.least_determinant < STEEP;
         self.has_converged = !is_taken || (gain < TOLERANCE && is_still_steep == is_steep && !is_unfolding);
+        if is_taken && !is_unfolding {
+            let own = if is_steep { all.energy(mesh, &self.embedding, unfolded) } else { 0.5 * inner.energy };
+            self.stall.look_at(is_steep, own + pull);
+            self.has_converged |= self.stall.is_reached();
+        }
         Ok(())
+    }
+}
+
+/// Watches for rounds that lead nowhere, such as those that come to the steep and leave it again and again.
+#[derive(Debug, Default)]
+struct Stall {
+    /// The lowest energy after a steep round, and after another.
+    lowest: [Option<f64>; 2],
+    rounds_since: usize,
+}
+
+impl Stall {
+    /// Takes in a round: which energy it lowers, and what that has come to.
+    fn look_at(&mut self, is_steep: bool, energy: f64) {
+        let lowest = &mut self.lowest[usize::from(is_steep)];
+        let is_lower = lowest.is_none_or(|lowest| energy < (1.0 - LOWER) * lowest);
+        self.rounds_since = if is_lower { 0 } else { self.rounds_since + 1 };
+        *lowest = Some(lowest.unwrap_or(energy).min(energy));
+    }
+
+    fn is_reached(&self) -> bool {
+        self.rounds_since >= PATIENCE
     }
 }

@@ -91,6 +91,12 @@ impl Rest {
         Progress { energy: 2.0 * half, least_determinant, distance_left }
     }
 
+    /// An energy of an embedding at its own size, of the triangles alone.
+    pub(super) fn energy(&self, mesh: &DiskMesh, embedding: &Embedding, energy: Energy) -> f64 {
+        let of = |element: &Element| element.energy(element.corners.map(|c| embedding[c as usize]), energy);
+        self.elements(mesh, embedding).iter().map(of).sum()
+    }
+
     /// How many of the triangles are folded in an embedding.
     pub(super) fn folded_count(&self, mesh: &DiskMesh, embedding: &Embedding) -> usize {
         let is_folded = |element: &&Element| element.determinant(element.corners.map(|c| embedding[c as usize])) <= 0.0;

@@ -27,7 +27,9 @@ fn constraints_on_polygons_that_cannot_be_convex_come_to_an_end() {
     program.write("in.obj", &obj_text(&with_bare_vertex()));
     let pins = ["--pin", "0:0,0", "--pin", "8:1,0", "--pin", "80:1,1", "--pin", "72:0,1.2"];
     let run = |options: &[&str]| program.run(&[&["flatten", "in.obj"][..], &pins, options].concat());
-    run(&[]).expect(0);
+    let ended = run(&["--report", "-", "-o", "out.obj"]).expect(0).json();
+    let rungs: Vec<&str> = ended["steps"].as_array().unwrap().iter().filter_map(|step| step["rung"].as_str()).collect();
+    assert!(rungs.contains(&"cut") && !rungs.contains(&"matchmaker"), "a cut makes no new vertices: {rungs:?}");
     for options in [&["--no-new-vertices"][..], &["--method", "continuation"], &["--no-new-vertices", "--relax", "30"]]
     {
         let run = run(options).expect(4);

@@ -2,10 +2,10 @@
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings, SolveError, Step, verdict};
+use freebound::solver::{Control, Family, Ladder, Method, Pin, Pins, Settings, SolveError, Step, hard_pins, verdict};
 use glam::DVec2;
 
-use crate::makers::{Random, fan, grid};
+use crate::makers::{Random, disk, fan, grid};
 use crate::shapes::{finger, irregular_cube};
 
 /// Area may change by rounding alone.
@@ -155,4 +155,19 @@ fn without_pins_nothing_is_split() {
         let step = run.step(&mesh, Control::unattended()).unwrap();
         assert!(step.verdict.planar && step.refinement.is_none());
     }
+}
+
+#[test]
+fn targets_in_a_hopeless_order_are_given_up_with_a_reason() {
+    // Every vertex inside has the place of another one, at random: the paths wind around each other without end.
+    let mesh = disk(grid(12, 12));
+    let mut random = Random(5);
+    let inside: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()).collect();
+    let mut places: Vec<DVec2> = inside.iter().map(|&v| mesh.position(v).truncate()).collect();
+    for i in 1..places.len() {
+        places.swap(i, random.below(u32::try_from(i).unwrap() + 1) as usize);
+    }
+    let error = matched(&mesh, &hard_pins(inside.into_iter().zip(places))).expect_err("too many");
+    assert_eq!(error, SolveError::TooManyNewVertices { most: 10_000 });
+    assert!(error.is_failure_of_method() && error.to_string().contains("use fewer constraints"), "{error}");
 }

@@ -111,6 +111,78 @@ fn relaxing_lowers_the_energy_and_keeps_the_constraints() {
     assert_eq!(session.stopped(), Some(Stop::Ended(Ending::Planar)), "it comes to rest where it was");
 }
 
+/// The energy of the newest step, where rounds of relaxing were the last ones taken.
+fn relaxed_energy(session: &Session) -> Option<f64> {
+    let newest = session.timeline().newest().expect("solved");
+    let is_relaxed = session.timeline().records()[newest].rung == Method::Relax;
+    session.timeline().standings()[newest].progress.filter(|_| is_relaxed).map(|progress| progress.energy)
+}
+
+/// A grid that its corners stretch: planar by its first solve, and distorted.
+fn stretched() -> Session {
+    let mut session = with_grid();
+    let corners = [(0, [0.0, 0.0]), (8, [12.0, 1.0]), (72, [-1.0, 8.0]), (80, [9.0, 10.0])];
+    place(&mut session, &corners.map(|(vertex, at)| (vertex, DVec2::from(at))));
+    settle(&mut session);
+    assert!(session.can_relax() && relaxed_energy(&session).is_none());
+    session
+}
+
+#[test]
+fn a_relaxing_that_was_asked_for_comes_back_when_a_later_move_is_undone() {
+    let mut session = stretched();
+    settled(&mut session, Action::Relax);
+    let relaxed = relaxed_energy(&session).expect("relaxed");
+    session.handle(Action::MovePin { vertex: id(80), target: DVec2::new(9.5, 11.0) });
+    settled(&mut session, Action::EndGesture);
+    let moved = relaxed_energy(&session).expect("what was asked for holds for what follows");
+    settled(&mut session, Action::Undo);
+    let again = relaxed_energy(&session).expect("relaxed as before the move");
+    assert!((again - relaxed).abs() < 1e-6 * relaxed && (moved - relaxed).abs() > 1e-3 * relaxed, "{again} {relaxed}");
+    settled(&mut session, Action::Undo);
+    assert!(relaxed_energy(&session).is_none() && session.document().targets.len() == 4, "undone by itself");
+    settled(&mut session, Action::Redo);
+    settled(&mut session, Action::Redo);
+    let again = relaxed_energy(&session).expect("repeated with the move");
+    assert!((again - moved).abs() < 1e-6 * moved, "{again} {moved}");
+}
+
+#[test]
+fn a_relaxing_ends_with_another_method_a_new_solve_and_a_pause() {
+    let mut session = stretched();
+    settled(&mut session, Action::Relax);
+    settled(&mut session, Action::Solve);
+    assert!(relaxed_energy(&session).is_none(), "solved again, as it is solved");
+    settled(&mut session, Action::Relax);
+    settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
+    assert!(relaxed_energy(&session).is_none(), "another method shows its own result");
+    settled(&mut session, Action::Undo);
+    assert!(relaxed_energy(&session).is_some());
+    settled(&mut session, Action::Solve);
+    session.handle(Action::Relax);
+    session.handle(Action::Cancel);
+    settle(&mut session);
+    assert!(!session.is_running(), "a relaxing that was stopped does not begin again by itself");
+}
+
+#[test]
+fn a_relaxing_is_kept_in_the_project() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mesh, project) = (folder.path().join("grid.obj"), folder.path().join("work.freebound"));
+    write_obj(&mesh, &grid(8, 8));
+    let mut saved = session();
+    settled(&mut saved, Action::Open(mesh));
+    place(&mut saved, &[(0, DVec2::ZERO), (8, DVec2::new(12.0, 1.0)), (72, DVec2::new(-1.0, 8.0))]);
+    settle(&mut saved);
+    settled(&mut saved, Action::Relax);
+    assert!(saved.has_unsaved_work());
+    settled(&mut saved, Action::SaveProject(project.clone()));
+    let mut opened = session();
+    settled(&mut opened, Action::Open(project));
+    let [before, after] = [&saved, &opened].map(|session| relaxed_energy(session).expect("relaxed"));
+    assert!((before - after).abs() < 1e-6 * before, "{before} {after}");
+}
+
 #[test]
 fn a_planar_start_is_kept_when_targets_are_edited() {
     let mut session = with_grid();
@@ -131,6 +203,31 @@ fn what_is_not_planar_is_not_relaxed() {
     assert!(!session.outcome().expect("solved").step.verdict.planar && !session.can_relax());
     settled(&mut session, Action::Relax);
     assert_eq!(session.timeline().records().len(), 1);
+}
+
+#[test]
+fn what_is_one_to_one_but_for_concave_polygons_can_be_relaxed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("quads.obj");
+    let height = |x: u32, y: u32| 0.3 * f64::from(x * y) / 16.0;
+    let vertices = (0..25).map(|k| (k % 5, k / 5)).map(|(x, y)| format!("v {x} {y} {}\n", height(x, y)));
+    let corner = |k: u32| k / 4 * 5 + k % 4 + 1;
+    let quads = (0..16).map(corner).map(|v| format!("f {v} {} {} {}\n", v + 1, v + 6, v + 5));
+    std::fs::write(&path, vertices.chain(quads).collect::<String>()).unwrap();
+    let mut session = session();
+    settled(&mut session, Action::Open(path));
+    settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
+    let at = |x: f64, y: f64| DVec2::new(x, y);
+    place(
+        &mut session,
+        &[(0, at(0.0, 0.0)), (4, at(4.0, 0.0)), (24, at(4.0, 4.0)), (20, at(0.0, 4.0)), (12, at(3.5, 2.5))],
+    );
+    settle(&mut session);
+    let verdict = &session.outcome().expect("solved").step.verdict;
+    assert!(verdict.is_one_to_one() && !verdict.planar, "{}", verdict.summary());
+    assert!(session.can_relax());
+    settled(&mut session, Action::Relax);
+    assert!(session.timeline().records().iter().any(|record| record.rung == Method::Relax));
 }
 
 /// A face's corners with targets that turn it over.

@@ -1,14 +1,20 @@
 //! Files that the session remembers, and what it says in those that it writes.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
-use freebound::geom::PictureFrame;
+use freebound::geom::{Picture, PictureFrame};
 use freebound::io::{EXTENSIONS, OutputFit, OutputKind, hard_targets};
-use freebound::mesh::VertexId;
-use freebound::session::{Model, Outcome, Problem, RecentFiles};
+use freebound::mesh::{PolygonMesh, VertexId};
+use freebound::session::{Action, Model, Outcome, Problem, RecentFiles, SaveRequest, Session};
 use freebound::solver::{Control, Ladder, Settings};
 use glam::DVec2;
+use tempfile::TempDir;
+
+use crate::program::obj_text;
+use crate::session::{session, settled};
+use crate::session_documents::{errors, write_picture};
 
 #[test]
 fn the_list_survives_a_restart_newest_first() {
@@ -67,4 +73,80 @@ fn every_format_stands_in_its_own_row_of_the_table() {
         assert_eq!(format.extension, extension);
         assert!(format.ending.ends_with(&format!(".{extension}")) && EXTENSIONS.contains(&format!(".{extension}")));
     }
+}
+
+/// A folder with a mesh that has materials, and with constraints; a session with both, a picture, and a project.
+fn with_open_files() -> (TempDir, Session) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let dome = Example::Dome.mesh();
+    let text = obj_text(&PolygonMesh::from(&dome));
+    fs::write(path("dome.obj"), format!("mtllib looks.mtl\nusemtl skin\n{text}")).unwrap();
+    fs::write(path("looks.mtl"), "newmtl skin\nmap_Kd skin.png\nbump dents.png\n").unwrap();
+    fs::write(path("pins.txt"), "3 0.25 0.25 # the nose\n40 0.75 0.25\n").unwrap();
+    for name in ["skin.png", "dents.png", "photo.png"] {
+        write_picture(&path(name), 4, 4);
+    }
+    let mut session = session();
+    settled(&mut session, Action::Open(path("dome.obj")));
+    settled(&mut session, Action::OpenPicture(path("photo.png")));
+    settled(&mut session, Action::ImportConstraints(path("pins.txt")));
+    settled(&mut session, Action::SaveProject(path("work.freebound")));
+    assert!(session.is_current() && errors(&session).is_empty(), "{:?}", session.messages());
+    (folder, session)
+}
+
+#[test]
+fn what_is_open_is_not_written_over() {
+    let (folder, mut session) = with_open_files();
+    fs::create_dir(folder.path().join("deep")).unwrap();
+    let open = [
+        ("dome.obj", "the mesh"),
+        ("looks.mtl", "a file that the mesh's materials name"),
+        ("skin.png", "a file that the mesh's materials name"),
+        ("dents.png", "a file that the mesh's materials name"),
+        ("photo.png", "the picture"),
+        ("pins.txt", "the constraints"),
+        ("work.freebound", "the project"),
+    ];
+    for (name, words) in open {
+        let path = folder.path().join("deep").join("..").join(name);
+        let before = fs::read(&path).unwrap();
+        let mut requests: Vec<Action> = [OutputKind::Obj, OutputKind::Svg, OutputKind::Png, OutputKind::Json]
+            .map(|kind| Action::Save(SaveRequest { path: path.clone(), kind, fit: OutputFit::Unit }))
+            .into();
+        // Project and constraints may be brought up to date.
+        requests.extend((name != "work.freebound").then(|| Action::SaveProject(path.clone())));
+        requests.extend((name != "pins.txt").then(|| Action::ExportConstraints(path.clone())));
+        for request in requests {
+            settled(&mut session, request.clone());
+            let message = session.messages().last().expect("said").clone();
+            assert!(message.text.contains(name) && message.text.contains(words), "{request:?}: {message:?}");
+            assert_eq!(message.remedy.as_deref(), Some("choose another name"));
+        }
+        session.save_picture(path.clone(), Picture::filled(2, 2, [0; 4]));
+        session.finish_writing();
+        assert!(session.messages().last().expect("said").text.contains(words), "{:?}", session.messages());
+        assert!(before == fs::read(&path).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn project_and_constraints_are_brought_up_to_date_in_their_files() {
+    let (folder, mut session) = with_open_files();
+    settled(&mut session, Action::Unpin(vec![VertexId::new(3)]));
+    settled(&mut session, Action::ExportConstraints(folder.path().join("pins.txt")));
+    settled(&mut session, Action::SaveProject(folder.path().join("work.freebound")));
+    assert!(errors(&session).is_empty() && !session.has_unsaved_work(), "{:?}", session.messages());
+    let pins = fs::read_to_string(folder.path().join("pins.txt")).unwrap();
+    assert!(pins.contains("40 0.75 0.25") && !pins.contains("3 0.25"), "{pins}");
+}
+
+#[test]
+fn what_was_open_before_may_be_written_over() {
+    let (folder, mut session) = with_open_files();
+    settled(&mut session, Action::OpenExample(Example::Dome));
+    let path = folder.path().join("dome.obj");
+    settled(&mut session, Action::Save(SaveRequest { path, kind: OutputKind::Obj, fit: OutputFit::Unit }));
+    assert!(errors(&session).is_empty(), "{:?}", session.messages());
 }

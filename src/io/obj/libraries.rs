@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::beside::Beside;
 use super::material::{Library, libraries_of, picture_argument, picture_within};
 use super::{ObjMesh, Statement};
-use crate::io::paths::{relative, whole_folder_of};
+use crate::io::paths::{named_in_files, relative, whole_folder_of};
 use crate::io::{WriteError, is_same_file};
 
 /// What becomes of material libraries where a mesh is written into another folder.
@@ -34,7 +34,7 @@ pub(in crate::io) fn relocated<'a>(mesh: &'a ObjMesh, from: &Path, to: &Path) ->
         }
         let folder = whole_folder_of(&library.path);
         let whole = folder.join(library.path.file_name()?);
-        slashed(&relative(&whole, &new).unwrap_or(whole))
+        named_in_files(&relative(&whole, &new).unwrap_or(whole))
     };
     let Ok(statements) = with_libraries(mesh, &old, |library| Ok::<_, Infallible>(name_from_new(library)));
     Cow::Owned(statements)
@@ -125,10 +125,4 @@ fn is_beside(file: &Path, mesh: &Path) -> bool {
 
 fn read(path: &Path) -> Result<Vec<u8>, WriteError> {
     fs::read(path).map_err(|source| WriteError { path: path.to_owned(), source })
-}
-
-/// A path as files name it on every system; none where it is not Unicode.
-fn slashed(path: &Path) -> Option<String> {
-    let text = path.to_str()?;
-    Some(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
 }

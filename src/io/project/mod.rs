@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 pub use self::error::ProjectError;
 use self::fields::{SourceFields, pin_list};
 use super::door::check_finite;
-use super::paths::{relative, whole_folder_of};
+use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::VAxis;
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
@@ -63,6 +63,9 @@ pub struct ProjectFile {
     max_steps: usize,
     #[serde(default)]
     relax_rounds: Option<usize>,
+    /// Rounds of relaxing that a person has asked for beside those of the settings.
+    #[serde(default)]
+    pub relaxed: usize,
     #[serde(default = "default_new_vertices")]
     new_vertices: bool,
     /// The targets of the user's pins.
@@ -162,6 +165,7 @@ impl ProjectFile {
             growth: settings.growth,
             max_steps: settings.max_steps,
             relax_rounds: settings.relax_rounds,
+            relaxed: 0,
             new_vertices: settings.new_vertices,
             targets: Targets::new(),
             view: ProjectView::default(),
@@ -259,9 +263,8 @@ fn named(path: &Path, folder: &Path, style: PathStyle) -> io::Result<PathBuf> {
         PathStyle::Absolute => whole,
         PathStyle::Relative => relative(&whole, folder).unwrap_or(whole),
     };
-    let text = found.to_str().ok_or_else(|| {
+    named_in_files(&found).map(PathBuf::from).ok_or_else(|| {
         let text = format!("the name {} is not Unicode, which a project cannot hold", found.display());
         io::Error::new(io::ErrorKind::InvalidData, text)
-    })?;
-    Ok(if cfg!(windows) { text.replace('\\', "/").into() } else { found })
+    })
 }

@@ -29,9 +29,6 @@ use super::stop::Goal;
 use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Timeline, Wake};
 use crate::solver::{Ending, Kept, Ladder, Phase, Prepared};
 
-/// The most rounds of relaxing that are asked for at once.
-const RELAX_ROUNDS: usize = 20;
-
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;
 
@@ -50,6 +47,8 @@ pub(super) struct Solving {
     running: Option<Running>,
     /// The run that waits to be taken on.
     resting: Option<Resting>,
+    /// Rounds of relaxing that the run was asked for after its end.
+    rounds_asked: usize,
     /// Whether the targets changed since the first step under way began.
     is_outdated: bool,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
@@ -68,6 +67,7 @@ impl Solving {
             kept: Kept::default(),
             running: None,
             resting: None,
+            rounds_asked: 0,
             is_outdated: false,
             message: None,
         }
@@ -88,6 +88,11 @@ impl Solving {
         self.running.as_ref()?.shared.phase()
     }
 
+    /// Rounds of relaxing that the run was asked for after its end.
+    pub(super) fn rounds_asked(&self) -> usize {
+        self.rounds_asked
+    }
+
     /// Whether another run is to begin where targets changed while a first step was under way.
     pub(super) fn is_outdated(&self) -> bool {
         self.is_outdated
@@ -103,11 +108,11 @@ impl Solving {
         self.stop.reason_for_good(self.newest()?, self.ending)
     }
 
-    /// Whether the newest step is planar, its constraints met, and its run waits to be taken on.
+    /// Whether the newest step is one-to-one, its constraints met, and its run waits to be taken on.
     pub(super) fn can_relax(&self, problem: &Problem) -> bool {
-        let is_planar = |newest: &Arc<Outcome>| newest.step.verdict.planar && newest.step.unmet().is_empty();
-        let is_at_rest = self.resting.as_ref().is_some_and(|resting| resting.problem.has_steps_of(problem));
-        is_at_rest && self.newest().is_some_and(is_planar)
+        let is_met = self.newest().is_some_and(|newest| newest.step.unmet().is_empty());
+        let waits = |resting: &Resting| resting.problem.has_steps_of(problem) && resting.run.can_relax();
+        is_met && self.resting.as_ref().is_some_and(waits)
     }
 }
 
@@ -124,6 +129,7 @@ impl Solving {
             return;
         }
         let run = task.problem.ladder().with_kept(&self.kept);
+        self.rounds_asked = 0;
         self.spawn(task, run, goal);
     }
 
@@ -161,15 +167,20 @@ impl Solving {
         self.running.as_mut().map(|running| running.set_goal(change)).is_some()
     }
 
-    /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained.
-    pub(super) fn relax(&mut self, task: Task, messages: &mut Messages) {
-        let Some(mut resting) = self.resting.take() else { return };
+    /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained. Returns whether it can.
+    pub(super) fn relax(&mut self, task: Task, rounds: usize, messages: &mut Messages) -> bool {
+        let Some(mut resting) = self.resting.take() else { return false };
         self.timeline.follow_newest();
-        match resting.run.relax(RELAX_ROUNDS) {
-            Ok(()) => self.spawn(task, resting.run, Goal::End),
+        self.rounds_asked = self.rounds_asked.saturating_add(rounds);
+        match resting.run.relax(rounds) {
+            Ok(()) => {
+                self.spawn(task, resting.run, Goal::End);
+                true
+            }
             Err(error) => {
                 self.resting = Some(resting);
                 messages.fail(Place::Embedding, error.to_string(), None);
+                false
             }
         }
     }

@@ -29,7 +29,7 @@ impl Rung for Cut {
             1 => "1 polygon cannot be convex here: it is cut into triangles".to_owned(),
             count => format!("{count} polygons cannot be convex here: they are cut into triangles"),
         };
-        let candidate = Candidate::one_to_one(Method::Matchmaker, latest.embedding.clone(), &latest.pins).since(began);
+        let candidate = Candidate::one_to_one(Method::Cut, latest.embedding.clone(), &latest.pins).since(began);
         Ok(Candidate { refinement: Some(Arc::new(refinement)), note: Some(note), ..candidate })
     }
 

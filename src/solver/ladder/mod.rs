@@ -179,6 +179,11 @@ impl Ladder {
         Ok(step)
     }
 
+    /// Whether rounds of relaxing may follow the latest step: it is one-to-one, even where polygons are concave.
+    pub fn can_relax(&self) -> bool {
+        self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one)
+    }
+
     /// Lets rounds of relaxing follow: each lowers the distortion of a planar embedding, which keeps its exact pins and
     /// stays one-to-one.
     ///
@@ -186,7 +191,7 @@ impl Ladder {
     ///
     /// [`SolveError::NotPlanar`] where there is no planar embedding to begin with.
     pub fn relax(&mut self, rounds: usize) -> Result<(), SolveError> {
-        if !self.latest.as_ref().is_some_and(|latest| latest.is_one_to_one) {
+        if !self.can_relax() {
             return Err(SolveError::NotPlanar);
         }
         self.plan.part_mut().relax.begin(Rounds { always: rounds, until_it_serves: 0 });

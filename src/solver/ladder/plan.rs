@@ -120,7 +120,7 @@ impl Plan {
                 let flights = if task.adds_vertices() { CONTINUED_OR_MATCHED } else { CONTINUED };
                 [part(ITERATED)].into_iter().chain(from_start(flights)).collect()
             }
-            Method::Continuation | Method::Relax => from_start(CONTINUED).collect(),
+            Method::Continuation | Method::Relax | Method::Cut => from_start(CONTINUED).collect(),
             Method::Matchmaker => from_start(MATCHED).collect(),
             Method::Iterate => [part(ITERATED)].into(),
             Method::VirtualBoundary => [part(BENT)].into(),

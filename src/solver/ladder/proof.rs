@@ -76,7 +76,7 @@ impl Ladder {
     /// Gives back the embedding before a round of relaxing, where that was all that is asked for and this is not.
     /// Returns whether it did.
     fn keep_what_is_proved(&self, candidate: &mut Candidate) -> bool {
-        let is_relaxed = candidate.rung == Method::Relax && !self.plan.part().task.is_constrained();
+        let is_relaxed = candidate.rung == Method::Relax;
         let Some(latest) = self.latest.as_ref().filter(|latest| is_relaxed && latest.is_solved) else { return false };
         candidate.solution.embedding.clone_from(&latest.embedding);
         candidate.solution.pins.clone_from(&latest.pins);

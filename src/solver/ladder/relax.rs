@@ -6,11 +6,11 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::rung::{Failure, Footing, Handover, Latest, Rung};
+use super::rung::{Failure, Footing, Latest, Rung};
 use super::task::Task;
 use super::{Candidate, Step};
 use crate::solver::relaxing::Relaxing;
-use crate::solver::{Control, Pins, SolveError};
+use crate::solver::{Control, Method, Pins, SolveError};
 
 /// A mean symmetric Dirichlet energy up to this is moderate; 4 is the least.
 const MODERATE_ENERGY: f64 = 20.0;
@@ -34,6 +34,8 @@ pub(super) struct Relax {
     left: Rounds,
     /// Why the latest embedding does not serve.
     lack: Option<Lack>,
+    /// Whether a round has failed: then none follows.
+    has_failed: bool,
 }
 
 /// What an embedding lacks to serve.
@@ -68,7 +70,7 @@ impl Lack {
 impl Relax {
     /// Lets so many rounds follow, from the latest embedding on.
     pub(super) fn begin(&mut self, rounds: Rounds) {
-        (self.relaxing, self.left) = (None, rounds);
+        (self.relaxing, self.left, self.has_failed) = (None, rounds, false);
     }
 
     /// Takes in the step that rounds may follow.
@@ -101,19 +103,24 @@ impl Relax {
 
 impl Rung for Relax {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
-        self.round(from, control).map_err(|error| {
-            // What was planar before is still there to go on from.
-            let is_start = !from.task.is_constrained();
-            let handover = (is_start && error != SolveError::Cancelled).then(Handover::default);
-            Failure { error, handover }
-        })
+        let error = match self.round(from, control) {
+            Ok(candidate) => return Ok(candidate),
+            Err(error) => error,
+        };
+        // What is one-to-one stays the result: a failure only ends the relaxing.
+        let kept = from.latest.filter(|latest| latest.is_one_to_one && error != SolveError::Cancelled);
+        let Some(Latest { embedding, pins, refinement, .. }) = kept else { return Err(error.into()) };
+        self.has_failed = true;
+        let note = Some(format!("relaxing gave nothing: {error}; the embedding before is kept"));
+        let candidate = Candidate::one_to_one(Method::Relax, embedding.clone(), pins);
+        Ok(Candidate { refinement: refinement.clone(), note, ..candidate })
     }
 
     fn has_more(&self, _: &Task, latest: Option<&Latest>) -> bool {
         // Polygons that cannot be convex are cut.
         let may_serve = self.lack.is_some() && latest.is_none_or(|latest| !latest.is_solved_but_for_polygons);
         let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && may_serve);
-        is_wanted && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
+        is_wanted && !self.has_failed && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
     }
 
     fn look_at(&mut self, step: &Step) {

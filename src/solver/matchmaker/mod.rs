@@ -46,6 +46,10 @@ use crate::mesh::{DiskMesh, EdgeId, FaceId, HalfedgeId, NewVertex, Refinement, V
 /// Length that a new vertex counts for, in mean lengths of an edge.
 const CROSSING: f64 = 0.5;
 
+/// The most new vertices for each vertex of the mesh, and on small meshes: paths that wind around each other need ever more.
+const NEW_VERTICES_PER_VERTEX: usize = 16;
+const NEW_VERTICES_OF_SMALL: usize = 10_000;
+
 /// A planar embedding of a refined mesh that meets all exact pins to the last bit.
 #[derive(Clone, Debug)]
 pub struct Matched {
@@ -67,7 +71,8 @@ struct Surroundings {
 ///
 /// # Errors
 ///
-/// Targets that coincide, a start that is not planar, faces too fine for 64-bit numbers, or the caller's wish to stop.
+/// Targets that coincide, a start that is not planar, faces too fine for 64-bit numbers, paths that need too many new
+/// vertices, or the caller's wish to stop.
 pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control<'_>) -> Result<Matched, SolveError> {
     let exact = || pins.iter().filter(|(_, pin)| pin.hold.is_exact());
     let targets: Vec<DVec2> = exact().map(|(_, pin)| pin.target).collect();
@@ -77,7 +82,8 @@ pub fn matched(mesh: &DiskMesh, start: &Embedding, pins: &Pins, control: Control
     let vertices = exact().map(|(&v, _)| v).chain(corners).map(VertexId::number).collect();
     let cells = Subdivision::new(&surroundings.disk, &surroundings.places);
     let mut paths = Paths::new(cells, &graph, vertices, surroundings.frame.len());
-    paths.lay_all(&mut Router::new(CROSSING * mean_edge_length(mesh, start), control))?;
+    let most = (NEW_VERTICES_PER_VERTEX * mesh.vertex_count()).max(NEW_VERTICES_OF_SMALL);
+    paths.lay_all(&mut Router::new(CROSSING * mean_edge_length(mesh, start), control), most)?;
     let Paths { mut cells, lines, .. } = paths;
     split_collapsing_edges(&mut cells, &graph);
     let parts = triangulate(&mut cells, &graph, &surroundings.disk);

@@ -54,7 +54,12 @@ impl<'a> Paths<'a> {
         paths
     }
 
-    pub(super) fn lay_all(&mut self, router: &mut Router<'_>) -> Result<(), SolveError> {
+    /// Lays the paths of all edges, with at most so many new points.
+    pub(super) fn lay_all(&mut self, router: &mut Router<'_>, most: usize) -> Result<(), SolveError> {
+        let check = |paths: &Self| {
+            let is_enough = paths.cells.point_count() > most;
+            if is_enough { Err(SolveError::TooManyNewVertices { most }) } else { Ok(()) }
+        };
         let mut is_connected: Vec<bool> = (0..self.graph.points.len()).map(|end| end >= self.target_count).collect();
         let mut waiting = BinaryHeap::new();
         for end in (0..).take(is_connected.len()).filter(|&end| is_connected[end as usize]) {
@@ -66,6 +71,7 @@ impl<'a> Paths<'a> {
             if is_connected[to as usize] {
                 waiting.pop();
             } else if self.lay_or_wait(edge, from, router, &mut waiting)? {
+                check(self)?;
                 is_connected[to as usize] = true;
                 self.wait_at(to, &is_connected, &mut waiting);
             }
@@ -75,6 +81,7 @@ impl<'a> Paths<'a> {
         }
         while let Some(Reverse(Waiting { edge, .. })) = waiting.peek().copied() {
             self.lay_or_wait(edge, self.graph.edges[edge as usize][0], router, &mut waiting)?;
+            check(self)?;
         }
         Ok(())
     }

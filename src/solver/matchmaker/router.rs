@@ -154,17 +154,19 @@ impl<'a> Router<'a> {
             if node.is_multiple_of(2) {
                 self.leave_crossing(cells, node / 2, goal);
             } else if node == begin {
-                self.leave_vertex(cells, node, &start.sector, goal);
+                self.run_along(cells, node, start.sector.edges.iter().copied(), goal);
+                self.enter_cells(cells, node, start.sector.corners.iter().copied(), goal);
             } else {
-                self.leave_vertex(cells, node, &Sector::around(cells, node / 2), goal);
+                self.run_along(cells, node, cells.around(node / 2), goal);
+                self.enter_cells(cells, node, cells.around(node / 2), goal);
             }
         }
         unreachable!("the count has no end")
     }
 
-    /// Goes on from a vertex.
-    fn leave_vertex(&mut self, cells: &Subdivision, node: u32, sector: &Sector, goal: &Terminal) {
-        for &h in sector.edges.iter().filter(|&&h| cells.path(h).is_none()) {
+    /// Goes on from a vertex along edges that leave it.
+    fn run_along(&mut self, cells: &Subdivision, node: u32, edges: impl Iterator<Item = u32>, goal: &Terminal) {
+        for h in edges.filter(|&h| cells.path(h).is_none()) {
             let head = cells.head(h);
             let is_open = if head == goal.vertex {
                 goal.sector.edges.contains(&cells[h].twin)
@@ -175,7 +177,11 @@ impl<'a> Router<'a> {
                 self.reach(cells, goal, Link { node: 2 * head + 1, from: node, by: Move::Along(h) });
             }
         }
-        for &corner in &sector.corners {
+    }
+
+    /// Goes on from a vertex through the cells at halfedges that leave it.
+    fn enter_cells(&mut self, cells: &Subdivision, node: u32, corners: impl Iterator<Item = u32>, goal: &Terminal) {
+        for corner in corners {
             let across = cells.cell(cells[corner].next).take_while(|&h| h != cells[corner].previous);
             for h in across.filter(|&h| cells.path(h).is_none()) {
                 self.reach(cells, goal, Link { node: 2 * h, from: node, by: Move::Cross(h) });

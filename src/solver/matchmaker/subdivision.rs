@@ -110,6 +110,11 @@ impl Subdivision {
         self.vertex_count() - self.edge_of_point.len()
     }
 
+    /// How many points the paths have put on old edges.
+    pub(super) fn point_count(&self) -> usize {
+        self.edge_of_point.len()
+    }
+
     pub(super) fn head(&self, h: u32) -> u32 {
         self[self[h].twin].tail
     }

@@ -55,7 +55,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     edit.ask_for(settings, requests);
     ui.add_space(8.0);
     solve_and_cancel(ui, editor, requests);
-    if let Some(outcome) = editor.session.outcome() {
+    if let Some(outcome) = editor.step_on_screen() {
         ui.add_space(8.0);
         distortion(ui, outcome);
         ui.add_space(4.0);

@@ -76,7 +76,7 @@ pub(super) struct Magnifier {
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
     pub(super) fn over(editor: &Editor, view: Viewport<PlaneCamera>, scene: &PlaneScene) -> Option<Self> {
-        if !editor.look.magnifier || scene.is_stage() || editor.plane.shows_preview() {
+        if !editor.look.magnifier || scene.is_stage() || editor.plane.shows_preview() || editor.plane.is_easing() {
             return None;
         }
         let nth = |place: usize| Some((place, Defect::all(&scene.outcome.step.verdict).nth(place)?));
