@@ -47,17 +47,17 @@ fn turn_to(embedding: &Embedding, seen: impl Fn(VertexId) -> DVec2) -> (f64, f64
 
 #[test]
 fn a_sheet_that_its_gauge_pins_lay_upside_down_comes_out_upright() {
-    let mesh = reversed(|p| p);
+    let mesh = reversed(|p| DVec3::new(-p.x, -p.y, p.z));
     let [first, second] = gauge_pins(&mesh).into_keys().collect::<Vec<_>>().try_into().expect("two");
     let along = mesh.position(second) - mesh.position(first);
-    assert!(along.x < 0.0 && along.y < 0.0, "the gauge pins lay it on its head: {along}");
+    assert!(along.x < 0.0, "along +x, as the gauge has them, they turn up to down: {along}");
     for problem in [Problem::default(), on_picture()] {
         let step = last_step(&mesh, &problem);
         let (turn, error) = turn_to(&step.solution.embedding, |v| mesh.position(v).truncate());
         assert!(turn.abs() < 1e-9 && error < 1e-9, "{turn} {error}");
         let (coordinates, ..) = Outcome::new(&mesh, problem.clone(), step).output(&mesh, OutputFit::Unit);
         // In the file the picture's frame is the unit square.
-        let stretch = if problem.frame.aspect == 1.0 { DVec2::ONE } else { DVec2::new(problem.frame.aspect, 1.0) };
+        let stretch = DVec2::new(problem.frame.aspect, 1.0);
         let coordinates: Embedding = coordinates.iter().map(|&uv| uv * stretch).collect();
         assert!(turn_to(&coordinates, |v| mesh.position(v).truncate()).0.abs() < 1e-9);
         assert!(is_planar(&mesh, &coordinates));

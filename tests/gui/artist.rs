@@ -40,29 +40,31 @@ impl Artist {
 
 #[test]
 fn six_landmarks_over_a_photo_take_no_key_and_no_change_of_shading() {
-    let mut artist = Artist { window: Window::with_example(Example::Face), clicks: 0 };
+    let mut artist = Artist { window: Window::with_mesh("sheet.obj", &sheet(8, 0.2)), clicks: 0 };
     let photo = artist.window.path("portrait.png");
     let file = std::fs::File::create(&photo).expect("a folder for files");
     Example::Face.picture().expect("it has one").write_png(file).expect("written");
     artist.window.harness.input_mut().dropped_files.push(crate::dialogs::dropped(photo));
     artist.window.settle();
     artist.click("Constrain: join a vertex with its place");
-    for (count, landmark) in (1..).zip(Example::Face.landmarks().into_iter().take(6)) {
+    for (count, vertex) in (1..).zip([20, 24, 38, 42, 56, 60].map(VertexId::new)) {
         assert_eq!(artist.window.shadings(), [Shading::Plain, Shading::SeeThrough]);
-        artist.click_at(artist.window.place_on_mesh(landmark.vertex));
-        assert_eq!(artist.window.editor().tools.pair(), Some(Half::Vertex(landmark.vertex)), "{}", landmark.name);
+        artist.click_at(artist.window.place_on_mesh(vertex));
+        assert_eq!(artist.window.editor().tools.pair(), Some(Half::Vertex(vertex)));
+        let (column, row) = (f64::from(vertex.number() % 9), f64::from(vertex.number() / 9));
+        let target = DVec2::new(0.2 + 0.07 * column, 0.25 + 0.06 * row + 0.01 * column);
         let frame = artist.window.editor().session.document().frame();
-        artist.click_at(artist.window.place_in_plane(frame.plane_from_uv(landmark.target.into())));
-        assert_eq!(pins(&artist.window).len(), count, "{}", landmark.name);
-        let placed = pins(&artist.window)[&landmark.vertex].uv;
-        assert!(placed.distance(landmark.target.into()) < 0.01, "{}: {placed}", landmark.name);
+        artist.click_at(artist.window.place_in_plane(frame.plane_from_uv(target)));
+        assert_eq!(pins(&artist.window).len(), count, "{vertex}");
+        let placed = pins(&artist.window)[&vertex].uv;
+        assert!(placed.distance(target) < 0.01, "{vertex}: {placed}");
     }
     for name in ["File", "Export", "Mesh with texture coordinates…", "Save"] {
         artist.click(name);
     }
     assert!(artist.clicks <= MOST_CLICKS, "{} clicks", artist.clicks);
     assert!(artist.window.is_proved(), "{}", artist.window.verdict());
-    let written = read_mesh(&artist.window.path("face-flat.obj")).expect("a mesh");
+    let written = read_mesh(&artist.window.path("sheet-flat.obj")).expect("a mesh");
     assert!(written.texture.is_some());
 }
 
@@ -168,24 +170,23 @@ fn the_share_of_faces_outside_the_picture_is_said() {
     assert!(!window.shows("reach out of the picture"), "it is made to lie on it");
     // The left half of the sheet beside the picture: 36 of 72 faces.
     let at = |u: f64, v: f64| Target::hard(DVec2::new(u, v));
-    place(&mut window, &[(0, at(-0.5, 0.0)), (6, at(0.5, 0.0)), (42, at(-0.5, 1.0)), (48, at(0.5, 1.0))]);
+    place(&mut window, &[(0, at(-0.25, 0.0)), (6, at(0.25, 0.0)), (42, at(-0.25, 1.0)), (48, at(0.25, 1.0))]);
     assert!(window.shows("50.0 % of the faces reach out of the picture"), "{:?}", window.words());
 }
 
 #[test]
-fn go_to_shows_a_vertex_that_the_mesh_hides() {
+fn a_selected_vertex_that_the_mesh_hides_shows_through_it() {
     let mut window = Window::with_example(Example::BumpyCap);
     let hidden = {
         let editor = window.editor();
         let scene = editor.mesh_scene().expect("a mesh");
         let eye = editor.mesh.pane.camera().expect("a mesh").eye();
         let vertices = (0..scene.mesh().vertex_count()).map(VertexId::from_index);
-        // Nearest to the far side: still hidden once the camera has come near.
         let far = vertices.filter(|&v| !scene.picker.is_visible(v, eye));
         let distance = |v: &VertexId| scene.mesh().positions[v.index()].distance(eye);
         far.max_by(|a, b| distance(a).total_cmp(&distance(b))).expect("a back")
     };
-    window.editor_mut().handle(Request::GoTo(vec![hidden]));
+    window.editor_mut().handle(Request::Select(vec![hidden]));
     window.settle();
     let editor = window.editor();
     let eye = editor.mesh.pane.camera().expect("a mesh").eye();
