@@ -4,6 +4,7 @@
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod actions;
+mod advice;
 mod compare;
 mod constrained;
 mod constraint_rows;
@@ -20,6 +21,7 @@ mod magnifier;
 mod makers;
 mod messages;
 mod panels;
+mod preferences;
 mod pictures;
 mod render;
 mod render_work;
@@ -28,5 +30,6 @@ mod shaders;
 mod shortcuts;
 mod timeline;
 mod timeline_run;
+mod toast;
 mod unsaved;
 mod window;

@@ -11,11 +11,13 @@
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
 //! | `look.rs` | how faces show: shading, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
+//! | `kept.rs` | what of the window is kept between runs |
 //! | `opened.rs` | what the window keeps of the open document, and how it looks, for the project file |
 //! | `host.rs` | egui's context and the graphics card |
 //! | `views.rs` | what the cameras look at; defects |
 
 mod host;
+mod kept;
 mod layout;
 mod look;
 mod mesh_view;
@@ -138,6 +140,9 @@ impl Editor {
         }
         self.look.refresh_picture(self.session.document());
         self.poll_shot();
+        if let Some(plane) = self.plane.scene() {
+            self.look.refresh_checks(plane, self.timeline.playing_since.is_some());
+        }
         if let Some(mesh) = self.mesh.scene() {
             let base = self.plane.moved_from(&self.session).map(AsRef::as_ref);
             self.look.refresh_paint(mesh, self.plane.scene().map(AsRef::as_ref), base);

@@ -91,13 +91,17 @@ impl Editor {
         }
     }
 
+    /// Puts on a shading by its name, where it means something.
+    pub(super) fn put_on_shading(&mut self, name: Option<&str>) {
+        if let Some(shading) = Shading::ALL.into_iter().find(|shading| Some(shading.title()) == name) {
+            self.look.shading = shading;
+        }
+    }
+
     /// Puts on how the person looked at what was opened. Call once its mesh is drawn.
     pub(super) fn put_on_view(&mut self) {
         let view = self.session.view().clone();
-        let shading = view.mesh_shading.and_then(|name| Shading::ALL.into_iter().find(|s| s.title() == name));
-        if let Some(shading) = shading {
-            self.look.shading = shading;
-        }
+        self.put_on_shading(view.mesh_shading.as_deref());
         if let Some(tool) = Tool::ALL.into_iter().find(|tool| view.tool.as_deref() == Some(tool.words()[0])) {
             self.tools.take_up(tool);
         }

@@ -1,9 +1,10 @@
 //! The legend of a shading, and words in the panes about two steps that are compared.
 
-use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Stroke, Vec2};
+use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Role, Sense, Stroke, Vec2};
 
+use crate::session::Action;
 use crate::ui::theme::{on_screen, rgb, theme_of};
-use crate::ui::{Editor, Shading};
+use crate::ui::{Control, Editor, Request, Shading, close_button};
 
 /// The scale of a shading by numbers: bar, histogram, numbers.
 pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor) {
@@ -44,12 +45,14 @@ pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor) {
     }
 }
 
-/// Says in the pane's lower left corner which step the outline is of.
-pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
+/// Says in the pane's lower left corner which step the outline is of; a cross ends the comparison.
+pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(step) = editor.plane.ghost_step().filter(|_| rect.width() >= 180.0) else { return };
     let theme = theme_of(ui);
     let height = if editor.layout.mesh_hidden() && editor.look.legend().is_some() { 124.0 } else { 32.0 };
-    let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(150.0, 20.0));
+    let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(172.0, 20.0));
+    // What lies under the note must not get clicks on it.
+    ui.interact(place, ui.scope_id().with("outline"), Sense::click_and_drag()).named(Role::Group, "Legend of the outline");
     ui.painter_at(rect).rect_filled(place, 4.0, theme.panel.gamma_multiply(0.92));
     let middle = place.left_center() + Vec2::new(8.0, 0.0);
     let sample = [middle, middle + Vec2::new(18.0, 0.0)];
@@ -58,6 +61,9 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
     let text = Rect::from_min_max(place.min + Vec2::new(32.0, 0.0), place.max);
     let mut part = ui.new_child(egui::UiBuilder::new().max_rect(text));
     part.horizontal_centered(|ui| ui.add(egui::Label::new(words).selectable(false)));
+    let cross = Rect::from_center_size(place.right_center() - Vec2::new(11.0, 0.0), Vec2::splat(16.0));
+    let close = close_button(ui, cross, "Stop comparing", "Compare no more: the outline goes");
+    close.asks(Action::Compare(None), requests);
 }
 
 /// Says why nothing is coloured where moves are asked for and there are none.
