@@ -25,6 +25,8 @@ pub struct Document {
     pub v_axis: VAxis,
     /// Whether the mesh's faces are turned around.
     pub faces_turned: bool,
+    /// Rounds of relaxing that a person has asked for: they follow wherever a run comes to its end.
+    pub relaxed: usize,
 }
 
 impl Document {
@@ -77,6 +79,8 @@ pub enum Command {
     SetVAxis(VAxis),
     /// Turns the mesh's faces around, or back.
     SetFacesTurned(bool),
+    /// Chooses how many rounds of relaxing follow a run.
+    SetRelaxed(usize),
     /// Several edits that are one for the user.
     Together(Vec<Command>),
 }
@@ -97,6 +101,7 @@ impl Command {
             Self::SetPicture(picture) => Self::SetPicture(std::mem::replace(&mut document.picture, picture)),
             Self::SetVAxis(v_axis) => Self::SetVAxis(std::mem::replace(&mut document.v_axis, v_axis)),
             Self::SetFacesTurned(turned) => Self::SetFacesTurned(std::mem::replace(&mut document.faces_turned, turned)),
+            Self::SetRelaxed(rounds) => Self::SetRelaxed(std::mem::replace(&mut document.relaxed, rounds)),
             Self::Together(commands) => {
                 let mut inverses: Vec<Self> = commands.into_iter().map(|command| command.apply(document)).collect();
                 inverses.reverse();

@@ -45,6 +45,13 @@ impl Session {
         self.solve();
     }
 
+    /// Chooses method and weights. Their own result shows, without the relaxing that was asked for on another one.
+    pub(super) fn choose(&mut self, settings: Settings) {
+        if settings != self.document.settings {
+            self.edit(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
+        }
+    }
+
     /// Chooses method and weights as part of a drag of a slider.
     pub(super) fn slide_settings(&mut self, settings: Settings) {
         if settings != self.document.settings {

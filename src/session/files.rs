@@ -93,6 +93,7 @@ impl Files {
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
         project.faces_turned = document.faces_turned;
+        project.relaxed = document.relaxed;
         project.picture = match &document.picture {
             Some(picture) => picture_source(picture, model),
             None => self.table.missing_picture.clone(),

@@ -119,6 +119,7 @@ impl Opened {
             picture,
             v_axis: project.v_axis,
             faces_turned: project.faces_turned,
+            relaxed: project.relaxed,
             aspect: None,
         };
         // Saving must not take out of the file what only was not to be had this time.

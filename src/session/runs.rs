@@ -5,6 +5,9 @@ use super::stop::Goal;
 use super::{Command, Session};
 use crate::solver::{Family, Method, Settings};
 
+/// The most rounds of relaxing that are asked for at once.
+const RELAX_ROUNDS: usize = 20;
+
 impl Session {
     /// What is to be solved, once the mesh is there with its faces as the document wants them.
     pub(super) fn task(&mut self) -> Option<Task> {
@@ -60,12 +63,12 @@ impl Session {
         }
     }
 
-    /// Lowers the distortion of the newest step on a person's wish, one-to-one throughout, constraints exact.
+    /// Lowers the distortion of the newest step on a person's wish, one-to-one throughout, constraints exact. The wish is
+    /// an edit: it holds for the runs that follow, and is undone and repeated with the others.
     pub(super) fn relax(&mut self) {
-        if self.can_relax()
-            && let Some(task) = self.task()
-        {
-            self.solving.relax(task, &mut self.messages);
+        if self.relax_by(RELAX_ROUNDS) {
+            let rounds = self.document.relaxed.saturating_add(RELAX_ROUNDS);
+            self.history.apply(Command::SetRelaxed(rounds), &mut self.document);
         }
     }
 
@@ -82,10 +85,25 @@ impl Session {
         }
         let family = if before.family.power().is_some() { before.family } else { Family::default() };
         let settings = Settings { method: Method::Auto, family, ..before };
-        if self.history.apply(Command::SetSettings(settings), &mut self.document) {
+        let edit = Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
+        if self.history.apply(edit, &mut self.document) {
             self.drag.end();
             self.begin(Goal::End);
         }
+    }
+
+    /// Lets rounds of relaxing follow the newest step. Returns whether they do.
+    fn relax_by(&mut self, rounds: usize) -> bool {
+        match self.task().filter(|_| self.can_relax()) {
+            Some(task) => self.solving.relax(task, rounds, &mut self.messages),
+            None => false,
+        }
+    }
+
+    /// Solves anew what is asked for, without the relaxing that was asked for afterwards.
+    pub(super) fn solve_again(&mut self) {
+        self.history.apply(Command::SetRelaxed(0), &mut self.document);
+        self.solve();
     }
 
     /// The end of a gesture: where only the first step was taken, or none, the others follow.
@@ -123,6 +141,12 @@ impl Session {
         match news.next {
             Some(Next::Anew) => self.solve(),
             Some(Next::On(goal)) => self.go_on(goal),
+            None if news.has_ended => {
+                let left = self.document.relaxed.saturating_sub(self.solving.rounds_asked());
+                if left > 0 {
+                    self.relax_by(left);
+                }
+            }
             None => {}
         }
     }

@@ -70,7 +70,7 @@ impl Session {
             Action::RefuseName(path) => self.refuse_name(&path),
             Action::ShowFolder(file) => self.files.show_folder(file),
             Action::Dismiss(id) => self.messages.dismiss(id),
-            Action::Solve => self.solve(),
+            Action::Solve => self.solve_again(),
             Action::Step => self.step(),
             Action::Run => self.run_on(),
             Action::Relax => self.relax(),
@@ -99,7 +99,7 @@ impl Session {
             Action::SlideHold { vertices, hold } => self.slide_hold(&vertices, hold),
             Action::Unpin(vertices) => self.unpin(&vertices),
             Action::UnpinAll => self.unpin(&self.document.targets.keys().copied().collect::<Vec<_>>()),
-            Action::SetSettings(settings) => self.edit(vec![Command::SetSettings(settings)]),
+            Action::SetSettings(settings) => self.choose(settings),
             Action::SlideSettings(settings) => self.slide_settings(settings),
         }
     }

@@ -85,6 +85,12 @@ impl Timeline {
         self.kept.get(&index)
     }
 
+    /// The place of a step, where it is one of these and kept whole.
+    pub fn index_of(&self, outcome: &Arc<Outcome>) -> Option<usize> {
+        let index = outcome.step.index;
+        self.outcome(index).filter(|kept| Arc::ptr_eq(kept, outcome)).map(|_| index)
+    }
+
     /// The steps kept whole, in order.
     pub fn kept(&self) -> impl DoubleEndedIterator<Item = (usize, &Arc<Outcome>)> {
         self.kept.iter().map(|(&index, outcome)| (index, outcome))

@@ -47,6 +47,8 @@ pub(super) enum Sign {
     Unmet,
     /// A ring of dots.
     Working,
+    /// An arrow: the sheet is on its way.
+    Moving,
 }
 
 impl Sign {
@@ -57,7 +59,7 @@ impl Sign {
             Self::Bad => theme.flipped,
             Self::Warning => theme.stale,
             Self::Unmet => theme.unmet,
-            Self::Working => theme.weak_text,
+            Self::Working | Self::Moving => theme.weak_text,
         }
     }
 }
@@ -82,6 +84,10 @@ pub(super) fn sign(painter: &egui::Painter, rect: Rect, sign: Sign, theme: &Them
         Sign::Warning | Sign::Unmet => {
             painter.add(Shape::closed_line(on_grid(rect, &[(12.0, 3.0), (22.0, 21.0), (2.0, 21.0)]), stroke));
             painter.add(Shape::line(on_grid(rect, &[(12.0, 9.0), (12.0, 15.0)]), stroke));
+        }
+        Sign::Moving => {
+            painter.add(Shape::line(on_grid(rect, &[(2.0, 12.0), (21.0, 12.0)]), stroke));
+            painter.add(Shape::line(on_grid(rect, &[(14.0, 5.0), (21.0, 12.0), (14.0, 19.0)]), stroke));
         }
         Sign::Working => {
             for i in 0..6_u8 {

@@ -41,7 +41,7 @@ const fn bind(modifiers: Modifiers, key: Key, about: &'static str, request: fn()
     Binding { shortcut: KeyboardShortcut::new(modifiers, key), about, request }
 }
 
-/// All shortcuts. Those with more modifiers come first, so that the plainer ones do not swallow them.
+/// All shortcuts.
 pub const BINDINGS: &[Binding] = &[
     bind(ALT, Key::F, "The File menu; from there the arrows", || Request::OpenMenu(0)),
     bind(ALT, Key::E, "The Edit menu", || Request::OpenMenu(1)),
@@ -89,10 +89,10 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::Questionmark, "This list", || Request::ToggleKeys),
 ];
 
-/// What the keys pressed in this frame ask for. While a text field has the keyboard, only Esc and combinations with
-/// Ctrl are the window's; Ctrl+Z stays the field's. While a menu or a list is open, Esc, Space and the arrows are the
-/// menu's; otherwise what has the keyboard's focus keeps those of them that it needs. Shift+Tab moves the focus, as it
-/// does everywhere.
+/// What the keys pressed in this pass ask for, each press as often as it came. While a text field has the keyboard, only
+/// Esc and combinations with Ctrl are the window's; Ctrl+Z stays the field's. While a menu or a list is open, Esc, Space
+/// and the arrows are the menu's; otherwise what has the keyboard's focus keeps those of them that it needs. Shift+Tab
+/// moves the focus, as it does everywhere.
 pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
     if editor.files.unsaved.is_asked() {
         let is_left = context.input_mut(|input| input.consume_key(NONE, Key::Escape));
@@ -100,42 +100,90 @@ pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request>
     }
     // Before the others: with pins selected the arrows are not the timeline's.
     let nudges = nudges(context, editor);
-    let typing = context.text_edit_focused();
-    let menu_open = egui::Popup::is_any_open(context);
-    let focused = context.memory(egui::Memory::focused);
-    let focused_clicks = focused.and_then(|id| context.read_response(id)).is_some_and(|r| r.sense.senses_click());
-    let shift = context.input(|input| input.modifiers.shift);
-    let wanted = |binding: &&Binding| {
-        let left_to_egui = match binding.shortcut.logical_key {
-            Key::Escape => menu_open,
-            // Once a control has the keyboard, Tab walks on to the next.
-            Key::Tab => shift || focused.is_some(),
-            Key::Space => menu_open || focused_clicks,
-            Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => menu_open || focused.is_some(),
-            _ => false,
-        };
-        let is_edit = matches!(binding.shortcut.logical_key, Key::Z | Key::Y);
-        !left_to_egui && (!typing || (binding.shortcut.modifiers.command && !is_edit))
-    };
-    let is_repeat = |event: &egui::Event| matches!(event, egui::Event::Key { key: Key::Space, repeat: true, .. });
-    let repeats_space = context.input(|input| input.events.iter().any(is_repeat));
-    let mut requests: Vec<Request> = context.input_mut(|input| {
-        let pressed = |binding: &&Binding| input.consume_shortcut(&binding.shortcut);
-        BINDINGS.iter().filter(wanted).filter(pressed).map(|binding| (binding.request)()).collect()
+    let keyboard = Keyboard::of(context);
+    let mut requests = Vec::new();
+    context.input_mut(|input| {
+        input.events.retain(|event| {
+            let Some((binding, is_repeat)) = keyboard.press_of(event) else { return true };
+            let request = (binding.request)();
+            // No steps that nobody waits for any more when the key is let go.
+            let is_wanted = request.repeats() && !(editor.session.is_running() && request == Request::Do(Action::Step));
+            requests.extend(Some(request).filter(|_| !is_repeat || is_wanted));
+            false
+        });
     });
     if requests.contains(&Request::TogglePane) {
         // Tab has its work here; egui would also hand the keyboard to the next control.
         context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
     }
-    if repeats_space {
-        // A key that is held down takes step after step, but none that nobody waits for any more when it is let go.
-        let is_too_many = |request: &Request| {
-            *request == Request::RunOrPause || (editor.session.is_running() && *request == Request::Do(Action::Step))
-        };
-        requests.retain(|request| !is_too_many(request));
-    }
     requests.extend(nudges);
     requests
+}
+
+/// Who has the keyboard.
+struct Keyboard {
+    is_typing: bool,
+    menu_open: bool,
+    focus: Focus,
+}
+
+/// What has the keyboard's focus.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Focus {
+    Nothing,
+    /// A control that moves by the arrows, or a list.
+    Control,
+    /// One that Space clicks.
+    Clickable,
+}
+
+impl Keyboard {
+    fn of(context: &egui::Context) -> Self {
+        let focused = context.memory(egui::Memory::focused);
+        let response = focused.and_then(|id| context.read_response(id));
+        let focus = match focused {
+            None => Focus::Nothing,
+            Some(_) if response.is_some_and(|response| response.sense.senses_click()) => Focus::Clickable,
+            Some(_) => Focus::Control,
+        };
+        Self { is_typing: context.text_edit_focused(), menu_open: egui::Popup::is_any_open(context), focus }
+    }
+
+    /// The binding that an event presses, where its keys are the window's, and whether they are held down.
+    fn press_of(&self, event: &egui::Event) -> Option<(&'static Binding, bool)> {
+        let &egui::Event::Key { key, pressed: true, repeat, modifiers, .. } = event else { return None };
+        let binding = BINDINGS.iter().find(|binding| binding.is_pressed(key, modifiers))?;
+        self.leaves(binding).then_some((binding, repeat))
+    }
+
+    /// Whether the keys of a binding are the window's.
+    fn leaves(&self, binding: &Binding) -> bool {
+        let is_of_another = match binding.shortcut.logical_key {
+            Key::Escape => self.menu_open,
+            // Once a control has the keyboard, Tab walks on to the next.
+            Key::Tab => self.focus != Focus::Nothing,
+            Key::Space => self.menu_open || self.focus == Focus::Clickable,
+            Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => self.menu_open || self.focus != Focus::Nothing,
+            _ => false,
+        };
+        let is_edit = matches!(binding.shortcut.logical_key, Key::Z | Key::Y);
+        !is_of_another && (!self.is_typing || (binding.shortcut.modifiers.command && !is_edit))
+    }
+}
+
+impl Binding {
+    /// Whether a press is exactly that of its keys: with Alt it is another. The question mark needs Shift on most keyboards.
+    fn is_pressed(&self, key: Key, modifiers: Modifiers) -> bool {
+        let modifiers = if key == Key::Questionmark { Modifiers { shift: false, ..modifiers } } else { modifiers };
+        key == self.shortcut.logical_key && modifiers.matches_exact(self.shortcut.modifiers)
+    }
+}
+
+impl Request {
+    /// Whether a key that is held down asks for it again and again.
+    fn repeats(&self) -> bool {
+        matches!(self, Self::Do(Action::Undo | Action::Redo | Action::Step) | Self::GoToStep(_) | Self::StepDefect(_))
+    }
 }
 
 /// The keys of a request, such as "Ctrl+Z", for tooltips and menus. Empty where it has none.

@@ -8,6 +8,7 @@
 //! | `panes/` | mesh and embedding |
 //! | `panels/` | menus, bars, panels, dialogs |
 //! | `timeline/` | the strip under the panes |
+//! | `presses.rs` | every press of a key or a button in a pass of its own |
 //! | `keys.rs` | keys and what they ask for; pins moved by arrow keys |
 //! | `icons.rs` | signs of tools and verdicts |
 //! | `theme.rs` | colours and sizes |
@@ -18,6 +19,7 @@ mod icons;
 mod keys;
 mod panels;
 mod panes;
+mod presses;
 pub mod theme;
 mod timeline;
 mod window;

@@ -20,9 +20,9 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.poll();
     unsaved::hold_window(ui.ctx(), editor);
     let mut requests = keys::requests(ui.ctx(), editor);
-    if let Some(place) = requests.iter().position(|request| *request == Request::Escape) {
-        // Before the panes are shown: egui ends a drag at the same key, and the pane would forget what was dragged.
-        editor.handle(requests.remove(place));
+    // Before the panes are shown: egui ends a drag at the same key, and the pane would forget what was dragged.
+    for escape in requests.extract_if(.., |request| *request == Request::Escape) {
+        editor.handle(escape);
     }
     requests.extend(dropped_files(ui));
     let fill = theme_of(ui).panel;
@@ -67,6 +67,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     if editor.host.is_quitting() {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
+    editor.host.end_pass();
 }
 
 /// Adds something in the room that there is, however much it would like to have.

@@ -67,27 +67,6 @@ fn vertices_glide_from_step_to_step() {
 }
 
 #[test]
-fn a_step_that_comes_while_vertices_glide_takes_them_from_where_they_are() {
-    let mut window = two_steps();
-    window.key_now(Key::ArrowLeft);
-    assert!(step_until_easing(&mut window));
-    for _ in 0..6 {
-        window.step();
-    }
-    let on_the_way = drawn(&window);
-    let revision = window.editor().plane.scene().expect("solved").outcome_revision;
-    window.key_now(Key::ArrowRight);
-    while window.editor().plane.scene().expect("solved").outcome_revision == revision {
-        window.step();
-    }
-    // It turns around: no jump to either end. The frames in between have moved them on a little.
-    let whole = gap(&window.embedding(), &on_the_way);
-    assert!(gap(&drawn(&window), &window.embedding()) > 0.2 * whole);
-    window.settle();
-    assert_eq!(drawn(&window), window.embedding());
-}
-
-#[test]
 fn who_wants_no_motion_gets_none() {
     let mut window = two_steps();
     window.menu(&["View", "Glide from step to step"]);
@@ -240,8 +219,7 @@ fn the_panel_shows_the_numbers_of_both_steps_and_their_difference() {
         assert!(words.contains(&value), "{value} in {words:?}");
     }
     let difference = now - before;
-    let is_it = |word: &String| {
-        word.parse::<f64>().is_ok_and(|number| (number - difference).abs() <= 5e-4 * difference.abs())
-    };
+    let is_it =
+        |word: &String| word.parse::<f64>().is_ok_and(|number| (number - difference).abs() <= 5e-4 * difference.abs());
     assert!(words.iter().any(is_it), "{difference} in {words:?}");
 }

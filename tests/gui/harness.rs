@@ -100,6 +100,20 @@ impl Window {
         self.harness.step();
     }
 
+    /// Shows one frame in which all these events come in.
+    pub(crate) fn frame(&mut self, events: impl IntoIterator<Item = egui::Event>) {
+        self.harness.input_mut().events.extend(events);
+        self.step();
+    }
+
+    /// As [`frame`](Self::frame), so many seconds after the frame before.
+    pub(crate) fn frame_after(&mut self, seconds: f64, events: impl IntoIterator<Item = egui::Event>) {
+        let now = self.harness.ctx.input(|input| input.time);
+        self.harness.input_mut().time = Some(now + seconds);
+        self.frame(events);
+        self.harness.input_mut().time = None;
+    }
+
     /// Steps until nothing goes on in the background and both panes show its results.
     pub(crate) fn settle(&mut self) {
         let start = Instant::now();
@@ -114,7 +128,7 @@ impl Window {
         self.harness.check_accessibility();
     }
 
-    fn is_settled(&self) -> bool {
+    pub(crate) fn is_settled(&self) -> bool {
         let editor = self.editor();
         let session = &editor.session;
         let mesh_drawn = editor.mesh_scene().map(|scene| scene.model_revision);
@@ -124,7 +138,8 @@ impl Window {
         let scenes_drawn = mesh_drawn == mesh_wanted
             && plane_drawn == plane_wanted
             && editor.plane.hull_is_drawn()
-            && !editor.plane.is_easing();
+            && !editor.plane.is_easing()
+            && !editor.host.has_presses_waiting();
         session.busy().is_none() && !session.is_following() && scenes_drawn
     }
 }

@@ -183,6 +183,7 @@ fn the_wheel_over_it_is_its_own() {
             unit: egui::MouseWheelUnit::Line,
             delta: egui::vec2(0.0, 2.0),
             phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
             modifiers: egui::Modifiers::NONE,
         });
         window.harness.run_steps(2);

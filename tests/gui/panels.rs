@@ -130,7 +130,8 @@ fn a_power_can_be_typed_beyond_the_slider_s_ends() {
 #[test]
 fn one_list_chooses_the_weights_and_a_power_alone_has_a_slider() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
-    let has_slider = |window: &Window| window.harness.query_by_role_and_label(Role::Slider, "Power of the weights").is_some();
+    let has_slider =
+        |window: &Window| window.harness.query_by_role_and_label(Role::Slider, "Power of the weights").is_some();
     for title in ["Wachspress", "Mean value", "Conformal"] {
         window.choose("Weights", title);
         assert!(!has_slider(&window) && !window.has_button(title), "{title} is said once");
@@ -296,9 +297,7 @@ fn has_label(window: &Window, words: &str) -> bool {
 fn every_row_of_numbers_says_its_name() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     let summary = window.outcome().distortion.summary;
-    for (name, value) in
-        [("Angle", summary.angle.mean), ("Area", summary.area.p99), ("Stretch", summary.stretch_l2)]
-    {
+    for (name, value) in [("Angle", summary.angle.mean), ("Area", summary.area.p99), ("Stretch", summary.stretch_l2)] {
         assert!(has_label(&window, &format!("{name}: {value:.3}")), "{name}");
     }
     window.editor_mut().selection.add([VertexId::new(24)]);

@@ -63,6 +63,9 @@ pub struct ProjectFile {
     max_steps: usize,
     #[serde(default)]
     relax_rounds: Option<usize>,
+    /// Rounds of relaxing that a person has asked for beside those of the settings.
+    #[serde(default)]
+    pub relaxed: usize,
     #[serde(default = "default_new_vertices")]
     new_vertices: bool,
     /// The targets of the user's pins.
@@ -162,6 +165,7 @@ impl ProjectFile {
             growth: settings.growth,
             max_steps: settings.max_steps,
             relax_rounds: settings.relax_rounds,
+            relaxed: 0,
             new_vertices: settings.new_vertices,
             targets: Targets::new(),
             view: ProjectView::default(),

@@ -32,7 +32,10 @@ impl Solving {
                 self.running = None;
                 messages.fail_background(Place::Embedding, "solving", &failure);
             }
-            Some(((), Ok((run, result)))) => news.next = self.take_back(run, result, messages),
+            Some(((), Ok((run, result)))) => {
+                news.has_ended = result.is_ok() && self.running.as_ref().is_some_and(Running::goes_on_by_itself);
+                news.next = self.take_back(run, result, messages);
+            }
         }
         news
     }

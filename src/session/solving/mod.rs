@@ -29,9 +29,6 @@ use super::stop::Goal;
 use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Timeline, Wake};
 use crate::solver::{Ending, Kept, Ladder, Method, Phase, Prepared};
 
-/// The most rounds of relaxing that are asked for at once.
-const RELAX_ROUNDS: usize = 20;
-
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;
 
@@ -50,6 +47,8 @@ pub(super) struct Solving {
     running: Option<Running>,
     /// The run that waits to be taken on.
     resting: Option<Resting>,
+    /// Rounds of relaxing that the run was asked for after its end.
+    rounds_asked: usize,
     /// Whether the targets changed since the first step under way began.
     is_outdated: bool,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
@@ -68,6 +67,7 @@ impl Solving {
             kept: Kept::default(),
             running: None,
             resting: None,
+            rounds_asked: 0,
             is_outdated: false,
             message: None,
         }
@@ -86,6 +86,11 @@ impl Solving {
     /// What a run that takes steps is doing.
     pub(super) fn phase(&self) -> Option<Phase> {
         self.running.as_ref()?.shared.phase()
+    }
+
+    /// Rounds of relaxing that the run was asked for after its end.
+    pub(super) fn rounds_asked(&self) -> usize {
+        self.rounds_asked
     }
 
     /// Whether another run is to begin where targets changed while a first step was under way.
@@ -130,6 +135,7 @@ impl Solving {
             return;
         }
         let run = task.problem.ladder().with_kept(&self.kept);
+        self.rounds_asked = 0;
         self.spawn(task, run, goal);
     }
 
@@ -167,15 +173,20 @@ impl Solving {
         self.running.as_mut().map(|running| running.set_goal(change)).is_some()
     }
 
-    /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained.
-    pub(super) fn relax(&mut self, task: Task, messages: &mut Messages) {
-        let Some(mut resting) = self.resting.take() else { return };
+    /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained. Returns whether it can.
+    pub(super) fn relax(&mut self, task: Task, rounds: usize, messages: &mut Messages) -> bool {
+        let Some(mut resting) = self.resting.take() else { return false };
         self.timeline.follow_newest();
-        match resting.run.relax(RELAX_ROUNDS) {
-            Ok(()) => self.spawn(task, resting.run, Goal::End),
+        self.rounds_asked = self.rounds_asked.saturating_add(rounds);
+        match resting.run.relax(rounds) {
+            Ok(()) => {
+                self.spawn(task, resting.run, Goal::End);
+                true
+            }
             Err(error) => {
                 self.resting = Some(resting);
                 messages.fail(Place::Embedding, error.to_string(), None);
+                false
             }
         }
     }

@@ -21,6 +21,8 @@ pub(in crate::session) struct Task {
 pub(in crate::session) struct News {
     /// Whether a run's first step has come in.
     pub(in crate::session) has_begun: bool,
+    /// Whether a run that went on by itself has come to rest, and not because of a person's wish.
+    pub(in crate::session) has_ended: bool,
     /// What is to be done now, with the problem as it is by then.
     pub(in crate::session) next: Option<Next>,
 }
@@ -62,6 +64,11 @@ impl Running {
             let mut goal = locked(&self.shared.goal);
             *goal = change(*goal);
         }
+    }
+
+    /// Whether it was asked to come to its end, or to a stop condition, and not to pause.
+    pub(super) fn goes_on_by_itself(&self) -> bool {
+        self.paused.is_none() && !matches!(self.shared.goal(), Goal::Steps(_))
     }
 
     /// Whether another problem only needs the first step again, with other targets of the same pins.

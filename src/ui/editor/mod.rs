@@ -49,7 +49,7 @@ use layout::Layout;
 use look::Look;
 use mesh_view::MeshView;
 use opened::Opened;
-use plane::{PlaneView, Surroundings};
+use plane::{PlaneView, SECONDS, Surroundings};
 use purpose::Files;
 use scene::MeshScene;
 use selection::{Pointer, Selection, ToolState};
@@ -124,6 +124,7 @@ impl Editor {
 
     /// Takes in what the background has finished. Call at the start of each frame.
     pub fn poll(&mut self) {
+        self.host.begin_pass();
         if self.opened.view_is_due(&self.session) {
             // For copies for recovery.
             self.keep_view();
@@ -137,6 +138,8 @@ impl Editor {
         let (plane, around) = self.plane_in_surroundings();
         if let Some(scene) = plane.refresh(around) {
             self.selection.keep_below(scene.mesh.mesh().vertex_count());
+            let count = self.defect_count();
+            self.selection.keep_defect_below(count);
         }
         self.look.refresh_picture(self.session.document());
         self.poll_shot();
@@ -163,11 +166,12 @@ impl Editor {
 
     /// The embedding's pane, with what it is told of the rest of the window.
     fn plane_in_surroundings(&mut self) -> (&mut PlaneView, Surroundings<'_>) {
+        let glide = self.timeline.playing_since.map_or(SECONDS, |_| self.pace().min(SECONDS));
         let around = Surroundings {
             session: &self.session,
             host: &self.host,
             mesh: self.mesh.scene(),
-            glides: self.look.glides,
+            glide: self.look.glides.then_some(glide),
             is_dragging: self.tools.dragged().is_some(),
         };
         (&mut self.plane, around)

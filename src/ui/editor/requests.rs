@@ -200,21 +200,25 @@ impl Editor {
         self.timeline.playing_since = Some(self.host.now());
     }
 
-    /// Shows the next step when it is time. Call once per frame.
+    /// Shows the next step when it is time, and the one before has arrived. Call once per frame.
     pub(super) fn go_on_playing(&mut self) {
         let Some(since) = self.timeline.playing_since else { return };
-        let now = self.host.now();
+        self.host.context().request_repaint();
         let timeline = self.session.timeline();
         let Some(next) = timeline.shown().and_then(|shown| timeline.next_kept(shown)) else {
             self.timeline.playing_since = None;
             return;
         };
-        let gaps = timeline.kept().count().max(2) - 1;
-        let pace = (PLAY_SECONDS / gaps as f64).clamp(STEP_SECONDS.0, STEP_SECONDS.1);
-        if now - since >= pace {
+        let now = self.host.now();
+        if now - since >= self.pace() && !self.plane.is_moving(&self.session) {
             self.session.handle(Action::ShowStep(next));
             self.timeline.playing_since = Some(now);
         }
-        self.host.context().request_repaint();
+    }
+
+    /// How long one step shows while they are played, seconds.
+    pub(super) fn pace(&self) -> f64 {
+        let gaps = self.session.timeline().kept().count().max(2) - 1;
+        (PLAY_SECONDS / gaps as f64).clamp(STEP_SECONDS.0, STEP_SECONDS.1)
     }
 }

@@ -49,6 +49,11 @@ impl Selection {
         self.defect
     }
 
+    /// Keeps the defect where the list has so many.
+    pub(super) fn keep_defect_below(&mut self, count: usize) {
+        self.defect = self.defect.filter(|place| *place < count);
+    }
+
     pub fn set_defect(&mut self, place: Option<usize>) {
         self.defect = place;
     }

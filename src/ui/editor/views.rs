@@ -1,10 +1,12 @@
 //! The editor puts things before the person's eyes: the selection, elements, defects.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 
 use crate::geom::Bounds;
 use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
-use crate::session::Document;
+use crate::session::{Document, Outcome};
 use crate::solver::Verdict;
 use crate::ui::{Editor, Element};
 use crate::view::part_around;
@@ -115,13 +117,24 @@ impl Editor {
         }
     }
 
+    /// The step on the screen: that of the sheet which is drawn. While the sheet is on its way to another one, or behind the
+    /// session, it is the one that it comes from.
+    pub fn step_on_screen(&self) -> Option<&Arc<Outcome>> {
+        self.plane.scene().map(|scene| &scene.outcome)
+    }
+
+    /// Whether the sheet on the screen followed a pin, and no step at rest has taken its place.
+    pub fn shows_preview(&self) -> bool {
+        self.plane.shows_preview()
+    }
+
     /// Everything that is wrong with the embedding on the screen: flipped faces, concave polygons, crossings, overwound vertices.
     pub fn defects(&self) -> Vec<Defect> {
-        self.session.outcome().map(|outcome| Defect::all(&outcome.step.verdict).collect()).unwrap_or_default()
+        self.step_on_screen().map(|outcome| Defect::all(&outcome.step.verdict).collect()).unwrap_or_default()
     }
 
     /// How many defects are listed.
     pub fn defect_count(&self) -> usize {
-        self.session.outcome().map_or(0, |outcome| Defect::all(&outcome.step.verdict).count())
+        self.step_on_screen().map_or(0, |outcome| Defect::all(&outcome.step.verdict).count())
     }
 }

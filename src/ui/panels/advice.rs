@@ -23,10 +23,8 @@ enum Advice {
 impl Advice {
     fn of(editor: &Editor) -> Option<Self> {
         let session = &editor.session;
-        if editor.tools.dragged().is_some() || !matches!(session.status(), Status::Held | Status::Current) {
-            return None;
-        }
-        let step = &session.outcome()?;
+        let is_at_rest = matches!(session.status(), Status::Held | Status::Current) && !editor.plane.is_moving(session);
+        let step = editor.step_on_screen().filter(|_| is_at_rest && editor.tools.dragged().is_none())?;
         let greatest = step.distortion.summary.area.max;
         if session.can_repair() && !step.step.verdict.planar {
             Some(Self::Repair)
@@ -53,7 +51,8 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
     let theme = theme_of(ui);
     let (button, tip, action) = match advice {
         Advice::Repair => {
-            let tip = "Take all steps of the ladder, until the embedding is proved planar. Another method gives way to it";
+            let tip =
+                "Take all steps of the ladder, until the embedding is proved planar. Another method gives way to it";
             (accented(words, theme), tip.to_owned(), Action::Repair)
         }
         Advice::Relax(ratio) => {

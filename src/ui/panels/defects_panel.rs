@@ -18,7 +18,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
         }
         return;
     }
-    let Some(outcome) = editor.session.outcome().cloned() else {
+    let Some(outcome) = editor.step_on_screen().cloned() else {
         ui.label("Nothing is solved yet.");
         return;
     };

@@ -2,6 +2,8 @@
 //! pane. The drawing is the paper's picture of eq. (3): a vertex lies at the barycentre of its neighbours, plus an offset
 //! that points outwards on the boundary.
 
+use std::sync::Arc;
+
 use eframe::egui::{self, Pos2, RichText, Role, Stroke, Vec2};
 use glam::DVec2;
 
@@ -24,19 +26,20 @@ const HEAD: f32 = 7.0;
 /// The equation of a vertex, put together for the outcome on the screen.
 fn equation_of(
     editor: &Editor,
-    outcome: &Outcome,
+    outcome: &Arc<Outcome>,
     vertex: VertexId,
 ) -> Option<Result<(VertexEquation, WeightSource), NoEquation>> {
     let step = &outcome.step;
     let disk = step.mesh(editor.session.model()?.disk()?);
     let timeline = editor.session.timeline();
-    let before = step.index.checked_sub(1).and_then(|index| timeline.outcome(index));
+    let index_before = timeline.index_of(outcome).and_then(|index| index.checked_sub(1));
+    let before = index_before.and_then(|index| timeline.outcome(index));
     let before = before.map(|before| &before.step.solution.embedding);
     (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, step, before, vertex))
 }
 
 pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut Vec<Request>) {
-    let Some(outcome) = editor.session.outcome() else { return };
+    let Some(outcome) = editor.step_on_screen() else { return };
     let Some(found) = equation_of(editor, outcome, vertex) else { return };
     ui.add_space(8.0);
     ui.strong("Equation");

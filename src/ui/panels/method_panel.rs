@@ -2,10 +2,10 @@
 
 use eframe::egui::{self, Role, WidgetInfo};
 
-use crate::session::{Action, Outcome};
-use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
 use super::compare_panel::comparison;
 use super::status::short;
+use crate::session::{Action, Outcome};
+use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
 use crate::ui::timeline::chips::residual_words;
 use crate::ui::{Control, Editor, Request, figures, heads, list, number, pairs, remark, sentence, tip_with_keys};
 
@@ -58,7 +58,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     edit.ask_for(settings, requests);
     ui.add_space(8.0);
     solve_and_cancel(ui, editor, requests);
-    if let Some(outcome) = editor.session.outcome() {
+    if let Some(outcome) = editor.step_on_screen() {
         ui.add_space(8.0);
         comparison(ui, &editor.session);
         distortion(ui, outcome);

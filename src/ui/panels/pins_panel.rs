@@ -237,7 +237,7 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 
 /// How far the worst of the exact and of the weighted pins is from its target, in texture coordinates.
 fn errors(ui: &mut egui::Ui, editor: &Editor) {
-    let Some(outcome) = editor.session.outcome().filter(|_| editor.session.is_current()) else { return };
+    let Some(outcome) = editor.step_on_screen().filter(|_| editor.session.is_current()) else { return };
     let worst = |is_exact: bool| {
         let errors =
             outcome.pin_errors().filter(|(_, target, _)| outcome.problem.settings.is_exact(target.hold) == is_exact);

@@ -58,7 +58,7 @@ fn numbers(editor: &Editor) -> String {
             parts.push(format!("({}, {}, {})", short(x.x), short(x.y), short(x.z)));
         }
     }
-    if let Some(outcome) = editor.session.outcome().filter(|_| editor.session.preview().is_none()) {
+    if let Some(outcome) = editor.step_on_screen().filter(|_| !editor.plane.shows_preview()) {
         parts.push(outcome.step.rung.as_short_rung().to_owned());
         parts.push(format!("{:.0} ms", 1000.0 * (outcome.step.solution.seconds.total() + outcome.step.verify_seconds)));
     }

@@ -28,8 +28,9 @@ pub(in crate::ui) fn verdict_pill(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(pill) = &pill
         && show_pill(ui, pill).clicked()
     {
-        let unmet = editor.session.outcome().map(|outcome| outcome.step.unmet()).unwrap_or_default();
+        let unmet = editor.step_on_screen().map(|outcome| outcome.step.unmet()).unwrap_or_default();
         requests.push(match editor.defect_count() {
+            _ if editor.plane.is_moving(&editor.session) => Request::ShowTab(Tab::Defects),
             0 if unmet.is_empty() => Request::ShowTab(Tab::Defects),
             0 => Request::GoTo(unmet),
             _ => Request::StepDefect(1),
@@ -78,8 +79,20 @@ fn pill(editor: &Editor) -> Option<Pill> {
             let tip = "The embedding does not belong to these settings and pins: press Solve";
             Pill::new(Sign::Warning, "not solved", tip)
         }
-        Status::Held | Status::Current => of_step(&session.outcome()?.step),
+        Status::Held | Status::Current if editor.plane.is_moving(session) => moving(editor)?,
+        Status::Held | Status::Current => of_step(&editor.step_on_screen()?.step),
     })
+}
+
+/// From which step to which the sheet goes; the first of them only where it is one of the same run.
+fn moving(editor: &Editor) -> Option<Pill> {
+    let timeline = editor.session.timeline();
+    let to = timeline.shown()?;
+    let tip = "The sheet is on its way. The verdict on the step shows when it is there";
+    let Some(left) = editor.step_on_screen() else { return Some(Pill::new(Sign::Working, "drawing…", tip)) };
+    let from = timeline.index_of(left).filter(|_| !editor.plane.shows_preview());
+    let words = from.map_or_else(|| format!("moving to step {to}"), |from| format!("moving {from} to {to}"));
+    Some(Pill::new(Sign::Moving, words, tip))
 }
 
 /// The verdict on a step that is up to date, and the rung that a planar one comes from.

@@ -31,13 +31,13 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(new) = scene.new_vertex(vertex) {
         ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }
-    let embedding = editor.session.outcome().map(|outcome| &outcome.step.solution.embedding);
+    let embedding = editor.step_on_screen().map(|outcome| &outcome.step.solution.embedding);
     pairs(ui, "vertex", [16.0, 4.0], |ui| {
         for (axis, value) in ["x", "y", "z"].iter().zip(position.to_array()) {
             number(ui, axis, short(value));
         }
         if let Some(z) = embedding.and_then(|embedding| embedding.get(vertex.index())) {
-            let frame = editor.session.outcome().map(|outcome| outcome.problem.frame).unwrap_or_default();
+            let frame = editor.step_on_screen().map(|outcome| outcome.problem.frame).unwrap_or_default();
             let uv = frame.uv_from_plane(*z);
             number(ui, "u", short(uv.x));
             number(ui, "v", short(uv.y));

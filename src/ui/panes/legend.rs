@@ -52,7 +52,8 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor, request
     let height = if editor.layout.mesh_hidden() && editor.look.legend().is_some() { 124.0 } else { 32.0 };
     let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(172.0, 20.0));
     // What lies under the note must not get clicks on it.
-    ui.interact(place, ui.scope_id().with("outline"), Sense::click_and_drag()).named(Role::Group, "Legend of the outline");
+    ui.interact(place, ui.scope_id().with("outline"), Sense::click_and_drag())
+        .named(Role::Group, "Legend of the outline");
     ui.painter_at(rect).rect_filled(place, 4.0, theme.panel.gamma_multiply(0.92));
     let middle = place.left_center() + Vec2::new(8.0, 0.0);
     let sample = [middle, middle + Vec2::new(18.0, 0.0)];

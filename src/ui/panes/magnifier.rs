@@ -77,7 +77,7 @@ pub(super) struct Magnifier {
 impl Magnifier {
     /// The inset over a pane, where it is wanted and there is a defect that it shows larger than the pane does.
     pub(super) fn over(editor: &Editor, view: Viewport<PlaneCamera>, scene: &PlaneScene) -> Option<Self> {
-        if !editor.look.magnifier || scene.is_stage() || editor.plane.shows_preview() {
+        if !editor.look.magnifier || scene.is_stage() || editor.plane.shows_preview() || editor.plane.is_easing() {
             return None;
         }
         let nth = |place: usize| Some((place, Defect::all(&scene.outcome.step.verdict).nth(place)?));
@@ -120,7 +120,8 @@ impl Magnifier {
     fn click(&self, ui: &egui::Ui, requests: &mut Vec<Request>) {
         let name = format!("Magnifier: {}, × {}", self.defect.words(), self.factor());
         let keys = keys_of(ui.ctx(), &Request::StepDefect(1));
-        let tip = format!("A defect from near by: the wheel brings it nearer. Click to go there; {keys} goes to the next");
+        let tip =
+            format!("A defect from near by: the wheel brings it nearer. Click to go there; {keys} goes to the next");
         let inset = Inset { rect: self.rect, role: Role::Button, name: &name, of: Some(self.place) };
         let response = inset.interact(ui, requests);
         let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(tip);

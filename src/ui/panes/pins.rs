@@ -97,15 +97,24 @@ impl Editor {
             outcome.step.solution.gauge_completed && outcome.problem.settings.method.uses_pins() && users.len() < 2
         });
         let gauge = outcome.into_iter().flat_map(|outcome| &outcome.step.solution.pins);
-        let gauge = gauge.filter(|(vertex, _)| !users.contains_key(vertex)).map(|found| (found, PinKind::Gauge));
-        let own = users.iter().map(|(vertex, pin)| ((vertex, pin), PinKind::User(pin.hold)));
-        own.chain(gauge).map(|((&vertex, pin), kind)| PinShown { vertex, target: pin.target, kind }).collect()
+        // They go along with a sheet that is on its way.
+        let way = self.plane.result().filter(|_| self.plane.is_easing());
+        let place = |vertex, at| way.and_then(|way| way.position_of(vertex)).unwrap_or(at);
+        let gauge = gauge.filter(|(vertex, _)| !users.contains_key(vertex)).map(|(&vertex, pin)| PinShown {
+            vertex,
+            target: place(vertex, pin.target),
+            kind: PinKind::Gauge,
+        });
+        let own =
+            users.iter().map(|(&vertex, pin)| PinShown { vertex, target: pin.target, kind: PinKind::User(pin.hold) });
+        own.chain(gauge).collect()
     }
 
     /// The exact pins that are not on their targets in the planar embedding on the screen, ascending.
     pub fn unmet_shown(&self) -> Vec<VertexId> {
         let outcome = self.plane.scene().map(|scene| &scene.outcome);
-        let planar = outcome.filter(|outcome| outcome.step.verdict.planar && !self.plane.shows_preview());
+        let planar = outcome
+            .filter(|outcome| outcome.step.verdict.planar && !self.plane.shows_preview() && !self.plane.is_easing());
         planar.map(|outcome| outcome.step.unmet()).unwrap_or_default()
     }
 

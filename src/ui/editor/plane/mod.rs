@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 pub(in crate::ui) use hull::HullScene;
 pub use hull::Stage;
+pub(super) use steps::SECONDS;
 
 use eframe::egui;
 
@@ -39,8 +40,6 @@ pub struct PlaneView {
     /// The scene that is being made, by the step's revision.
     job: Background<u64, PlaneScene>,
     way: Option<Way>,
-    /// The mesh, by its revision, that is too large to be shown on a way.
-    too_large: Option<u64>,
     preview: Option<PreviewScene>,
     hull: HullView,
     ghost: Option<Ghost>,
@@ -65,7 +64,8 @@ pub(super) struct Surroundings<'a> {
     pub(super) host: &'a Host,
     /// The mesh as given.
     pub(super) mesh: Option<&'a Arc<MeshScene>>,
-    pub(super) glides: bool,
+    /// How long sheets glide, seconds; none where they do not.
+    pub(super) glide: Option<f64>,
     pub(super) is_dragging: bool,
 }
 
@@ -87,7 +87,6 @@ impl PlaneView {
             scene: None,
             job: Background::new("plane scene", wake),
             way: None,
-            too_large: None,
             preview: None,
             hull: HullView::new(wake),
             ghost: None,
@@ -130,7 +129,7 @@ impl PlaneView {
         self.saved = numbers;
     }
 
-    /// The embedding of the step on the screen.
+    /// The embedding of the step on the screen; while vertices are on their way to another one, that which they left.
     pub fn scene(&self) -> Option<&Arc<PlaneScene>> {
         self.scene.as_ref()
     }
@@ -148,9 +147,10 @@ impl PlaneView {
 
     /// The verdict on what is drawn, where there is one.
     pub(in crate::ui) fn verdict(&self) -> Option<&Verdict> {
-        match &self.preview {
-            Some(preview) => preview.verdict.as_deref(),
-            None => self.scene.as_ref().map(|scene| &scene.outcome.step.verdict),
+        match (&self.preview, &self.way) {
+            (Some(preview), _) => preview.verdict.as_deref(),
+            (None, Some(_)) => None,
+            (None, None) => self.scene.as_ref().map(|scene| &scene.outcome.step.verdict),
         }
     }
 }
@@ -167,26 +167,33 @@ impl PlaneView {
         self.job.is_busy() || self.hull.is_making_scene()
     }
 
-    /// Takes in what was made in the background, and has made what is missing. Returns a new scene. Call once per frame.
+    /// Takes in what was made in the background, and has made what is missing. Returns a scene that is new on the screen.
+    /// Call once per frame.
     pub(super) fn refresh(&mut self, around: Surroundings) -> Option<Arc<PlaneScene>> {
-        let new = self.poll_scene(around);
-        self.refresh_preview(around);
+        let before = self.scene.clone();
+        // First, so that a step that waited for the end of a way goes on in the same frame.
         self.go_on_easing(around);
+        self.poll_scene(around);
+        self.refresh_preview(around);
         self.poll_hull();
         self.refresh_ghost(around.session);
-        new
+        let is_new = |scene: &Arc<PlaneScene>| before.as_ref().is_none_or(|before| !Arc::ptr_eq(before, scene));
+        self.scene.clone().filter(is_new)
     }
 
-    fn poll_scene(&mut self, around: Surroundings) -> Option<Arc<PlaneScene>> {
-        let new = self.job.poll().and_then(|(_, scene)| scene.ok()).map(Arc::new);
-        if let Some(scene) = &new {
-            if self.pane.camera().is_none() {
-                self.look_at_first(scene, around);
-            }
-            self.take(Arc::clone(scene), around);
+    /// Puts the session's step on the screen. A sheet that is on its way arrives first.
+    fn poll_scene(&mut self, around: Surroundings) {
+        if self.way.is_some() {
+            return;
         }
-        if self.job.is_busy() {
-            return new;
+        if let Some(scene) = self.job.poll().and_then(|(_, scene)| scene.ok()) {
+            if self.pane.camera().is_none() {
+                self.look_at_first(&scene, around);
+            }
+            self.take(Arc::new(scene), around);
+        }
+        if self.job.is_busy() || self.way.is_some() {
+            return;
         }
         let Surroundings { session, mesh, .. } = around;
         let revision = session.outcome_revision();
@@ -200,7 +207,6 @@ impl PlaneView {
                 PlaneScene::new(mesh, outcome, revision)
             });
         }
-        new
     }
 
     /// Shows all of the first embedding, or what the document was saved with.
@@ -227,21 +233,34 @@ impl PlaneView {
 }
 
 impl PlaneView {
+    /// Whether what is drawn followed a pin, and no step at rest has taken its place.
     pub(in crate::ui) fn shows_preview(&self) -> bool {
-        self.preview.is_some()
+        self.preview_paint().is_some()
     }
 
-    /// The faces' flags on what follows a dragged pin.
+    /// The faces' flags on what follows a dragged pin, or did until it was let go.
     pub(in crate::ui) fn preview_paint(&self) -> Option<&Arc<FacePaint>> {
-        self.preview.as_ref().map(|preview| &preview.faces)
+        let left = || self.way.as_ref().and_then(|way| way.faces.as_ref());
+        self.preview.as_ref().map(|preview| &preview.faces).or_else(left)
+    }
+
+    /// Once a pin is let go the sheet stays where it followed to, until the step that takes its place can be drawn; where
+    /// there is none to come, it goes back.
+    fn leave_preview(&mut self, around: Surroundings) {
+        if self.preview.is_none() || self.is_behind(around.session) {
+            return;
+        }
+        match self.scene.clone() {
+            Some(scene) => self.take(scene, around),
+            None => self.preview = None,
+        }
     }
 
     /// Makes what is drawn where the session's preview has moved on. Call once per frame.
     fn refresh_preview(&mut self, around: Surroundings) {
+        let Some(preview) = around.session.preview() else { return self.leave_preview(around) };
         let before = self.preview.take();
-        let (Some(preview), Some(base), Some(mesh)) = (around.session.preview(), &self.scene, around.mesh) else {
-            return;
-        };
+        let (Some(base), Some(mesh)) = (&self.scene, around.mesh) else { return };
         // What follows the pointer is of the mesh as given, whatever the step on the screen is of.
         let triangles = mesh.mesh();
         if preview.embedding.len() != triangles.vertex_count() {

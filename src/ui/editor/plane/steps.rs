@@ -1,13 +1,13 @@
 //! Two steps: the way from one to the next, and the outline of the compared one over the one on the screen.
 //!
 //! The way is shown: vertices glide to their new places when another step of a run is put on the
-//! screen. Connectivity never changes, so only positions are interpolated. Both panes draw from the same arrays.
+//! screen, or when a pin that they followed is let go. Connectivity never changes, so only positions are interpolated.
+//! Both panes draw from the same arrays. The next step waits until the way has ended.
 //!
 //! Where nobody has moved the camera since the window framed the embedding, it goes along with an embedding that would
 //! leave the pane, or become small in it. A pin that is dragged has the plane stand still under it.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
@@ -18,26 +18,30 @@ use crate::session::{Outcome, Session};
 use crate::solver::Embedding;
 use crate::ui::Theme;
 use crate::ui::editor::scene::PlaneScene;
-use crate::view::{EdgeList, PlaneArrays, PlaneCamera};
+use crate::view::{EdgeList, FacePaint, PlaneArrays, PlaneCamera};
 
-/// How long the way takes, seconds.
-const SECONDS: f64 = 0.25;
+/// How long the way takes, seconds, where steps are not played faster.
+pub(in crate::ui::editor) const SECONDS: f64 = 0.25;
 
-/// What making the arrays of one frame may take. Where it takes longer, 60 frames a second are out of reach, and the mesh
-/// is shown without a way between its steps.
-const BUDGET: Duration = Duration::from_millis(6);
+/// A way with fewer frames than this is no glide but a stutter: then the sheet is where it goes at once.
+const LEAST_FRAMES: f64 = 5.0;
 
 /// An embedding that could be shown so many times as large is small in its pane.
 const SMALL: f64 = 2.0;
 
-/// The way between two steps, while it is shown.
+/// The way to another step, while it is shown. The step that it comes from stays the one on the screen until it ends.
 #[derive(Debug)]
 pub(super) struct Way {
     from: Embedding,
+    target: Arc<PlaneScene>,
     /// Seconds of the window's clock.
     began: f64,
+    /// How long it takes, seconds.
+    seconds: f64,
     /// What is drawn in this frame.
     pub(super) drawn: Arc<PlaneScene>,
+    /// The faces' colours where it comes from a preview.
+    pub(super) faces: Option<Arc<FacePaint>>,
     /// From where and to where the camera goes.
     cameras: Option<[PlaneCamera; 2]>,
 }
@@ -57,25 +61,58 @@ impl PlaneView {
         self.way.is_some()
     }
 
-    /// Puts another step on the screen: from where vertices are drawn now, if it is one of the same run.
+    /// Whether the sheet on the screen is not that of the session's step, or not yet where it belongs.
+    pub fn is_moving(&self, session: &Session) -> bool {
+        self.way.is_some() || self.is_behind(session) || (self.preview.is_some() && session.preview().is_none())
+    }
+
+    /// Whether the session shows another step than this pane.
+    pub(super) fn is_behind(&self, session: &Session) -> bool {
+        let drawn = self.scene.as_ref().map(|scene| scene.outcome_revision);
+        session.outcome().is_some() && drawn != Some(session.outcome_revision())
+    }
+
+    /// Puts a step on the screen: from where vertices are drawn now, if it is one of the same run, or if they followed a
+    /// pin that was let go.
     pub(super) fn take(&mut self, target: Arc<PlaneScene>, around: Surroundings) {
         let before = self.result().cloned();
-        self.scene = Some(Arc::clone(&target));
+        // What follows a pin that is still in the hand stays over it.
+        let left = if around.session.preview().is_some() { None } else { self.preview.take() };
         self.way = None;
-        let Some(before) = before else { return };
+        let Some(before) = before.filter(|_| self.preview.is_none()) else {
+            self.scene = Some(target);
+            return;
+        };
         let (from, to) = (&before.outcome, &target.outcome);
+        let has_same_targets = from.problem.targets == to.problem.targets;
         let is_other_step = before.outcome_revision != target.outcome_revision;
-        let is_same_run = from.problem.settings == to.problem.settings
-            && from.problem.targets == to.problem.targets
+        let is_next = is_other_step
+            && from.problem.settings == to.problem.settings
+            && has_same_targets
             && from.step.index != to.step.index;
+        let cameras = self.camera_along(&target, around).filter(|_| is_other_step && has_same_targets);
+        let seconds = self.glide_to(&target, &before, around).filter(|_| is_next || left.is_some());
+        if let Some(seconds) = seconds {
+            let faces = left.map(|preview| preview.faces);
+            let (from, drawn, began) = (before.positions().clone(), before, around.host.now());
+            self.way = Some(Way { from, target, began, seconds, drawn, faces, cameras });
+        } else {
+            self.arrive(target, cameras);
+        }
+    }
+
+    /// How long a glide from one sheet to another takes; none where there is none.
+    fn glide_to(&self, target: &PlaneScene, before: &PlaneScene, around: Surroundings) -> Option<f64> {
         let is_same_mesh = Arc::ptr_eq(&before.mesh, &target.mesh);
-        let is_too_large = self.too_large == Some(target.mesh.model_revision);
-        let cameras = self.camera_along(&target, around);
-        if around.glides && is_other_step && is_same_run && is_same_mesh && !is_too_large {
-            let from = before.positions().clone();
-            self.way = Some(Way { from, began: around.host.now(), drawn: target, cameras });
-        } else if let Some([_, goal]) = cameras.filter(|_| is_other_step && from.problem.targets == to.problem.targets)
-        {
+        let shows_stage = self.hull_scene().is_some_and(|hull| hull.plane().is_some());
+        let is_smooth = |seconds: &f64| around.host.frame_seconds() * LEAST_FRAMES <= *seconds;
+        around.glide.filter(is_smooth).filter(|_| is_same_mesh && !shows_stage)
+    }
+
+    /// A step is on the screen, at rest.
+    fn arrive(&mut self, target: Arc<PlaneScene>, cameras: Option<[PlaneCamera; 2]>) {
+        self.scene = Some(target);
+        if let Some([_, goal]) = cameras.filter(|_| self.is_framed()) {
             self.set_framed(goal);
         }
     }
@@ -94,20 +131,16 @@ impl PlaneView {
     /// Moves vertices on. Call once per frame.
     pub(super) fn go_on_easing(&mut self, around: Surroundings) {
         let Some(way) = &mut self.way else { return };
-        let share = (around.host.now() - way.began) / SECONDS;
-        let Some(target) = &self.scene else {
-            self.way = None;
-            return;
-        };
-        if !around.glides || !(0.0..1.0).contains(&share) {
+        let share = (around.host.now() - way.began) / way.seconds;
+        let is_smooth = around.host.frame_seconds() * LEAST_FRAMES <= way.seconds;
+        if around.glide.is_none() || !is_smooth || !(0.0..1.0).contains(&share) || around.session.preview().is_some() {
             self.finish_ease();
             return;
         }
-        let start = Instant::now();
         // Slow at both ends.
         let eased = share * share * (3.0 - 2.0 * share);
-        let positions = way.from.iter().zip(target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect();
-        way.drawn = Arc::new(target.with_positions(&target.mesh, positions));
+        let positions = way.from.iter().zip(way.target.positions()).map(|(a, b)| a.lerp(*b, eased)).collect();
+        way.drawn = Arc::new(way.target.with_positions(&way.target.mesh, positions));
         if way.cameras.is_some() && self.pane.camera() != self.framed {
             // Somebody has taken the camera.
             way.cameras = None;
@@ -117,18 +150,13 @@ impl PlaneView {
             self.pane.set_camera(camera);
             self.framed = Some(camera);
         }
-        if start.elapsed() > BUDGET {
-            self.too_large = Some(target.mesh.model_revision);
-            self.finish_ease();
-        }
         around.host.context().request_repaint();
     }
 
     /// Puts everything where it was going.
     fn finish_ease(&mut self) {
-        let way = self.way.take();
-        if let Some([_, goal]) = way.and_then(|way| way.cameras).filter(|_| self.is_framed()) {
-            self.set_framed(goal);
+        if let Some(Way { target, cameras, .. }) = self.way.take() {
+            self.arrive(target, cameras);
         }
     }
 
@@ -147,7 +175,7 @@ impl PlaneView {
     /// The step that moves are measured from: the compared one, or else the one before, as far as it is kept.
     pub fn moved_from<'a>(&self, session: &'a Session) -> Option<&'a Arc<Outcome>> {
         let timeline = session.timeline();
-        let shown = self.scene.as_ref()?.outcome.step.index;
+        let shown = timeline.index_of(&self.scene.as_ref()?.outcome)?;
         let compared = timeline.compared().filter(|&compared| compared != shown);
         timeline.outcome(compared.or_else(|| shown.checked_sub(1))?)
     }

@@ -1,0 +1,310 @@
+//! A random walk through the window: keys, clicks, drags and turns of the wheel, several in a frame, in frames of one to five
+//! hundred milliseconds. What the window says is compared with what it draws after every frame, and with the session after
+//! every frame in which nothing was pressed. The seed is that of `FREEBOUND_WALK_SEED`, the length that of
+//! `FREEBOUND_WALK`, in actions.
+
+use std::time::Duration;
+
+use eframe::egui;
+use egui::accesskit::{Role, Toggled};
+use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+use freebound::solver::Verdict;
+use freebound::ui::{BINDINGS, Tab};
+
+use crate::harness::{Window, sheet};
+use crate::makers::Random;
+use crate::presses::{button, click, key};
+
+/// Actions of the walk that is part of every test run.
+const ACTIONS: u32 = 300;
+
+/// Lengths of frames, seconds.
+const FRAMES: [f64; 8] = [0.001, 0.005, 0.016, 0.016, 0.016, 0.05, 0.2, 0.5];
+
+/// Keys that lead to files, or out of the window.
+const LEFT_OUT: [Key; 5] = [Key::O, Key::S, Key::E, Key::Q, Key::F10];
+
+/// Buttons that do, or that bring another mesh.
+const NOT_CLICKED: [&str; 12] = [
+    "File",
+    "Help",
+    "Import",
+    "Export",
+    "Copy",
+    "Solve ",
+    "Open",
+    "Recent",
+    "Examples",
+    "Save",
+    "Quit",
+    "Show in folder",
+];
+
+struct Walk {
+    window: Window,
+    random: Random,
+    /// What was done last, to be told where something is wrong.
+    done: Vec<String>,
+}
+
+impl Walk {
+    fn new(seed: u64) -> Self {
+        let window = Window::with_mesh("sheet.obj", &sheet(6, 1.2));
+        Self { window, random: Random(seed), done: Vec::new() }
+    }
+
+    fn one_of<T: Clone>(&mut self, list: &[T]) -> T {
+        list[self.random.index(list.len())].clone()
+    }
+
+    fn place_in(&mut self, rect: Rect) -> Pos2 {
+        #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]
+        let [x, y] = [self.random.unit(), self.random.unit()].map(|share| share as f32);
+        rect.min + Vec2::new(x, y) * rect.size()
+    }
+
+    fn say(&mut self, words: String) {
+        self.done.push(words);
+        if self.done.len() > 30 {
+            self.done.remove(0);
+        }
+    }
+
+    /// A key of the table, sometimes with another modifier or several times.
+    fn keys(&mut self) -> Vec<Event> {
+        let bound: Vec<_> =
+            BINDINGS.iter().map(|b| b.shortcut).filter(|s| !LEFT_OUT.contains(&s.logical_key)).collect();
+        let shortcut = self.one_of(&bound);
+        let other = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::NONE, Modifiers::ALT, Modifiers::SHIFT]);
+        let times = self.one_of(&[1, 1, 1, 2, 4]);
+        self.say(format!("{times} × {:?} with {:?}", shortcut.logical_key, shortcut.modifiers | other));
+        let presses = key(shortcut.logical_key, shortcut.modifiers | other);
+        presses.iter().cycle().take(2 * times).cloned().collect()
+    }
+
+    /// A click on a control that shows, or somewhere in a pane.
+    fn click(&mut self) -> Vec<Event> {
+        let modifiers = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::SHIFT, Modifiers::COMMAND]);
+        let roles = [Role::Button, Role::CheckBox, Role::ComboBox, Role::Link];
+        let controls: Vec<(String, Rect)> = (self.window.controls().into_iter())
+            .filter(|(role, name, _)| roles.contains(role) && !NOT_CLICKED.iter().any(|not| name.starts_with(not)))
+            .map(|(_, name, rect)| (name, rect))
+            .collect();
+        let in_control = self.random.below(2) == 0 && !controls.is_empty();
+        let (name, rect) = if in_control { self.one_of(&controls) } else { self.pane() };
+        let at = if in_control { rect.center() } else { self.place_in(rect) };
+        self.say(format!("click on {name} at {at} with {modifiers:?}"));
+        click(at, modifiers)
+    }
+
+    fn pane(&mut self) -> (String, Rect) {
+        let view = |pane: &str| {
+            let node = self.window.harness.query_by_role_and_label(Role::Image, pane)?;
+            Some((pane.to_owned(), node.rect()))
+        };
+        let panes: Vec<_> =
+            [crate::harness::MESH_VIEW, crate::harness::PLANE_VIEW].into_iter().filter_map(view).collect();
+        self.one_of(&panes)
+    }
+
+    /// A drag in a pane, as a rule of a pin.
+    fn drag(&mut self) -> Vec<Event> {
+        let pins: Vec<Pos2> = (self.window.harness.query_all_by_role(Role::Button))
+            .filter(|node| node.accesskit_node().label().is_some_and(|name| name.to_lowercase().contains("pin v")))
+            .map(|node| node.rect().center())
+            .collect();
+        let (_, pane) = self.pane();
+        let from = if pins.is_empty() || self.random.below(4) == 0 { self.place_in(pane) } else { self.one_of(&pins) };
+        let to = self.place_in(pane.shrink(20.0));
+        let modifiers = self.one_of(&[Modifiers::NONE, Modifiers::NONE, Modifiers::COMMAND]);
+        self.say(format!("drag from {from} to {to} with {modifiers:?}"));
+        let middle = from + (to - from) / 2.0;
+        let moves = [middle, to].map(Event::PointerMoved);
+        let [begin, end] = [button(from, true, modifiers), button(to, false, modifiers)];
+        [vec![Event::PointerMoved(from), begin], moves.to_vec(), vec![end]].concat()
+    }
+
+    fn wheel(&mut self) -> Vec<Event> {
+        let (_, pane) = self.pane();
+        let at = self.place_in(pane);
+        let delta = Vec2::new(0.0, self.one_of(&[-2.0, -1.0, 1.0, 2.0]));
+        self.say(format!("wheel by {} at {at}", delta.y));
+        let (unit, phase) = (egui::MouseWheelUnit::Line, egui::TouchPhase::Move);
+        let source = egui::MouseWheelSource::Wheel;
+        let turn = Event::MouseWheel { unit, delta, phase, source, modifiers: Modifiers::NONE };
+        vec![Event::PointerMoved(at), turn]
+    }
+
+    fn action(&mut self) -> Vec<Event> {
+        match self.random.below(10) {
+            0..4 => self.keys(),
+            4..7 => self.click(),
+            7..9 => self.drag(),
+            _ => self.wheel(),
+        }
+    }
+
+    /// Shows a frame with some of the events, and looks at it.
+    fn show(&mut self, events: Vec<Event>) {
+        let is_quiet = events.is_empty() && !self.window.editor().host.has_presses_waiting();
+        let seconds = self.one_of(&FRAMES);
+        self.window.frame_after(seconds, events);
+        let found = disagreements(&self.window, is_quiet);
+        assert!(found.is_empty(), "{found:#?}\nafter {:#?}", self.done);
+    }
+
+    /// Some actions at once, cut into frames anywhere.
+    fn go_on(&mut self) {
+        let count = self.one_of(&[1, 1, 2, 3]);
+        let mut events: Vec<Event> = (0..count).flat_map(|_| self.action()).collect();
+        while !events.is_empty() {
+            let cut = 1 + self.random.index(events.len());
+            let first: Vec<Event> = events.drain(..cut).collect();
+            self.show(first);
+        }
+        for _ in 0..self.random.below(4) {
+            std::thread::sleep(Duration::from_millis(self.random.below(4).into()));
+            self.show(Vec::new());
+        }
+    }
+}
+
+/// What the window says against what it draws, and against the session where that has not changed since.
+fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut check = |agrees: bool, words: &dyn Fn() -> String| {
+        if !agrees {
+            found.push(words());
+        }
+    };
+    let editor = window.editor();
+    let plane = &editor.plane;
+    let pill = pill(window);
+    let drawn = plane.scene().map(|scene| &scene.outcome);
+    if let Some(pill) = pill.as_deref() {
+        let at_rest = drawn.filter(|_| !plane.is_easing() && !editor.shows_preview());
+        let verdict = at_rest.map(|outcome| &outcome.step.verdict);
+        let is_proved = pill.starts_with("Planar");
+        check(!is_proved || verdict.is_some_and(|v| v.planar), &|| format!("{pill:?} over a sheet that is not planar"));
+        let counts = pill.split(" · ").all(|part| counts_of(part).is_some());
+        let agrees = |v: &Verdict| pill.split(" · ").all(|part| counts_of(part).is_some_and(|count| count.is_of(v)));
+        check(!counts || verdict.is_some_and(agrees), &|| format!("{pill:?} over {verdict:?}"));
+    }
+    if let (Some(outcome), Some(paint)) = (drawn, editor.look.paint()) {
+        let flipped = &outcome.step.verdict.flipped_faces;
+        check(paint.faces.flipped == *flipped, &|| format!("{:?} red, {flipped:?} flipped", paint.faces.flipped));
+    }
+    if let Some(place) = editor.selection.defect() {
+        let count = editor.defect_count();
+        check(place < count, &|| format!("defect {place} of {count}"));
+    }
+    let is_open = editor.layout.tab() == Tab::Defects && editor.layout.panels_shown();
+    if let Some(outcome) = drawn.filter(|_| is_open && is_quiet) {
+        let says = window.shows("Planar: proved one-to-one");
+        check(says == outcome.step.verdict.planar, &|| "the Defects panel is of another sheet".to_owned());
+        let words = format!("{} flipped faces", outcome.step.verdict.flipped_faces.len());
+        check(says || window.shows(&words), &|| format!("the Defects panel does not say {words:?}"));
+    }
+    if is_quiet {
+        found.extend(session_disagreements(window, pill.as_deref()));
+    }
+    found
+}
+
+fn session_disagreements(window: &Window, pill: Option<&str>) -> Vec<String> {
+    let mut found = Vec::new();
+    let editor = window.editor();
+    let (session, timeline) = (&editor.session, editor.session.timeline());
+    let drawn = editor.plane.scene().map(|scene| scene.outcome_revision);
+    if let Some(pill) = pill {
+        let is_of_step = pill.starts_with("Planar") || pill.contains("flipped") && !pill.contains("preview");
+        let is_there = drawn == Some(session.outcome_revision()) && session.is_current();
+        if is_of_step && !is_there {
+            found.push(format!("{pill:?}, but the session is elsewhere"));
+        }
+        if let Some(to) = pill.strip_prefix("moving ").and_then(|words| words.rsplit(' ').next())
+            && to.parse() != Ok(timeline.shown().unwrap_or(usize::MAX))
+        {
+            found.push(format!("{pill:?}, and step {:?} is wanted", timeline.shown()));
+        }
+    }
+    for node in window.harness.query_all_by_role(Role::Button) {
+        let node = node.accesskit_node();
+        let Some(name) = node.label().filter(|name| name.starts_with("Step ")) else { continue };
+        let Some(index) = name[5..].split(':').next().and_then(|number| number.parse::<usize>().ok()) else { continue };
+        let is_marked = node.toggled() == Some(Toggled::True);
+        if is_marked != (timeline.shown() == Some(index)) {
+            found.push(format!("chip {name:?} is marked: {is_marked}; shown is {:?}", timeline.shown()));
+        }
+        let Some(record) = timeline.records().get(index) else {
+            found.push(format!("there is no step of chip {name:?}"));
+            continue;
+        };
+        if name.contains("planar") != record.planar {
+            found.push(format!("chip {name:?} of a step with {} defects", record.defect_count()));
+        }
+    }
+    if editor.has_disk() && window.has_button("Pause") != session.is_running() {
+        found.push(format!("Pause shows, and a run goes on: {}", session.is_running()));
+    }
+    found
+}
+
+fn pill(window: &Window) -> Option<String> {
+    let pill = window.harness.query_by(|node| node.label().is_some_and(|label| label.starts_with("Verdict: ")))?;
+    let label = pill.accesskit_node().label()?;
+    Some(label.trim_start_matches("Verdict: ").to_owned())
+}
+
+/// A number of defects of a kind, as the pill names them.
+struct Counts(usize, String);
+
+fn counts_of(words: &str) -> Option<Counts> {
+    let (number, kind) = words.split_once(' ')?;
+    Some(Counts(number.parse().ok()?, kind.to_owned()))
+}
+
+impl Counts {
+    fn is_of(&self, verdict: &Verdict) -> bool {
+        self.0
+            == match self.1.as_str() {
+                "flipped" => verdict.flipped_faces.len(),
+                "concave" => verdict.concave_polygons.len(),
+                "crossing" | "crossings" => verdict.boundary_crossings.len(),
+                "overwound" => verdict.overwound_vertices.len(),
+                _ => return false,
+            }
+    }
+}
+
+fn from_environment<T: std::str::FromStr>(name: &str, otherwise: T) -> T {
+    std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(otherwise)
+}
+
+fn walk(seed: u64, actions: u32) {
+    let mut walk = Walk::new(seed);
+    for i in 0..actions {
+        walk.go_on();
+        if i % 50 == 49 {
+            walk.done.push("time to come to rest".to_owned());
+            walk.window.harness.input_mut().events.extend(key(Key::Escape, Modifiers::NONE));
+            walk.window.settle();
+            let found = disagreements(&walk.window, true);
+            assert!(found.is_empty(), "{found:#?}\nafter {:#?}", walk.done);
+        }
+    }
+}
+
+#[test]
+fn the_window_agrees_with_itself_whatever_is_pressed() {
+    walk(from_environment("FREEBOUND_WALK_SEED", 1), from_environment("FREEBOUND_WALK", ACTIONS));
+}
+
+#[test]
+#[ignore = "takes many minutes"]
+fn the_window_agrees_with_itself_for_twenty_thousand_actions() {
+    for seed in 0..20 {
+        walk(seed, 1000);
+    }
+}
