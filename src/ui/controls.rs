@@ -111,8 +111,8 @@ pub(in crate::ui) fn heads(ui: &mut Ui, width: usize, words: &[String]) {
 }
 
 /// A cross that closes something, painted at a place of its own.
-pub(in crate::ui) fn close_button(ui: &Ui, rect: egui::Rect, name: &str, tip: &str) -> Response {
-    let response = ui.interact(rect, ui.scope_id().with(("close", name)), egui::Sense::click());
+pub(in crate::ui) fn close_button(ui: &Ui, id: egui::Id, rect: egui::Rect, [name, tip]: [&str; 2]) -> Response {
+    let response = ui.interact(rect, id, egui::Sense::click());
     let theme = theme_of(ui);
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 3.0, theme.accent.gamma_multiply(0.2));

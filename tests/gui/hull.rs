@@ -146,18 +146,6 @@ fn another_mesh_has_another_hull() {
 }
 
 #[test]
-fn a_stage_with_vertices_pinned_on_a_circle_says_how_many() {
-    let mut window = Window::with_example(Example::Spiral);
-    window.choose("Method", "Virtual boundary");
-    let boundary = window.editor().session.model().expect("open").disk().expect("a disk").boundary_loop().len();
-    let pinned = window.outcome().step.virtual_boundary.as_ref().expect("it bends").pinned;
-    assert!(pinned > 2, "{pinned} pinned");
-    window.key(Key::H);
-    let words = format!("{pinned} of {boundary} boundary vertices pinned on a circle");
-    assert!(window.shows(&words), "{words}: {:?}", window.words());
-}
-
-#[test]
 fn a_convex_boundary_says_that_all_of_it_is_pinned() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.choose("Method", "Convex boundary");

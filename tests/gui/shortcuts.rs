@@ -249,7 +249,7 @@ fn tab_walks_on_once_a_control_has_the_keyboard() {
 fn the_list_of_keys_is_in_groups() {
     let mut window = window();
     window.key(Key::F1);
-    let place = |words: &str| window.harness.get_by_label(words).rect().top();
+    let place = |words: &str| window.harness.get_by_role_and_label(Role::Label, words).rect().top();
     let heads = ["Look", "Pin", "Step", "File", "Mouse"].map(place);
     assert!(heads.is_sorted(), "{heads:?}");
     let [look, pin, step, file, mouse] = heads;

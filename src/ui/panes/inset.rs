@@ -42,17 +42,30 @@ impl Zoom {
     }
 }
 
-fn id(ui: &egui::Ui) -> egui::Id {
-    ui.scope_id().with("inset")
+/// The insets that there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Kind {
+    /// A defect in the plane.
+    Defect,
+    PairOnMesh,
+    PairInPlane,
 }
 
-/// Whether the wheel belongs to the pane's inset: the pointer was over it in the frame before.
+impl Kind {
+    fn id(self, ui: &egui::Ui) -> egui::Id {
+        ui.scope_id().with(("inset", self))
+    }
+}
+
+/// Whether the wheel belongs to an inset over the plane: the pointer was over it in the frame before.
 pub(super) fn has_wheel(ui: &egui::Ui) -> bool {
-    ui.ctx().read_response(id(ui)).is_some_and(|response| response.contains_pointer())
+    let has_pointer = |kind: Kind| ui.ctx().read_response(kind.id(ui)).is_some_and(|inset| inset.contains_pointer());
+    [Kind::Defect, Kind::PairInPlane].into_iter().any(has_pointer)
 }
 
 /// An inset of one frame, for the pointer and for those who do not see it.
 pub(super) struct Inset<'a> {
+    pub(super) kind: Kind,
     pub(super) rect: Rect,
     pub(super) role: Role,
     pub(super) name: &'a str,
@@ -63,7 +76,7 @@ pub(super) struct Inset<'a> {
 impl Inset<'_> {
     /// Takes clicks, drags and the wheel, which what lies under it must not get, and shows the cross.
     pub(super) fn interact(&self, ui: &egui::Ui, requests: &mut Vec<Request>) -> Response {
-        let response = ui.interact(self.rect, id(ui), Sense::click_and_drag()).named(self.role, self.name);
+        let response = ui.interact(self.rect, self.kind.id(ui), Sense::click_and_drag()).named(self.role, self.name);
         if response.contains_pointer() {
             let wheel = pane::wheel(ui);
             let by = wheel.zoom * PER_POINT.powf(wheel.pan.y);
@@ -73,7 +86,9 @@ impl Inset<'_> {
         }
         let cross = Rect::from_center_size(self.rect.right_top() + Vec2::new(-11.0, 10.0), Vec2::splat(16.0));
         let tip = "Close the magnifiers; the View menu opens them again";
-        close_button(ui, cross, &format!("Close: {}", self.name), tip).asks(Request::ToggleMagnifier, requests);
+        let name = format!("Close: {}", self.name);
+        let close = close_button(ui, self.kind.id(ui).with("close"), cross, [&name, tip]);
+        close.asks(Request::ToggleMagnifier, requests);
         response
     }
 }

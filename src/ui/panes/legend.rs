@@ -62,8 +62,9 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor, request
     let text = Rect::from_min_max(place.min + Vec2::new(32.0, 0.0), place.max);
     let mut part = ui.new_child(egui::UiBuilder::new().max_rect(text));
     part.horizontal_centered(|ui| ui.add(egui::Label::new(words).selectable(false)));
+    let id = ui.scope_id().with("close the outline");
     let cross = Rect::from_center_size(place.right_center() - Vec2::new(11.0, 0.0), Vec2::splat(16.0));
-    let close = close_button(ui, cross, "Stop comparing", "Compare no more: the outline goes");
+    let close = close_button(ui, id, cross, ["Stop comparing", "Compare no more: the outline goes"]);
     close.asks(Action::Compare(None), requests);
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Align2, CursorIcon, FontId, Pos2, Rect, Role, Stroke, StrokeKind, Vec2};
 use glam::DVec2;
 
-use super::inset::Inset;
+use super::inset::{Inset, Kind};
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis};
 use super::{mesh_pane, plane_pane};
@@ -122,7 +122,8 @@ impl Magnifier {
         let keys = keys_of(ui.ctx(), &Request::StepDefect(1));
         let tip =
             format!("A defect from near by: the wheel brings it nearer. Click to go there; {keys} goes to the next");
-        let inset = Inset { rect: self.rect, role: Role::Button, name: &name, of: Some(self.place) };
+        let inset =
+            Inset { kind: Kind::Defect, rect: self.rect, role: Role::Button, name: &name, of: Some(self.place) };
         let response = inset.interact(ui, requests);
         let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(tip);
         response.asks(Request::GoToDefect(self.place), requests);
@@ -255,7 +256,9 @@ pub(super) fn over_mesh(
         ui.painter().add(render::mesh_pane(PaneId("pair on mesh"), inset, frame));
     }
     pane::halo(&ui.painter_at(inset), inset.center(), theme.selection, 7.0);
-    close(ui, inset, &format!("Magnifier: {vertex} on the mesh"), enlarges, requests);
+    let name = format!("Magnifier: {vertex} on the mesh");
+    let shown = Inset { kind: Kind::PairOnMesh, rect: inset, role: Role::Image, name: &name, of: None };
+    close(ui, &shown, enlarges, requests);
 }
 
 /// The pair's inset over the embedding's pane.
@@ -294,11 +297,14 @@ pub(super) fn over_plane(
     }
     painter.circle_stroke(inset.center(), 11.0, Stroke::new(1.0, theme.selection));
     let words = editor.vertex_in_hand().map_or_else(|| "the target".to_owned(), |v| format!("the target of {v}"));
-    close(ui, inset, &format!("Magnifier: {words}"), enlarges, requests);
+    let name = format!("Magnifier: {words}");
+    let shown = Inset { kind: Kind::PairInPlane, rect: inset, role: Role::Image, name: &name, of: None };
+    close(ui, &shown, enlarges, requests);
 }
 
 /// Edge, name and how much larger: what both insets of a pair end with.
-fn close(ui: &egui::Ui, inset: Rect, name: &str, enlarges: f64, requests: &mut Vec<Request>) {
+fn close(ui: &egui::Ui, shown: &Inset<'_>, enlarges: f64, requests: &mut Vec<Request>) {
+    let inset = shown.rect;
     let theme = theme_of(ui);
     let painter = ui.painter_at(inset.expand(1.0));
     painter.rect_stroke(inset, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
@@ -307,5 +313,5 @@ fn close(ui: &egui::Ui, inset: Rect, name: &str, enlarges: f64, requests: &mut V
     let under = Align2::LEFT_TOP.anchor_size(corner, galley.size()).expand(3.0);
     painter.rect_filled(under, 3.0, theme.panel.gamma_multiply(0.85));
     painter.galley(corner, galley, theme.text);
-    Inset { rect: inset, role: Role::Image, name, of: None }.interact(ui, requests);
+    shown.interact(ui, requests);
 }

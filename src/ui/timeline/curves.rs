@@ -214,8 +214,8 @@ fn marks(ui: &egui::Ui, curve: &Curve, ends: [f64; 2], height_on_screen: &dyn Fn
     let font = FontId::proportional(MARKS);
     let [least, greatest] = ends.map(|value| curve.height_of(value));
     if curve.scale == CurveScale::Powers {
-        let powers = powers_within(least, greatest);
-        for power in powers {
+        // What stands for 0 is no power.
+        for power in powers_within(least.max(LEAST_POWER + 1.0), greatest) {
             let y = height_on_screen(f64::from(power));
             painter.hline(rect.x_range(), y, egui::Stroke::new(1.0, theme.separator));
             let at = egui::pos2(rect.right() - 2.0, y);
@@ -223,9 +223,11 @@ fn marks(ui: &egui::Ui, curve: &Curve, ends: [f64; 2], height_on_screen: &dyn Fn
         }
     }
     let words = ends.map(|value| curve.words(value));
-    painter.text(rect.left_top(), Align2::LEFT_TOP, &words[1], font.clone(), theme.weak_text);
+    let at = |height: f64| height_on_screen(height).clamp(rect.top() + 1.3 * MARKS, rect.bottom());
+    let place = |height: f64| egui::pos2(rect.left(), at(height));
+    painter.text(place(greatest), Align2::LEFT_BOTTOM, &words[1], font.clone(), theme.weak_text);
     if words[0] != words[1] {
-        painter.text(rect.left_bottom(), Align2::LEFT_BOTTOM, &words[0], font, theme.weak_text);
+        painter.text(place(least), Align2::LEFT_BOTTOM, &words[0], font, theme.weak_text);
     }
 }
 

@@ -303,3 +303,25 @@ impl PlaneView {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stage_says_how_many_vertices_were_pinned_on_a_circle() {
+        let empty = || Embedding::from(Vec::new());
+        let stages = |pinned| VirtualBoundary {
+            pinned,
+            outline: Outline::Hull,
+            before: empty(),
+            weights_of_before: true,
+            hull: Vec::new(),
+            pockets: Vec::new(),
+            solved: empty(),
+        };
+        let words = |pinned| caption(Stage::Pockets, &stages(pinned), 410);
+        assert_eq!(words(23), "23 of 410 boundary vertices pinned on a circle. 0 triangles up to the hull");
+        assert_eq!(words(2), "0 triangles up to the hull", "two only fix place and size");
+    }
+}
