@@ -7,6 +7,7 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::LinalgError;
+use super::ldlt::{Ldlt, LdltAnalysis};
 use super::llt::{Llt, LltAnalysis};
 use super::lu::{Lu, LuAnalysis};
 use super::order::{Pattern, order};
@@ -14,11 +15,18 @@ use super::refine::{Accept, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, check_finite};
 
-/// What is known of the values of a matrix. The pattern is symmetric, diagonal included, in both cases.
+/// What is known of the values of a matrix. The pattern is symmetric, diagonal included, in every case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A or −A is Hermitian positive definite; both triangles are stored.
     Hermitian,
+    /// Hermitian `[−E A; Aᴴ F]` with E positive definite and F positive semidefinite; both triangles are stored. The
+    /// first `pairs` rows of E and all of F stand in turn (e₀, f₀, e₁, f₁, …), the rows of a pair with one pattern, then
+    /// the other rows of E.
+    Augmented {
+        /// How many rows F has.
+        pairs: usize,
+    },
     /// Any values.
     General,
 }
@@ -38,6 +46,7 @@ struct Shared {
 #[derive(Debug)]
 enum Symbolic {
     Llt(LltAnalysis),
+    Ldlt(LdltAnalysis),
     Lu(LuAnalysis),
 }
 
@@ -54,13 +63,14 @@ pub type Answer<T> = fn(&Factor<T>, &CscMatrix<T>, &[T]) -> Result<Solved<T>, Li
 #[derive(Debug)]
 enum Numeric<T> {
     Llt(Llt<T>),
+    Ldlt(Ldlt<T>),
     Lu(Lu<T>),
 }
 
 /// The size of a factorization, and what was done to make it possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FactorStats {
-    /// Pivots that were too small and were replaced. Zero for a Cholesky factorization.
+    /// Pivots that were too small and were replaced. Zero for a Hermitian matrix.
     pub replaced_pivots: usize,
     /// Memory of the numbers that are kept, explicit zeros included, in bytes.
     pub factor_bytes: usize,
@@ -80,6 +90,7 @@ impl Analysis {
         let elimination = order(&pattern)?;
         let symbolic = match kind {
             Kind::Hermitian => Symbolic::Llt(LltAnalysis::new(&pattern, &elimination.order)?),
+            Kind::Augmented { pairs } => Symbolic::Ldlt(LdltAnalysis::new(&pattern, elimination.order, pairs)?),
             Kind::General => Symbolic::Lu(LuAnalysis::new(&pattern, &elimination)?),
         };
         Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
@@ -99,17 +110,18 @@ impl Analysis {
                 Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
             }
             Symbolic::Llt(_) => Self::new(Kind::Hermitian, pattern),
+            Symbolic::Ldlt(ldlt) => Self::new(Kind::Augmented { pairs: ldlt.pairs() }, pattern),
             Symbolic::Lu(_) => Self::new(Kind::General, pattern),
         }
     }
 
-    /// Factors a matrix of the analysed pattern. The LU looks at `cancel` at every supernode, the Cholesky
-    /// factorization only before and after.
+    /// Factors a matrix of the analysed pattern. The LU looks at `cancel` at every supernode, the Hermitian
+    /// factorizations only before and after.
     ///
     /// # Errors
     ///
     /// [`LinalgError::OtherPattern`], [`LinalgError::NotFinite`], [`LinalgError::NotPositiveDefinite`] for a Hermitian
-    /// matrix, [`LinalgError::Singular`] for a general one, [`LinalgError::TooLarge`], [`LinalgError::Cancelled`].
+    /// matrix, [`LinalgError::Singular`] for others, [`LinalgError::TooLarge`], [`LinalgError::Cancelled`].
     pub fn factor<T: Scalar>(&self, matrix: &CscMatrix<T>, cancel: &AtomicBool) -> Result<Factor<T>, LinalgError> {
         let Shared { pattern, symbolic } = &*self.shared;
         if !pattern.is_that_of(matrix) {
@@ -120,6 +132,7 @@ impl Analysis {
         cancelled()?;
         let numeric = match symbolic {
             Symbolic::Llt(analysis) => Numeric::Llt(analysis.factor(pattern, matrix)?),
+            Symbolic::Ldlt(analysis) => Numeric::Ldlt(analysis.factor(pattern, matrix)?),
             Symbolic::Lu(analysis) => Numeric::Lu(analysis.factor(pattern, matrix, cancel)?),
         };
         cancelled()?;
@@ -157,6 +170,7 @@ impl<T: Scalar> Factor<T> {
     pub fn stats(&self) -> FactorStats {
         match &self.numeric {
             Numeric::Llt(llt) => llt.stats(),
+            Numeric::Ldlt(ldlt) => ldlt.stats(),
             Numeric::Lu(lu) => lu.stats(),
         }
     }
@@ -214,6 +228,7 @@ impl<T: Scalar> Factor<T> {
                 // A = Aᴴ: both operations are one.
                 analysis.solve_in_place(llt, columns);
             }
+            (Symbolic::Ldlt(analysis), Numeric::Ldlt(ldlt)) => analysis.solve_in_place(ldlt, columns),
             (Symbolic::Lu(analysis), Numeric::Lu(lu)) => lu.solve_in_place(analysis, operation, columns),
             _ => unreachable!("a factor is made by its own analysis"),
         }

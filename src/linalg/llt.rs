@@ -41,14 +41,7 @@ pub(super) struct Llt<T> {
 
 impl LltAnalysis {
     pub(super) fn new(pattern: &Pattern, order: &Order) -> Result<Self, LinalgError> {
-        let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..Default::default()
-        };
-        let ordering = SymmetricOrdering::Custom(order.as_faer());
-        let symbolic = factorize_symbolic_cholesky(pattern.as_faer(), Side::Lower, ordering, params)
-            .map_err(|_| LinalgError::TooLarge { order: pattern.order() })?;
-        Ok(Self { symbolic })
+        Ok(Self { symbolic: symbolic(pattern, order)? })
     }
 
     pub(super) fn order(&self) -> Order {
@@ -94,17 +87,9 @@ impl LltAnalysis {
 
     /// Solves A X = B in place; `columns` is column-major.
     pub(super) fn solve_in_place<T: Scalar>(&self, factor: &Llt<T>, columns: &mut [T]) {
-        let n = self.symbolic.nrows();
-        if n == 0 {
-            return;
-        }
         let llt = LltRef::new(&self.symbolic, &factor.values);
-        let scratch = self.symbolic.solve_in_place_scratch::<T>(TOGETHER, Par::Seq);
-        columns.par_chunks_mut(TOGETHER * n).for_each(|columns| {
-            let mut memory = MemBuffer::new(scratch);
-            let count = columns.len() / n;
-            let view = MatMut::from_column_major_slice_mut(columns, n, count);
-            llt.solve_in_place_with_conj(Conj::No, view, Par::Seq, MemStack::new(&mut memory));
+        by_groups(&self.symbolic, columns, |group, stack| {
+            llt.solve_in_place_with_conj(Conj::No, group, Par::Seq, stack);
         });
         if factor.sign < 0.0 {
             for x in columns {
@@ -112,6 +97,35 @@ impl LltAnalysis {
             }
         }
     }
+}
+
+/// Symbolic factorization in a given order.
+pub(super) fn symbolic(pattern: &Pattern, order: &Order) -> Result<SymbolicCholesky<u32>, LinalgError> {
+    let params = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+        ..Default::default()
+    };
+    let ordering = SymmetricOrdering::Custom(order.as_faer());
+    factorize_symbolic_cholesky(pattern.as_faer(), Side::Lower, ordering, params)
+        .map_err(|_| LinalgError::TooLarge { order: pattern.order() })
+}
+
+/// Solves for groups of columns side by side.
+pub(super) fn by_groups<T: Scalar>(
+    symbolic: &SymbolicCholesky<u32>,
+    columns: &mut [T],
+    solve: impl Fn(MatMut<'_, T>, &mut MemStack) + Sync,
+) {
+    let n = symbolic.nrows();
+    if n == 0 {
+        return;
+    }
+    let scratch = symbolic.solve_in_place_scratch::<T>(TOGETHER, Par::Seq);
+    columns.par_chunks_mut(TOGETHER * n).for_each(|columns| {
+        let mut memory = MemBuffer::new(scratch);
+        let count = columns.len() / n;
+        solve(MatMut::from_column_major_slice_mut(columns, n, count), MemStack::new(&mut memory));
+    });
 }
 
 impl<T> Llt<T> {

@@ -1,4 +1,4 @@
-//! Sparse linear systems: Cholesky for Hermitian matrices, a multifrontal LU for unsymmetric values on a symmetric
+//! Sparse linear systems: Cholesky and LDLᴴ for Hermitian matrices, a multifrontal LU for unsymmetric values on a symmetric
 //! pattern, refinement and residuals. Knows no mesh.
 //!
 //! ```text
@@ -11,7 +11,8 @@
 //! |---|---|
 //! | `analysis.rs` | the interface |
 //! | `order.rs` | fill-reducing order (AMD), elimination tree, postorder |
-//! | `llt.rs` | Hermitian: faer's supernodal Cholesky |
+//! | `llt.rs` | Hermitian definite: faer's supernodal Cholesky |
+//! | `ldlt.rs` | Hermitian augmented, for least squares: faer's supernodal `LDLᴴ` |
 //! | `lu/` | unsymmetric: our multifrontal LU |
 //! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
 //! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers alike; what can go wrong |
@@ -19,6 +20,7 @@
 mod analysis;
 mod error;
 mod gmres;
+mod ldlt;
 mod llt;
 mod lu;
 mod order;

@@ -137,6 +137,18 @@ impl Order {
         Self::from_new_to_old(later.iter().map(|&middle| self.new_to_old[middle as usize]).collect())
     }
 
+    /// The order in which 2k comes before 2k + 1 for k below `pairs`: where they have one pattern, the fill stays as it is.
+    pub(super) fn with_pairs_in_turn(mut self, pairs: usize) -> Self {
+        for (first, second) in (0..pairs).map(|k| (2 * k, 2 * k + 1)) {
+            let [first_at, second_at] = [first, second].map(|old| self.old_to_new[old] as usize);
+            if second_at < first_at {
+                self.new_to_old.swap(first_at, second_at);
+                self.old_to_new.swap(first, second);
+            }
+        }
+        self
+    }
+
     pub(super) fn as_faer(&self) -> PermRef<'_, u32> {
         PermRef::new_checked(&self.new_to_old, &self.old_to_new, self.new_to_old.len())
     }

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::foldover_energy::Energy;
-use super::membrane::{Limits, Membrane};
+use super::membrane::{Limits, Membrane, Unfolding};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
 use super::{
@@ -289,7 +289,7 @@ impl Continuation {
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let mut z = self.moved(points, moves, 1.0);
-        let limits = Limits { until_unfolded: true, ..downhill(UNFOLD_STEPS) };
+        let limits = Limits { unfolding: Unfolding::Alone, ..downhill(UNFOLD_STEPS) };
         let is_unfolded = membrane.descend(&mut z, limits, control)?.least_determinant > 0.0;
         let z = Embedding::of_mesh(mesh, &z);
         Ok(is_unfolded && self.sheet.is_one_to_one(mesh, &z) && self.settle(mesh, z, membrane, control)?)
@@ -342,5 +342,5 @@ impl Continuation {
 
 /// Newton steps that fold nothing.
 fn downhill(steps: usize) -> Limits {
-    Limits { unfolded: Energy::Foldover(0.0), steps, until_unfolded: false, tolerance: TOLERANCE }
+    Limits { unfolded: Energy::Foldover(0.0), steps, unfolding: Unfolding::Freely, tolerance: TOLERANCE }
 }

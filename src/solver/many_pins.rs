@@ -5,13 +5,13 @@
 //! vertices that can move, and the compliances c of the weighted pins, `r = A δ + D` and stationarity are
 //!
 //! ```text
-//! ⎡ −I    A        ⎤ ⎡ r ⎤   ⎡ −D        ⎤
-//! ⎣ f Aᴴ  f diag 1/c ⎦ ⎣ δ ⎦ = ⎣ f diag 1/c τ ⎦      f = min(1, c) by rows; without a weighted pin 1/c = 0
+//! ⎡ −I     A f        ⎤ ⎡ r   ⎤   ⎡ −D          ⎤
+//! ⎣ f Aᴴ  f² diag 1/c ⎦ ⎣ δ/f ⎦ = ⎣ f diag 1/c τ ⎦      f² = min(1, c) by rows; without a weighted pin 1/c = 0
 //! ```
 //!
 //! (the augmented system of Björck 1967, "Iterative refinement of linear least squares solutions"). Residual and move of a
 //! vertex are eliminated as a pair: a pair's pivot block is regular wherever the vertex's own coefficient is not zero, so
-//! that the order of elimination is as free as that of A itself and A is never squared. An exact pin has a residual alone, and
+//! that the order of elimination is as free as that of A itself, and A is never squared. The matrix is Hermitian. An exact pin has a residual alone, and
 //! only where one of its neighbours can move.
 
 use nalgebra_sparse::CscMatrix;
@@ -56,7 +56,8 @@ impl ManyPins {
     pub(super) fn analysis(&self, site: Site<'_>) -> Result<Analysis, SolveError> {
         let coefficients = vec![C64::ZERO; site.mesh.link_count()];
         let matrix = self.matrix(site, &Equations { coefficients, bounded_corners: 0 });
-        Analysis::new(Kind::General, matrix.pattern()).map_err(|error| self.named(site, error))
+        let kind = Kind::Augmented { pairs: site.system.free().len() };
+        Analysis::new(kind, matrix.pattern()).map_err(|error| self.named(site, error))
     }
 
     /// The matrix of the system. Its pattern does not depend on the values of the equations.
@@ -122,12 +123,13 @@ impl ManyPins {
         column: &mut Vec<(usize, C64)>,
     ) {
         let Some(Rows { residual, moved: Some(moved) }) = self.rows(site, vertex) else { return };
+        let damping = self.damping(vertex);
         let of_itself = -site.mesh.links_from(vertex).map(|h| equations.coefficients[h.index()]).sum::<C64>();
         let pulled = self.spring(vertex).map_or(0.0, |pin| pull(pin.compliance));
-        column.extend([(residual, of_itself), (moved, pulled.into())]);
+        column.extend([(residual, of_itself * damping), (moved, pulled.into())]);
         for h in site.mesh.links_from(vertex) {
             let Some(Rows { residual, moved }) = self.rows(site, site.mesh.head(h)) else { continue };
-            column.push((residual, equations.coefficients[site.mesh.twin(h).index()]));
+            column.push((residual, equations.coefficients[site.mesh.twin(h).index()] * damping));
             column.extend(moved.map(|moved| (moved, C64::ZERO)));
         }
     }
@@ -148,14 +150,14 @@ impl ManyPins {
         }
         for (pin, &to_target) in self.springs.iter().zip(to_targets) {
             if let Some(row) = self.rows(site, pin.vertex).and_then(|rows| rows.moved) {
-                rhs[row] = to_target * pull(pin.compliance);
+                rhs[row] = to_target * (pull(pin.compliance) / self.damping(pin.vertex));
             }
         }
         let solved = factored.factor.solve_correction(factored.matrix, &rhs);
         let answer = solved.map_err(|error| self.named(site, error))?.x;
         let mut moves = vec![C64::ZERO; site.mesh.vertex_count()];
         for (place, vertex) in site.system.free().iter().enumerate() {
-            moves[vertex.index()] = answer[2 * place + 1];
+            moves[vertex.index()] = answer[2 * place + 1] * self.damping(*vertex);
         }
         Ok(moves)
     }
@@ -184,9 +186,9 @@ impl ManyPins {
         Some(Rows { residual: 2 * site.system.free().len() + place, moved: None })
     }
 
-    /// f, what the row of a vertex's move is multiplied by.
+    /// f, what the equations of a vertex's move are multiplied by, and the move is divided by.
     fn damping(&self, vertex: VertexId) -> f64 {
-        self.spring(vertex).map_or(1.0, |pin| pin.compliance.min(1.0))
+        self.spring(vertex).map_or(1.0, |pin| pin.compliance.min(1.0).sqrt())
     }
 
     fn spring(&self, vertex: VertexId) -> Option<&Spring> {
@@ -195,7 +197,7 @@ impl ManyPins {
     }
 }
 
-/// f/c: 0 where there is no pull, 1 where there is no give.
+/// f²/c: 0 where there is no pull, 1 where there is no give.
 fn pull(compliance: f64) -> f64 {
     compliance.recip().min(1.0)
 }

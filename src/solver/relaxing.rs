@@ -10,7 +10,7 @@
 use std::sync::Arc;
 
 use super::foldover_energy::Energy;
-use super::membrane::{Limits, Membrane};
+use super::membrane::{Limits, Membrane, Unfolding};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
 use super::{Candidate, Control, Embedding, Method, Outside, Pins, Progress, Sheet, SolveError};
@@ -103,7 +103,8 @@ impl Relaxing {
         let is_steep = before.least_determinant < STEEP;
         let unfolded = if is_steep { Energy::Foldover(0.0) } else { Energy::SymmetricDirichlet };
         let steps = if is_steep { STEEP_ROUND_STEPS } else { ROUND_STEPS };
-        let limits = Limits { unfolded, steps, until_unfolded: false, tolerance: 0.1 * TOLERANCE };
+        let unfolding = Unfolding::BesideBarriers;
+        let limits = Limits { unfolded, steps, unfolding, tolerance: 0.1 * TOLERANCE };
         let gain = membrane.descend(&mut z, limits, control)?.gain;
         let pull = membrane.pull(&z);
         let z = Embedding::of_mesh(mesh, &z);

@@ -144,6 +144,34 @@ fn planar_polygons_fold_in_no_other_program_over_300_meshes() {
     assert_no_folds(300);
 }
 
+/// A wavy sheet of `side`² quads in the unit square.
+fn waves(side: u32) -> PolygonMesh {
+    let mut mesh = quad_sheet(side, side, 0.0, &mut Random(0));
+    for position in &mut mesh.positions {
+        let [x, y] = [position.x, position.y].map(|x| x / f64::from(side));
+        *position = DVec3::new(x, y, 0.25 * (6.0 * x).sin() * (5.0 * y).cos());
+    }
+    mesh
+}
+
+#[test]
+fn polygons_near_a_pin_far_from_its_place_unfold_and_are_not_cut() {
+    for (side, target) in [(20, DVec2::new(0.6, 0.4)), (40, DVec2::new(0.7, 0.5))] {
+        let mesh = waves(side);
+        let disk = DiskMesh::try_from(mesh.triangulate()).expect("a disk");
+        let place = |row: u32, column: u32| VertexId::new(row * (side + 1) + column);
+        let pins = hard_pins([
+            (place(0, 0), DVec2::ZERO),
+            (place(0, side), DVec2::new(1.0, 0.2)),
+            (place(side / 2, side / 3), target),
+            (place(side, side), DVec2::ONE),
+        ]);
+        let step = last_step(&disk, Settings::default(), pins);
+        assert!(step.verdict.planar, "{side}: {}", step.verdict.summary());
+        assert!(step.refinement.is_none(), "{side}: some polygons are cut");
+    }
+}
+
 #[test]
 fn a_dart_of_positive_triangles_is_named_as_a_concave_polygon() {
     let mesh = quad_sheet(2, 1, 0.0, &mut Random(0));

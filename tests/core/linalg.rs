@@ -16,7 +16,7 @@ use crate::makers::Random;
 /// Relative to the largest entry of the answer, for matrices of order 40 with diagonals that dominate their rows.
 const TOLERANCE: f64 = 1e-11;
 
-fn dense<T: Scalar>(matrix: &CscMatrix<T>) -> faer::Mat<T> {
+pub(crate) fn dense<T: Scalar>(matrix: &CscMatrix<T>) -> faer::Mat<T> {
     let mut dense = faer::Mat::from_fn(matrix.nrows(), matrix.ncols(), |_, _| T::ZERO);
     for (row, column, &value) in matrix.triplet_iter() {
         dense[(row, column)] = value;
@@ -25,7 +25,7 @@ fn dense<T: Scalar>(matrix: &CscMatrix<T>) -> faer::Mat<T> {
 }
 
 /// Largest difference between `x` and the dense solution, relative to the largest entry of the latter.
-fn deviation<T: Scalar>(dense: &faer::Mat<T>, x: &[T], rhs: &[T]) -> f64 {
+pub(crate) fn deviation<T: Scalar>(dense: &faer::Mat<T>, x: &[T], rhs: &[T]) -> f64 {
     let n = dense.nrows();
     let count = rhs.len() / n;
     let rhs = faer::MatRef::from_column_major_slice(rhs, n, count);

@@ -30,6 +30,7 @@ mod iterate;
 mod ladder;
 mod layers;
 mod linalg;
+mod linalg_augmented;
 mod linalg_faults;
 mod linalg_matrices;
 mod linalg_mean_value;

@@ -93,10 +93,11 @@ fn a_solve_with_many_pins_ends_soon() {
 #[test]
 fn the_matchmaker_with_permuted_pins_ends_soon() {
     let program = Program::new();
-    let mesh = grid(15, 15);
+    let mesh = grid(50, 50);
     write_mesh(&program, &mesh);
     let mut random = Random(5);
-    write_pins(&program, (0..mesh.positions.len()).step_by(4), |_| in_square(&mut random));
+    // With more pins there are soon too many new vertices.
+    write_pins(&program, (0..mesh.positions.len()).step_by(200), |_| in_square(&mut random));
     let arguments = ["flatten", "in.obj", "--method", "matchmaker", "--constraints", "pins.txt", "-o", "out.obj"];
     assert_ends_soon(&program, &arguments);
 }

@@ -6,6 +6,9 @@
 //!
 //! Some points are held; the others move. While a triangle is folded, ε follows the smallest determinant, as in "Foldover-free
 //! maps in 50 lines of code" (see the module `foldover_energy`); once all are unfolded ε is 0, and no step leaves that state.
+//! On request it is so for each triangle by itself: those that are unfolded have a barrier while others unfold.
+
+mod descent;
 
 use glam::DVec2;
 use nalgebra_sparse::CscMatrix;
@@ -14,26 +17,16 @@ use rayon::prelude::*;
 
 use super::block_pattern::{HELD, Neighbours, number};
 use super::foldover_energy::{Element, Energy, Model};
-use super::{Control, Phase, SolveError};
+use super::{Control, SolveError};
 use crate::linalg::{Analysis, Factor, Kind, LinalgError};
+use descent::Energies;
+pub(super) use descent::{Limits, Unfolding};
 
 /// Elements whose energies are summed by one task: the sum is the same however many threads share it.
 const CHUNK: usize = 2048;
 
 /// Elements whose models are held at one time.
 const MODELS: usize = 8 * CHUNK;
-
-/// ε² where a triangle is folded: a little, and a share of the worst determinant's square.
-const EPSILON_SQUARED: [f64; 2] = [1e-12, 0.04];
-
-/// The share of the longest unfolded step that is taken at most.
-const STEP_SHARE: f64 = 0.9;
-
-/// The least decrease of the energy, as a share of what the gradient promises (Armijo).
-const DECREASE: f64 = 1e-4;
-
-/// Halvings of a step before it counts as none.
-const HALVINGS: usize = 40;
 
 /// The first multiple of the diagonal that is added where the Hessian cannot be factored; then ten times as much.
 const REGULARISATION: f64 = 1e-10;
@@ -61,25 +54,6 @@ pub(super) struct Membrane {
     column_length: Vec<u32>,
     diagonal: Vec<u32>,
     analysis: Analysis,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Limits {
-    /// The most Newton steps.
-    pub(super) steps: usize,
-    /// The energy where no triangle is folded: a barrier.
-    pub(super) unfolded: Energy,
-    /// Whether to stop as soon as no triangle is folded.
-    pub(super) until_unfolded: bool,
-    /// A step that lowers the energy by a smaller share of it is the last.
-    pub(super) tolerance: f64,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Descent {
-    pub(super) least_determinant: f64,
-    /// The share of the energy that was gained since the triangles were unfolded.
-    pub(super) gain: f64,
 }
 
 impl Membrane {
@@ -127,12 +101,13 @@ impl Membrane {
         element.corners.map(|corner| z[corner as usize])
     }
 
-    /// The energy; infinite where ε = 0 and a triangle is folded.
-    pub(super) fn energy(&self, z: &[DVec2], energy: Energy) -> f64 {
-        let of_chunk = |chunk: &[Element]| -> f64 {
-            chunk.iter().map(|element| element.energy(Self::corners(element, z), energy)).sum()
+    /// The energy; infinite where a triangle is folded that has a barrier.
+    fn energy(&self, z: &[DVec2], energies: &Energies) -> f64 {
+        let of_chunk = |(chunk, elements): (usize, &[Element])| -> f64 {
+            let numbered = (chunk * CHUNK..).zip(elements);
+            numbered.map(|(at, element)| element.energy(Self::corners(element, z), energies.of(at))).sum()
         };
-        let sums: Vec<f64> = self.elements.par_chunks(CHUNK).map(of_chunk).collect();
+        let sums: Vec<f64> = self.elements.par_chunks(CHUNK).enumerate().map(of_chunk).collect();
         sums.iter().sum::<f64>() + self.pull(z)
     }
 
@@ -155,12 +130,14 @@ impl Membrane {
     }
 
     /// Gradient by unknown, and Hessian. Where points are moved by `shift`, the gradient is that of the model there.
-    fn linearise(&self, z: &[DVec2], energy: Energy, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
+    fn linearise(&self, z: &[DVec2], energies: &Energies, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
         let mut gradient = vec![0.0; 2 * self.unknowns.len()];
         let mut values = vec![0.0; self.pattern.nnz()];
-        for (block, slots) in self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS)) {
-            let model = |element: &Element| element.model(Self::corners(element, z), energy);
-            let models: Vec<Model> = block.par_iter().with_min_len(CHUNK / 8).map(model).collect();
+        let blocks = self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS));
+        for (first, (block, slots)) in (0..).step_by(MODELS).zip(blocks) {
+            let model =
+                |(at, element): (usize, &Element)| element.model(Self::corners(element, z), energies.of(first + at));
+            let models: Vec<Model> = block.par_iter().enumerate().with_min_len(CHUNK / 8).map(model).collect();
             for ((element, slots), mut model) in block.iter().zip(slots).zip(models) {
                 if let Some(shift) = shift {
                     let [a, b, c] = Self::corners(element, shift);
@@ -256,67 +233,11 @@ impl Membrane {
         shift: &[DVec2],
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
-        let (gradient, hessian) = self.linearise(z, Energy::Foldover(0.0), Some(shift));
+        let (gradient, hessian) = self.linearise(z, &Energies::all(Energy::Foldover(0.0)), Some(shift));
         let mut moves = self.direction(&gradient, hessian, control)?;
         for (move_, shift) in moves.iter_mut().zip(shift) {
             *move_ += *shift;
         }
         Ok(moves)
-    }
-
-    /// Lowers the energy step by step.
-    pub(super) fn descend(&self, z: &mut [DVec2], limits: Limits, control: Control<'_>) -> Result<Descent, SolveError> {
-        let mut trial = z.to_vec();
-        let mut unfolded_energies: Option<[f64; 2]> = None;
-        for _ in 0..limits.steps {
-            control.enter(Phase::Solve)?;
-            let least = self.least_determinant(z);
-            if least > 0.0 && limits.until_unfolded {
-                break;
-            }
-            let [floor, share] = EPSILON_SQUARED;
-            let epsilon = (floor + share * least * least).sqrt();
-            let energy = if least > 0.0 { limits.unfolded } else { Energy::Foldover(epsilon) };
-            let Some([before, after]) = self.newton_step(z, &mut trial, energy, control)? else { break };
-            if energy.is_barrier() {
-                let [first, _] = unfolded_energies.unwrap_or([before, before]);
-                unfolded_energies = Some([first, after]);
-                if before - after < limits.tolerance * before {
-                    break;
-                }
-            }
-        }
-        let gain = unfolded_energies.map_or(0.0, |[first, last]| 1.0 - last / first);
-        Ok(Descent { least_determinant: self.least_determinant(z), gain })
-    }
-
-    /// One step with line search. Returns the energies before and after, `None` where no step lowers it.
-    fn newton_step(
-        &self,
-        z: &mut [DVec2],
-        trial: &mut [DVec2],
-        energy: Energy,
-        control: Control<'_>,
-    ) -> Result<Option<[f64; 2]>, SolveError> {
-        let before = self.energy(z, energy);
-        let (gradient, hessian) = self.linearise(z, energy, None);
-        let direction = self.direction(&gradient, hessian, control)?;
-        let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
-        let slope: f64 = self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum();
-        let all = self.elements.len();
-        let longest = if energy.is_barrier() { STEP_SHARE * self.longest_step(z, &direction, all) } else { 1.0 };
-        let mut step = longest.min(1.0);
-        for _ in 0..HALVINGS {
-            for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
-                *trial = *z + step * *direction;
-            }
-            let after = self.energy(trial, energy);
-            if before - after >= -DECREASE * step * slope && after < before {
-                z.copy_from_slice(trial);
-                return Ok(Some([before, after]));
-            }
-            step *= 0.5;
-        }
-        Ok(None)
     }
 }

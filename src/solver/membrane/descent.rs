@@ -1,0 +1,162 @@
+//! The way down an energy: Newton steps with a line search, within the barriers of what is not folded.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::super::foldover_energy::{Element, Energy};
+use super::super::{Control, Phase, SolveError};
+use super::{CHUNK, Membrane};
+
+/// ε² where a triangle is folded: a little, and a share of the worst determinant's square.
+const EPSILON_SQUARED: [f64; 2] = [1e-12, 0.04];
+
+/// The least ε² where unfolded triangles have barriers: folded ones end well unfolded, not without area.
+const EPSILON_SQUARED_BESIDE_BARRIERS: f64 = 1e-4;
+
+/// The share of the longest unfolded step that is taken at most.
+const STEP_SHARE: f64 = 0.9;
+
+/// The least decrease of the energy, as a share of what the gradient promises (Armijo).
+const DECREASE: f64 = 1e-4;
+
+/// Halvings of a step before it counts as none.
+const HALVINGS: usize = 40;
+
+/// What a descent does while some triangle is folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::solver) enum Unfolding {
+    /// Others may fold meanwhile; it goes on when none is folded.
+    Freely,
+    /// The same, but it ends when none is folded.
+    Alone,
+    /// Those that are not folded stay so.
+    BesideBarriers,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::solver) struct Limits {
+    /// The most Newton steps.
+    pub(in crate::solver) steps: usize,
+    /// The energy where no triangle is folded: a barrier.
+    pub(in crate::solver) unfolded: Energy,
+    /// What happens while some triangle is folded.
+    pub(in crate::solver) unfolding: Unfolding,
+    /// A step that lowers the energy by a smaller share of it is the last.
+    pub(in crate::solver) tolerance: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::solver) struct Descent {
+    pub(in crate::solver) least_determinant: f64,
+    /// The share of the energy that was gained since the triangles were unfolded.
+    pub(in crate::solver) gain: f64,
+}
+
+/// Which energy each element has.
+pub(super) struct Energies {
+    unfolded: Energy,
+    folded: Energy,
+    /// By element; empty where all are as the unfolded ones.
+    is_folded: Vec<bool>,
+}
+
+impl Energies {
+    pub(super) fn all(energy: Energy) -> Self {
+        Self { unfolded: energy, folded: energy, is_folded: Vec::new() }
+    }
+
+    fn is_folded(&self, element: usize) -> bool {
+        self.is_folded.get(element) == Some(&true)
+    }
+
+    pub(super) fn of(&self, element: usize) -> Energy {
+        if self.is_folded(element) { self.folded } else { self.unfolded }
+    }
+}
+
+impl Membrane {
+    /// Lowers the energy step by step.
+    pub(in crate::solver) fn descend(
+        &self,
+        z: &mut [DVec2],
+        limits: Limits,
+        control: Control<'_>,
+    ) -> Result<Descent, SolveError> {
+        let mut trial = z.to_vec();
+        let mut unfolded_energies: Option<[f64; 2]> = None;
+        for _ in 0..limits.steps {
+            control.enter(Phase::Solve)?;
+            let least = self.least_determinant(z);
+            if least > 0.0 && limits.unfolding == Unfolding::Alone {
+                break;
+            }
+            let energies = self.energies(z, least, limits);
+            let Some([before, after]) = self.newton_step(z, &mut trial, &energies, control)? else { break };
+            if least > 0.0 {
+                let [first, _] = unfolded_energies.unwrap_or([before, before]);
+                unfolded_energies = Some([first, after]);
+                if before - after < limits.tolerance * before {
+                    break;
+                }
+            }
+        }
+        let gain = unfolded_energies.map_or(0.0, |[first, last]| 1.0 - last / first);
+        Ok(Descent { least_determinant: self.least_determinant(z), gain })
+    }
+
+    /// The energies of a step from where the least determinant is that.
+    fn energies(&self, z: &[DVec2], least: f64, limits: Limits) -> Energies {
+        if least > 0.0 {
+            return Energies::all(limits.unfolded);
+        }
+        let [little, share] = EPSILON_SQUARED;
+        let has_barriers = limits.unfolding == Unfolding::BesideBarriers;
+        let floor = if has_barriers { EPSILON_SQUARED_BESIDE_BARRIERS } else { little };
+        let folded = Energy::Foldover((floor + share * least * least).sqrt());
+        if !has_barriers {
+            return Energies::all(folded);
+        }
+        let is_folded = |element: &Element| element.determinant(Self::corners(element, z)) <= 0.0;
+        let is_folded = self.elements.par_iter().with_min_len(CHUNK).map(is_folded).collect();
+        Energies { unfolded: limits.unfolded, folded, is_folded }
+    }
+
+    /// The longest step along a direction that folds no element with a barrier.
+    fn longest_within_barriers(&self, z: &[DVec2], direction: &[DVec2], energies: &Energies) -> f64 {
+        let of = |(at, element): (usize, &Element)| {
+            if !energies.of(at).is_barrier() {
+                return f64::INFINITY;
+            }
+            Element::longest_step(Self::corners(element, z), Self::corners(element, direction))
+        };
+        self.elements.par_iter().enumerate().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
+    }
+
+    /// One step with line search. Returns the energies before and after, `None` where no step lowers it.
+    fn newton_step(
+        &self,
+        z: &mut [DVec2],
+        trial: &mut [DVec2],
+        energies: &Energies,
+        control: Control<'_>,
+    ) -> Result<Option<[f64; 2]>, SolveError> {
+        let before = self.energy(z, energies);
+        let (gradient, hessian) = self.linearise(z, energies, None);
+        let direction = self.direction(&gradient, hessian, control)?;
+        let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
+        let slope: f64 = self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum();
+        let mut step = (STEP_SHARE * self.longest_within_barriers(z, &direction, energies)).min(1.0);
+        for _ in 0..HALVINGS {
+            for ((trial, z), direction) in trial.iter_mut().zip(&*z).zip(&direction) {
+                *trial = *z + step * *direction;
+            }
+            let after = self.energy(trial, energies);
+            if before - after >= -DECREASE * step * slope && after < before {
+                z.copy_from_slice(trial);
+                return Ok(Some([before, after]));
+            }
+            step *= 0.5;
+        }
+        Ok(None)
+    }
+}
