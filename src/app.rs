@@ -6,7 +6,7 @@ use eframe::egui;
 
 use crate::examples::Example;
 use crate::render;
-use crate::session::{Action, RecentFiles, recovery_folder};
+use crate::session::{Action, Preferences, RecentFiles, recovery_folder};
 use crate::ui::{Dialogs, Editor, theme, window_ui};
 
 /// Size of the window at the start, points.
@@ -15,10 +15,15 @@ const WINDOW_SIZE: [f32; 2] = [1280.0, 800.0];
 /// Size below which the window does not shrink, points.
 const LEAST_SIZE: [f32; 2] = [640.0, 420.0];
 
+/// A window wider or higher than this was never left, points.
+const GREATEST_SIDE: f32 = 16_384.0;
+
 /// The editor in its window.
 #[derive(Debug)]
 pub struct App {
     editor: Editor,
+    /// Where it is kept how the window is left.
+    preferences: Option<PathBuf>,
 }
 
 /// What to open at the start, and how.
@@ -28,6 +33,8 @@ pub struct Start {
     pub file: Option<PathBuf>,
     /// Where the list of recent files is kept; nowhere in tests.
     pub recent_store: Option<PathBuf>,
+    /// Where it is kept how the window is left; nowhere in tests.
+    pub preferences: Option<PathBuf>,
     /// Where copies for recovery are kept; nowhere in tests.
     pub recovery_folder: Option<PathBuf>,
     /// Whether to leave the system's file dialogs alone.
@@ -44,6 +51,9 @@ impl App {
             render::install(state);
             editor.host.use_gpu();
         }
+        if let Some(path) = &start.preferences {
+            editor.put_on(&Preferences::load(path));
+        }
         if start.dialogs_inside {
             editor.files.dialogs = Dialogs::inside_the_window();
         }
@@ -51,7 +61,7 @@ impl App {
             editor.session.keep_copies_in(folder);
         }
         editor.session.handle(start.file.map_or(Action::OpenExample(Example::Face), Action::Open));
-        Self { editor }
+        Self { editor, preferences: start.preferences }
     }
 
     /// The editor's state.
@@ -71,6 +81,9 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self) {
+        if let Some(path) = &self.preferences {
+            self.editor.preferences().store(path);
+        }
         self.editor.session.finish_writing();
         // Where the person was not asked, such as at the end of a session of the system's, the copy stays.
         if self.editor.host.is_quitting() || !self.editor.session.has_unsaved_work() {
@@ -79,17 +92,27 @@ impl eframe::App for App {
     }
 }
 
+/// The size that the window was left in, where it makes sense.
+fn size_of_window(left: &Preferences) -> [f32; 2] {
+    let makes_sense = |[width, height]: &[f32; 2]| {
+        (LEAST_SIZE[0]..=GREATEST_SIDE).contains(width) && (LEAST_SIZE[1]..=GREATEST_SIDE).contains(height)
+    };
+    left.window_size.filter(makes_sense).unwrap_or(WINDOW_SIZE)
+}
+
 /// Opens the window and runs until it is closed.
 ///
 /// # Errors
 ///
 /// Where there is no display, or no driver to draw with: one line that says so.
 pub fn run(file: Option<PathBuf>) -> Result<(), String> {
+    let preferences = Preferences::default_store();
+    let left = preferences.as_deref().map(Preferences::load).unwrap_or_default();
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Freebound")
             .with_app_id("freebound")
-            .with_inner_size(WINDOW_SIZE)
+            .with_inner_size(size_of_window(&left))
             .with_min_inner_size(LEAST_SIZE)
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,
@@ -98,6 +121,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     let start = Start {
         file,
         recent_store: RecentFiles::default_store(),
+        preferences,
         recovery_folder: recovery_folder(),
         dialogs_inside: false,
     };

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufWriter};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use glam::{DVec2, DVec3};
@@ -184,21 +184,26 @@ impl Output<'_> {
     }
 
     /// Writes one file: aside first, then renamed, so that it is never half-written. An OBJ file with a picture comes
-    /// with two more, its material and the picture, which are there before it is.
+    /// with two more, its material and the picture, which are there before it is. Returns the files written, this one
+    /// first.
     ///
     /// # Errors
     ///
     /// Where the file cannot be written, or coordinates are infinite or not numbers; the error names the file.
-    pub fn write(&self, kind: OutputKind, path: &Path) -> Result<(), WriteError> {
+    pub fn write(&self, kind: OutputKind, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
         self.check().map_err(|source| WriteError { path: path.to_owned(), source })?;
         match (kind, self.picture, self.materials) {
             (OutputKind::Obj, Some(picture), _) => picture.write_beside(path, &self.source_mesh(), &self.coordinates),
             (OutputKind::Obj, None, Materials::Copied) => {
                 let mesh = self.source_mesh();
-                let statements = copy_materials(&mesh, self.source_place(), path)?;
-                write_atomically(path, |out| write_obj_with(out, &mesh, &statements, &self.coordinates))
+                let (statements, copies) = copy_materials(&mesh, self.source_place(), path)?;
+                write_atomically(path, |out| write_obj_with(out, &mesh, &statements, &self.coordinates))?;
+                Ok(std::iter::once(path.to_owned()).chain(copies).collect())
             }
-            _ => write_atomically(path, |out| (kind.format().write)(self, path, out)),
+            _ => {
+                write_atomically(path, |out| (kind.format().write)(self, path, out))?;
+                Ok(vec![path.to_owned()])
+            }
         }
     }
 

@@ -111,6 +111,8 @@ pub enum Action {
     Run,
     /// Lowers the distortion of a planar embedding, one-to-one throughout, constraints exact.
     Relax,
+    /// Takes all steps of the ladder where the newest one is at fault.
+    Repair,
     /// Stops what is going on in the background. The steps that there are stay.
     Cancel,
     /// Puts a step on the screen.
@@ -123,6 +125,8 @@ pub enum Action {
     Save(SaveRequest),
     /// Says that a name does not tell what kind of file to write.
     RefuseName(PathBuf),
+    /// Shows the folder that a file lies in.
+    ShowFolder(PathBuf),
     /// Takes a message off the screen.
     Dismiss(u64),
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
 use super::saving::{ProjectSaves, Request, picture_source, source_of};
-use super::{Background, Document, Messages, Model, Place, RecentFiles, Session, Wake};
+use super::{Background, Document, Messages, Model, Place, RecentFiles, Session, Wake, Written};
 use crate::examples::Example;
 use crate::io::{ProjectFile, ProjectSource, ProjectView, RecoveryNote, WriteError};
 
@@ -37,9 +37,11 @@ pub(super) struct Files {
     table: OnTable,
     /// What is being opened, by the file that is to be remembered once it is open.
     loading: Background<Option<PathBuf>, Result<Opened, OpenError>>,
-    /// Results being written, each with what to say when that is done.
-    outputs: Background<(), Result<String, WriteError>>,
+    /// Results being written.
+    outputs: Background<(), Result<Written, WriteError>>,
     projects: ProjectSaves,
+    /// The file whose folder is being shown.
+    pub(super) shown: Background<PathBuf, Result<(), String>>,
     pub(super) autosave: Autosave,
     pub(super) recent: RecentFiles,
 }
@@ -51,6 +53,7 @@ impl Files {
             loading: Background::new("load", wake),
             outputs: Background::new("save", wake),
             projects: ProjectSaves::new(wake),
+            shown: Background::new("folder", wake),
             autosave: Autosave::new(wake),
             recent,
         }
@@ -172,8 +175,8 @@ impl Files {
 
 /// Writing.
 impl Files {
-    /// Writes a file that a person asked for. The work gives the words that say so.
-    pub(super) fn write(&mut self, work: impl FnOnce() -> Result<String, WriteError> + Send + 'static) {
+    /// Writes files that a person asked for.
+    pub(super) fn write(&mut self, work: impl FnOnce() -> Result<Written, WriteError> + Send + 'static) {
         self.outputs.add((), move |_| work());
     }
 
@@ -187,14 +190,15 @@ impl Files {
     pub(super) fn poll_saving(&mut self, messages: &mut Messages) {
         while let Some(((), written)) = self.outputs.poll() {
             match written {
-                Ok(Ok(words)) => messages.note(words),
+                Ok(Ok(written)) => messages.note("wrote", written),
                 Ok(Err(error)) => messages.fail(Place::Embedding, error.to_string(), None),
                 Err(failure) => messages.fail_background(Place::Embedding, "saving", &failure),
             }
         }
+        self.poll_folder(messages);
         while let Some(Request { path, document, opening }) = self.projects.poll(messages) {
             self.recent.remember(&path);
-            messages.note(format!("saved {}", path.display()));
+            messages.note("saved", Written::file(path.clone()));
             // Something else may have been opened meanwhile.
             if opening == self.table.opening {
                 (self.table.project, self.table.saved) = (Some(path), Some(document));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
-use super::{History, Message, Place, SaveRequest, Session, Surface};
+use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
 use crate::io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
 use crate::mesh::{Elements, Fault, TriMesh, VertexId};
@@ -64,8 +64,8 @@ impl Session {
         self.files.write(move || {
             let mut output = outcome.finished(&model, records, request.fit);
             output.picture = picture.as_deref();
-            output.write(request.kind, &request.path)?;
-            Ok(format!("wrote {} ({})", request.path.display(), output.verdict.summary()))
+            let files = output.write(request.kind, &request.path)?;
+            Ok(Written { files, about: Some(output.verdict.summary()) })
         });
     }
 
@@ -92,7 +92,7 @@ impl Session {
         self.files.write(move || {
             write_durably(&path, |out| write_constraints(out, &targets))?;
             let words = if targets.len() == 1 { "constraint" } else { "constraints" };
-            Ok(format!("wrote {} ({} {words})", path.display(), targets.len()))
+            Ok(Written { about: Some(format!("{} {words}", targets.len())), ..Written::file(path) })
         });
     }
 
@@ -103,7 +103,7 @@ impl Session {
         }
         self.files.write(move || {
             write_atomically(&path, |out| picture.write_png(out))?;
-            Ok(format!("wrote {}", path.display()))
+            Ok(Written::file(path))
         });
     }
 

@@ -1,5 +1,7 @@
 //! What the session has to tell a person: what happened, where, and what to do.
 
+use std::path::PathBuf;
+
 use super::{Failure, Session};
 use crate::mesh::VertexId;
 
@@ -36,12 +38,38 @@ pub struct Message {
     pub remedy: Option<String>,
     /// Vertices of the element concerned, to be shown; empty where it is about the whole.
     pub vertices: Vec<VertexId>,
+    /// Files that were written, the one asked for first.
+    pub files: Vec<PathBuf>,
+}
+
+/// What was written.
+#[derive(Debug)]
+pub(super) struct Written {
+    /// Every file, the one asked for first. They lie in one folder.
+    pub(super) files: Vec<PathBuf>,
+    /// What there is to say about it.
+    pub(super) about: Option<String>,
+}
+
+impl Written {
+    /// One file of which there is nothing to say.
+    pub(super) fn file(path: PathBuf) -> Self {
+        Self { files: vec![path], about: None }
+    }
+
+    /// The first file with its folder, the others by their names.
+    fn names(&self) -> String {
+        let others = self.files.iter().skip(1).map(|path| path.file_name().unwrap_or_default().to_string_lossy());
+        let first = self.files.first().map(|path| path.display().to_string());
+        first.into_iter().chain(others.map(Into::into)).collect::<Vec<String>>().join(", ")
+    }
 }
 
 impl Message {
     /// A failure. [`Messages::say`] gives it its number.
     pub(super) fn error(place: Place, text: impl Into<String>) -> Self {
-        Self { id: 0, severity: Severity::Error, place, text: text.into(), remedy: None, vertices: Vec::new() }
+        let (text, vertices, files) = (text.into(), Vec::new(), Vec::new());
+        Self { id: 0, severity: Severity::Error, place, text, remedy: None, vertices, files }
     }
 
     /// With what to do about it.
@@ -70,9 +98,12 @@ impl Messages {
         self.last_id
     }
 
-    /// Says that something went well.
-    pub(super) fn note(&mut self, text: String) {
-        self.say(Message { severity: Severity::Note, ..Message::error(Place::Embedding, text) });
+    /// Says that files were written. It takes the place of what was said of others before.
+    pub(super) fn note(&mut self, verb: &str, written: Written) {
+        self.forget_notes();
+        let about = written.about.as_ref().map_or_else(String::new, |about| format!(" ({about})"));
+        let message = Message::error(Place::Embedding, format!("{verb} {}{about}", written.names()));
+        self.say(Message { severity: Severity::Note, files: written.files, ..message });
     }
 
     /// Says that something did not work, and what to do about it.

@@ -27,7 +27,9 @@
 //! | `model`         | a mesh as it was opened                                                    |
 //! | `saving`        | projects on their way to the disk                                          |
 //! | `recovery`      | copies for recovery                                                        |
+//! | `folder`        | shows where a file lies                                                    |
 //! | `recent`        | the files opened last                                                      |
+//! | `preferences`   | how the window was left, kept between runs                                 |
 //! | `messages`      | part: what there is to tell a person                                       |
 //! | `background`    | slots for work on background threads                                       |
 
@@ -39,6 +41,7 @@ mod edits;
 mod errands;
 mod files;
 mod filing;
+mod folder;
 mod history;
 mod in_use;
 mod messages;
@@ -46,6 +49,7 @@ mod model;
 mod open_mesh;
 mod opened;
 mod outcome;
+mod preferences;
 mod recent;
 mod recovery;
 mod runs;
@@ -62,10 +66,11 @@ pub use background::{Background, Failure, Wake};
 pub use document::{Command, Document};
 pub use drag::Preview;
 pub use history::History;
-use messages::Messages;
 pub use messages::{Message, Place, Severity};
+use messages::{Messages, Written};
 pub use model::{Model, Surface};
 pub use outcome::{Outcome, Problem};
+pub use preferences::Preferences;
 pub use recent::RecentFiles;
 pub use recovery::{Recoverable, recovery_folder};
 pub use state::Session;

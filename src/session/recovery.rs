@@ -41,7 +41,12 @@ pub struct Recoverable {
 
 /// Where copies are kept on this system, `None` where it has no place for them.
 pub fn recovery_folder() -> Option<PathBuf> {
-    Some(system_folder(["XDG_STATE_HOME", "LOCALAPPDATA"], ".local/state")?.join("recovery"))
+    Some(state_folder()?.join("recovery"))
+}
+
+/// Where the program keeps what is its own from run to run.
+pub(super) fn state_folder() -> Option<PathBuf> {
+    system_folder(["XDG_STATE_HOME", "LOCALAPPDATA"], ".local/state")
 }
 
 /// The program's folder under the first of these variables that is set, or under a folder of the person's home.

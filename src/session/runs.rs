@@ -3,6 +3,7 @@
 use super::solving::{Next, Task};
 use super::stop::Goal;
 use super::{Command, Session};
+use crate::solver::{Family, Method, Settings};
 
 /// The most rounds of relaxing that are asked for at once.
 const RELAX_ROUNDS: usize = 20;
@@ -68,6 +69,26 @@ impl Session {
         if self.relax_by(RELAX_ROUNDS) {
             let rounds = self.document.relaxed.saturating_add(RELAX_ROUNDS);
             self.history.apply(Command::SetRelaxed(rounds), &mut self.document);
+        }
+    }
+
+    /// Takes all steps of the ladder, until the embedding is planar or nothing is left to try. Another method gives way
+    /// to it, as an edit.
+    pub(super) fn repair(&mut self) {
+        if !self.can_repair() {
+            return;
+        }
+        self.solving.follow_newest();
+        let before = self.document.settings;
+        if before.method == Method::Auto {
+            return self.go_on(Goal::End);
+        }
+        let family = if before.family.power().is_some() { before.family } else { Family::default() };
+        let settings = Settings { method: Method::Auto, family, ..before };
+        let edit = Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
+        if self.history.apply(edit, &mut self.document) {
+            self.drag.end();
+            self.begin(Goal::End);
         }
     }
 
@@ -139,6 +160,12 @@ impl Session {
     /// Whether a run that goes on by itself would take a step.
     pub fn can_run(&self) -> bool {
         self.disk().is_some() && !(self.is_current() && self.solving.stopped_for_good().is_some())
+    }
+
+    /// Whether the newest step is at fault, and the ladder has steps left that it has not taken.
+    pub fn can_repair(&self) -> bool {
+        let is_at_rest = !self.is_running() && self.preview().is_none() && !self.history.is_in_gesture();
+        is_at_rest && self.is_current() && self.solving.can_go_on_from_fault(&self.document.problem())
     }
 
     /// Whether the newest step is one-to-one, its constraints met, and its run waits to be taken on.

@@ -85,12 +85,44 @@ pub(in crate::ui) fn pairs(ui: &mut Ui, name: &str, spacing: [f32; 2], rows: imp
     Grid::new(name).num_columns(2).spacing(spacing).show(ui, rows);
 }
 
-/// A name and its number.
+/// A name and its number, which lies at the right. For those who do not see it the number says its name.
 pub(in crate::ui) fn number(ui: &mut Ui, name: &str, value: impl Into<String>) -> Response {
     let label = ui.label(name);
-    ui.monospace(value.into());
+    let value = value.into();
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.with_layout(layout, |ui| ui.monospace(&value).named(Role::Label, &format!("{name}: {value}")));
     ui.end_row();
     label
+}
+
+/// Numbers of one row under each other's columns, each so many letters wide, with one name for all of them.
+pub(in crate::ui) fn figures(ui: &mut Ui, name: &str, width: usize, values: &[String]) {
+    for value in values {
+        ui.monospace(format!("{value:>width$}")).named(Role::Label, &format!("{name}: {value}"));
+    }
+}
+
+/// The heads of such columns.
+pub(in crate::ui) fn heads(ui: &mut Ui, width: usize, words: &[String]) {
+    let weak = theme_of(ui).weak_text;
+    for words in words {
+        ui.label(RichText::new(format!("{words:>width$}")).monospace().color(weak));
+    }
+}
+
+/// A cross that closes something, painted at a place of its own.
+pub(in crate::ui) fn close_button(ui: &Ui, id: egui::Id, rect: egui::Rect, [name, tip]: [&str; 2]) -> Response {
+    let response = ui.interact(rect, id, egui::Sense::click());
+    let theme = theme_of(ui);
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, 3.0, theme.accent.gamma_multiply(0.2));
+    }
+    let half = egui::Vec2::splat(3.5);
+    let stroke = egui::Stroke::new(1.4, theme.text);
+    for arm in [half, egui::vec2(half.x, -half.y)] {
+        ui.painter().line_segment([rect.center() - arm, rect.center() + arm], stroke);
+    }
+    response.named(Role::Button, name).on_hover_text(tip)
 }
 
 pub(in crate::ui) fn counted(count: usize, one: &str, many: &str) -> String {

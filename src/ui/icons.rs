@@ -64,12 +64,18 @@ impl Sign {
     }
 }
 
+/// A check mark.
+pub(super) fn check(painter: &egui::Painter, rect: Rect, colour: Color32) {
+    let points = on_grid(rect, &[(4.0, 13.0), (10.0, 19.0), (20.0, 5.0)]);
+    painter.add(Shape::line(points, Stroke::new(1.8, colour)));
+}
+
 pub(super) fn sign(painter: &egui::Painter, rect: Rect, sign: Sign, theme: &Theme) {
     let colour = sign.colour(theme);
     let stroke = Stroke::new(1.8, colour);
     match sign {
         Sign::Good => {
-            painter.add(Shape::line(on_grid(rect, &[(4.0, 13.0), (10.0, 19.0), (20.0, 5.0)]), stroke));
+            check(painter, rect, colour);
         }
         Sign::Bad => {
             painter.add(Shape::line(on_grid(rect, &[(5.0, 5.0), (19.0, 19.0)]), stroke));

@@ -33,6 +33,7 @@ pub struct Binding {
 
 const NONE: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
+const ALT: Modifiers = Modifiers::ALT;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers { alt: false, ctrl: false, shift: true, mac_cmd: false, command: true };
 
@@ -42,6 +43,11 @@ const fn bind(modifiers: Modifiers, key: Key, about: &'static str, request: fn()
 
 /// All shortcuts.
 pub const BINDINGS: &[Binding] = &[
+    bind(ALT, Key::F, "The File menu; from there the arrows", || Request::OpenMenu(0)),
+    bind(ALT, Key::E, "The Edit menu", || Request::OpenMenu(1)),
+    bind(ALT, Key::V, "The View menu", || Request::OpenMenu(2)),
+    bind(ALT, Key::S, "The Solve menu", || Request::OpenMenu(3)),
+    bind(ALT, Key::H, "The Help menu", || Request::OpenMenu(4)),
     bind(CTRL_SHIFT, Key::Z, "Redo", || Request::Do(Action::Redo)),
     bind(CTRL, Key::Y, "Redo", || Request::Do(Action::Redo)),
     bind(CTRL, Key::Z, "Undo", || Request::Do(Action::Undo)),
@@ -79,6 +85,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::H, "Hull and pockets of the virtual boundary", || Request::ToggleHull),
     bind(NONE, Key::Tab, "The pane under the pointer in full size, and back", || Request::TogglePane),
     bind(NONE, Key::Escape, "End the gesture, then the tool, then the selection", || Request::Escape),
+    bind(NONE, Key::F10, "The File menu", || Request::OpenMenu(0)),
     bind(NONE, Key::F1, "This list", || Request::ToggleKeys),
     bind(NONE, Key::Questionmark, "This list", || Request::ToggleKeys),
 ];
@@ -154,6 +161,8 @@ impl Keyboard {
     fn leaves(&self, binding: &Binding) -> bool {
         let is_of_another = match binding.shortcut.logical_key {
             Key::Escape => self.menu_open,
+            // Once a control has the keyboard, Tab walks on to the next.
+            Key::Tab => self.focus != Focus::Nothing,
             Key::Space => self.menu_open || self.focus == Focus::Clickable,
             Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => self.menu_open || self.focus != Focus::Nothing,
             _ => false,
@@ -199,6 +208,7 @@ pub(super) const MOUSE: &[(&str, &str)] = &[
     ("Double click on the mesh", "Set the point to orbit about"),
     ("Click, Shift + click", "The tool's work; add to the selection"),
     ("Shift + click on a step", "Compare with it the step on the screen"),
+    ("Shift + Tab, then Tab", "From control to control"),
 ];
 
 /// What the arrow keys ask for in this frame, where pins are selected. They are then nobody else's.

@@ -11,8 +11,10 @@ pub const TOP_HEIGHT: f32 = 30.0;
 pub const BOTTOM_HEIGHT: f32 = 24.0;
 /// Width of the tool bar, points.
 pub const TOOLS_WIDTH: f32 = 44.0;
-/// Width of the panels at the right, points.
+/// Width of the panels at the right at the first start, points.
 pub const PANEL_WIDTH: f32 = 280.0;
+/// How narrow and how wide a person can make them, points.
+pub const PANEL_WIDTHS: egui::Rangef = egui::Rangef { min: 220.0, max: 420.0 };
 
 /// Colours of one of the two themes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Frame, Margin, Panel, Rect, Sense, Vec2};
 
 use super::keys;
-use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTH, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
+use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTHS, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
 use super::{Editor, Intent, Pane, Request};
 use crate::session::Action;
 use crate::ui::panels::{self, floating, menu, status, unsaved};
@@ -33,11 +33,9 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     editor.timeline.window_is_high = ui.available_height() >= CURVES_FROM;
     if editor.layout.panels_shown() {
         let frame = Frame::new().fill(fill).inner_margin(Margin::symmetric(12, 8));
-        Panel::right("panels")
-            .default_size(PANEL_WIDTH)
-            .size_range(220.0..=420.0)
-            .frame(frame)
-            .show(ui, |ui| panels::side_panel(ui, editor, &mut requests));
+        let panel = Panel::right("panels").default_size(editor.layout.panel_width()).size_range(PANEL_WIDTHS);
+        let shown = panel.frame(frame).show(ui, |ui| within(ui, |ui| panels::side_panel(ui, editor, &mut requests)));
+        editor.layout.set_panel_width(shown.response.rect.width());
     }
     if editor.has_disk() {
         Panel::bottom("timeline")
@@ -70,6 +68,15 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
     editor.host.end_pass();
+}
+
+/// Adds something in the room that there is, however much it would like to have.
+fn within(ui: &mut egui::Ui, add: impl FnOnce(&mut egui::Ui)) {
+    let room = ui.available_rect_before_wrap();
+    let mut part = ui.new_child(egui::UiBuilder::new().max_rect(room));
+    part.set_clip_rect(room.expand(4.0).intersect(ui.clip_rect()));
+    add(&mut part);
+    ui.advance_cursor_after_rect(room);
 }
 
 /// The two panes with the splitter between them, or one of them alone.

@@ -194,3 +194,32 @@ fn move_is_one_of_the_shadings() {
     window.menu(&["View", "Shading", "Move"]);
     assert_eq!(window.shadings(), [Shading::Move; 2]);
 }
+
+#[test]
+fn the_cross_of_the_legend_ends_the_comparison() {
+    let mut window = two_steps();
+    window.editor_mut().session.handle(Action::Compare(Some(0)));
+    window.settle();
+    window.click("Stop comparing");
+    assert_eq!(window.editor().session.timeline().compared(), None);
+    assert!(!window.has_button("Stop comparing") && !window.shows("Outline of step"));
+}
+
+#[test]
+fn the_panel_shows_the_numbers_of_both_steps_and_their_difference() {
+    let mut window = two_steps();
+    assert!(!window.shows("Compared"));
+    window.editor_mut().session.handle(Action::Compare(Some(0)));
+    window.settle();
+    assert!(window.shows("step 0") && window.shows("step 1"), "{:?}", window.words());
+    let timeline = window.editor().session.timeline();
+    let [before, now] = [0, 1].map(|step| timeline.outcome(step).expect("kept").distortion.summary.angle.mean);
+    let words = window.words().iter().map(|words| words.trim().to_owned()).collect::<Vec<_>>();
+    for value in [format!("{before:.3}"), format!("{now:.3}")] {
+        assert!(words.contains(&value), "{value} in {words:?}");
+    }
+    let difference = now - before;
+    let is_it =
+        |word: &String| word.parse::<f64>().is_ok_and(|number| (number - difference).abs() <= 5e-4 * difference.abs());
+    assert!(words.iter().any(is_it), "{difference} in {words:?}");
+}

@@ -144,3 +144,11 @@ fn another_mesh_has_another_hull() {
     window.open(&path);
     assert!(window.shows("This step has no virtual boundary"), "{:?}", window.words());
 }
+
+#[test]
+fn a_convex_boundary_says_that_all_of_it_is_pinned() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.choose("Method", "Convex boundary");
+    window.key(Key::H);
+    assert!(window.shows("24 of 24 boundary vertices pinned on a circle"), "{:?}", window.words());
+}

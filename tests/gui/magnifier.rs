@@ -169,3 +169,35 @@ fn a_crossing_of_the_cow_is_shown_with_its_ring() {
     assert!(window.has_ring_at(rect.center() + egui::vec2(0.0, 10.0)));
     assert!(window.harness.query_by_label(&inset(&window).expect("it shows")).is_some());
 }
+
+#[test]
+fn the_wheel_over_it_is_its_own() {
+    let mut window = folded();
+    let camera = window.editor().plane.pane.camera();
+    let before = factor(&window);
+    let middle = inset_rect(&window).center();
+    window.harness.hover_at(middle);
+    window.harness.run_steps(2);
+    for _ in 0..3 {
+        window.harness.event(egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Line,
+            delta: egui::vec2(0.0, 2.0),
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
+            modifiers: egui::Modifiers::NONE,
+        });
+        window.harness.run_steps(2);
+    }
+    assert!(factor(&window) > 2.0 * before, "{} after {before}", factor(&window));
+    assert_eq!(window.editor().plane.pane.camera(), camera, "what lies under it stays");
+}
+
+#[test]
+fn its_cross_closes_it_and_the_menu_opens_it_again() {
+    let mut window = folded();
+    let name = inset(&window).expect("it shows");
+    window.click(&format!("Close: {name}"));
+    assert_eq!(inset(&window), None);
+    window.menu(&["View", "Magnifier"]);
+    assert!(inset(&window).is_some());
+}

@@ -4,6 +4,7 @@
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
 mod actions;
+mod advice;
 mod artist;
 mod compare;
 mod constrained;
@@ -25,6 +26,7 @@ mod pane_shading;
 mod panels;
 mod picture_filter;
 mod pictures;
+mod preferences;
 mod presses;
 mod render;
 mod render_work;
@@ -33,6 +35,7 @@ mod shaders;
 mod shortcuts;
 mod timeline;
 mod timeline_run;
+mod toast;
 mod unsaved;
 mod walk;
 mod window;

@@ -3,7 +3,7 @@
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
 use freebound::ui::{BINDINGS, Pane, Request, Shading, StepTarget, Tool};
@@ -95,6 +95,10 @@ fn shortcuts_do_what_the_table_says() {
             Request::ToggleWireframe => editor.look.wireframe,
             Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
             Request::Escape => editor.tools.tool() == Tool::Select,
+            Request::OpenMenu(place) => {
+                let first = ["Open…", "Undo", "Shading", "Take one step", "All keys"][place];
+                window.has_button(first)
+            }
             Request::ToggleKeys => editor.layout.keys_shown,
             other => panic!("{other:?} has a key that no test knows"),
         };
@@ -161,6 +165,7 @@ fn escape_closes_what_has_the_keyboard() {
 fn a_slide_of_weights_by_keys_and_a_drag_are_two_undo_steps() {
     let mut window = window();
     pin(&mut window, &[0, 40, 80]);
+    window.choose("Weights", "Power");
     let before = document(&window);
     window.harness.get_by_role_and_label(Role::Slider, "Power of the weights").focus();
     window.step();
@@ -198,4 +203,63 @@ fn shift_and_tab_walk_through_the_controls() {
     window.press(Modifiers::SHIFT, Key::Tab);
     assert_eq!(window.editor().layout.full(), None);
     assert!(window.harness.ctx.memory(egui::Memory::focused).is_some());
+}
+
+#[test]
+fn menus_are_opened_and_walked_through_by_the_keyboard_alone() {
+    let mut window = window();
+    window.key(Key::F10);
+    assert!(window.has_button("Open…"), "the File menu");
+    window.key(Key::Escape);
+    assert!(!window.has_button("Open…"));
+    window.press(Modifiers::ALT, Key::V);
+    assert!(window.has_button("Wireframe") && !window.editor().look.wireframe);
+    assert_eq!(window.editor().tools.tool(), Tool::Select, "V alone is another key");
+    for _ in 0..20 {
+        let focused = window.harness.query_by(|node| node.is_focused()).and_then(|node| node.accesskit_node().label());
+        if focused.is_some_and(|name| name.starts_with("Wireframe")) {
+            break;
+        }
+        window.key(Key::ArrowDown);
+    }
+    window.key(Key::Enter);
+    assert!(window.editor().look.wireframe, "reached by the arrows");
+}
+
+#[test]
+fn tab_walks_on_once_a_control_has_the_keyboard() {
+    let mut window = window();
+    window.press(Modifiers::SHIFT, Key::Tab);
+    let focused = |window: &Window| window.harness.ctx.memory(egui::Memory::focused);
+    let mut seen = vec![focused(&window)];
+    for _ in 0..200 {
+        window.key(Key::Tab);
+        if focused(&window) == seen[0] {
+            break;
+        }
+        seen.push(focused(&window));
+    }
+    assert_eq!(window.editor().layout.full(), None);
+    let clickable = window.controls().into_iter().filter(|(role, ..)| *role == Role::Button).count();
+    assert!(seen.len() >= clickable, "{} of {clickable} buttons at least", seen.len());
+    assert!(seen.iter().all(Option::is_some));
+}
+
+#[test]
+fn the_list_of_keys_is_in_groups() {
+    let mut window = window();
+    window.key(Key::F1);
+    let place = |words: &str| window.harness.get_by_role_and_label(Role::Label, words).rect().top();
+    let heads = ["Look", "Pin", "Step", "File", "Mouse"].map(place);
+    assert!(heads.is_sorted(), "{heads:?}");
+    let [look, pin, step, file, mouse] = heads;
+    for (words, from, to) in [
+        ("Wireframe", look, pin),
+        ("Redo", pin, step),
+        ("Take one step", step, file),
+        ("Save the project", file, mouse),
+    ] {
+        let at = window.harness.query_all_by_label(words).next().expect("listed").rect().top();
+        assert!((from..to).contains(&at), "{words} at {at} of {heads:?}");
+    }
 }

@@ -255,3 +255,67 @@ fn many_steps_scroll_and_the_one_on_the_screen_is_in_sight() {
         assert!(chip.right() < strip.left() && chip.left() > 0.0, "step {index} at {chip:?}");
     }
 }
+
+#[test]
+fn the_step_that_shows_is_always_in_sight_and_none_is_cut() {
+    for size in [egui::vec2(640.0, 420.0), SIZE] {
+        let mut window = at_first_start(size);
+        window.editor_mut().session.handle(Action::SetSettings(Settings::new(Method::Iterate, Family::MeanValue)));
+        window.settle();
+        for _ in 0..24 {
+            window.editor_mut().session.handle(Action::Step);
+            window.settle();
+        }
+        let newest = step_count(&window) - 1;
+        for wanted in [newest, 0, newest / 2, 3, newest] {
+            window.editor_mut().session.handle(Action::ShowStep(wanted));
+            window.settle();
+            assert_whole_steps(&window, wanted);
+        }
+        window.harness.set_size(egui::vec2(size.x - 0.0, size.y + 60.0));
+        window.settle();
+        assert_whole_steps(&window, newest);
+        window.editor_mut().handle(Request::TogglePanels);
+        window.settle();
+        assert_whole_steps(&window, newest);
+    }
+}
+
+/// That a step is in the row, and that all in the row have their whole width.
+fn assert_whole_steps(window: &Window, wanted: usize) {
+    let row: Vec<_> = window.controls().into_iter().filter(|(_, name, _)| name.starts_with("Step ")).collect();
+    let is_there = row.iter().any(|(_, name, _)| name.starts_with(&format!("Step {wanted}: ")));
+    assert!(is_there, "step {wanted} is not among {row:?}");
+    let seen = window.rect(Role::Button, "Where a run stops").left();
+    for (_, name, rect) in row {
+        assert!(rect.width() > 20.0 && rect.right() <= seen + 0.5, "{name} at {rect:?}, before {seen}");
+    }
+}
+
+#[test]
+fn curves_say_their_least_and_greatest_value() {
+    let window = with_four_steps();
+    let moves: Vec<f64> = window.editor().session.timeline().records().iter().filter_map(|r| r.max_move).collect();
+    let greatest = moves.iter().copied().fold(0.0, f64::max);
+    let flips = window.editor().session.timeline().records().iter().map(|r| r.flipped_faces).max().expect("steps");
+    let words = window.words();
+    let shows = |value: f64| words.iter().any(|w| w.parse::<f64>().is_ok_and(|w| (w - value).abs() <= 0.05 * value));
+    assert!(shows(greatest), "{greatest} in {words:?}");
+    assert!(words.contains(&flips.to_string()), "{flips} in {words:?}");
+}
+
+#[test]
+fn the_checker_keeps_its_scale_while_steps_are_played() {
+    let mut window = with_four_steps();
+    window.key(Key::Home);
+    let before = window.editor().look.check_size();
+    window.click("Play the steps");
+    for _ in 0..600 {
+        window.step();
+        assert_eq!(window.editor().look.check_size(), before);
+        if window.editor().timeline.playing_since.is_none() {
+            break;
+        }
+    }
+    assert_eq!(shown(&window), 3, "played to the end");
+}

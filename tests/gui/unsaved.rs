@@ -25,7 +25,7 @@ fn quitting_with_unsaved_work_asks_and_cancel_stays() {
     edit(&mut window);
     window.press(Modifiers::COMMAND, Key::Q);
     assert!(!window.editor().host.is_quitting());
-    assert!(window.shows("Save the changes to sheet"));
+    assert!(window.shows("Save the project sheet"));
     window.click("Cancel");
     assert!(!window.editor().host.is_quitting() && !window.editor().files.unsaved.is_asked());
     window.press(Modifiers::COMMAND, Key::Q);
@@ -131,7 +131,7 @@ fn a_project_opens_with_the_cameras_that_it_was_saved_with() {
         (window.editor().mesh.pane.camera().expect("a mesh"), window.editor().plane.pane.camera().expect("solved"));
     assert!(again.eye().distance(orbit.eye()) < 1e-9 && again.pivot().distance(orbit.pivot()) < 1e-9, "{again:?}");
     assert!(plane_again.center().distance(plane.center()) < 1e-9, "{plane_again:?}");
-    // What the pane shows is kept, and a bar with a message makes it a little lower.
+    // What the pane shows is kept, and the pane has its size again.
     let larger = plane_again.points_per_unit() / plane.points_per_unit();
     assert!((0.7..1.4).contains(&larger), "{larger}");
 }

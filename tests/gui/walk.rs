@@ -26,10 +26,23 @@ const ACTIONS: u32 = 300;
 const FRAMES: [f64; 8] = [0.001, 0.005, 0.016, 0.016, 0.016, 0.05, 0.2, 0.5];
 
 /// Keys that lead to files, or out of the window.
-const LEFT_OUT: [Key; 4] = [Key::O, Key::S, Key::E, Key::Q];
+const LEFT_OUT: [Key; 5] = [Key::O, Key::S, Key::E, Key::Q, Key::F10];
 
 /// Buttons that do, or that bring another mesh.
-const NOT_CLICKED: [&str; 6] = ["File", "Help", "Import…", "Export…", "Copy", "Solve "];
+const NOT_CLICKED: [&str; 12] = [
+    "File",
+    "Help",
+    "Import",
+    "Export",
+    "Copy",
+    "Solve ",
+    "Open",
+    "Recent",
+    "Examples",
+    "Save",
+    "Quit",
+    "Show in folder",
+];
 
 struct Walk {
     window: Window,

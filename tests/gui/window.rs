@@ -3,7 +3,7 @@
 use eframe::egui;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, Vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::app::Start;
 use freebound::examples::Example;
 use freebound::io::Target;
@@ -135,8 +135,8 @@ fn no_two_controls_of_a_state_have_the_same_role_and_name() {
         let controls = window.controls();
         for (i, (role, name, _)) in controls.iter().enumerate() {
             let twice = controls[i + 1..].iter().any(|(other, same, _)| role == other && name == same);
-            // "Solve" is a menu and a button, "Conformal" an entry and a shortcut to it: both do what they say.
-            let allowed = ["Solve", "Panels", "Conformal", "Mean value", "Wachspress", ""].contains(&name.as_str());
+            // "Solve" is a menu and a button: both do what they say.
+            let allowed = ["Solve", "Panels", ""].contains(&name.as_str());
             let allowed = allowed || *role == Role::Label;
             assert!(!twice || allowed, "{state}: {role:?} {name:?}");
         }
@@ -373,4 +373,18 @@ fn quit_closes_the_window() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     window.press(Modifiers::COMMAND, Key::Q);
     assert!(window.editor().host.is_quitting());
+}
+
+#[test]
+fn switches_of_the_view_menu_say_whether_they_are_on() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
+    let is_on = |window: &Window, name: &str| {
+        let node = window.harness.get_by_role_and_label(Role::Button, name);
+        node.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    window.click("View");
+    assert!(!is_on(&window, "Wireframe") && is_on(&window, "Magnifier"));
+    window.click("Wireframe");
+    window.click("View");
+    assert!(is_on(&window, "Wireframe"));
 }

@@ -12,22 +12,29 @@ pub(super) struct Beside<'a> {
     pub(super) mesh: &'a Path,
     /// Copies that are only planned, with their contents; none where they are written at once.
     planned: Option<BTreeMap<PathBuf, Vec<u8>>>,
+    /// Copies that were written.
+    written: Vec<PathBuf>,
 }
 
 impl<'a> Beside<'a> {
     /// Copies are written.
     pub(super) fn writing(mesh: &'a Path) -> Self {
-        Self { mesh, planned: None }
+        Self { mesh, planned: None, written: Vec::new() }
     }
 
     /// Nothing is written: [`planned`](Self::planned) tells what would be.
     pub(super) fn planning(mesh: &'a Path) -> Self {
-        Self { mesh, planned: Some(BTreeMap::new()) }
+        Self { mesh, planned: Some(BTreeMap::new()), written: Vec::new() }
     }
 
     /// The files that would lie beside the mesh.
     pub(super) fn planned(self) -> Vec<PathBuf> {
         self.planned.unwrap_or_default().into_keys().collect()
+    }
+
+    /// The files that were written beside the mesh, in their order.
+    pub(super) fn written(self) -> Vec<PathBuf> {
+        self.written
     }
 
     /// Puts a file beside the mesh, unless it is there, and returns its name. Names are without blanks, which not all
@@ -45,6 +52,7 @@ impl<'a> Beside<'a> {
             planned.insert(place.clone(), bytes.to_vec());
         } else if !holds(&place, bytes) {
             write_atomically(&place, |out| out.write_all(bytes))?;
+            self.written.push(place.clone());
         }
         Ok(name_of(&place))
     }

@@ -41,13 +41,19 @@ pub(in crate::io) fn relocated<'a>(mesh: &'a ObjMesh, from: &Path, to: &Path) ->
 }
 
 /// As [`relocated`], and the libraries with their pictures are copied beside `to`, under other names where files of
-/// others have theirs. What is there already with the same contents is left as it is.
+/// others have theirs. What is there already with the same contents is left as it is. Returns the files written as well.
 ///
 /// # Errors
 ///
 /// The file that cannot be read or written.
-pub(in crate::io) fn copy_materials(mesh: &ObjMesh, from: &Path, to: &Path) -> Result<Vec<Statement>, WriteError> {
-    copy(mesh, from, &mut Beside::writing(to))
+pub(in crate::io) fn copy_materials(
+    mesh: &ObjMesh,
+    from: &Path,
+    to: &Path,
+) -> Result<(Vec<Statement>, Vec<PathBuf>), WriteError> {
+    let mut beside = Beside::writing(to);
+    let statements = copy(mesh, from, &mut beside)?;
+    Ok((statements, beside.written()))
 }
 
 /// Where the copies of the material libraries and their pictures are to lie beside `to`, if nothing else comes there.

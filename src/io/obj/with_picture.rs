@@ -43,7 +43,8 @@ impl PictureFile {
     ///
     /// Names in the files are relative and without blanks, which not all readers take. A picture that lies in the same
     /// folder already is named where it is; another one is copied byte for byte, and one that came from no file is written
-    /// as a PNG. Files of others are never written over. The mesh comes last, so that what it names is there.
+    /// as a PNG. Files of others are never written over. The mesh comes last, so that what it names is there. Returns the
+    /// files written, the mesh first.
     ///
     /// # Errors
     ///
@@ -53,8 +54,9 @@ impl PictureFile {
         path: &Path,
         mesh: &ObjMesh,
         coordinates: &Embedding,
-    ) -> Result<(), WriteError> {
-        let picture_name = put_picture(self, &mut Beside::writing(path))?;
+    ) -> Result<Vec<PathBuf>, WriteError> {
+        let mut beside = Beside::writing(path);
+        let picture_name = put_picture(self, &mut beside)?;
         let library = Self::library_beside(path);
         let library_name = name_of(&library);
         write_atomically(&library, |out| {
@@ -64,7 +66,8 @@ impl PictureFile {
             writeln!(out, "map_Kd {picture_name}")
         })?;
         let statements = with_material(mesh, &library_name);
-        write_atomically(path, |out| write_obj_with(out, mesh, &statements, coordinates))
+        write_atomically(path, |out| write_obj_with(out, mesh, &statements, coordinates))?;
+        Ok([path.to_owned(), library].into_iter().chain(beside.written()).collect())
     }
 }
 

@@ -27,7 +27,7 @@ pub(super) use self::running::{Next, Task};
 use self::running::{Resting, Running, Shared, take_steps};
 use super::stop::Goal;
 use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Timeline, Wake};
-use crate::solver::{Ending, Kept, Ladder, Phase, Prepared};
+use crate::solver::{Ending, Kept, Ladder, Method, Phase, Prepared};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
 const STEPS_WAITING: usize = 8;
@@ -106,6 +106,12 @@ impl Solving {
     /// Why the run is at rest, however often it is asked to go on.
     pub(super) fn stopped_for_good(&self) -> Option<Stop> {
         self.stop.reason_for_good(self.newest()?, self.ending)
+    }
+
+    /// Whether the newest step folds or crosses itself, and its run has not come to its own end.
+    pub(super) fn can_go_on_from_fault(&self, problem: &Problem) -> bool {
+        let is_open = self.ending.is_none() || problem.settings.method != Method::Auto;
+        self.newest().is_some_and(|newest| is_open && !newest.step.verdict.planar)
     }
 
     /// Whether the newest step is one-to-one, its constraints met, and its run waits to be taken on.

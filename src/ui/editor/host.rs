@@ -55,7 +55,7 @@ impl Host {
     }
 
     /// Seconds of the window's clock.
-    pub(super) fn now(&self) -> f64 {
+    pub(in crate::ui) fn now(&self) -> f64 {
         self.context.input(|input| input.time)
     }
 

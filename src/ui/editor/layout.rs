@@ -1,6 +1,9 @@
 //! What of the window is open: tab and panels, the panes' widths, floating windows.
 
 use super::{Pane, Tab};
+use crate::ui::panels::toast::Toast;
+use crate::ui::panes::inset::Zoom;
+use crate::ui::theme::{PANEL_WIDTH, PANEL_WIDTHS};
 
 /// A window narrower than this shows no panels until they are asked for, points.
 const PANELS_FROM: f32 = 820.0;
@@ -17,10 +20,18 @@ pub struct Layout {
     full: Option<Pane>,
     /// Share of the width that the mesh's pane has; half of it where nobody said.
     split: Option<f32>,
+    /// Width of the panels at the right, where a person has changed it, points.
+    panel_width: Option<f32>,
     pub keys_shown: bool,
     pub exports_shown: bool,
     /// What is typed into "go to", where it shows.
     pub go_to: Option<String>,
+    /// The good news that show.
+    pub(in crate::ui) toast: Option<Toast>,
+    /// How near the insets over the panes show.
+    pub(in crate::ui) inset_zoom: Zoom,
+    /// The menu that is to open, by its place in the bar.
+    pub(in crate::ui) menu_asked: Option<usize>,
 }
 
 impl Layout {
@@ -63,6 +74,18 @@ impl Layout {
 
     pub fn mesh_hidden(&self) -> bool {
         self.full == Some(Pane::Plane)
+    }
+
+    /// Width of the panels at the right, points.
+    pub fn panel_width(&self) -> f32 {
+        self.panel_width.unwrap_or(PANEL_WIDTH)
+    }
+
+    /// Takes in how wide the panels at the right are.
+    pub fn set_panel_width(&mut self, width: f32) {
+        if width.is_finite() {
+            self.panel_width = Some(width.clamp(PANEL_WIDTHS.min, PANEL_WIDTHS.max));
+        }
     }
 
     pub(in crate::ui) fn split(&self) -> f32 {

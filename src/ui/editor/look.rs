@@ -13,6 +13,9 @@ use crate::view::{self};
 /// How strongly the picture shows behind the embedding at the start.
 const OPACITY: f32 = 0.55;
 
+/// Fields of the checker across the embedding.
+const CHECKER_FIELDS: f64 = 40.0;
+
 /// How faces show in the two panes, and how strongly the picture behind the embedding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Appearance {
@@ -60,6 +63,8 @@ pub struct Look {
     picture: Option<(Arc<geom::Picture>, Arc<view::Picture>)>,
     /// Of the mesh's pane and of the embedding's; one and the same where both are coloured alike.
     paints: [Option<Arc<Paint>>; 2],
+    /// Side of a check in the plane, and the mesh by its revision that it was chosen for.
+    check: Option<(u64, f64)>,
 }
 
 impl Default for Look {
@@ -73,6 +78,7 @@ impl Default for Look {
             sampling: Sampling::Smooth,
             picture: None,
             paints: [None, None],
+            check: None,
         }
     }
 }
@@ -94,6 +100,22 @@ impl Look {
 
     pub(super) fn toggle_sharp(&mut self) {
         self.sampling = if self.is_sharp() { Sampling::Smooth } else { Sampling::Sharp };
+    }
+
+    /// Side of a check of the checker in the plane.
+    pub fn check_size(&self) -> f64 {
+        self.check.map_or(1.0, |(_, side)| side)
+    }
+
+    /// Chooses the checks' size for an embedding. It stays as long as it is about right, so that steps that are looked
+    /// at one after the other have the same; while they are played, it stays whatever they are. Call once per frame.
+    pub(super) fn refresh_checks(&mut self, plane: &PlaneScene, is_playing: bool) {
+        let model = plane.mesh.model_revision;
+        let wanted = plane.arrays.bounds.extent() / CHECKER_FIELDS;
+        let is_right = |side: f64| (0.5..=2.0).contains(&(wanted / side));
+        if self.check.is_none_or(|(of, side)| of != model || !(is_playing || is_right(side))) {
+            self.check = Some((model, wanted));
+        }
     }
 
     /// The picture as panes draw it, in its box in the plane, so strong behind the embedding.

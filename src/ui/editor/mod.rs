@@ -11,11 +11,13 @@
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
 //! | `look.rs` | how faces show: shading of each pane, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
+//! | `kept.rs` | what of the window is kept between runs |
 //! | `opened.rs` | what the window keeps of the open document, and how it looks, for the project file |
 //! | `host.rs` | egui's context and the graphics card |
 //! | `views.rs` | what the cameras look at; defects |
 
 mod host;
+mod kept;
 mod layout;
 mod look;
 mod mesh_view;
@@ -141,6 +143,9 @@ impl Editor {
         }
         self.look.refresh_picture(self.session.document());
         self.poll_shot();
+        if let Some(plane) = self.plane.scene() {
+            self.look.refresh_checks(plane, self.timeline.playing_since.is_some());
+        }
         self.refresh_paints();
         self.host.note_work(self.session.busy().is_some(), Instant::now());
         let scenes_pending = self.mesh.is_making_scene() || self.plane.is_making_scene();

@@ -189,6 +189,8 @@ pub enum Request {
     ToggleWireframe,
     /// Shows or hides the inset that magnifies a defect.
     ToggleMagnifier,
+    /// Brings what an inset shows nearer by a factor: that of a defect by its place in the list, or that of a pair.
+    ZoomInset(Option<usize>, f64),
     /// Lets vertices glide from step to step, or not.
     ToggleEase,
     /// Shows or hides hull and pockets of the virtual boundary.
@@ -245,6 +247,8 @@ pub enum Request {
     LeaveTargets,
     /// Asks for an element to go to.
     AskGoTo,
+    /// Opens a menu of the bar by its place, for whoever has no mouse.
+    OpenMenu(usize),
     /// Shows or hides the list of keys.
     ToggleKeys,
     /// Follows the system's theme, or a fixed one.

@@ -31,6 +31,7 @@ impl Editor {
             Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
             Request::ToggleEase => self.look.glides = !self.look.glides,
             Request::ToggleMagnifier => self.look.magnifier = !self.look.magnifier,
+            Request::ZoomInset(of, by) => self.layout.inset_zoom.bring_nearer(of, by),
             Request::ToggleHull => self.plane.toggle_hull(),
             Request::SetStage(stage) => self.plane.set_stage(stage),
             Request::ShowTab(tab) => self.layout.show_tab(tab),
@@ -61,6 +62,7 @@ impl Editor {
             Request::LeaveFaces => self.opened.leave_faces(&self.session),
             Request::LeaveTargets => self.opened.leave_targets(&self.session),
             Request::AskGoTo => self.layout.go_to = Some(String::new()),
+            Request::OpenMenu(place) => self.layout.menu_asked = Some(place),
             Request::ToggleKeys => self.layout.keys_shown = !self.layout.keys_shown,
             Request::SetTheme(theme) => self.host.context().set_theme(theme),
             Request::SetFit(fit) => self.files.fit = fit,
@@ -119,7 +121,7 @@ impl Editor {
     }
 
     fn act(&mut self, action: Action) {
-        if matches!(action, Action::Step | Action::Run | Action::Relax | Action::ShowStep(_)) {
+        if matches!(action, Action::Step | Action::Run | Action::Relax | Action::Repair | Action::ShowStep(_)) {
             self.timeline.playing_since = None;
         }
         if matches!(action, Action::Open(_) | Action::OpenExample(_) | Action::Recover(_)) {

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{self, Pos2, RichText, Stroke, Vec2};
+use eframe::egui::{self, Pos2, RichText, Role, Stroke, Vec2};
 use glam::DVec2;
 
 use super::status::short;
@@ -106,7 +106,8 @@ fn table(ui: &mut egui::Ui, editor: &Editor, equation: &VertexEquation, requests
             }
             for value in [term.weight, term.offset, term.share] {
                 let colour = if value < 0.0 { theme.flipped } else { theme.text };
-                ui.label(RichText::new(format!("{:>8}", compact(value))).monospace().color(colour));
+                let label = ui.label(RichText::new(format!("{:>8}", compact(value))).monospace().color(colour));
+                label.named(Role::Label, &format!("Equation at {}: {}", term.neighbour, compact(value)));
             }
             ui.end_row();
         }

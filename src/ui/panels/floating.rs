@@ -8,6 +8,7 @@ use eframe::egui::{self, Align2, Key, Pos2, Rect};
 
 use crate::geom::Picture;
 use crate::io::{OutputFit, OutputKind};
+use crate::session::Action;
 use crate::ui::keys::{BINDINGS, Binding, MOUSE};
 use crate::ui::{Control, Editor, Element, Pane, Purpose, Request, pairs};
 
@@ -21,9 +22,45 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
     if editor.layout.exports_shown {
         exports_window(context, editor, requests);
     }
+    super::toast::toast(context, editor, requests);
     super::unsaved::question(context, editor, requests);
     if let Some(choice) = editor.files.dialogs.show(context) {
         editor.take_choice(choice);
+    }
+}
+
+/// What keys are for, in the list of keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Group {
+    Look,
+    Pin,
+    Step,
+    File,
+    Mouse,
+}
+
+impl Group {
+    const ALL: [Self; 5] = [Self::Look, Self::Pin, Self::Step, Self::File, Self::Mouse];
+
+    const fn title(self) -> &'static str {
+        ["Look", "Pin", "Step", "File", "Mouse"][self as usize]
+    }
+
+    const fn of(request: &Request) -> Self {
+        match request {
+            Request::SetTool(_)
+            | Request::UnpinSelected
+            | Request::Escape
+            | Request::Do(Action::Undo | Action::Redo) => Self::Pin,
+            Request::Do(_) | Request::RunOrPause | Request::GoToStep(_) | Request::StepDefect(_) => Self::Step,
+            Request::Ask(_)
+            | Request::SaveProject
+            | Request::ToggleExports
+            | Request::Quit
+            | Request::OpenMenu(_)
+            | Request::ToggleKeys => Self::File,
+            _ => Self::Look,
+        }
     }
 }
 
@@ -40,15 +77,21 @@ fn keys_window(context: &egui::Context, editor: &mut Editor) {
         .default_pos(context.content_rect().center())
         .show(context, |ui| {
             egui::ScrollArea::vertical().auto_shrink(false).max_height(height).show(ui, |ui| {
-                let keys = bindings.iter().map(|key| (context.format_shortcut(&key.shortcut), key.about));
-                let gestures = MOUSE.iter().map(|&(gesture, about)| (gesture.to_owned(), about));
-                pairs(ui, "keys", [24.0, 4.0], |ui| {
-                    for (input, about) in keys.chain(gestures) {
-                        ui.monospace(input);
-                        ui.label(about);
-                        ui.end_row();
-                    }
-                });
+                for group in Group::ALL {
+                    let of_group = bindings.iter().filter(|binding| Group::of(&(binding.request)()) == group);
+                    let keys = of_group.map(|key| (context.format_shortcut(&key.shortcut), key.about));
+                    let gestures = MOUSE.iter().filter(|_| group == Group::Mouse);
+                    let gestures = gestures.map(|&(gesture, about)| (gesture.to_owned(), about));
+                    ui.strong(group.title());
+                    pairs(ui, group.title(), [24.0, 4.0], |ui| {
+                        for (input, about) in keys.chain(gestures) {
+                            ui.monospace(input);
+                            ui.label(about);
+                            ui.end_row();
+                        }
+                    });
+                    ui.add_space(8.0);
+                }
             });
         });
 }

@@ -1,29 +1,46 @@
 //! The bar at the top: menus, what is open, and the verdict.
 
-use eframe::egui::{self, Button, RichText, Role, ThemePreference};
+use eframe::egui::{self, Button, RichText, Role, ThemePreference, WidgetInfo};
 
+use super::advice::advice;
 use super::floating::EXPORTS;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::io::OutputFit;
 use crate::session::Action;
-use crate::ui::{Control, Editor, Pane, Purpose, Request, Shading, StepTarget, Tab, Tool, keys_of, theme_of};
+use crate::ui::{Control, Editor, Pane, Purpose, Request, Shading, StepTarget, Tab, Tool, icons, keys_of, theme_of};
 
-pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+/// Blanks before the words of an entry that may have a check mark.
+const ROOM_FOR_MARK: &str = "      ";
+
+pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let asked = editor.layout.menu_asked.take();
+    let editor = &*editor;
     let bar = ui.max_rect();
     ui.horizontal_centered(|ui| {
         let menus = egui::MenuBar::new().ui(ui, |ui| {
             let mut menu = Menu { ui, editor, requests };
-            menu.part("File", file_menu);
-            menu.part("Edit", edit_menu);
-            menu.part("View", view_menu);
-            menu.part("Solve", solve_menu);
-            menu.part("Help", |menu| menu.item(true, "All keys", Request::ToggleKeys)).rect.right()
+            let help_menu = |menu: &mut Menu<'_>| menu.item(true, "All keys", Request::ToggleKeys);
+            let responses = [
+                menu.part("File", file_menu),
+                menu.part("Edit", edit_menu),
+                menu.part("View", view_menu),
+                menu.part("Solve", solve_menu),
+                menu.part("Help", help_menu),
+            ];
+            if let Some(response) = asked.and_then(|place| responses.get(place)) {
+                // With the keyboard's focus on its title, the arrows lead into it.
+                response.request_focus();
+                response.ctx.request_repaint();
+                egui::Popup::open_id(&response.ctx, egui::Popup::default_response_id(response));
+            }
+            responses[4].rect.right()
         });
         let right = ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let panels = ui.selectable_label(editor.layout.panels_shown(), "Panels");
             panels.on_hover_text("Show or hide the panels at the right").asks(Request::TogglePanels, requests);
             verdict_pill(ui, editor, requests);
+            advice(ui, editor, requests);
             ui.min_rect().left()
         });
         title_between(ui, bar, menus.inner..=right.inner, &title(editor));
@@ -69,6 +86,21 @@ impl Menu<'_> {
     /// An entry that is on or off.
     fn choice(&mut self, on: bool, words: &str, request: Request) {
         self.entry(true, Button::selectable(on, words), request);
+    }
+
+    /// An entry that switches something on and off, with a check mark where it is on.
+    fn switch(&mut self, on: bool, words: &str, request: Request) {
+        let button = Button::new(format!("{ROOM_FOR_MARK}{words}")).shortcut_text(keys_of(self.ui.ctx(), &request));
+        let response = self.ui.add(button);
+        if on {
+            let middle = response.rect.left_center() + egui::vec2(14.0, 0.0);
+            let square = egui::Rect::from_center_size(middle, egui::Vec2::splat(11.0));
+            icons::check(self.ui.painter(), square, theme_of(self.ui).text);
+        }
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, words));
+        if response.asks(request, self.requests) {
+            self.ui.close();
+        }
     }
 
     fn entry(&mut self, enabled: bool, button: Button<'_>, request: impl Into<Request>) {
@@ -165,13 +197,13 @@ fn view_menu(menu: &mut Menu<'_>) {
             menu.choice(is_on, shading.title(), Request::SetShading(shading));
         }
     });
-    menu.choice(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
-    menu.choice(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
-    menu.choice(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
-    menu.choice(editor.look.magnifier, "Magnifier", Request::ToggleMagnifier);
-    menu.choice(editor.look.glides, "Glide from step to step", Request::ToggleEase);
-    menu.choice(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
-    menu.choice(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
+    menu.switch(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
+    menu.switch(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
+    menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
+    menu.switch(editor.look.magnifier, "Magnifier", Request::ToggleMagnifier);
+    menu.switch(editor.look.glides, "Glide from step to step", Request::ToggleEase);
+    menu.switch(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
+    menu.switch(editor.timeline.curves_shown(), "Curves of the steps", Request::ToggleCurves);
     menu.ui.separator();
     menu.item(true, "Frame the selection, or all", Request::Frame);
     menu.item(true, "Go to…", Request::AskGoTo);
@@ -193,6 +225,7 @@ fn solve_menu(menu: &mut Menu<'_>) {
     menu.item(editor.has_disk(), "Take one step", Action::Step);
     let (run, can_run) = if session.is_running() { ("Pause the run", true) } else { ("Run on", session.can_run()) };
     menu.item(can_run, run, Request::RunOrPause);
+    menu.item(session.can_repair(), "Repair", Action::Repair);
     menu.item(session.can_relax(), "Relax", Action::Relax);
     menu.ui.separator();
     let [has_previous, has_next] = editor.steps_around();

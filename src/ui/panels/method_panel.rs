@@ -2,10 +2,15 @@
 
 use eframe::egui::{self, Role, WidgetInfo};
 
+use super::compare_panel::comparison;
+use super::status::short;
 use crate::session::{Action, Outcome};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
 use crate::ui::timeline::chips::residual_words;
-use crate::ui::{Control, Editor, Request, list, pairs, remark, sentence, tip_with_keys};
+use crate::ui::{Control, Editor, Request, figures, heads, list, number, pairs, remark, sentence, tip_with_keys};
+
+/// Letters of a number of the distortion.
+const FIGURE: usize = 8;
 
 /// The slider's ends: beyond them weights grow wild.
 const POWERS: std::ops::RangeInclusive<f64> = -1.0..=1.0;
@@ -33,9 +38,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
             ui.end_row();
         }
     });
-    if settings.method.uses_family()
-        && let Some(power) = settings.family.power()
-    {
+    if let (true, Family::Power(power)) = (settings.method.uses_family(), settings.family) {
         power_slider(ui, power, &mut edit);
     }
     let chosen = &mut edit.settings;
@@ -57,6 +60,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     solve_and_cancel(ui, editor, requests);
     if let Some(outcome) = editor.step_on_screen() {
         ui.add_space(8.0);
+        comparison(ui, &editor.session);
         distortion(ui, outcome);
         ui.add_space(4.0);
         numbers(ui, outcome);
@@ -214,55 +218,30 @@ fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
             wanted = Family::CONFORMAL_POWER;
         }
         if response.changed() || response.double_clicked() {
-            edit.settings.family = named_family(wanted);
+            // Rounded to what the slider shows.
+            edit.settings.family = Family::Power((wanted * 100.0).round() / 100.0);
             edit.slides = true;
         }
         // Neither a key nor a double click is the beginning of a drag: nothing else ends its gesture.
         let is_whole = response.changed() && !response.dragged() && !ui.ctx().text_edit_focused();
         edit.ends |= is_whole || response.double_clicked() || response.has_ended();
     });
-    ui.horizontal(|ui| {
-        for (words, power) in [("Wachspress", -1.0), ("Mean value", 0.0), ("Conformal", 1.0)] {
-            if ui.small_button(words).clicked() {
-                edit.settings.family = named_family(power);
-            }
-        }
-    });
-}
-
-/// The family of a power, by its own name where it has one. Powers are rounded to what the slider shows.
-fn named_family(power: f64) -> Family {
-    let power = (power * 100.0).round() / 100.0;
-    if power == Family::CONFORMAL_POWER {
-        Family::Conformal
-    } else if power == Family::WACHSPRESS_POWER {
-        Family::Wachspress
-    } else if power == 0.0 {
-        Family::MeanValue
-    } else {
-        Family::Power(power)
-    }
 }
 
 fn distortion(ui: &mut egui::Ui, outcome: &Outcome) {
     let summary = &outcome.distortion.summary;
     ui.strong("Distortion");
-    egui::Grid::new("distortion").num_columns(4).spacing([14.0, 4.0]).show(ui, |ui| {
-        for words in ["", "mean", "p99", "max"] {
-            ui.weak(words);
-        }
+    egui::Grid::new("distortion").num_columns(4).spacing([8.0, 4.0]).show(ui, |ui| {
+        ui.label("");
+        heads(ui, FIGURE, &["mean", "p99", "max"].map(str::to_owned));
         ui.end_row();
         for (name, spread) in [("Angle", summary.angle), ("Area", summary.area)] {
             ui.label(name);
-            for value in [spread.mean, spread.p99, spread.max] {
-                ui.monospace(figure(value));
-            }
+            figures(ui, name, FIGURE, &[spread.mean, spread.p99, spread.max].map(figure));
             ui.end_row();
         }
-        ui.label("Stretch");
-        ui.monospace(figure(summary.stretch_l2)).on_hover_text("L² stretch (Sander et al. 2001)");
-        ui.label("");
-        ui.monospace(figure(summary.stretch_linf)).on_hover_text("L∞ stretch");
+        ui.label("Stretch").on_hover_text("L² stretch (Sander et al. 2001), and at the right L∞ stretch");
+        figures(ui, "Stretch", FIGURE, &[figure(summary.stretch_l2), String::new(), figure(summary.stretch_linf)]);
         ui.end_row();
     });
 }
@@ -270,8 +249,10 @@ fn distortion(ui: &mut egui::Ui, outcome: &Outcome) {
 fn figure(value: f64) -> String {
     if !value.is_finite() {
         "∞".to_owned()
-    } else if value < 1e4 {
+    } else if value < 10.0 {
         format!("{value:.3}")
+    } else if value < 1e4 {
+        short(value)
     } else {
         format!("{value:.1e}")
     }
@@ -300,9 +281,7 @@ fn numbers(ui: &mut egui::Ui, outcome: &Outcome) {
     egui::CollapsingHeader::new("Numbers of the solve").default_open(false).show(ui, |ui| {
         pairs(ui, "numbers", [16.0, 4.0], |ui| {
             for (name, tip, value) in rows {
-                ui.label(name).on_hover_text(tip);
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.monospace(value));
-                ui.end_row();
+                number(ui, name, value).on_hover_text(tip);
             }
         });
     });

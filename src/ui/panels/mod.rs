@@ -4,14 +4,19 @@
 //! |---|---|
 //! | `mod.rs` | the tool bar at the left, the panel at the right with its tabs |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
+//! | `compare_panel.rs` | numbers of two steps that are compared |
 //! | `picture_panel.rs` | the picture's part of the pins' tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding's pane |
 //! | `menu.rs`, `verdict_pill.rs` | the menu bar and the verdict in it |
+//! | `advice.rs` | what to do next, beside the verdict |
 //! | `status.rs` | the status bar |
 //! | `floating.rs` | list of keys, "go to", the file dialog inside the window, exports, pictures of panes |
+//! | `toast.rs` | good news, for a few seconds |
 //! | `dialogs.rs` | choice of a file |
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
+mod advice;
+mod compare_panel;
 mod defects_panel;
 pub(super) mod dialogs;
 pub(super) mod equation_table;
@@ -21,6 +26,7 @@ pub(super) mod method_panel;
 mod picture_panel;
 mod pins_panel;
 pub(super) mod status;
+pub(super) mod toast;
 pub(super) mod unsaved;
 mod verdict_pill;
 mod vertex_panel;

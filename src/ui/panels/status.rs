@@ -68,11 +68,37 @@ fn numbers(editor: &Editor) -> String {
 /// A number with four digits that mean something.
 pub(in crate::ui) fn short(value: f64) -> String {
     let size = value.abs();
-    if size != 0.0 && !(1e-3..1e5).contains(&size) {
-        format!("{value:.3e}")
-    } else if size >= 100.0 {
-        format!("{value:.1}")
-    } else {
-        format!("{value:.4}")
+    match size {
+        0.0 => "0".to_owned(),
+        1e-3..1e-2 => format!("{value:.6}"),
+        1e-2..0.1 => format!("{value:.5}"),
+        0.1..1.0 => format!("{value:.4}"),
+        1.0..10.0 => format!("{value:.3}"),
+        10.0..100.0 => format!("{value:.2}"),
+        100.0..1e3 => format!("{value:.1}"),
+        1e3..1e5 => format!("{value:.0}"),
+        _ => format!("{value:.3e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_has_four_digits_that_mean_something() {
+        let expected = [
+            (0.0, "0"),
+            (0.001_234_56, "0.001235"),
+            (-0.412_345, "-0.4123"),
+            (1.0, "1.000"),
+            (31.415_9, "31.42"),
+            (2_718.28, "2718"),
+            (1.234_5e-7, "1.234e-7"),
+            (f64::INFINITY, "inf"),
+        ];
+        for (value, words) in expected {
+            assert_eq!(short(value), words);
+        }
     }
 }

@@ -119,11 +119,11 @@ pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests
     let name = editor.document_name();
     egui::Modal::new(egui::Id::unique("unsaved work")).show(context, |ui| {
         ui.set_width(340.0);
-        ui.strong(format!("Save the changes to {name}?"));
+        ui.strong(format!("Save the project {name}?"));
         ui.add_space(4.0);
         ui.label(match wish {
-            Wish::Quit => "They are lost when the window closes.",
-            Wish::Do(_) => "They are lost when something else opens.",
+            Wish::Quit => "Its changes are lost when the window closes.",
+            Wish::Do(_) => "Its changes are lost when something else opens.",
         });
         ui.add_space(12.0);
         ui.horizontal(|ui| {

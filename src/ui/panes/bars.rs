@@ -1,20 +1,34 @@
-//! Bars over a pane: messages, and what the window asks by itself: about work that a session before left, faces that
-//! point inward, targets that look mirrored.
+//! Bars over a pane: what did not work, and what the window asks by itself: about work that a session before left, faces
+//! that point inward, targets that look mirrored. They lie over the pane, which stays where it is.
 
-use eframe::egui::{self, Label, RichText, Sense, Vec2};
+use std::time::{Duration, SystemTime};
+
+use eframe::egui::{self, Label, Rect, RichText, Sense, Vec2};
 
 use crate::session::{Action, Message, Place, Severity};
 use crate::ui::icons::{self, Sign};
-use crate::ui::{Control, Editor, Offer, Pane, Request, sentence, theme_of};
+use crate::ui::{Control, Editor, Offer, Pane, Request, counted, sentence, theme_of};
 
-pub(super) fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
+/// Shows the bars at the upper edge of a pane.
+pub(super) fn over(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
+    let area = egui::Area::new(egui::Id::unique(("bars", pane == Pane::Mesh)));
+    area.movable(false).order(egui::Order::Middle).fixed_pos(rect.min).constrain_to(rect).show(ui.ctx(), |ui| {
+        ui.set_width(rect.width());
+        ui.set_max_height(rect.height());
+        ui.spacing_mut().item_spacing.y = 0.0;
+        bars(ui, editor, pane, requests);
+    });
+}
+
+fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     let session = &editor.session;
     let place = match pane {
         Pane::Mesh => Place::Mesh,
         Pane::Plane => Place::Embedding,
     };
     for left in session.recoverable().iter().filter(|_| pane == Pane::Mesh) {
-        let words = format!("Work on {} was not saved when the program ended", left.name);
+        let since = SystemTime::now().duration_since(left.time).unwrap_or_default();
+        let words = format!("Work on {} was not saved when the program ended. Its copy: {}", left.name, ago(since));
         let offers = [
             Offer::new("Recover", "Open it as it was", Action::Recover(left.path.clone())),
             Offer::new("Discard", "Forget it for good", Action::DiscardRecovery(left.path.clone())),
@@ -41,6 +55,21 @@ pub(super) fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mu
     message_bars(ui, editor, place, requests);
 }
 
+/// How long ago something was, in words.
+fn ago(since: Duration) -> String {
+    const MINUTE: u64 = 60;
+    const HOUR: u64 = 60 * MINUTE;
+    const DAY: u64 = 24 * HOUR;
+    let of =
+        |unit: u64, one: &str, many: &str| format!("{} ago", counted((since.as_secs() / unit) as usize, one, many));
+    match since.as_secs() {
+        ..MINUTE => "less than a minute ago".to_owned(),
+        MINUTE..HOUR => of(MINUTE, "minute", "minutes"),
+        HOUR..DAY => of(HOUR, "hour", "hours"),
+        DAY.. => of(DAY, "day", "days"),
+    }
+}
+
 fn warning(ui: &mut egui::Ui, words: &str, offers: [Offer; 2], requests: &mut Vec<Request>) {
     bar(ui, Sign::Warning, |ui| {
         ui.add(Label::new(words).wrap());
@@ -48,9 +77,10 @@ fn warning(ui: &mut egui::Ui, words: &str, offers: [Offer; 2], requests: &mut Ve
     });
 }
 
-/// Messages that belong to a pane: what happened, where, what to do. They stay until dismissed or mended.
+/// What did not work in a pane: what happened, where, what to do. It stays until dismissed or mended.
 fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: Place, requests: &mut Vec<Request>) {
-    let messages: Vec<&Message> = editor.session.messages().iter().filter(|m| m.place == place).collect();
+    let is_here = |message: &&Message| message.place == place && message.severity == Severity::Error;
+    let messages: Vec<&Message> = editor.session.messages().iter().filter(is_here).collect();
     if messages.is_empty() {
         return;
     }
@@ -63,11 +93,7 @@ fn message_bars(ui: &mut egui::Ui, editor: &Editor, place: Place, requests: &mut
 }
 
 fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
-    let sign = match message.severity {
-        Severity::Note => Sign::Good,
-        Severity::Error => Sign::Bad,
-    };
-    bar(ui, sign, |ui| {
+    bar(ui, Sign::Bad, |ui| {
         ui.add(Label::new(sentence(&message.text)).wrap());
         if let Some(remedy) = &message.remedy {
             let weak = theme_of(ui).weak_text;
@@ -81,7 +107,8 @@ fn message_bar(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>
 fn bar(ui: &mut egui::Ui, sign: Sign, add: impl FnOnce(&mut egui::Ui)) {
     let theme = theme_of(ui);
     let frame = egui::Frame::new()
-        .fill(sign.colour(theme).gamma_multiply(0.14))
+        .fill(theme.panel.lerp_to_gamma(sign.colour(theme), 0.14))
+        .stroke(egui::Stroke::new(1.0, theme.separator))
         .inner_margin(8)
         .outer_margin(egui::Margin::symmetric(4, 2));
     frame.show(ui, |ui| {
@@ -102,4 +129,22 @@ fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Requ
         ui.ctx().copy_text(message.text.clone());
     }
     ui.small_button("Dismiss").asks(Action::Dismiss(message.id), requests);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_is_said_in_its_largest_unit() {
+        for (seconds, words) in [
+            (3, "less than a minute ago"),
+            (60, "1 minute ago"),
+            (3_599, "59 minutes ago"),
+            (2 * 3_600 + 5, "2 hours ago"),
+            (3 * 86_400, "3 days ago"),
+        ] {
+            assert_eq!(ago(Duration::from_secs(seconds)), words);
+        }
+    }
 }

@@ -1,9 +1,10 @@
 //! The legend of a shading, and words in the panes about two steps that are compared.
 
-use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Stroke, Vec2};
+use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Role, Sense, Stroke, Vec2};
 
+use crate::session::Action;
 use crate::ui::theme::{on_screen, rgb, theme_of};
-use crate::ui::{Editor, Pane, Shading};
+use crate::ui::{Control, Editor, Pane, Request, Shading, close_button};
 
 /// Whether the embedding's pane has a legend of its own: where that of the mesh's pane does not speak for both.
 pub(super) fn plane_has_own(editor: &Editor) -> bool {
@@ -49,12 +50,15 @@ pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
     }
 }
 
-/// Says in the pane's lower left corner which step the outline is of.
-pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
+/// Says in the pane's lower left corner which step the outline is of; a cross ends the comparison.
+pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor, requests: &mut Vec<Request>) {
     let Some(step) = editor.plane.ghost_step().filter(|_| rect.width() >= 180.0) else { return };
     let theme = theme_of(ui);
     let height = if plane_has_own(editor) && editor.look.legend(Pane::Plane).is_some() { 124.0 } else { 32.0 };
-    let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(150.0, 20.0));
+    let place = Rect::from_min_size(rect.left_bottom() + Vec2::new(12.0, -height), Vec2::new(172.0, 20.0));
+    // What lies under the note must not get clicks on it.
+    ui.interact(place, ui.scope_id().with("outline"), Sense::click_and_drag())
+        .named(Role::Group, "Legend of the outline");
     ui.painter_at(rect).rect_filled(place, 4.0, theme.panel.gamma_multiply(0.92));
     let middle = place.left_center() + Vec2::new(8.0, 0.0);
     let sample = [middle, middle + Vec2::new(18.0, 0.0)];
@@ -63,6 +67,10 @@ pub(super) fn ghost_note(ui: &mut egui::Ui, rect: Rect, editor: &Editor) {
     let text = Rect::from_min_max(place.min + Vec2::new(32.0, 0.0), place.max);
     let mut part = ui.new_child(egui::UiBuilder::new().max_rect(text));
     part.horizontal_centered(|ui| ui.add(egui::Label::new(words).selectable(false)));
+    let id = ui.scope_id().with("close the outline");
+    let cross = Rect::from_center_size(place.right_center() - Vec2::new(11.0, 0.0), Vec2::splat(16.0));
+    let close = close_button(ui, id, cross, ["Stop comparing", "Compare no more: the outline goes"]);
+    close.asks(Action::Compare(None), requests);
 }
 
 /// Says why nothing is coloured where moves are asked for and there are none.

@@ -4,9 +4,10 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{self, Align2, CursorIcon, FontId, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Vec2};
+use eframe::egui::{self, Align2, CursorIcon, FontId, Pos2, Rect, Role, Stroke, StrokeKind, Vec2};
 use glam::DVec2;
 
+use super::inset::{Inset, Kind};
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis};
 use super::{mesh_pane, plane_pane};
@@ -84,11 +85,14 @@ impl Magnifier {
         let pane = view.rect;
         let side = DEFECT.side_in(pane)?;
         let shown = neighbourhood(scene, defect)?;
+        let shown = nearer(shown, editor.layout.inset_zoom.factor(Some(place)));
         let camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
         let looks_at = Rect::from_two_pos(view.spot(shown.low), view.spot(shown.high));
         let magnification = camera.points_per_unit() / view.camera.points_per_unit();
         let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at.center(), GAP);
-        (magnification > 1.0).then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
+        // What a person has brought farther away stays: the wheel brings it back.
+        let is_wanted = magnification > 1.0 || editor.layout.inset_zoom.is_set(Some(place));
+        is_wanted.then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
     }
 
     /// Draws the inset and the frame on the layout; a click goes there.
@@ -101,7 +105,7 @@ impl Magnifier {
         let font = FontId::proportional(11.0);
         painter.text(title, Align2::LEFT_CENTER, format!("× {}", self.factor()), font.clone(), theme.text);
         if self.rect.width() >= ROOM_FOR_WORDS {
-            let right = Pos2::new(self.rect.right() - 8.0, title.y);
+            let right = Pos2::new(self.rect.right() - 24.0, title.y);
             painter.text(right, Align2::RIGHT_CENTER, self.defect.words(), font, theme.weak_text);
         }
         let picture = Rect::from_min_max(self.rect.min + Vec2::new(0.0, TITLE), self.rect.max);
@@ -114,12 +118,14 @@ impl Magnifier {
     }
 
     fn click(&self, ui: &egui::Ui, requests: &mut Vec<Request>) {
-        // Drags as well: a pin under the inset must not get them.
-        let response = ui.interact(self.rect, ui.scope_id().with("magnifier"), Sense::click_and_drag());
         let name = format!("Magnifier: {}, × {}", self.defect.words(), self.factor());
         let keys = keys_of(ui.ctx(), &Request::StepDefect(1));
-        let tip = format!("A defect from near by. Click to go there; {keys} goes to the next");
-        let response = response.named(Role::Button, &name).on_hover_cursor(CursorIcon::PointingHand).on_hover_text(tip);
+        let tip =
+            format!("A defect from near by: the wheel brings it nearer. Click to go there; {keys} goes to the next");
+        let inset =
+            Inset { kind: Kind::Defect, rect: self.rect, role: Role::Button, name: &name, of: Some(self.place) };
+        let response = inset.interact(ui, requests);
+        let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(tip);
         response.asks(Request::GoToDefect(self.place), requests);
     }
 
@@ -164,6 +170,12 @@ impl Magnifier {
             factor => format!("{factor:.0e}"),
         }
     }
+}
+
+/// A part of the plane about the same middle, seen nearer.
+fn nearer(shown: Bounds, factor: f64) -> Bounds {
+    let half = shown.size() / (2.0 * factor);
+    Bounds { low: shown.middle() - half, high: shown.middle() + half }
 }
 
 /// The part of the plane around a defect.
@@ -224,15 +236,22 @@ fn pair_inset(pane: Rect, looks_at: Pos2) -> Option<Rect> {
 }
 
 /// The pair's inset over the mesh's pane.
-pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &MeshScene) {
+pub(super) fn over_mesh(
+    ui: &egui::Ui,
+    view: Viewport<OrbitCamera>,
+    editor: &Editor,
+    scene: &MeshScene,
+    requests: &mut Vec<Request>,
+) {
     let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.look.magnifier) else { return };
     let Some(&position) = scene.mesh().positions.get(vertex.index()) else { return };
     let Some(inset) = view.spot(position).and_then(|at| pair_inset(view.rect, at)) else { return };
+    let zoom = editor.layout.inset_zoom.factor(None);
     let mut camera = view.camera;
-    camera.frame(Sphere { center: position, radius: PART * scene.sphere.radius }, pane::size_of(inset));
+    camera.frame(Sphere { center: position, radius: PART * scene.sphere.radius / zoom }, pane::size_of(inset));
     let reach = |camera: &OrbitCamera| camera.eye().distance(position);
     let enlarges = reach(&view.camera) / reach(&camera) * f64::from(inset.height() / view.rect.height());
-    if enlarges < LEAST_MAGNIFICATION {
+    if enlarges < LEAST_MAGNIFICATION && !editor.layout.inset_zoom.is_set(None) {
         return;
     }
     let theme = theme_of(ui);
@@ -242,17 +261,26 @@ pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Edi
         ui.painter().add(render::mesh_pane(PaneId("pair on mesh"), inset, frame));
     }
     pane::halo(&ui.painter_at(inset), inset.center(), theme.selection, 7.0);
-    close(ui, inset, &format!("Magnifier: {vertex} on the mesh"), enlarges);
+    let name = format!("Magnifier: {vertex} on the mesh");
+    let shown = Inset { kind: Kind::PairOnMesh, rect: inset, role: Role::Image, name: &name, of: None };
+    close(ui, &shown, enlarges, requests);
 }
 
 /// The pair's inset over the embedding's pane.
-pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &PlaneScene) {
+pub(super) fn over_plane(
+    ui: &egui::Ui,
+    view: Viewport<PlaneCamera>,
+    editor: &Editor,
+    plane: &PlaneScene,
+    requests: &mut Vec<Request>,
+) {
     let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
     let Some(inset) = pair_inset(view.rect, view.spot(target)) else { return };
-    let half = DVec2::splat(PART / 2.0 * editor.with_picture(plane.arrays.bounds).extent());
+    let zoom = editor.layout.inset_zoom.factor(None);
+    let half = DVec2::splat(PART / 2.0 / zoom * editor.with_picture(plane.arrays.bounds).extent());
     let camera = PlaneCamera::framing(Bounds { low: target - half, high: target + half }, pane::size_of(inset));
     let enlarges = camera.points_per_unit() / view.camera.points_per_unit();
-    if enlarges < LEAST_MAGNIFICATION {
+    if enlarges < LEAST_MAGNIFICATION && !editor.layout.inset_zoom.is_set(None) {
         return;
     }
     let theme = theme_of(ui);
@@ -274,11 +302,14 @@ pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Ed
     }
     painter.circle_stroke(inset.center(), 11.0, Stroke::new(1.0, theme.selection));
     let words = editor.vertex_in_hand().map_or_else(|| "the target".to_owned(), |v| format!("the target of {v}"));
-    close(ui, inset, &format!("Magnifier: {words}"), enlarges);
+    let name = format!("Magnifier: {words}");
+    let shown = Inset { kind: Kind::PairInPlane, rect: inset, role: Role::Image, name: &name, of: None };
+    close(ui, &shown, enlarges, requests);
 }
 
 /// Edge, name and how much larger: what both insets of a pair end with.
-fn close(ui: &egui::Ui, inset: Rect, name: &str, enlarges: f64) {
+fn close(ui: &egui::Ui, shown: &Inset<'_>, enlarges: f64, requests: &mut Vec<Request>) {
+    let inset = shown.rect;
     let theme = theme_of(ui);
     let painter = ui.painter_at(inset.expand(1.0));
     painter.rect_stroke(inset, 4.0, Stroke::new(1.0, theme.weak_text), StrokeKind::Inside);
@@ -287,7 +318,5 @@ fn close(ui: &egui::Ui, inset: Rect, name: &str, enlarges: f64) {
     let under = Align2::LEFT_TOP.anchor_size(corner, galley.size()).expand(3.0);
     painter.rect_filled(under, 3.0, theme.panel.gamma_multiply(0.85));
     painter.galley(corner, galley, theme.text);
-    // Clicks and drags as well: what lies under the inset must not get them.
-    let response = ui.interact(inset, ui.scope_id().with(("pair magnifier", name)), Sense::click_and_drag());
-    response.named(Role::Image, name);
+    shown.interact(ui, requests);
 }

@@ -15,9 +15,6 @@ use crate::ui::editor::views::picture_box;
 use crate::ui::{Editor, Pane, Request, Shading, Theme, Tool, theme_of};
 use crate::view::{OrbitCamera, Visibility};
 
-/// Fields of the checker across the embedding.
-const CHECKER_FIELDS: f64 = 40.0;
-
 /// Opacity of the mark of a selected vertex that the mesh hides.
 const HIDDEN: f32 = 0.4;
 
@@ -29,8 +26,8 @@ const MARKS_SHOWN: usize = 2000;
 
 pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Mesh, requests);
-    bars::bars(ui, editor, Pane::Mesh, requests);
     let (rect, response) = pane::surface(ui, "3D view of the mesh");
+    bars::over(ui, rect, editor, Pane::Mesh, requests);
     editor.mesh.pane.set_rect(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
@@ -69,7 +66,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     marks(ui, view, editor, &scene);
     legend::legend(ui, rect, editor, Pane::Mesh);
     legend::no_move_note(ui, rect, editor, Pane::Mesh);
-    magnifier::over_mesh(ui, view, editor, &scene);
+    magnifier::over_mesh(ui, view, editor, &scene, requests);
 }
 
 /// Camera moves: turntable, pan, zoom to the pointer, pivot.
@@ -135,11 +132,10 @@ pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
         Shading::Move if editor.plane.moved_from(&editor.session).is_none() => render::Shading::Plain,
         Shading::Angle | Shading::Area | Shading::Stretch | Shading::Move => render::Shading::Paint,
     };
-    let extent = editor.plane.scene().map_or(1.0, |plane| plane.arrays.bounds.extent());
     Style {
         shading,
         wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 },
-        check_size: extent / CHECKER_FIELDS,
+        check_size: editor.look.check_size(),
         face_opacity: if chosen == Shading::SeeThrough { THIN_FILL } else { 1.0 },
         ..Style::default()
     }

@@ -9,12 +9,14 @@
 //! | `legend.rs` | the legend of a shading, words about steps that are compared |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
 //! | `magnifier.rs` | the insets that magnify a defect, and the halves of a pair |
+//! | `inset.rs` | what both kinds of insets share: the wheel over them, the cross that closes them |
 //! | `pin_drag.rs` | a pin dragged with the pointer |
 //! | `pins.rs` | kinds of pins and their marks |
 //! | `vertex_menu.rs` | what a secondary click on a vertex or a pin offers |
 
 mod bars;
 pub(super) mod constrain;
+pub(super) mod inset;
 mod legend;
 mod magnifier;
 pub(super) mod mesh_pane;

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, style};
 use super::pane::{self, Viewport};
-use super::{bars, constrain, legend, magnifier, pin_drag, pins, vertex_menu};
+use super::{bars, constrain, inset, legend, magnifier, pin_drag, pins, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::Surface;
@@ -23,8 +23,8 @@ const MARKS_SHOWN: usize = 2000;
 
 pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     pane::header(ui, editor, Pane::Plane, requests);
-    bars::bars(ui, editor, Pane::Plane, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
+    bars::over(ui, rect, editor, Pane::Plane, requests);
     editor.lay_out_plane(rect);
     let theme = theme_of(ui);
     ui.painter_at(rect).rect_filled(rect, 0.0, theme.background);
@@ -56,7 +56,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     equation_table::draw(ui, view, editor, &plane);
     if !plane.is_stage() {
         pin_drag::pins_ui(ui, view, editor, requests);
-        magnifier::over_plane(ui, view, editor, &plane);
+        magnifier::over_plane(ui, view, editor, &plane, requests);
     }
     if let Some(magnifier) = magnifier {
         magnifier.show(ui, editor, &plane, requests);
@@ -67,7 +67,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
         legend::no_move_note(ui, rect, editor, Pane::Plane);
     }
     if !plane.is_stage() {
-        legend::ghost_note(ui, rect, editor);
+        legend::ghost_note(ui, rect, editor, requests);
     }
 }
 
@@ -105,7 +105,7 @@ fn navigate(ui: &egui::Ui, response: &Response, camera: &mut PlaneCamera) {
         camera.pan(drag);
     }
     let pointer = ui.input(|input| input.pointer.latest_pos()).filter(|_| response.contains_pointer());
-    if let Some(pointer) = pointer {
+    if let Some(pointer) = pointer.filter(|_| !inset::has_wheel(ui)) {
         let wheel = pane::wheel(ui);
         if (wheel.zoom - 1.0).abs() > f64::EPSILON {
             camera.zoom_at(pane::in_pane(response.rect, pointer), wheel.zoom, pane::size_of(response.rect));

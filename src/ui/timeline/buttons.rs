@@ -101,8 +101,10 @@ pub(super) fn run_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec
     let session = &editor.session;
     let theme = theme_of(ui);
     let button = match session.status() {
-        // The one thing to do for whoever has just begun.
-        Status::Held => Button::new(RichText::new("Step").color(theme.panel)).fill(theme.accent),
+        // The one thing to do for whoever has just begun; where there is something to repair, that is.
+        Status::Held if !session.can_repair() => {
+            Button::new(RichText::new("Step").color(theme.panel)).fill(theme.accent)
+        }
         _ => Button::new("Step"),
     };
     let step = Action::Step.into();

@@ -150,6 +150,7 @@ impl<'a> Chip<'a> {
 
     /// All numbers of the step.
     fn tip(&self, ui: &mut egui::Ui) {
+        ui.set_max_width(300.0);
         ui.strong(title_of(self.record));
         pairs(ui, "numbers of a step", [16.0, 2.0], |ui| {
             for (name, value) in numbers_of(self.record, self.standing) {
@@ -172,7 +173,8 @@ pub(in crate::ui) fn chips(ui: &mut egui::Ui, editor: &mut Editor, requests: &mu
     let timeline = editor.session.timeline();
     let places = places(ui, timeline);
     let width = places.last().map_or(0.0, |place| place.max);
-    let scrolls_to = timeline.shown().filter(|_| editor.timeline.scrolled_to != timeline.shown());
+    let before = editor.timeline.scrolled_to;
+    let mut room = 0.0;
     ui.style_mut().always_scroll_the_only_direction = true;
     let area = ScrollArea::horizontal().id_salt("steps").auto_shrink([false, true]);
     area.show_viewport(ui, |ui, viewport| {
@@ -184,16 +186,23 @@ pub(in crate::ui) fn chips(ui: &mut egui::Ui, editor: &mut Editor, requests: &mu
                 middle - CHIP / 2.0..=middle + CHIP / 2.0,
             )
         };
+        room = viewport.width();
         for (index, place) in places.iter().enumerate() {
-            if place.max >= viewport.left() && place.min <= viewport.right() {
+            // Whole steps only: half a number is another number.
+            let is_whole = place.min >= viewport.left() - 0.5 && place.max <= viewport.right() + 0.5;
+            let is_wide = place.span() > room && place.max >= viewport.left() && place.min <= viewport.right();
+            if is_whole || is_wide {
                 Chip::new(timeline, index).show(ui, rect_of(place), timeline, requests);
             }
         }
-        if let Some(place) = scrolls_to.and_then(|shown| places.get(shown)) {
-            ui.scroll_to_rect(rect_of(place).expand2(egui::vec2(40.0, 0.0)), None);
+        let shown = timeline.shown().filter(|&shown| before != Some((shown, room)));
+        if let Some(place) = shown.and_then(|shown| places.get(shown)) {
+            let around = (0.5 * (room - place.span())).clamp(0.0, 40.0);
+            let rect = rect_of(place).expand2(egui::vec2(around, 0.0));
+            ui.scroll_to_rect_animation(rect, None, egui::style::ScrollAnimation::none());
         }
     });
-    editor.timeline.scrolled_to = editor.session.timeline().shown();
+    editor.timeline.scrolled_to = editor.session.timeline().shown().map(|shown| (shown, room));
 }
 
 /// Where each step lies, from left to right.

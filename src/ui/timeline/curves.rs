@@ -1,7 +1,7 @@
 //! The numbers of the steps as curves, side by side. A click goes to the step under the pointer.
 
-use eframe::egui::{self, Align, Color32, Layout, Rect, RichText, Role, Sense};
-use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoints, PlotResponse, Points, VLine};
+use eframe::egui::{self, Align, Align2, Color32, FontId, Layout, Rect, RichText, Role, Sense};
+use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotResponse, Points, VLine};
 
 use super::TimelineView;
 use super::buttons::lasting_menu;
@@ -18,6 +18,9 @@ const LEAST_WIDTH: f32 = 118.0;
 
 /// Between two curves, points.
 const GAP: f32 = 12.0;
+
+/// Size of the letters of the marks, points.
+const MARKS: f32 = 9.0;
 
 /// With more steps than this single points are not drawn.
 const MOST_POINTS: usize = 80;
@@ -118,7 +121,16 @@ impl Curve {
 
     /// The number of a step, where it has one.
     fn value_at(&self, timeline: &Timeline, index: usize) -> Option<f64> {
-        (self.value)(timeline.records().get(index)?, timeline.standings().get(index)?)
+        (self.value)(timeline.records().get(index)?, timeline.standings().get(index)?).filter(|value| value.is_finite())
+    }
+
+    /// The least and the greatest value of all steps.
+    fn ends(&self, timeline: &Timeline) -> Option<[f64; 2]> {
+        let values = (0..timeline.records().len()).filter_map(|index| self.value_at(timeline, index));
+        values.fold(None, |ends, value| match ends {
+            None => Some([value; 2]),
+            Some([least, greatest]) => Some([value.min(least), value.max(greatest)]),
+        })
     }
 
     /// A value in words.
@@ -179,6 +191,9 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
     });
     let PlotResponse { response, transform, .. } = plot(ui, curve, timeline);
     let response = response.named(Role::Image, &format!("Curve: {}", curve.about));
+    if let Some(ends) = curve.ends(timeline) {
+        marks(ui, curve, ends, &|height| transform.position_from_point(&PlotPoint::new(0.0, height)).y, response.rect);
+    }
     let Some(pointer) = response.hover_pos() else { return };
     let index = nearest(transform.value_from_position(pointer).x, records.len());
     ui.painter().with_clip_rect(response.rect).vline(
@@ -190,6 +205,38 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
     let value = curve.value_at(timeline, index);
     let words = value.map_or_else(|| "this step has no such number".to_owned(), |value| curve.words(value));
     response.on_hover_text_at_pointer(format!("Step {index}: {words}\n{}", curve.about));
+}
+
+/// The least and the greatest value at the left, and powers of ten as lines, their numbers at the right.
+fn marks(ui: &egui::Ui, curve: &Curve, ends: [f64; 2], height_on_screen: &dyn Fn(f64) -> f32, rect: Rect) {
+    let theme = theme_of(ui);
+    let painter = ui.painter().with_clip_rect(rect);
+    let font = FontId::proportional(MARKS);
+    let [least, greatest] = ends.map(|value| curve.height_of(value));
+    if curve.scale == CurveScale::Powers {
+        // What stands for 0 is no power.
+        for power in powers_within(least.max(LEAST_POWER + 1.0), greatest) {
+            let y = height_on_screen(f64::from(power));
+            painter.hline(rect.x_range(), y, egui::Stroke::new(1.0, theme.separator));
+            let at = egui::pos2(rect.right() - 2.0, y);
+            painter.text(at, Align2::RIGHT_BOTTOM, format!("1e{power}"), font.clone(), theme.weak_text);
+        }
+    }
+    let words = ends.map(|value| curve.words(value));
+    let at = |height: f64| height_on_screen(height).clamp(rect.top() + 1.3 * MARKS, rect.bottom());
+    let place = |height: f64| egui::pos2(rect.left(), at(height));
+    painter.text(place(greatest), Align2::LEFT_BOTTOM, &words[1], font.clone(), theme.weak_text);
+    if words[0] != words[1] {
+        painter.text(place(least), Align2::LEFT_BOTTOM, &words[0], font, theme.weak_text);
+    }
+}
+
+/// Whole powers of ten in a range, three at most, from one to the next by the same step.
+#[expect(clippy::cast_possible_truncation, reason = "powers of ten of f64 are below 400")]
+fn powers_within(least: f64, greatest: f64) -> Vec<i32> {
+    let (first, last) = (least.ceil() as i32, greatest.floor() as i32);
+    let step = ((last - first) / 3 + 1).max(1);
+    (first..=last).filter(|power| power.rem_euclid(step) == 0).collect()
 }
 
 /// The step nearest to a place.
@@ -237,7 +284,7 @@ fn base<'a>(theme: &Theme, curve: &Curve, points: &[[f64; 2]], count: usize) -> 
     };
     Plot::new(curve.title)
         .show_axes([false, false])
-        .show_grid([false, true])
+        .show_grid([false, curve.scale == CurveScale::Count])
         .grid_color(theme.separator)
         .grid_fade(0.0)
         .show_background(false)
@@ -259,4 +306,20 @@ fn base<'a>(theme: &Theme, curve: &Curve, points: &[[f64; 2]], count: usize) -> 
         .include_x(count.saturating_sub(1).max(1) as f64)
         .include_y(low)
         .include_y(high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_are_few_and_lie_within_the_range() {
+        assert_eq!(powers_within(-2.5, 0.4), [-2, -1, 0]);
+        assert_eq!(powers_within(0.2, 0.7), [0_i32; 0]);
+        for greatest in 0..40 {
+            let powers = powers_within(-17.0, f64::from(greatest));
+            assert!((1..=4).contains(&powers.len()), "{powers:?}");
+            assert!(powers.iter().all(|&power| (-17..=greatest).contains(&power)));
+        }
+    }
 }

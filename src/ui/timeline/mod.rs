@@ -48,8 +48,8 @@ pub struct TimelineView {
     pub curves_hidden: [bool; CURVE_COUNT],
     /// When the step on the screen was put there, while the steps are played; seconds of the window's clock.
     pub playing_since: Option<f64>,
-    /// The step that was scrolled to last.
-    scrolled_to: Option<usize>,
+    /// The step that was scrolled to last, and in how wide a row, points.
+    scrolled_to: Option<(usize, f32)>,
 }
 
 impl TimelineView {

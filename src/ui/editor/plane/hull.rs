@@ -20,7 +20,7 @@ use crate::geom::{Orientation, Similarity, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
 use crate::session::{Background, Wake};
-use crate::solver::{Embedding, Outline, Outside, VirtualBoundary};
+use crate::solver::{Choice, Embedding, Method, Outline, Outside, VirtualBoundary};
 use crate::ui::editor::scene::{Part, PlaneScene};
 use crate::ui::theme::Theme;
 use crate::view::{EdgeList, FaceList, FacePaint, PlaneCamera};
@@ -108,13 +108,14 @@ impl HullScene {
             Stage::Pockets | Stage::Solved => (&stages.hull, &stages.pockets),
             Stage::Peeled => (&[], &[]),
         };
-        let scene = Self { has_stages: true, ..Self::of_hull(hull, pockets, caption(stage, stages)) };
+        let disk = result.mesh.disk().expect("only a disk is solved");
+        let boundary = disk.boundary_loop().len();
+        let scene = Self { has_stages: true, ..Self::of_hull(hull, pockets, caption(stage, stages, boundary)) };
         let positions = match stage {
             Stage::Before | Stage::Pockets => &stages.before,
             Stage::Solved => &stages.solved,
             Stage::Peeled => return scene,
         };
-        let disk = result.mesh.disk().expect("only a disk is solved");
         let moved = moved_along(positions, disk, [&stages.solved, &result.outcome.step.solution.embedding]);
         let paint = FacePaint::plain(disk.face_count(), &flipped_faces(disk, positions));
         Self { plane: Some(Arc::new(result.of_part(Part::Stage, moved))), paint: Some(Arc::new(paint)), ..scene }
@@ -139,7 +140,13 @@ impl HullScene {
         let boundary = disk.boundary_loop();
         let points = result.outcome.step.solution.embedding.boundary(disk);
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
-        let caption = "This step has no virtual boundary; the line is the hull of the free one".to_owned();
+        let caption = match result.outcome.step.rung {
+            Method::Convex(shape) => {
+                let count = boundary.len();
+                format!("{count} of {count} boundary vertices pinned on {}", shape.words().about)
+            }
+            _ => "This step has no virtual boundary; the line is the hull of the free one".to_owned(),
+        };
         Self::of_hull(&corners, &[], caption)
     }
 
@@ -168,17 +175,19 @@ impl HullScene {
     }
 }
 
-fn caption(stage: Stage, stages: &VirtualBoundary) -> String {
+/// What a stage shows. Where vertices of the boundary were pinned on a circle, which nobody asked for, it says so.
+fn caption(stage: Stage, stages: &VirtualBoundary, boundary: usize) -> String {
     let outline = match stages.outline {
         Outline::Hull => "hull",
         Outline::Frame => "frame",
     };
+    let circle = match stages.pinned {
+        pinned if pinned > 2 => format!("{pinned} of {boundary} boundary vertices pinned on a circle. "),
+        _ => String::new(),
+    };
     match stage {
-        Stage::Before if stages.pinned > 2 => {
-            format!("{} boundary vertices on a circle, {outline} of {} corners", stages.pinned, stages.hull.len())
-        }
-        Stage::Before => format!("The step before, {outline} of {} corners", stages.hull.len()),
-        Stage::Pockets => format!("{} triangles up to the {outline}", stages.pockets.len()),
+        Stage::Before => format!("{circle}The step before, {outline} of {} corners", stages.hull.len()),
+        Stage::Pockets => format!("{circle}{} triangles up to the {outline}", stages.pockets.len()),
         Stage::Solved => format!("Mesh and outside together, {outline} fixed"),
         Stage::Peeled => stage.words()[1].to_owned(),
     }
@@ -292,5 +301,27 @@ impl PlaneView {
             self.pane.set_camera(framing);
             self.hull.cameras = Some([before, framing]);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stage_says_how_many_vertices_were_pinned_on_a_circle() {
+        let empty = || Embedding::from(Vec::new());
+        let stages = |pinned| VirtualBoundary {
+            pinned,
+            outline: Outline::Hull,
+            before: empty(),
+            weights_of_before: true,
+            hull: Vec::new(),
+            pockets: Vec::new(),
+            solved: empty(),
+        };
+        let words = |pinned| caption(Stage::Pockets, &stages(pinned), 410);
+        assert_eq!(words(23), "23 of 410 boundary vertices pinned on a circle. 0 triangles up to the hull");
+        assert_eq!(words(2), "0 triangles up to the hull", "two only fix place and size");
     }
 }

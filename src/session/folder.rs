@@ -1,0 +1,64 @@
+//! Shows where a file lies, in the system's own program for folders.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use super::files::Files;
+use super::{Messages, Place};
+
+/// The program that shows a folder.
+const PROGRAM: &str = if cfg!(target_os = "windows") {
+    "explorer"
+} else if cfg!(target_os = "macos") {
+    "open"
+} else {
+    "xdg-open"
+};
+
+/// Shows a folder in a program. Says why where that does not work.
+fn show(program: &str, folder: &Path) -> Result<(), String> {
+    let mut command = Command::new(program);
+    command.arg(folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let status = command.status().map_err(|error| format!("{program}: {error}"))?;
+    // The one of Windows fails even where it has shown the folder.
+    if status.success() || cfg!(target_os = "windows") { Ok(()) } else { Err(format!("{program} failed: {status}")) }
+}
+
+impl Files {
+    /// Shows the folder of a file, in the background: the program may take its time.
+    pub(super) fn show_folder(&mut self, file: PathBuf) {
+        let folder = std::path::absolute(&file).ok().and_then(|file| file.parent().map(PathBuf::from));
+        let folder = folder.unwrap_or_else(|| PathBuf::from("."));
+        self.shown.start(file, move |_| show(PROGRAM, &folder));
+    }
+
+    /// Says where a folder could not be shown.
+    pub(super) fn poll_folder(&mut self, messages: &mut Messages) {
+        match self.shown.poll() {
+            Some((file, Ok(Err(reason)))) => {
+                let text = format!("the folder of {} cannot be shown: {reason}", file.display());
+                messages.fail(Place::Embedding, text, Some("open it by hand"));
+            }
+            Some((_, Err(failure))) => messages.fail_background(Place::Embedding, "showing the folder", &failure),
+            Some((_, Ok(Ok(())))) | None => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_is_not_there_is_named() {
+        let reason = show("no-program-of-this-name", Path::new(".")).expect_err("nothing is called so");
+        assert!(reason.starts_with("no-program-of-this-name: "), "{reason}");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_program_that_fails_is_a_failure_and_one_that_does_not_is_none() {
+        assert!(show("false", Path::new(".")).is_err_and(|reason| reason.starts_with("false failed")));
+        assert_eq!(show("true", Path::new(".")), Ok(()));
+    }
+}

@@ -1,0 +1,68 @@
+//! How the window was left: kept between runs, beside the copies for recovery.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::recovery::state_folder;
+use crate::io::write_atomically;
+
+/// How the window was left. What is not there, or makes no sense, is as at the first start.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Preferences {
+    /// Whether the theme is dark; as the system has it where nobody chose.
+    pub dark: Option<bool>,
+    /// Whether the wireframe shows.
+    pub wireframe: bool,
+    /// Name of the shading of the mesh's pane.
+    pub mesh_shading: Option<String>,
+    /// Name of the shading of the embedding's pane.
+    pub plane_shading: Option<String>,
+    /// Width of the panels at the right, points.
+    pub panel_width: Option<f32>,
+    /// Width and height of the window, points.
+    pub window_size: Option<[f32; 2]>,
+}
+
+impl Preferences {
+    /// Reads what a run before left. A missing or broken file is none.
+    pub fn load(path: &Path) -> Self {
+        let text = std::fs::read_to_string(path).unwrap_or_default();
+        serde_json::from_str(&text).unwrap_or_default()
+    }
+
+    /// Writes them, aside first. Preferences that cannot be written are no reason to disturb anybody.
+    pub fn store(&self, path: &Path) {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).ok();
+        }
+        write_atomically(path, |out| serde_json::to_writer(out, self).map_err(Into::into)).ok();
+    }
+
+    /// Where they are kept on this system, `None` where it has no place for them.
+    pub fn default_store() -> Option<PathBuf> {
+        Some(state_folder()?.join("window.json"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_broken_file_and_numbers_of_another_kind_are_the_first_start() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("deep/window.json");
+        assert_eq!(Preferences::load(&path), Preferences::default());
+        let left = Preferences { dark: Some(true), panel_width: Some(300.0), ..Preferences::default() };
+        left.store(&path);
+        assert_eq!(Preferences::load(&path), left);
+        for text in ["", "{", "[1]", "{\"panel_width\": \"wide\"}", "null"] {
+            std::fs::write(&path, text).expect("written");
+            assert_eq!(Preferences::load(&path), Preferences::default(), "{text}");
+        }
+        std::fs::write(&path, "{\"dark\": true, \"of another version\": 1}").expect("written");
+        assert_eq!(Preferences::load(&path).dark, Some(true));
+    }
+}

@@ -1,0 +1,40 @@
+//! What of the window is kept between runs: theme, wireframe, shading, width of the panels, size of the window.
+
+use eframe::egui::{Theme, ThemePreference};
+
+use crate::session::Preferences;
+use crate::ui::{Editor, Pane};
+
+impl Editor {
+    /// How the window is left.
+    pub(crate) fn preferences(&self) -> Preferences {
+        let context = self.host.context();
+        let dark = match context.options(|options| options.theme_preference) {
+            ThemePreference::System => None,
+            ThemePreference::Dark => Some(true),
+            ThemePreference::Light => Some(false),
+        };
+        let shading = |pane| Some(self.look.usual.shading(pane).title().to_owned());
+        let size = context.content_rect().size();
+        Preferences {
+            dark,
+            wireframe: self.look.wireframe,
+            mesh_shading: shading(Pane::Mesh),
+            plane_shading: shading(Pane::Plane),
+            panel_width: Some(self.layout.panel_width()),
+            window_size: Some([size.x, size.y]),
+        }
+    }
+
+    /// Puts on how the window was left. Its size is put on when it opens.
+    pub(crate) fn put_on(&mut self, left: &Preferences) {
+        if let Some(dark) = left.dark {
+            self.host.context().set_theme(if dark { Theme::Dark } else { Theme::Light });
+        }
+        self.look.wireframe = left.wireframe;
+        self.put_on_shadings([left.mesh_shading.as_deref(), left.plane_shading.as_deref()]);
+        if let Some(width) = left.panel_width {
+            self.layout.set_panel_width(width);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What to do next, beside the verdict: repair an embedding that is at fault, relax one that is planar but distorted.
+
+use eframe::egui::{self, Button, RichText};
+
+use super::menu::grouped;
+use crate::session::{Action, Status};
+use crate::ui::{Control, Editor, Request, Theme, theme_of, tip_with_keys};
+
+/// Areas that differ by so much call for relaxing: a picture's pixel becomes a patch of ten by ten.
+const BADLY: f64 = 100.0;
+
+/// Width of the bar below which the advice is one word, points.
+const ROOMY: f32 = 1000.0;
+
+/// What is to be done next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Advice {
+    Repair,
+    /// With the greatest ratio of a face's area in the plane to that on the mesh, or the other way round.
+    Relax(f64),
+}
+
+impl Advice {
+    fn of(editor: &Editor) -> Option<Self> {
+        let session = &editor.session;
+        let is_at_rest = matches!(session.status(), Status::Held | Status::Current) && !editor.plane.is_moving(session);
+        let step = editor.step_on_screen().filter(|_| is_at_rest && editor.tools.dragged().is_none())?;
+        let greatest = step.distortion.summary.area.max;
+        if session.can_repair() && !step.step.verdict.planar {
+            Some(Self::Repair)
+        } else if session.can_relax() && step.step.verdict.planar && greatest >= BADLY {
+            Some(Self::Relax(greatest))
+        } else {
+            None
+        }
+    }
+
+    fn words(self, is_roomy: bool) -> String {
+        match self {
+            Self::Repair => "Repair".to_owned(),
+            Self::Relax(ratio) if is_roomy => format!("Areas differ {} : 1, Relax (R)", ratio_words(ratio)),
+            Self::Relax(_) => "Relax (R)".to_owned(),
+        }
+    }
+}
+
+/// Shows the one button in the accent's colour, where there is something to do.
+pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let Some(advice) = Advice::of(editor) else { return };
+    let words = advice.words(ui.ctx().content_rect().width() >= ROOMY);
+    let theme = theme_of(ui);
+    let (button, tip, action) = match advice {
+        Advice::Repair => {
+            let tip =
+                "Take all steps of the ladder, until the embedding is proved planar. Another method gives way to it";
+            (accented(words, theme), tip.to_owned(), Action::Repair)
+        }
+        Advice::Relax(ratio) => {
+            let tip = format!(
+                "Areas differ {} : 1 between mesh and embedding, at equal total areas. Relaxing lowers the distortion: \
+                 one-to-one throughout, constraints exact",
+                ratio_words(ratio)
+            );
+            (Button::new(words), tip, Action::Relax)
+        }
+    };
+    let tip = tip_with_keys(ui, &tip, &action.clone().into());
+    ui.add(button).on_hover_text(tip).asks(action, requests);
+}
+
+/// A button in the accent's colour. There is one at most.
+fn accented(words: String, theme: &Theme) -> Button<'static> {
+    Button::new(RichText::new(words).color(theme.panel).strong()).fill(theme.accent)
+}
+
+/// A large ratio, to two digits, its thousands set apart.
+fn ratio_words(ratio: f64) -> String {
+    if !(ratio < 1e9) {
+        return format!("{ratio:.0e}");
+    }
+    let unit = 10.0_f64.powf(ratio.log10().floor() - 1.0).max(1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and a thousand million")]
+    grouped(((ratio / unit).round() * unit) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ratio_has_two_digits_and_its_thousands_apart() {
+        let expected = [(100.4, "100"), (2_512.0, "2 500"), (98_765.4, "99 000"), (3.2e12, "3e12")];
+        for (ratio, words) in expected {
+            assert_eq!(ratio_words(ratio), words);
+        }
+        assert_eq!(ratio_words(f64::INFINITY), "inf");
+    }
+}

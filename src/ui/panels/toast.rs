@@ -1,0 +1,75 @@
+//! Good news: the files that were written, over the lower edge of the panes, for a few seconds.
+
+use std::time::Duration;
+
+use eframe::egui::{self, Align2, Sense, Vec2};
+
+use crate::session::{Action, Message, Severity};
+use crate::ui::icons::{self, Sign};
+use crate::ui::theme::BOTTOM_HEIGHT;
+use crate::ui::{Control, Editor, Request, sentence, theme_of};
+
+/// How long it shows, seconds.
+const SECONDS: f64 = 4.0;
+
+/// Between it and what lies below it, points.
+const GAP: f32 = 12.0;
+
+/// The most of it in a row, points.
+const WIDTH: f32 = 440.0;
+
+/// The news that shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::ui) struct Toast {
+    /// The message's number.
+    id: u64,
+    /// When it came, or when the pointer left it; seconds of the window's clock.
+    since: f64,
+}
+
+/// Shows the newest good news, and takes it away when its time is over. Under the pointer it stays.
+pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let newest = editor.session.messages().iter().rfind(|message| message.severity == Severity::Note).cloned();
+    let Some(message) = newest else {
+        editor.layout.toast = None;
+        return;
+    };
+    let now = editor.host.now();
+    let begun = Toast { id: message.id, since: now };
+    let shown = *editor.layout.toast.get_or_insert(begun);
+    let shown = if shown.id == message.id { shown } else { begun };
+    let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
+    let area = egui::Area::new(egui::Id::unique("toast")).order(egui::Order::Foreground).movable(false);
+    let area = area.anchor(Align2::CENTER_BOTTOM, [0.0, -(BOTTOM_HEIGHT + strip + GAP)]);
+    let response = area.show(context, |ui| contents(ui, &message, requests)).response;
+    let since = if response.contains_pointer() { now } else { shown.since };
+    editor.layout.toast = Some(Toast { since, ..shown });
+    let left = since + SECONDS - now;
+    if left <= 0.0 {
+        requests.push(Action::Dismiss(message.id).into());
+    } else {
+        context.request_repaint_after(Duration::from_secs_f64(left));
+    }
+}
+
+fn contents(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    let frame = egui::Frame::popup(ui.style()).fill(theme.panel.lerp_to_gamma(theme.planar, 0.14)).inner_margin(10);
+    frame.show(ui, |ui| {
+        ui.set_max_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
+        ui.horizontal_top(|ui| {
+            let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
+            icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), Sign::Good, theme);
+            ui.vertical(|ui| {
+                ui.add(egui::Label::new(sentence(&message.text)).wrap());
+                ui.horizontal(|ui| {
+                    if let Some(file) = message.files.first() {
+                        let button = ui.small_button("Show in folder");
+                        button.asks(Action::ShowFolder(file.clone()), requests);
+                    }
+                    ui.small_button("Close").asks(Action::Dismiss(message.id), requests);
+                });
+            });
+        });
+    });
+}

@@ -1,0 +1,79 @@
+//! What to do next, beside the verdict: the one button in the accent's colour.
+
+use eframe::egui;
+use egui::{Key, Modifiers};
+use freebound::examples::Example;
+use freebound::mesh::TriMesh;
+use freebound::solver::Method;
+use freebound::ui::theme;
+use glam::DVec3;
+
+use crate::defects::fold;
+use crate::harness::{Window, sheet};
+
+/// How many areas of the accent's colour were painted in the last frame.
+fn accents(window: &Window) -> usize {
+    let accents = [theme::LIGHT.accent, theme::DARK.accent];
+    let is_accented = |shape: &egui::Shape| matches!(shape, egui::Shape::Rect(rect) if accents.contains(&rect.fill));
+    let shapes = &window.harness.output().shapes;
+    shapes.iter().filter(|shape| is_accented(&shape.shape)).count()
+}
+
+#[test]
+fn repair_is_the_one_blue_button_while_the_embedding_is_at_fault() {
+    let mut window = Window::with_example(Example::Face);
+    assert_eq!((accents(&window), window.has_button("Repair")), (0, false), "the ladder has repaired it");
+    window.choose("Method", "Natural boundary");
+    assert!(window.verdict().contains("flipped"), "{}", window.verdict());
+    assert_eq!((accents(&window), window.has_button("Repair")), (1, true));
+    window.click("Repair");
+    assert!(window.is_proved(), "{}", window.verdict());
+    assert_eq!(window.editor().session.document().settings.method, Method::Auto);
+    assert_eq!((accents(&window), window.has_button("Repair")), (0, false));
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.editor().session.document().settings.method, Method::Natural, "an edit like any other");
+}
+
+#[test]
+fn repair_is_in_sight_in_the_least_window() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    fold(&mut window);
+    window.harness.set_size(egui::vec2(640.0, 420.0));
+    window.settle();
+    let rect = window.rect(egui::accesskit::Role::Button, "Repair");
+    assert!(rect.left() > 0.0 && rect.right() < 640.0 && rect.bottom() <= 30.0, "{rect:?}");
+}
+
+/// A sheet with a thin tower on it, which no map without cuts lays flat without shrinking it.
+fn tower() -> TriMesh {
+    let flat = sheet(8, 0.0);
+    let lifted = flat.positions.iter().enumerate().map(|(i, x)| {
+        let (row, column) = (i / 9, i % 9);
+        let is_on_top = (3..=5).contains(&row) && (3..=5).contains(&column);
+        if is_on_top { DVec3::new(x.x, x.y, 2000.0) } else { *x }
+    });
+    let triangles: Vec<[u32; 3]> = flat.triangles.iter().map(|t| t.map(|v| v.number())).collect();
+    TriMesh::new(lifted.collect(), &triangles)
+}
+
+#[test]
+fn a_planar_embedding_with_areas_that_differ_badly_offers_to_relax() {
+    let mut window = Window::with_mesh("tower.obj", &tower());
+    // The ladder would relax by itself.
+    window.choose("Method", "Convex boundary");
+    window.choose("Weights", "Uniform");
+    assert!(window.is_proved(), "{}", window.verdict());
+    let before = window.outcome().distortion.summary.area.max;
+    assert!(before >= 100.0, "{before}");
+    assert!(window.shows("Areas differ ") && window.shows(" : 1, Relax (R)"), "{:?}", window.words());
+    assert_eq!(accents(&window), 0, "nothing is at fault");
+    let button = window.controls().into_iter().find(|(_, name, _)| name.starts_with("Areas differ "));
+    window.click(&button.expect("a button").1);
+    assert!(window.is_proved() && window.outcome().distortion.summary.area.max < before);
+}
+
+#[test]
+fn a_good_embedding_has_no_advice() {
+    let window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    assert!(!window.shows("Areas differ") && !window.has_button("Repair"));
+}

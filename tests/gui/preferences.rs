@@ -1,0 +1,51 @@
+//! What of the window is kept between runs.
+
+use std::path::Path;
+
+use eframe::App as _;
+use freebound::app::Start;
+use freebound::ui::{Request, Shading};
+
+use crate::harness::{SIZE, Window, sheet};
+
+fn start(mesh: &Window, preferences: &Path) -> Window {
+    let start = Start {
+        file: Some(mesh.path("sheet.obj")),
+        preferences: Some(preferences.to_owned()),
+        dialogs_inside: true,
+        ..Start::default()
+    };
+    Window::start(SIZE, start)
+}
+
+#[test]
+fn theme_wireframe_shading_and_the_panels_width_come_back() {
+    let mesh = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let path = mesh.path("state/window.json");
+    let mut first = start(&mesh, &path);
+    first.menu(&["View", "Theme", "Dark"]);
+    first.editor_mut().handle(Request::ToggleWireframe);
+    first.shade(Shading::Angle);
+    let edge = first.plane_view().right_center() + eframe::egui::vec2(0.5, 0.0);
+    first.drag(edge, edge - eframe::egui::vec2(60.0, 0.0), eframe::egui::Modifiers::NONE);
+    let width = first.editor().layout.panel_width();
+    assert!((width - 340.0).abs() < 4.0, "{width}");
+    first.harness.state_mut().on_exit();
+    let second = start(&mesh, &path);
+    assert!(second.harness.ctx.global_style().visuals.dark_mode);
+    assert_eq!((second.editor().look.wireframe, second.shadings()), (true, [Shading::Angle; 2]));
+    assert!((second.editor().layout.panel_width() - width).abs() < 0.5);
+    assert_eq!(second.plane_view().right().round(), first.plane_view().right().round());
+}
+
+#[test]
+fn a_broken_file_is_the_first_start() {
+    let mesh = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let path = mesh.path("window.json");
+    std::fs::write(&path, "{\"wireframe\": 7").expect("written");
+    let mut window = start(&mesh, &path);
+    assert!(!window.editor().look.wireframe);
+    assert!((window.editor().layout.panel_width() - 280.0).abs() < 0.5);
+    window.harness.state_mut().on_exit();
+    assert!(std::fs::read_to_string(&path).expect("read").ends_with('}'), "written anew");
+}
