@@ -259,9 +259,9 @@ fn many_steps_scroll_and_the_one_on_the_screen_is_in_sight() {
 #[test]
 fn the_step_that_shows_is_always_in_sight_and_none_is_cut() {
     for size in [egui::vec2(640.0, 420.0), SIZE] {
-        let mut window = at_first_start(size);
-        window.editor_mut().session.handle(Action::SetSettings(Settings::new(Method::Iterate, Family::MeanValue)));
-        window.settle();
+        let mesh = Window::with_mesh("sheet.obj", &sheet(4, 0.5));
+        let mut window = Window::start(size, Start { file: Some(mesh.path("sheet.obj")), ..Start::default() });
+        window.editor_mut().look.glides = false;
         for _ in 0..24 {
             window.editor_mut().session.handle(Action::Step);
             window.settle();
@@ -272,7 +272,7 @@ fn the_step_that_shows_is_always_in_sight_and_none_is_cut() {
             window.settle();
             assert_whole_steps(&window, wanted);
         }
-        window.harness.set_size(egui::vec2(size.x - 0.0, size.y + 60.0));
+        window.harness.set_size(egui::vec2(size.x + 60.0, size.y + 60.0));
         window.settle();
         assert_whole_steps(&window, newest);
         window.editor_mut().handle(Request::TogglePanels);

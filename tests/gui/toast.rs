@@ -2,8 +2,6 @@
 
 use eframe::egui;
 use egui::Rect;
-use freebound::app::Start;
-use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Severity};
 
@@ -51,10 +49,10 @@ fn good_news_are_closed_by_hand_as_well() {
 #[test]
 fn every_file_that_was_written_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = Window::start(crate::harness::SIZE, Start { dialogs_inside: true, ..Start::default() });
-    window.editor_mut().session.handle(Action::OpenExample(Example::Face));
-    window.settle();
-    window.editor_mut().session.handle(Action::Run);
+    let mut window = window();
+    let picture = window.path("picture.png");
+    image::RgbaImage::new(8, 8).save(&picture).expect("a picture");
+    window.editor_mut().session.handle(Action::OpenPicture(picture));
     window.settle();
     let path = folder.path().join("out.obj");
     let request = freebound::session::SaveRequest {
