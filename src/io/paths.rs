@@ -57,11 +57,13 @@ fn is_same_whole_path(a: &Path, b: &Path) -> bool {
 /// A path from the root, links followed as far as it is there: so that `..` in it means what it says.
 pub(super) fn whole(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let found = fs::canonicalize(&absolute);
-    found.map(without_verbatim).unwrap_or_else(|_| match (absolute.parent(), absolute.file_name()) {
+    if let Ok(found) = fs::canonicalize(&absolute) {
+        return without_verbatim(found);
+    }
+    match (absolute.parent(), absolute.file_name()) {
         (Some(folder), Some(name)) => whole(folder).join(name),
         _ => absolute,
-    })
+    }
 }
 
 /// The folder that a file is in, from the root, links followed.

@@ -34,10 +34,10 @@ impl Unfinished {
     pub(super) fn new<T: AsRef<Path>>(
         make: impl FnOnce(&Builder<'_, 'static>) -> io::Result<T>,
     ) -> io::Result<(Self, T)> {
-        let mut noted = unfinished();
-        let made = make(Builder::new().prefix(PREFIX))?;
-        noted.insert(made.as_ref().to_owned());
-        Ok((Self(made.as_ref().to_owned()), made))
+        let mut all = unfinished();
+        let whole = make(Builder::new().prefix(PREFIX))?;
+        all.insert(whole.as_ref().to_owned());
+        Ok((Self(whole.as_ref().to_owned()), whole))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Sparse linear systems: Cholesky and LDLᴴ for Hermitian matrices, a multifrontal LU for unsymmetric values on a symmetric
+//! Sparse linear systems: Cholesky and `LDLᴴ` for Hermitian matrices, a multifrontal LU for unsymmetric values on a symmetric
 //! pattern, refinement and residuals. Knows no mesh.
 //!
 //! ```text

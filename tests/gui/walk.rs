@@ -334,11 +334,3 @@ fn the_window_agrees_with_itself_whatever_is_pressed() {
         assert!(said.contains(words), "the way led nowhere where the pill says {words:?}: {said:?}");
     }
 }
-
-#[test]
-#[ignore = "takes many minutes"]
-fn the_window_agrees_with_itself_for_twenty_thousand_actions() {
-    for seed in 0..20 {
-        walk(seed, 1000);
-    }
-}

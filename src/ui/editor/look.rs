@@ -30,7 +30,7 @@ impl Appearance {
     const OVER_PICTURE: Self = Self { mesh: Shading::Plain, plane: Shading::SeeThrough, opacity: 1.0 };
 
     /// The shading of a pane.
-    pub fn shading(&self, pane: Pane) -> Shading {
+    pub fn shading(self, pane: Pane) -> Shading {
         match pane {
             Pane::Mesh => self.mesh,
             Pane::Plane => self.plane,
@@ -196,7 +196,7 @@ impl Editor {
     }
 
     /// The shading of a pane.
-    pub fn shading(&self, pane: Pane) -> Shading {
+    pub fn shading(self, pane: Pane) -> Shading {
         self.appearance().shading(pane)
     }
 

@@ -75,7 +75,7 @@ fn accented(words: String, theme: &Theme) -> Button<'static> {
 
 /// A large ratio, to two digits, its thousands set apart.
 fn ratio_words(ratio: f64) -> String {
-    if !(ratio < 1e9) {
+    if ratio.is_nan() || ratio >= 1e9 {
         return format!("{ratio:.0e}");
     }
     let unit = 10.0_f64.powf(ratio.log10().floor() - 1.0).max(1.0);

@@ -73,6 +73,6 @@ fn rows(session: &Session, steps: [usize; 2]) -> Vec<Row> {
         standing("Distance", |standing| Some(standing.progress?.distance_left)),
     ];
     let has_both = |row: &Row| row.values.iter().all(|value| !value.is_nan());
-    let says_something = |row: &Row| !row.is_count || row.values != [0.0; 2];
+    let says_something = |row: &Row| !row.is_count || row.values.iter().any(|value| *value != 0.0);
     all.into_iter().filter(|row| has_both(row) && says_something(row)).collect()
 }

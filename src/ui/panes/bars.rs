@@ -60,8 +60,8 @@ fn ago(since: Duration) -> String {
     const MINUTE: u64 = 60;
     const HOUR: u64 = 60 * MINUTE;
     const DAY: u64 = 24 * HOUR;
-    let of =
-        |unit: u64, one: &str, many: &str| format!("{} ago", counted((since.as_secs() / unit) as usize, one, many));
+    let whole = |unit: u64| usize::try_from(since.as_secs() / unit).unwrap_or(usize::MAX);
+    let of = |unit: u64, one: &str, many: &str| format!("{} ago", counted(whole(unit), one, many));
     match since.as_secs() {
         ..MINUTE => "less than a minute ago".to_owned(),
         MINUTE..HOUR => of(MINUTE, "minute", "minutes"),

@@ -234,9 +234,9 @@ fn marks(ui: &egui::Ui, curve: &Curve, ends: [f64; 2], height_on_screen: &dyn Fn
 /// Whole powers of ten in a range, three at most, from one to the next by the same step.
 #[expect(clippy::cast_possible_truncation, reason = "powers of ten of f64 are below 400")]
 fn powers_within(least: f64, greatest: f64) -> Vec<i32> {
-    let (first, last) = (least.ceil() as i32, greatest.floor() as i32);
-    let step = ((last - first) / 3 + 1).max(1);
-    (first..=last).filter(|power| power.rem_euclid(step) == 0).collect()
+    let (lowest, highest) = (least.ceil() as i32, greatest.floor() as i32);
+    let gap = ((highest - lowest) / 3 + 1).max(1);
+    (lowest..=highest).filter(|power| power.rem_euclid(gap) == 0).collect()
 }
 
 /// The step nearest to a place.
