@@ -3,7 +3,7 @@
 use eframe::egui;
 use egui::{Key, Modifiers};
 use freebound::examples::Example;
-use freebound::mesh::TriMesh;
+use freebound::mesh::{TriMesh, VertexId};
 use freebound::solver::Method;
 use freebound::ui::theme;
 use glam::DVec3;
@@ -52,7 +52,7 @@ fn tower() -> TriMesh {
         let is_on_top = (3..=5).contains(&row) && (3..=5).contains(&column);
         if is_on_top { DVec3::new(x.x, x.y, 2000.0) } else { *x }
     });
-    let triangles: Vec<[u32; 3]> = flat.triangles.iter().map(|t| t.map(|v| v.number())).collect();
+    let triangles: Vec<[u32; 3]> = flat.triangles.iter().map(|t| t.map(VertexId::number)).collect();
     TriMesh::new(lifted.collect(), &triangles)
 }
 

@@ -29,10 +29,9 @@ pub(crate) fn button(pos: Pos2, pressed: bool, modifiers: Modifiers) -> Event {
 
 /// A click with modifiers that are held for no longer than it takes.
 pub(crate) fn click(at: Pos2, modifiers: Modifiers) -> Vec<Event> {
-    let held = [modifiers, Modifiers::NONE].map(Event::ModifiersChanged);
+    let [keys_down, keys_up] = [modifiers, Modifiers::NONE].map(Event::ModifiersChanged);
     let [down, up] = [true, false].map(|pressed| button(at, pressed, modifiers));
-    let [hold, let_go] = held;
-    vec![Event::PointerMoved(at), hold, down, up, let_go]
+    vec![Event::PointerMoved(at), keys_down, down, up, keys_up]
 }
 
 fn place_of(window: &Window, vertex: usize) -> Pos2 {
@@ -133,7 +132,7 @@ fn a_drag_leads_from_where_it_was_pressed_to_where_it_was_let_go_however_fast() 
         let [down, moves, up] = [down(from), moves(from, to), up(to)];
         vec![down, [moves, up, vec![moved_on(to)]].concat()]
     });
-    for (window, off) in [all_in_one, in_two, without_moves, with_more_behind] {
+    for (window, off) in [&all_in_one, &in_two, &without_moves, &with_more_behind] {
         assert!(off.length() < 0.01, "{off}");
         assert_eq!(window.editor().tools.dragged(), None);
         assert!(window.editor().session.is_current());

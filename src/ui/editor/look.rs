@@ -196,7 +196,7 @@ impl Editor {
     }
 
     /// The shading of a pane.
-    pub fn shading(self, pane: Pane) -> Shading {
+    pub fn shading(&self, pane: Pane) -> Shading {
         self.appearance().shading(pane)
     }
 
