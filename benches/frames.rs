@@ -13,7 +13,7 @@ use egui::{Event, Modifiers, PointerButton, Pos2, Vec2};
 use egui_kittest::Harness;
 use freebound::app::{App, Start};
 use freebound::session::Action;
-use freebound::ui::{Request, Shading};
+use freebound::ui::{Pane, Request, Shading};
 
 /// Frames measured of each kind.
 const FRAMES: usize = 60;
@@ -29,7 +29,7 @@ fn main() {
         .wgpu()
         .build_eframe(move |context| App::new(context, start));
     let begin = Instant::now();
-    while window.state().editor().look.paint().is_none() || window.state().editor().plane.scene().is_none() {
+    while window.state().editor().look.paint(Pane::Mesh).is_none() || window.state().editor().plane.scene().is_none() {
         assert!(begin.elapsed() < PATIENCE, "the mesh was not opened and solved in time");
         window.step();
         std::thread::sleep(Duration::from_millis(5));

@@ -31,7 +31,10 @@ fn fs_background(@builtin(position) pixel: vec4<f32>) -> @location(0) vec4<f32> 
     let size = pane.picture_box.zw - pane.picture_box.xy;
     let place = (pixel.xy - pane.picture_box.xy) / max(size, vec2<f32>(1e-6));
     let inside = all(place >= vec2<f32>(0.0)) && all(place <= vec2<f32>(1.0));
-    let picture = textureSampleLevel(picture_texture, picture_sampler, place, 0.0);
+    let per_pixel = 1.0 / max(size, vec2<f32>(1e-6));
+    let across = vec2<f32>(per_pixel.x, 0.0);
+    let down = vec2<f32>(0.0, per_pixel.y);
+    let picture = textureSampleGrad(picture_texture, picture_sampler, place, across, down);
     let picture_cover = select(0.0, picture.a * pane.strength.y, inside);
 
     var colour = mix(pane.background.rgb, pane.grid_colour.rgb, max(minor * 0.45, major) * pane.grid_colour.a);

@@ -5,6 +5,8 @@ const COUNT_STEP: f32 = 8.0 / 255.0;
 // Distance of the hatching's lines and their width, points.
 const HATCH_PERIOD: f32 = 6.0;
 const HATCH_WIDTH: f32 = 2.0;
+// How strongly faces outside the picture are hatched.
+const OUTSIDE: f32 = 0.6;
 // Depth of flipped faces, and of the others behind them.
 const DEPTH_FLIPPED: f32 = 0.25;
 const DEPTH_FACE: f32 = 0.5;
@@ -34,10 +36,11 @@ fn vs_main(
     return out;
 }
 
-// Covering by lines at 45° that stand still on the screen.
-fn hatch_cover(pixel: vec2<f32>) -> f32 {
+// Covering by lines that stand still on the screen; `along` is the sum of the pixel's coordinates for lines at 45°, their
+// difference for lines the other way.
+fn hatch_cover(along: f32) -> f32 {
     let period = HATCH_PERIOD * pane.right.w;
-    let across = (pixel.x + pixel.y) * 0.70710678;
+    let across = along * 0.70710678;
     let from_line = abs(fract(across / period) - 0.5) * period;
     return clamp(0.5 * HATCH_WIDTH * pane.right.w + 0.5 - from_line, 0.0, 1.0);
 }
@@ -51,7 +54,12 @@ fn fs_flat(in: Corner) -> @location(0) vec4<f32> {
     let is_flipped = (flags & FLIPPED) != 0u;
     colour = marked(colour, flags);
     if is_flipped {
-        colour = mix(colour, pane.background.rgb, 0.55 * hatch_cover(in.clip.xy));
+        colour = mix(colour, pane.background.rgb, 0.55 * hatch_cover(in.clip.x + in.clip.y));
+    }
+    let box = pane.picture_box;
+    let has_picture = box.z > box.x;
+    if has_picture && !is_flipped && (any(in.clip.xy < box.xy) || any(in.clip.xy > box.zw)) {
+        colour = mix(colour, pane.background.rgb, OUTSIDE * hatch_cover(in.clip.x - in.clip.y));
     }
     colour = mix(colour, pane.wire.rgb, wire * pane.wire.a);
     // Flipped faces lie in front and speak for themselves: they are not counted.

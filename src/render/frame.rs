@@ -48,6 +48,8 @@ pub struct Style {
     pub flipped_outline_in_points: f32,
     /// Side of a check, embedding units.
     pub check_size: f64,
+    /// Opacity of the faces in the plane, 0 to 1; flipped ones are opaque, as all on the mesh are.
+    pub face_opacity: f32,
 }
 
 impl Default for Style {
@@ -58,6 +60,7 @@ impl Default for Style {
             wire_in_points: 0.0,
             flipped_outline_in_points: 1.5,
             check_size: 0.1,
+            face_opacity: 1.0,
         }
     }
 }

@@ -7,12 +7,14 @@ use eframe::wgpu;
 use super::cache::{Cache, Key};
 use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::{Pipelines, Target};
-use super::plan::{Draw, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
+use super::plan::{Draw, Faces, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
 use crate::view::Revision;
 
 /// Distance of two lines' uniforms in their buffer: the largest alignment that a device may ask for.
 const LINE_STRIDE: u64 = 256;
+/// Samples along the long side of a pixel of the screen where it is seen at a slant, at most.
+const ANISOTROPY: u16 = 8;
 /// A pane that was not asked for during so many others is gone.
 const PANE_LIFETIME: u64 = 1000;
 
@@ -59,11 +61,14 @@ impl Gpu {
                 label: Some("picture"),
                 mag_filter: magnified,
                 min_filter: wgpu::FilterMode::Linear,
+                mipmap_filter: wgpu::MipmapFilterMode::Linear,
+                // More than one sample needs a filter in every direction.
+                anisotropy_clamp: if magnified == wgpu::FilterMode::Linear { ANISOTROPY } else { 1 },
                 ..Default::default()
             })
         };
         // Stands for the picture where there is none.
-        let clear = picture_view(device, queue, [1, 1], &[0; 4]);
+        let clear = picture_view(device, queue, [1, 1], 1, &[0; 4]);
         Self {
             pipelines: Pipelines::new(device, window_format),
             cache: Cache::default(),
@@ -144,10 +149,14 @@ impl Gpu {
         }
         // A picture that the card does not take is shown with less detail rather than not at all.
         let small = picture.shrunk(io.device.limits().max_texture_dimension_2d);
-        let crate::view::Picture { size, pixels, .. } = small.as_ref().unwrap_or(picture);
+        let largest = small.as_ref().unwrap_or(picture);
+        let smaller = largest.smaller_ones();
+        let mut pixels = largest.pixels.clone();
+        pixels.extend(smaller.iter().flat_map(|picture| &picture.pixels));
         self.cache.stats.uploads += 1;
         self.cache.stats.uploaded_bytes += pixels.len() as u64;
-        self.pictures.insert(key, picture_view(io.device, io.queue, *size, pixels));
+        let levels = u32::try_from(1 + smaller.len()).unwrap_or(1);
+        self.pictures.insert(key, picture_view(io.device, io.queue, largest.size, levels, &pixels));
     }
 
     /// Drops what no pane shows any more.
@@ -251,8 +260,9 @@ impl Scene<'_> {
             calls += 1;
         }
         pass.set_pipeline(faces);
-        for draw in &plan.faces {
+        for Faces { draw, opacity } in &plan.faces {
             if self.bind(&mut pass, draw) {
+                pass.set_blend_constant(wgpu::Color { r: *opacity, g: *opacity, b: *opacity, a: 1.0 });
                 pass.draw(0..draw.count, 0..1);
                 calls += 1;
             }
@@ -291,17 +301,19 @@ fn uniform_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
     })
 }
 
+/// A picture in so many sizes, each half the one before; their pixels follow each other.
 fn picture_view(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     [width, height]: [u32; 2],
+    levels: u32,
     pixels: &[u8],
 ) -> wgpu::TextureView {
     use wgpu::util::DeviceExt as _;
     let descriptor = wgpu::TextureDescriptor {
         label: Some("picture"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
+        mip_level_count: levels,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: wgpu::TextureFormat::Rgba8UnormSrgb,

@@ -105,9 +105,13 @@ impl Pipelines {
     }
 }
 
-/// Colour covers, alpha counts how many faces lie on each other.
+/// Colour covers by the share that the pass sets as its constant; alpha counts how many faces lie on each other.
 const COUNTING: BlendState = BlendState {
-    color: BlendComponent::REPLACE,
+    color: BlendComponent {
+        src_factor: BlendFactor::Constant,
+        dst_factor: BlendFactor::OneMinusConstant,
+        operation: BlendOperation::Add,
+    },
     alpha: BlendComponent {
         src_factor: BlendFactor::One,
         dst_factor: BlendFactor::One,

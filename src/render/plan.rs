@@ -38,6 +38,14 @@ pub(super) struct Draw {
     pub(super) count: u32,
 }
 
+/// A draw call of faces.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Faces {
+    pub(super) draw: Draw,
+    /// In the plane; faces of the mesh are opaque.
+    pub(super) opacity: f64,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     Fill,
@@ -60,7 +68,7 @@ pub(super) struct Plan {
     pub(super) size: [u32; 2],
     /// The bytes of [`PaneUniforms`].
     pub(super) uniforms: Vec<u8>,
-    pub(super) faces: Vec<Draw>,
+    pub(super) faces: Vec<Faces>,
     /// First the fills, then the lines.
     pub(super) layers: Vec<Layer>,
     pub(super) picture: Option<crate::view::Revision>,
@@ -70,7 +78,7 @@ pub(super) struct Plan {
 
 impl Plan {
     pub(super) fn keys(&self) -> impl Iterator<Item = Key> + '_ {
-        let draws = self.faces.iter().chain(self.layers.iter().map(|layer| &layer.draw));
+        let draws = self.faces.iter().map(|faces| &faces.draw).chain(self.layers.iter().map(|layer| &layer.draw));
         draws.flat_map(|draw| draw.buffers.iter().copied())
     }
 
@@ -121,7 +129,8 @@ impl Planner<'_> {
         self.ensure(normals, &mesh.corner_normals);
         let plane = self.plane_or_zeros(frame.plane.as_ref(), mesh);
         let paint = self.paint_or_zeros(frame.paint.as_ref(), mesh);
-        plan.faces.push(Draw { buffers: vec![positions, normals, plane, paint], count: corner_count(mesh) });
+        let draw = Draw { buffers: vec![positions, normals, plane, paint], count: corner_count(mesh) };
+        plan.faces.push(Faces { draw, opacity: 1.0 });
 
         for layer in &frame.lines {
             let key = Key::MeshLines(mesh.revision, layer.edges.revision);
@@ -148,11 +157,12 @@ impl Planner<'_> {
             self.ensure_with(corners, || flipped_corners(&plane.corners, paint));
             self.ensure_with(colours, || flipped_corners(&paint.corners, paint));
             let count = u32::try_from(3 * paint.flipped.len()).unwrap_or(0);
-            plan.faces.push(Draw { buffers: vec![corners, colours], count });
+            plan.faces.push(Faces { draw: Draw { buffers: vec![corners, colours], count }, opacity: 1.0 });
         }
         let corners = self.plane_or_zeros(Some(plane), mesh);
         let paint = self.paint_or_zeros(frame.paint.as_ref(), mesh);
-        plan.faces.push(Draw { buffers: vec![corners, paint], count: corner_count(mesh) });
+        let draw = Draw { buffers: vec![corners, paint], count: corner_count(mesh) };
+        plan.faces.push(Faces { draw, opacity: frame.style.face_opacity.into() });
 
         for layer in &frame.fills {
             let key = Key::PlaneFills(plane.revision, layer.faces.revision);

@@ -37,7 +37,7 @@ pub enum Action {
     OpenPicture(PathBuf),
     /// Goes without a picture.
     RemovePicture,
-    /// Chooses where v = 0 is on the picture.
+    /// Chooses where v = 0 is on the picture. The targets keep their places on it.
     SetVAxis(VAxis),
     /// Turns the mesh's faces around: the other side is the outside.
     TurnFaces,

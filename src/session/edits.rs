@@ -8,12 +8,12 @@ use glam::DVec2;
 
 use super::errands::Errand;
 use super::{Command, Document, Session};
-use crate::geom::{Bounds, PictureFrame, Similarity};
+use crate::geom::{Bounds, PictureFrame, Similarity, VAxis};
 use crate::io::{Constraints, PictureFile, Target, Targets};
 use crate::mesh::VertexId;
-use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Method, Pins, Settings, SolveError, solve_once};
+use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Ladder, Method, Pins, Settings, SolveError};
 
-/// The mesh flattened without pins, in the middle of the picture.
+/// The mesh flattened without pins, upright in the middle of the picture.
 pub(super) struct Flat {
     /// The picture's frame.
     frame: PictureFrame,
@@ -57,6 +57,17 @@ impl Session {
         if settings != self.document.settings {
             self.slide(Command::SetSettings(settings));
         }
+    }
+
+    /// Chooses where v = 0 is. The targets keep their places on the picture.
+    pub(super) fn set_v_axis(&mut self, v_axis: VAxis) {
+        if v_axis == self.document.v_axis {
+            return;
+        }
+        let mirrored = |target: &Target| Target { uv: DVec2::new(target.uv.x, 1.0 - target.uv.y), ..*target };
+        let targets = self.document.targets.iter().map(|(&vertex, target)| pin(vertex, mirrored(target)));
+        let commands = std::iter::once(Command::SetVAxis(v_axis)).chain(targets).collect();
+        self.edit(commands);
     }
 
     /// Turns the faces around.
@@ -188,8 +199,8 @@ impl Session {
         let size = GaugeSize::Within(Bounds { low, high });
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
         self.errands.send("fitting the targets", move |cancel| {
-            let solution = solve_once(&disk, &settings, &Pins::new(), Control::new(cancel, &|_| {}));
-            Errand::Flat(Flat { frame, faces_turned, embedding: solution.map(|solution| solution.embedding) })
+            let step = Ladder::new(settings, Pins::new()).step(&disk, Control::new(cancel, &|_| {}));
+            Errand::Flat(Flat { frame, faces_turned, embedding: step.map(|step| step.candidate.solution.embedding) })
         });
     }
 

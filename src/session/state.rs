@@ -87,7 +87,7 @@ impl Session {
             Action::Fix(vertices) => self.fix(&vertices),
             Action::OpenPicture(path) => self.open_picture(path),
             Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
-            Action::SetVAxis(v_axis) => self.edit(vec![Command::SetVAxis(v_axis)]),
+            Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
             Action::MirrorTargets => self.mirror_targets(),
             Action::FitTargets => self.fit_targets(),

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `method`, `family`, `settings`, `choice` | what can be chosen, with its names and words |
 //! | `pins`, `conflicts` | pins and gauge; pins that contradict each other |
-//! | `placing`, `sheet` | size and place of what is not pinned, without a fold; the numbers that are written of it |
+//! | `placing`, `upright`, `sheet` | size, place and turn of what is not pinned, without a fold; the numbers that are written of it |
 //! | `units` | the units of a solve: near the origin and near size 1, wherever the targets are |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
@@ -56,6 +56,7 @@ mod sheet;
 mod solution;
 mod system;
 mod units;
+mod upright;
 mod verdict;
 mod vertex_equation;
 mod virtual_boundary;

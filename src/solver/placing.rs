@@ -1,13 +1,14 @@
 //! Placing: an embedding that is proved is brought to where it is asked for, and no face folds on the way.
 //!
 //! A similarity in 64 bits rounds, and rounding folds what is fine. Each wish therefore has several *ways*, tried in turn
-//! until one is proved: as wished; by a power of two, which rounds nothing; by a shift that is a multiple of the largest
+//! until one is proved: as wished; upright only up to a multiple of 90°; by a power of two, which rounds nothing; by a shift that is a multiple of the largest
 //! coordinate's last digit, which rounds that one not at all. Where none will do, the embedding stays where it lies: what
 //! is proved is never given up for a place.
 
 use glam::DVec2;
 
 use super::equations::length_scale;
+use super::upright::Turns;
 use super::{Embedding, GaugeSize, Pins};
 use crate::geom::{Bounds, Similarity, power_of_two_near};
 use crate::mesh::{DiskMesh, VertexId};
@@ -32,10 +33,11 @@ pub(super) struct Placed {
 }
 
 impl Placing {
-    /// To where up to two pins want an embedding; at the size asked for where they do not say. None where two pins have
-    /// fallen together, and no similarity takes them to their targets.
-    pub(super) fn of_gauge(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins, size: GaugeSize) -> Option<Self> {
+    /// To where up to two pins want an embedding; at the size asked for, and turned, where they do not say. None where two
+    /// pins have fallen together, and no similarity takes them to their targets.
+    pub(super) fn of_gauge(mesh: &DiskMesh, embedding: &Embedding, pins: &Pins, free: Free) -> Option<Self> {
         let anchors: Vec<(VertexId, DVec2)> = pins.iter().map(|(&vertex, pin)| (vertex, pin.target)).take(2).collect();
+        let Free { size, turns } = free;
         let ways = match (&anchors[..], size) {
             (&[(first, a), (second, b)], _) => {
                 let (is, wanted) = (embedding[second] - embedding[first], b - a);
@@ -54,15 +56,17 @@ impl Placing {
                 factors.map(|factor| scaled(factor, embedding[vertex], target)).into()
             }
             (_, GaugeSize::TrueArea) => {
-                let factors = with_power_of_two(factor_of(mesh, embedding, size), f64::round);
-                factors.map(|factor| scaled(factor, DVec2::ZERO, DVec2::ZERO)).into()
+                let [factor, power] = with_power_of_two(factor_of(mesh, embedding, size), f64::round);
+                let ways = [(factor, turns.wished), (factor, turns.quarter), (power, turns.quarter)];
+                ways.map(|(factor, turn)| Similarity::new(factor * turn, DVec2::ZERO, DVec2::ZERO)).into()
             }
             (_, GaugeSize::Within(into)) => {
-                let (from, to) = (embedding.bounds().middle(), into.middle());
-                let [factor, power] = with_power_of_two(factor_of(mesh, embedding, size), f64::floor);
-                let shift = rounding_alike(to - power * from, power * extent_of(embedding));
-                let unmoved = scaled(power, DVec2::ZERO, DVec2::ZERO);
-                vec![scaled(factor, from, to), scaled(power, from, to), scaled(power, DVec2::ZERO, shift), unmoved]
+                let mut ways = within(embedding, into, turns.wished);
+                if turns.wished != turns.quarter {
+                    ways.truncate(1);
+                    ways.extend(within(embedding, into, turns.quarter));
+                }
+                ways
             }
         };
         Some(Self { ways, anchors })
@@ -104,9 +108,32 @@ impl Placing {
     }
 }
 
-/// Moves an embedding to where fewer than two pins want it, without a proof.
+/// What pins do not say of an embedding's place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Free {
+    pub(super) size: GaugeSize,
+    pub(super) turns: Turns,
+}
+
+/// Ways into the middle of a box as large as it holds an embedding that is turned, the best first.
+fn within(embedding: &Embedding, into: Bounds, turn: DVec2) -> Vec<Similarity> {
+    let turned = Bounds::of(embedding.iter().map(|&z| turn.rotate(z)));
+    let [factor, power] = with_power_of_two(usable_factor((into.size() / turned.size()).min_element()), f64::floor);
+    let (from, to) = (DVec2::new(turn.x, -turn.y).rotate(turned.middle()), into.middle());
+    let shift = rounding_alike(to - power * turned.middle(), power * extent_of(embedding));
+    let [by_factor, by_power] = [factor, power].map(|factor| factor * turn);
+    vec![
+        Similarity::new(by_factor, from, to),
+        Similarity::new(by_power, from, to),
+        Similarity::new(by_power, DVec2::ZERO, shift),
+        Similarity::new(by_power, DVec2::ZERO, DVec2::ZERO),
+    ]
+}
+
+/// Moves an embedding to where fewer than two pins want it, without a turn and without a proof.
 pub(super) fn complete_gauge(mesh: &DiskMesh, embedding: &mut Embedding, pins: &Pins, size: GaugeSize) {
-    if let Some(placing) = Placing::of_gauge(mesh, embedding, pins, size) {
+    let free = Free { size, turns: Turns::NONE };
+    if let Some(placing) = Placing::of_gauge(mesh, embedding, pins, free) {
         *embedding = placing.as_wished(embedding);
     }
 }
@@ -133,6 +160,10 @@ fn factor_of(mesh: &DiskMesh, embedding: &Embedding, size: GaugeSize) -> f64 {
         GaugeSize::TrueArea => true_area_factor(mesh, embedding),
         GaugeSize::Within(into) => (into.size() / embedding.bounds().size()).min_element(),
     };
+    usable_factor(factor)
+}
+
+fn usable_factor(factor: f64) -> f64 {
     if factor.is_finite() && factor > 0.0 { factor } else { 1.0 }
 }
 

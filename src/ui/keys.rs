@@ -80,6 +80,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::Num5, Shading::Area.title(), || Request::SetShading(Shading::Area)),
     bind(NONE, Key::Num6, Shading::Stretch.title(), || Request::SetShading(Shading::Stretch)),
     bind(NONE, Key::Num7, "Move since the compared step, or the one before", || Request::SetShading(Shading::Move)),
+    bind(NONE, Key::Num8, "See-through embedding", || Request::SetShading(Shading::SeeThrough)),
     bind(NONE, Key::W, "Wireframe", || Request::ToggleWireframe),
     bind(NONE, Key::H, "Hull and pockets of the virtual boundary", || Request::ToggleHull),
     bind(NONE, Key::Tab, "The pane under the pointer in full size, and back", || Request::TogglePane),

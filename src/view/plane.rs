@@ -42,6 +42,12 @@ impl PlaneCamera {
         self.points_per_unit = frame_scale(bounds, pane_size).clamp(self.scale_limits[0], self.scale_limits[1]);
     }
 
+    /// The same over another part of the plane, so far from this one.
+    #[must_use]
+    pub fn moved(&self, by: DVec2) -> Self {
+        Self { center: self.center + by, ..*self }
+    }
+
     /// Moves the plane along with a drag in points.
     pub fn pan(&mut self, drag_in_points: DVec2) {
         self.center -= drag_in_points * DVec2::new(1.0, -1.0) / self.points_per_unit;

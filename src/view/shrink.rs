@@ -11,12 +11,31 @@ impl Picture {
     ///
     /// What comes back covers the same area: where the factor does not divide a side, blocks differ by a pixel.
     pub fn shrunk(&self, limit: u32) -> Option<Self> {
-        let (size, pixels) = (self.size, &self.pixels);
+        let size = self.size;
         let factor = size[0].max(size[1]).div_ceil(limit.max(1));
         if factor <= 1 {
             return None;
         }
-        let small = size.map(|side| side.div_ceil(factor));
+        self.resampled(size.map(|side| side.div_ceil(factor)))
+    }
+
+    /// The same picture in half the size and so on, down to one pixel: what a graphics card takes where the pixels of the
+    /// screen are larger.
+    pub fn smaller_ones(&self) -> Vec<Self> {
+        let mut pictures: Vec<Self> = Vec::new();
+        loop {
+            let last = pictures.last().unwrap_or(self);
+            if last.size == [1, 1] {
+                return pictures;
+            }
+            let Some(half) = last.resampled(last.size.map(|side| (side / 2).max(1))) else { return pictures };
+            pictures.push(half);
+        }
+    }
+
+    /// The picture in a smaller size, each pixel the mean of those that it stands for.
+    fn resampled(&self, small: [u32; 2]) -> Option<Self> {
+        let (size, pixels) = (self.size, &self.pixels);
         let (columns, rows) = (blocks(size[0], small[0]), blocks(size[1], small[1]));
         let (columns, width) = (&columns, size[0] as usize);
         let row = move |rows: Range<usize>| columns.iter().flat_map(move |block| mean(pixels, width, [block, &rows]));

@@ -75,6 +75,7 @@ mod session_timeline;
 mod shapes;
 mod signals;
 mod steps;
+mod upright;
 mod verdict;
 mod verdict_cases;
 mod verdict_oracle;

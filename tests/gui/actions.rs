@@ -6,6 +6,7 @@ use egui::{Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::mesh::VertexId;
+use freebound::ui::{Pane, Request, Shading};
 use glam::DVec2;
 
 use crate::harness::Window;
@@ -217,6 +218,18 @@ impl Window {
             }
         }
         best.1
+    }
+
+    /// Shades both panes.
+    pub(crate) fn shade(&mut self, shading: Shading) {
+        for pane in [Pane::Mesh, Pane::Plane] {
+            self.editor_mut().handle(Request::SetPaneShading(pane, shading));
+        }
+    }
+
+    /// The shadings of the mesh's pane and of the embedding's.
+    pub(crate) fn shadings(&self) -> [Shading; 2] {
+        [Pane::Mesh, Pane::Plane].map(|pane| self.editor().shading(pane))
     }
 
     /// Clicks a place of the window.

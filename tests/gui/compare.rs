@@ -6,7 +6,7 @@ use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::solver::{Embedding, Method, Settings};
-use freebound::ui::{Shading, Stage};
+use freebound::ui::{Pane, Shading, Stage};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -159,13 +159,13 @@ fn moves_are_measured_from_the_compared_step_or_else_from_the_one_before() {
     let mut window = two_steps();
     window.key(Key::Num7);
     assert!(window.shows("Move from step 0, plane units"), "{:?}", window.words());
-    let legend = window.editor().look.paint().expect("painted").legend.clone().expect("a legend");
+    let legend = window.editor().look.paint(Pane::Mesh).expect("painted").legend.clone().expect("a legend");
     assert!(legend.range.low.abs() < f64::EPSILON && legend.range.high > 0.0);
     let max_move = window.outcome().step.max_move.expect("not the first");
     assert!(legend.range.high <= max_move, "{:?} is at most {max_move}", legend.range);
 
     window.key(Key::ArrowLeft);
-    assert!(window.editor().look.paint().expect("painted").legend.is_none(), "nothing comes before");
+    assert!(window.editor().look.paint(Pane::Mesh).expect("painted").legend.is_none(), "nothing comes before");
     assert!(window.shows("nothing has moved"));
     window.editor_mut().session.handle(Action::Compare(Some(1)));
     window.settle();
@@ -188,11 +188,11 @@ fn the_stages_of_a_virtual_boundary_show_no_outline_of_another_step() {
 #[test]
 fn move_is_one_of_the_shadings() {
     let mut window = two_steps();
-    window.choose("Shading of both panes", "Move");
-    assert_eq!(window.editor().look.shading, Shading::Move);
+    window.choose("Shading of the mesh", "Move");
+    assert_eq!(window.shadings(), [Shading::Move, Shading::Checker]);
     window.menu(&["View", "Shading", "Checker"]);
     window.menu(&["View", "Shading", "Move"]);
-    assert_eq!(window.editor().look.shading, Shading::Move);
+    assert_eq!(window.shadings(), [Shading::Move; 2]);
 }
 
 #[test]

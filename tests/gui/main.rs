@@ -5,6 +5,7 @@
 
 mod actions;
 mod advice;
+mod artist;
 mod compare;
 mod constrained;
 mod constraint_rows;
@@ -21,7 +22,9 @@ mod magnifier;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
 mod messages;
+mod pane_shading;
 mod panels;
+mod picture_filter;
 mod pictures;
 mod preferences;
 mod presses;

@@ -33,7 +33,7 @@ fn write_picture(window: &Window) -> PathBuf {
     path
 }
 
-fn open_picture(window: &mut Window) {
+pub(crate) fn open_picture(window: &mut Window) {
     let path = write_picture(window);
     window.editor_mut().session.handle(Action::OpenPicture(path));
     window.settle();
@@ -56,14 +56,14 @@ fn a_picture_is_opened_through_the_dialog_and_put_on_the_mesh() {
     window.click("quarters.png");
     window.click("Open");
     assert!(window.editor().has_picture());
-    assert_eq!(window.editor().look.shading, Shading::Picture);
+    assert_eq!(window.shadings(), [Shading::Picture; 2]);
     window.click("Pins");
     assert!(window.shows("quarters.png, 40 × 20"));
     window.click("Remove");
     assert!(!window.editor().has_picture());
-    assert_eq!(window.editor().look.shading, Shading::Checker);
+    assert_eq!(window.shadings(), [Shading::Checker; 2]);
     window.press(Modifiers::COMMAND, Key::Z);
-    assert_eq!(window.editor().look.shading, Shading::Picture, "undo brings it back");
+    assert_eq!(window.shadings(), [Shading::Picture; 2], "undo brings it back");
 }
 
 #[test]
@@ -213,7 +213,7 @@ fn the_picture_stands_upright_behind_the_embedding_and_on_it_whichever_way_v_run
     let file = window();
     let mut window = Window::drawn(egui::Theme::Light, &file.path("sheet.obj"));
     open_picture(&mut window);
-    window.editor_mut().look.opacity = 1.0;
+    window.editor_mut().appearance_mut().opacity = 1.0;
     for (v_axis, top) in [(VAxis::Up, 1.0), (VAxis::Down, 0.0)] {
         window.editor_mut().session.handle(Action::SetVAxis(v_axis));
         window.settle();
@@ -225,9 +225,9 @@ fn the_picture_stands_upright_behind_the_embedding_and_on_it_whichever_way_v_run
         }
         window.settle();
         window.key(Key::F);
-        window.editor_mut().look.opacity = 0.0;
+        window.editor_mut().appearance_mut().opacity = 0.0;
         assert_upright(quarters_shown(&mut window), "through the mesh in the plane");
-        window.editor_mut().look.opacity = 1.0;
+        window.editor_mut().appearance_mut().opacity = 1.0;
         // The sheet looks at the camera with its x to the right and its y up.
         let at = |window: &Window, vertex: u32| window.place_on_mesh(VertexId::new(vertex));
         let middle = at(&window, 24);

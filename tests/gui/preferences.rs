@@ -25,7 +25,7 @@ fn theme_wireframe_shading_and_the_panels_width_come_back() {
     let mut first = start(&mesh, &path);
     first.menu(&["View", "Theme", "Dark"]);
     first.editor_mut().handle(Request::ToggleWireframe);
-    first.editor_mut().handle(Request::SetShading(Shading::Angle));
+    first.shade(Shading::Angle);
     let edge = first.plane_view().right_center() + eframe::egui::vec2(0.5, 0.0);
     first.drag(edge, edge - eframe::egui::vec2(60.0, 0.0), eframe::egui::Modifiers::NONE);
     let width = first.editor().layout.panel_width();
@@ -33,7 +33,7 @@ fn theme_wireframe_shading_and_the_panels_width_come_back() {
     first.harness.state_mut().on_exit();
     let second = start(&mesh, &path);
     assert!(second.harness.ctx.global_style().visuals.dark_mode);
-    assert_eq!((second.editor().look.wireframe, second.editor().look.shading), (true, Shading::Angle));
+    assert_eq!((second.editor().look.wireframe, second.shadings()), (true, [Shading::Angle; 2]));
     assert!((second.editor().layout.panel_width() - width).abs() < 0.5);
     assert_eq!(second.plane_view().right().round(), first.plane_view().right().round());
 }

@@ -153,7 +153,7 @@ fn a_tool_s_key_counts_for_the_click_behind_it_in_the_same_frame() {
 #[test]
 fn a_number_typed_in_the_frame_of_go_to_is_the_field_s() {
     let mut window = window();
-    let shading = window.editor().look.shading;
+    let shadings = window.shadings();
     let typed = |(name, text): (Key, &str)| {
         let [down, up] = key(name, Modifiers::NONE);
         [down, Event::Text(text.to_owned()), up]
@@ -162,7 +162,7 @@ fn a_number_typed_in_the_frame_of_go_to_is_the_field_s() {
     window.frame(letters.into_iter().flat_map(typed).chain(key(Key::Enter, Modifiers::NONE)));
     window.settle();
     assert_eq!(selected(&window), [12]);
-    assert_eq!(window.editor().look.shading, shading, "no letter was taken for a shortcut");
+    assert_eq!(window.shadings(), shadings, "no letter was taken for a shortcut");
 }
 
 #[test]
@@ -180,7 +180,7 @@ fn keys_pressed_together_with_alt_or_an_unbound_ctrl_do_nothing() {
     let state = |window: &Window| {
         let editor = window.editor();
         let layout = (editor.layout.keys_shown, editor.layout.go_to.clone(), editor.layout.full());
-        let look = (editor.look.shading, editor.look.wireframe, editor.plane.hull_shown(), editor.tools.tool());
+        let look = (window.shadings(), editor.look.wireframe, editor.plane.hull_shown(), editor.tools.tool());
         let timeline = editor.session.timeline();
         let cameras = (editor.mesh.pane.camera(), editor.plane.pane.camera());
         let steps = (timeline.shown(), timeline.records().len());

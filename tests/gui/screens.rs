@@ -118,9 +118,9 @@ fn the_legend_shows_with_shadings_by_numbers_only() {
             view.left_bottom() + egui::vec2(12.0, -90.0),
             view.left_bottom() + egui::vec2(196.0, -12.0),
         );
-        window.editor_mut().look.shading = Shading::Plain;
+        window.shade(Shading::Plain);
         let plain = picture(&mut window);
-        window.editor_mut().look.shading = Shading::Angle;
+        window.shade(Shading::Angle);
         let angle = picture(&mut window);
         let changed = pixels(&plain, corner).iter().zip(pixels(&angle, corner)).filter(|(a, b)| *a != b).count();
         assert!(changed > 5000, "{name:?}: {changed} pixels");
@@ -246,9 +246,9 @@ fn the_compared_step_is_an_outline_in_its_own_colour() {
 fn moves_are_coloured_in_both_panes() {
     for (name, _) in THEMES {
         let mut window = bent(name);
-        window.editor_mut().look.shading = Shading::Plain;
+        window.shade(Shading::Plain);
         let plain = picture(&mut window);
-        window.editor_mut().look.shading = Shading::Move;
+        window.shade(Shading::Move);
         let moved = picture(&mut window);
         for view in [window.mesh_view(), window.plane_view()] {
             let changed = pixels(&plain, view).iter().zip(pixels(&moved, view)).filter(|(a, b)| *a != b).count();

@@ -90,7 +90,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
             Request::Frame => editor.mesh.pane.camera() != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),
-            Request::SetShading(shading) => editor.look.shading == shading,
+            Request::SetShading(shading) => editor.shading(Pane::Plane) == shading,
             Request::ToggleHull => editor.plane.hull_shown(),
             Request::ToggleWireframe => editor.look.wireframe,
             Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
@@ -144,7 +144,7 @@ fn typing_into_a_field_triggers_no_shortcut() {
     let editor = window.editor();
     assert_eq!(document(&window), before);
     assert_eq!(
-        (editor.tools.tool(), editor.look.shading, editor.look.wireframe),
+        (editor.tools.tool(), editor.shading(Pane::Mesh), editor.look.wireframe),
         (Tool::Select, Shading::Checker, false)
     );
     assert!(editor.layout.go_to.is_some() && !editor.layout.keys_shown && editor.selection.defect().is_none());

@@ -13,7 +13,7 @@ use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::session::{Action, Outcome};
 use freebound::solver::{Settings, Verdict};
-use freebound::ui::{BINDINGS, Tab};
+use freebound::ui::{BINDINGS, Pane, Tab};
 
 use crate::harness::{Window, sheet};
 use crate::makers::Random;
@@ -213,7 +213,7 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
         let is_verdict = is_proved || counts;
         check(!is_verdict || at_rest.is_some_and(is_drawn), &|| format!("{pill:?} over a sheet on its way"));
     }
-    if let (Some(outcome), Some(paint)) = (drawn, editor.look.paint()) {
+    if let (Some(outcome), Some(paint)) = (drawn, editor.look.paint(Pane::Plane)) {
         let flipped = &outcome.step.verdict.flipped_faces;
         check(paint.faces.flipped == *flipped, &|| format!("{:?} red, {flipped:?} flipped", paint.faces.flipped));
     }

@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::app::Start;
 use freebound::examples::Example;
 use freebound::io::Target;
-use freebound::ui::{BINDINGS, Shading, Tab};
+use freebound::ui::{BINDINGS, Pane, Shading, Tab};
 use glam::DVec2;
 
 use crate::harness::{MESH_VIEW, PLANE_VIEW, SIZE, Window, sheet};
@@ -60,7 +60,7 @@ const STATES: [State; 30] = [
     }),
     ("a list of methods", |window| window.open_list("Method")),
     ("a list of weights", |window| window.open_list("Weights")),
-    ("a list of shadings", |window| window.open_list("Shading of both panes")),
+    ("a list of shadings", |window| window.open_list("Shading of the mesh")),
     ("a run of steps", steps),
     ("the stop conditions", |window| window.click("Where a run stops")),
     ("the numbers of a step", |window| {
@@ -223,16 +223,16 @@ fn each_example_opens_from_the_menu() {
 #[test]
 fn each_shading_of_the_view_menu_is_put_on() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
-    for shading in Shading::ALL {
+    for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(Pane::Mesh)) {
         window.menu(&["View", "Shading", shading.title()]);
-        assert_eq!(window.editor().look.shading, shading);
-        let legend = window.editor().look.paint().expect("painted").legend.is_some();
+        assert_eq!(window.shadings(), [shading; 2]);
+        let legend = window.editor().look.paint(Pane::Mesh).expect("painted").legend.is_some();
         // Nothing has moved at the first step.
         let is_bare = matches!(shading, Shading::Plain | Shading::Checker | Shading::Picture | Shading::Move);
         assert_eq!(legend, !is_bare, "{shading:?}");
     }
-    window.choose("Shading of both panes", "Stretch");
-    assert_eq!(window.editor().look.shading, Shading::Stretch);
+    window.choose("Shading of the mesh", "Stretch");
+    assert_eq!(window.shadings(), [Shading::Stretch, Shading::Move]);
     window.click("Wire");
     assert!(window.editor().look.wireframe);
     window.menu(&["View", "Wireframe"]);

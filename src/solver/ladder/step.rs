@@ -71,6 +71,11 @@ impl Candidate {
         self
     }
 
+    /// Whether the boundary was bent to a convex polygon: it is no longer free.
+    pub fn has_convex_boundary(&self) -> bool {
+        matches!(self.rung, Method::Convex(_)) || self.bent_vertices > 0
+    }
+
     /// The mesh that the embedding is of: `mesh` as given, or its refinement.
     pub fn mesh<'a>(&'a self, mesh: &'a DiskMesh) -> &'a DiskMesh {
         self.refinement.as_ref().map_or(mesh, |refinement| refinement.disk())
@@ -130,11 +135,6 @@ impl Step {
     /// Whether the boundary is simple and runs counter-clockwise.
     pub fn has_simple_boundary(&self) -> bool {
         self.verdict.boundary_crossings.is_empty() && self.verdict.turning_number == Some(1)
-    }
-
-    /// Whether the boundary was bent to a convex polygon: it is no longer free.
-    pub fn has_convex_boundary(&self) -> bool {
-        matches!(self.rung, Method::Convex(_)) || self.bent_vertices > 0
     }
 
     /// Seconds of the solve and the verdict.

@@ -6,8 +6,9 @@ use super::{Candidate, gauge_in};
 use crate::geom::Similarity;
 use crate::mesh::DiskMesh;
 use crate::solver::pins::GAUGE_PINS;
-use crate::solver::placing::Placing;
+use crate::solver::placing::{Free, Placing};
 use crate::solver::units::Units;
+use crate::solver::upright::Turns;
 use crate::solver::{Conflict, Embedding, Method, Outside, Pins, Settings, Sheet, SolveError, check_pins, conflicts};
 
 #[derive(Debug)]
@@ -81,7 +82,8 @@ impl Task {
             return None;
         }
         candidate.solution.gauge_completed = is_open;
-        let Some(placing) = Placing::of_gauge(mesh, embedding, &self.pins, self.settings.size) else {
+        let free = Free { size: self.settings.size, turns: self.turns(mesh, candidate) };
+        let Some(placing) = Placing::of_gauge(mesh, embedding, &self.pins, free) else {
             candidate.solution.pins = gauge_in(mesh, embedding);
             return Some("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
         };
@@ -106,6 +108,15 @@ impl Task {
             candidate.outside = Some(Arc::new(moved(outside, way)));
         }
         placed.way.is_none().then(|| "not yet moved to its place, whose numbers would fold it".to_owned())
+    }
+
+    /// How a candidate is turned where no pin holds it: upright; the sides of a convex boundary stay level.
+    fn turns(&self, mesh: &DiskMesh, candidate: &Candidate) -> Turns {
+        if !self.pins.is_empty() {
+            return Turns::NONE;
+        }
+        let turns = Turns::upright(mesh, &candidate.solution.embedding);
+        if candidate.has_convex_boundary() { turns.by_quarters() } else { turns }
     }
 
     /// Whether all pins lie on their targets.

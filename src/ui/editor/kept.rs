@@ -3,7 +3,7 @@
 use eframe::egui::{Theme, ThemePreference};
 
 use crate::session::Preferences;
-use crate::ui::Editor;
+use crate::ui::{Editor, Pane};
 
 impl Editor {
     /// How the window is left.
@@ -14,13 +14,13 @@ impl Editor {
             ThemePreference::Dark => Some(true),
             ThemePreference::Light => Some(false),
         };
-        let shading = Some(self.look.shading.title().to_owned());
+        let shading = |pane| Some(self.look.usual.shading(pane).title().to_owned());
         let size = context.content_rect().size();
         Preferences {
             dark,
             wireframe: self.look.wireframe,
-            mesh_shading: shading.clone(),
-            plane_shading: shading,
+            mesh_shading: shading(Pane::Mesh),
+            plane_shading: shading(Pane::Plane),
             panel_width: Some(self.layout.panel_width()),
             window_size: Some([size.x, size.y]),
         }
@@ -32,7 +32,7 @@ impl Editor {
             self.host.context().set_theme(if dark { Theme::Dark } else { Theme::Light });
         }
         self.look.wireframe = left.wireframe;
-        self.put_on_shading(left.mesh_shading.as_deref());
+        self.put_on_shadings([left.mesh_shading.as_deref(), left.plane_shading.as_deref()]);
         if let Some(width) = left.panel_width {
             self.layout.set_panel_width(width);
         }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::Shading;
 use super::scene::{Legend, MeshScene, Paint, PaintKey, PlaneScene};
+use super::{Editor, Pane, Shading, Tool};
 use crate::geom;
 use crate::geom::Bounds;
 use crate::render::{PictureLayer, Sampling};
@@ -16,20 +16,53 @@ const OPACITY: f32 = 0.55;
 /// Fields of the checker across the embedding.
 const CHECKER_FIELDS: f64 = 40.0;
 
+/// How faces show in the two panes, and how strongly the picture behind the embedding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Appearance {
+    mesh: Shading,
+    plane: Shading,
+    /// From 0 to 1.
+    pub opacity: f32,
+}
+
+impl Appearance {
+    /// While places on a picture are sought: clay to find vertices on, and all of the picture.
+    const OVER_PICTURE: Self = Self { mesh: Shading::Plain, plane: Shading::SeeThrough, opacity: 1.0 };
+
+    /// The shading of a pane.
+    pub fn shading(&self, pane: Pane) -> Shading {
+        match pane {
+            Pane::Mesh => self.mesh,
+            Pane::Plane => self.plane,
+        }
+    }
+
+    /// Shades a pane, if it can be shaded so.
+    pub(super) fn shade(&mut self, pane: Pane, shading: Shading) {
+        match pane {
+            _ if !shading.is_for(pane) => {}
+            Pane::Mesh => self.mesh = shading,
+            Pane::Plane => self.plane = shading,
+        }
+    }
+}
+
 #[derive(Debug)]
 pub struct Look {
-    pub shading: Shading,
+    /// As chosen.
+    pub(super) usual: Appearance,
+    /// As chosen for the constrain tool over a picture.
+    over_picture: Appearance,
     pub wireframe: bool,
     /// Whether insets magnify a defect and a pair.
     pub magnifier: bool,
     /// Whether vertices glide from step to step; off for those whom motion bothers.
     pub glides: bool,
-    /// How strongly the picture shows behind the embedding, 0 to 1.
-    pub opacity: f32,
     pub sampling: Sampling,
     /// The document's picture, and the same as the graphics card takes it.
     picture: Option<(Arc<geom::Picture>, Arc<view::Picture>)>,
-    paint: Option<Paint>,
+    /// Of the mesh's pane and of the embedding's; one and the same where both are coloured alike.
+    paints: [Option<Arc<Paint>>; 2],
     /// Side of a check in the plane, and the mesh by its revision that it was chosen for.
     check: Option<(u64, f64)>,
 }
@@ -37,27 +70,27 @@ pub struct Look {
 impl Default for Look {
     fn default() -> Self {
         Self {
-            shading: Shading::default(),
+            usual: Appearance { mesh: Shading::default(), plane: Shading::default(), opacity: OPACITY },
+            over_picture: Appearance::OVER_PICTURE,
             wireframe: false,
             magnifier: true,
             glides: true,
-            opacity: OPACITY,
             sampling: Sampling::Smooth,
             picture: None,
-            paint: None,
+            paints: [None, None],
             check: None,
         }
     }
 }
 
 impl Look {
-    pub fn paint(&self) -> Option<&Paint> {
-        self.paint.as_ref()
+    pub fn paint(&self, pane: Pane) -> Option<&Paint> {
+        self.paints[pane as usize].as_deref()
     }
 
     /// The scale of a shading by numbers.
-    pub(in crate::ui) fn legend(&self) -> Option<&Legend> {
-        self.paint.as_ref()?.legend.as_ref()
+    pub(in crate::ui) fn legend(&self, pane: Pane) -> Option<&Legend> {
+        self.paint(pane)?.legend.as_ref()
     }
 
     /// Whether pixels show as squares.
@@ -85,10 +118,10 @@ impl Look {
         }
     }
 
-    /// The picture as panes draw it, in its box in the plane.
-    pub(in crate::ui) fn picture_layer(&self, bounds: Bounds) -> Option<PictureLayer> {
+    /// The picture as panes draw it, in its box in the plane, so strong behind the embedding.
+    pub(in crate::ui) fn picture_layer(&self, bounds: Bounds, opacity: f32) -> Option<PictureLayer> {
         let (_, picture) = self.picture.as_ref()?;
-        Some(PictureLayer { picture: Arc::clone(picture), bounds, opacity: self.opacity, sampling: self.sampling })
+        Some(PictureLayer { picture: Arc::clone(picture), bounds, opacity, sampling: self.sampling })
     }
 
     /// Takes in another picture of the document's. A picture that comes in is put on the mesh. Call once per frame.
@@ -102,30 +135,86 @@ impl Look {
             let picture = view::Picture::new([pixels.width, pixels.height], pixels.pixels.clone())?;
             Some((Arc::clone(pixels), Arc::new(picture)))
         });
-        self.shading = match self.shading {
-            Shading::Picture if wanted.is_none() => Shading::Checker,
-            Shading::Plain | Shading::Checker if wanted.is_some() => Shading::Picture,
-            other => other,
-        };
+        for shading in [&mut self.usual.mesh, &mut self.usual.plane] {
+            *shading = match *shading {
+                Shading::Picture | Shading::SeeThrough if wanted.is_none() => Shading::Checker,
+                Shading::Plain | Shading::Checker if wanted.is_some() => Shading::Picture,
+                other => other,
+            };
+        }
     }
 
-    /// Colours the faces anew where mesh, embedding or shading have changed; moves are measured from `base`. Call once
-    /// per frame.
-    pub(super) fn refresh_paint(&mut self, given: &MeshScene, plane: Option<&PlaneScene>, base: Option<&Outcome>) {
-        let base = base.filter(|_| self.shading == Shading::Move);
+    /// Colours the faces of a pane anew where mesh, embedding or shading have changed; moves are measured from `base`.
+    pub(super) fn refresh_paint(&mut self, pane: Pane, shading: Shading, sources: PaintSources<'_>) {
+        let PaintSources { given, plane, base } = sources;
+        let base = base.filter(|_| shading == Shading::Move);
         let key = PaintKey {
             model: given.model_revision,
             outcome: plane.map_or(0, |scene| scene.outcome_revision),
-            shading: self.shading,
+            // Where faces are not coloured by a number, one paint serves all shadings.
+            shading: if shading.is_by_number() { shading } else { Shading::Plain },
             moved_from: base.map(|base| base.step.index),
         };
-        if self.paint.as_ref().is_none_or(|paint| paint.key != key) {
+        let fits = |paint: &&Arc<Paint>| paint.key == key;
+        if self.paints[pane as usize].as_ref().is_none_or(|paint| paint.key != key) {
+            let shared = self.paints.iter().flatten().find(fits).cloned();
             let mesh = plane.map_or(given, |plane| &plane.mesh).mesh();
-            self.paint = Some(Paint::new(key, mesh, plane.map(|plane| plane.outcome.as_ref()), base));
+            let made = || Arc::new(Paint::new(key, mesh, plane.map(|plane| plane.outcome.as_ref()), base));
+            self.paints[pane as usize] = Some(shared.unwrap_or_else(made));
         }
     }
 
     pub(super) fn forget_paint(&mut self) {
-        self.paint = None;
+        self.paints = [None, None];
+    }
+}
+
+/// What faces are coloured from.
+#[derive(Clone, Copy)]
+pub(super) struct PaintSources<'a> {
+    /// The mesh as given.
+    pub(super) given: &'a MeshScene,
+    /// The embedding.
+    pub(super) plane: Option<&'a PlaneScene>,
+    /// The step that moves are measured from.
+    pub(super) base: Option<&'a Outcome>,
+}
+
+impl Editor {
+    /// How faces show now. The constrain tool over a picture has an appearance of its own, and leaves the other as it is.
+    pub fn appearance(&self) -> &Appearance {
+        if self.is_placing_on_picture() { &self.look.over_picture } else { &self.look.usual }
+    }
+
+    /// The same, to be changed.
+    pub fn appearance_mut(&mut self) -> &mut Appearance {
+        if self.is_placing_on_picture() { &mut self.look.over_picture } else { &mut self.look.usual }
+    }
+
+    fn is_placing_on_picture(&self) -> bool {
+        self.tools.tool() == Tool::Constrain && self.has_picture()
+    }
+
+    /// The shading of a pane.
+    pub fn shading(&self, pane: Pane) -> Shading {
+        self.appearance().shading(pane)
+    }
+
+    /// Shades the pane under the pointer, or both where it is over neither.
+    pub(super) fn shade(&mut self, shading: Shading) {
+        match self.pointer.pane() {
+            Some(pane) => self.appearance_mut().shade(pane, shading),
+            None => Pane::BOTH.into_iter().for_each(|pane| self.appearance_mut().shade(pane, shading)),
+        }
+    }
+
+    /// Colours the faces anew where that is due. Call once per frame.
+    pub(super) fn refresh_paints(&mut self) {
+        let Some(given) = self.mesh.scene() else { return };
+        let base = self.plane.moved_from(&self.session).map(AsRef::as_ref);
+        let sources = PaintSources { given, plane: self.plane.scene().map(AsRef::as_ref), base };
+        for (pane, shading) in Pane::BOTH.map(|pane| (pane, self.shading(pane))) {
+            self.look.refresh_paint(pane, shading, sources);
+        }
     }
 }

@@ -9,7 +9,7 @@
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
-//! | `look.rs` | how faces show: shading, wireframe, picture, colours |
+//! | `look.rs` | how faces show: shading of each pane, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
 //! | `kept.rs` | what of the window is kept between runs |
 //! | `opened.rs` | what the window keeps of the open document, and how it looks, for the project file |
@@ -146,10 +146,7 @@ impl Editor {
         if let Some(plane) = self.plane.scene() {
             self.look.refresh_checks(plane, self.timeline.playing_since.is_some());
         }
-        if let Some(mesh) = self.mesh.scene() {
-            let base = self.plane.moved_from(&self.session).map(AsRef::as_ref);
-            self.look.refresh_paint(mesh, self.plane.scene().map(AsRef::as_ref), base);
-        }
+        self.refresh_paints();
         self.host.note_work(self.session.busy().is_some(), Instant::now());
         let scenes_pending = self.mesh.is_making_scene() || self.plane.is_making_scene();
         if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {

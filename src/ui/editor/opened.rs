@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use crate::io::ProjectView;
 use crate::mesh::VertexId;
 use crate::session::Session;
-use crate::ui::{Editor, Shading, Tool};
+use crate::ui::{Editor, Pane, Shading, Tool};
 
 /// How old the view in a copy for recovery may be. A selection can be large, so that it is not taken every frame.
 const VIEW_INTERVAL: Duration = Duration::from_secs(1);
@@ -71,10 +71,10 @@ impl Opened {
 
 impl Editor {
     fn view(&self) -> ProjectView {
-        let shading = Some(self.look.shading.title().to_owned());
+        let shading = |pane| Some(self.look.usual.shading(pane).title().to_owned());
         ProjectView {
-            mesh_shading: shading.clone(),
-            plane_shading: shading,
+            mesh_shading: shading(Pane::Mesh),
+            plane_shading: shading(Pane::Plane),
             mesh_camera: self.mesh.pane.camera().and_then(|camera| finite(camera.numbers().to_vec())),
             plane_camera: self.plane.camera_numbers().and_then(finite),
             selection: self.selection.vertices().iter().map(|vertex| vertex.number()).collect(),
@@ -91,17 +91,19 @@ impl Editor {
         }
     }
 
-    /// Puts on a shading by its name, where it means something.
-    pub(super) fn put_on_shading(&mut self, name: Option<&str>) {
-        if let Some(shading) = Shading::ALL.into_iter().find(|shading| Some(shading.title()) == name) {
-            self.look.shading = shading;
+    /// Puts on the shadings of the two panes by their names, where these mean something.
+    pub(super) fn put_on_shadings(&mut self, names: [Option<&str>; 2]) {
+        for (pane, name) in Pane::BOTH.into_iter().zip(names) {
+            if let Some(shading) = Shading::ALL.into_iter().find(|shading| Some(shading.title()) == name) {
+                self.look.usual.shade(pane, shading);
+            }
         }
     }
 
     /// Puts on how the person looked at what was opened. Call once its mesh is drawn.
     pub(super) fn put_on_view(&mut self) {
         let view = self.session.view().clone();
-        self.put_on_shading(view.mesh_shading.as_deref());
+        self.put_on_shadings([view.mesh_shading.as_deref(), view.plane_shading.as_deref()]);
         if let Some(tool) = Tool::ALL.into_iter().find(|tool| view.tool.as_deref() == Some(tool.words()[0])) {
             self.tools.take_up(tool);
         }

@@ -53,12 +53,32 @@ pub enum Shading {
     Stretch,
     /// Distance moved since another step.
     Move,
+    /// Of the embedding alone: a thin fill that the picture behind it shows through.
+    SeeThrough,
 }
 
 impl Shading {
     /// All shadings, in the order of menus.
-    pub const ALL: [Self; 7] =
-        [Self::Plain, Self::Checker, Self::Picture, Self::Angle, Self::Area, Self::Stretch, Self::Move];
+    pub const ALL: [Self; 8] = [
+        Self::Plain,
+        Self::Checker,
+        Self::Picture,
+        Self::Angle,
+        Self::Area,
+        Self::Stretch,
+        Self::Move,
+        Self::SeeThrough,
+    ];
+
+    /// Whether a pane can be shaded so.
+    pub fn is_for(self, pane: Pane) -> bool {
+        self != Self::SeeThrough || pane == Pane::Plane
+    }
+
+    /// Whether faces are coloured by a number each.
+    pub(in crate::ui) const fn is_by_number(self) -> bool {
+        matches!(self, Self::Angle | Self::Area | Self::Stretch | Self::Move)
+    }
 
     /// Its name in menus.
     pub const fn title(self) -> &'static str {
@@ -80,6 +100,7 @@ impl Shading {
             ],
             Self::Stretch => ["Stretch", "root mean square stretch from the plane to the mesh per face (L²)"],
             Self::Move => ["Move", "how far faces have moved since the compared step, or else since the one before"],
+            Self::SeeThrough => ["See-through", "a fill of 30 %: the picture behind the embedding shows through"],
         }
     }
 }
@@ -91,6 +112,19 @@ pub enum Pane {
     Mesh,
     /// Its embedding.
     Plane,
+}
+
+impl Pane {
+    /// From left to right.
+    pub(in crate::ui) const BOTH: [Self; 2] = [Self::Mesh, Self::Plane];
+
+    /// What it shows.
+    pub(in crate::ui) const fn title(self) -> &'static str {
+        match self {
+            Self::Mesh => "Mesh",
+            Self::Plane => "Embedding",
+        }
+    }
 }
 
 /// A panel at the right.
@@ -145,8 +179,12 @@ pub enum Request {
     ToggleCurves,
     /// Takes up a tool.
     SetTool(Tool),
-    /// Colours faces.
+    /// Takes up the constrain tool with a vertex, whose place is to come.
+    TakeVertex(VertexId),
+    /// Colours faces in the pane under the pointer, or in both where it is over neither.
     SetShading(Shading),
+    /// Colours faces in one pane.
+    SetPaneShading(Pane, Shading),
     /// Shows or hides the wireframe.
     ToggleWireframe,
     /// Shows or hides the inset that magnifies a defect.

@@ -7,7 +7,7 @@ use crate::session::{Action, SaveRequest};
 use crate::solver::Hold;
 use crate::ui::panels::dialogs::Choice;
 use crate::ui::panels::unsaved::Wish;
-use crate::ui::{Editor, Pane, Purpose, Request, StepTarget, Tool};
+use crate::ui::{Editor, Half, Pane, Purpose, Request, StepTarget, Tool};
 
 /// Playing all steps takes about so long, seconds.
 const PLAY_SECONDS: f64 = 6.0;
@@ -25,7 +25,9 @@ impl Editor {
             Request::TogglePlay => self.toggle_play(),
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
             Request::SetTool(tool) => self.tools.take_up(tool),
-            Request::SetShading(shading) => self.look.shading = shading,
+            Request::TakeVertex(vertex) => self.take_vertex(vertex),
+            Request::SetShading(shading) => self.shade(shading),
+            Request::SetPaneShading(pane, shading) => self.appearance_mut().shade(pane, shading),
             Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
             Request::ToggleEase => self.look.glides = !self.look.glides,
             Request::ToggleMagnifier => self.look.magnifier = !self.look.magnifier,
@@ -44,7 +46,7 @@ impl Editor {
             Request::Nudge(nudge) => self.nudge(nudge),
             Request::EndNudge => self.end_nudge(),
             Request::SetHold(hold) => self.set_hold(hold),
-            Request::SetOpacity(opacity) => self.look.opacity = opacity.clamp(0.0, 1.0),
+            Request::SetOpacity(opacity) => self.appearance_mut().opacity = opacity.clamp(0.0, 1.0),
             Request::ToggleSharp => self.look.toggle_sharp(),
             Request::UnpinSelected => self.act(Action::Unpin(self.selection.vertices().iter().copied().collect())),
             Request::Escape => self.escape(),
@@ -125,7 +127,13 @@ impl Editor {
         if matches!(action, Action::Open(_) | Action::OpenExample(_) | Action::Recover(_)) {
             return self.wish(Wish::Do(action));
         }
+        let before = self.session.document().frame();
         self.session.handle(action);
+        let after = self.session.document().frame();
+        if before.aspect.to_bits() == after.aspect.to_bits() {
+            // Where v runs the other way the picture lies elsewhere in the plane. On the screen it stays.
+            self.plane.go_along(after.corners()[0] - before.corners()[0]);
+        }
     }
 
     /// A name for a file made from the mesh on the screen.
@@ -135,6 +143,12 @@ impl Editor {
         let stem = Path::new(&model.name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let folder = model.path.as_ref().and_then(|path| path.parent()).map(PathBuf::from).unwrap_or_default();
         folder.join(format!("{stem}{ending}"))
+    }
+
+    fn take_vertex(&mut self, vertex: VertexId) {
+        self.tools.take_up(Tool::Constrain);
+        self.tools.set_pair(Some(Half::Vertex(vertex)));
+        self.selection.select([vertex]);
     }
 
     fn escape(&mut self) {

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
-use crate::solver::{Embedding, FaceDistortion, Step};
+use crate::solver::{Embedding, FaceDistortion, GaugeSize, Step};
 use crate::ui::Shading;
 use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
 
@@ -96,6 +96,8 @@ pub struct PlaneScene {
     pub outcome_revision: u64,
     pub arrays: Arc<PlaneArrays>,
     pub picker: Arc<PlanePicker>,
+    /// Faces of the outcome that reach out of the picture; 0 without one.
+    pub(in crate::ui) faces_outside: usize,
     /// Where vertices lie where that is not the outcome's embedding; at a stage with those beyond the mesh's.
     positions: Option<Embedding>,
     part: Part,
@@ -119,6 +121,7 @@ impl PlaneScene {
             outcome_revision,
             arrays: Arc::new(PlaneArrays::new(embedding, &mesh.mesh().triangles)),
             picker: Arc::new(PlanePicker::new(embedding)),
+            faces_outside: faces_outside(&outcome, &mesh.mesh().triangles),
             positions: None,
             part: Part::Result,
             outcome,
@@ -155,8 +158,9 @@ impl PlaneScene {
         picker: Arc<PlanePicker>,
     ) -> Self {
         let (mesh, arrays, outcome) = (Arc::clone(mesh), Arc::new(arrays), Arc::clone(&self.outcome));
-        let (outcome_revision, positions, part) = (self.outcome_revision, Some(positions), Part::Result);
-        Self { mesh, outcome, outcome_revision, arrays, picker, positions, part }
+        let (outcome_revision, faces_outside) = (self.outcome_revision, self.faces_outside);
+        let (positions, part) = (Some(positions), Part::Result);
+        Self { mesh, outcome, outcome_revision, arrays, picker, faces_outside, positions, part }
     }
 
     pub fn positions(&self) -> &Embedding {
@@ -176,6 +180,24 @@ impl PlaneScene {
         self.part == Part::Result
     }
 }
+
+/// How many faces reach out of the picture. What lies on its edge up to rounding does not.
+fn faces_outside(outcome: &Outcome, triangles: &[[VertexId; 3]]) -> usize {
+    if outcome.problem.settings.size == GaugeSize::TrueArea {
+        return 0;
+    }
+    let [low, high] = outcome.problem.frame.corners();
+    let margin = EDGE * (high - low).max_element();
+    let embedding = &outcome.step.solution.embedding;
+    let is_outside = |v: &VertexId| {
+        let z = embedding[*v];
+        (z.cmplt(low - margin) | z.cmpgt(high + margin)).any()
+    };
+    triangles.iter().filter(|corners| corners.iter().any(is_outside)).count()
+}
+
+/// Distance from the picture up to which a vertex counts as on its edge, in parts of the picture's longer side.
+const EDGE: f64 = 1e-9;
 
 /// Faces coloured by a shading, with what a legend needs.
 #[derive(Clone, Debug)]
@@ -227,7 +249,9 @@ impl Paint {
             by_values(scale, &outcome.distortion.faces.iter().map(of).collect::<Vec<f64>>())
         };
         match (key.shading, base) {
-            (Shading::Plain | Shading::Checker | Shading::Picture, _) | (Shading::Move, None) => plain(flipped),
+            (Shading::Plain | Shading::Checker | Shading::Picture | Shading::SeeThrough, _) | (Shading::Move, None) => {
+                plain(flipped)
+            }
             (Shading::Angle, _) => by(Scale::Angle, |face| face.angle),
             (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
             (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),

@@ -65,6 +65,8 @@ pub struct Pointer {
     pane: Option<Pane>,
     vertex: Option<VertexId>,
     in_embedding: Option<DVec2>,
+    /// The vertex whose menu is open, or was.
+    menu_vertex: Option<VertexId>,
     /// The box being drawn with Ctrl, from its first corner, in window points.
     box_from: Option<(Pane, egui::Pos2)>,
 }
@@ -76,6 +78,14 @@ impl Pointer {
 
     pub fn vertex(&self) -> Option<VertexId> {
         self.vertex
+    }
+
+    pub(in crate::ui) fn menu_vertex(&self) -> Option<VertexId> {
+        self.menu_vertex
+    }
+
+    pub(in crate::ui) fn set_menu_vertex(&mut self, vertex: Option<VertexId>) {
+        self.menu_vertex = vertex;
     }
 
     /// The pointer in the plane of the embedding.

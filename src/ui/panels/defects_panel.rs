@@ -91,8 +91,15 @@ fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
                 Defect::Overwound(_) => theme.overwound,
             };
             let words = RichText::new(defects[place].words()).color(colour);
-            ui.selectable_label(editor.selection.defect() == Some(place), words)
-                .asks(Request::GoToDefect(place), requests);
+            let row = ui.selectable_label(editor.selection.defect() == Some(place), words);
+            row.context_menu(|ui| {
+                for (words, request) in [("Go to", Request::GoToDefect(place)), ("Next", Request::StepDefect(1))] {
+                    if ui.button(words).asks(request, requests) {
+                        ui.close();
+                    }
+                }
+            });
+            row.asks(Request::GoToDefect(place), requests);
         }
     });
 }

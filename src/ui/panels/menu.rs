@@ -8,7 +8,7 @@ use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::io::OutputFit;
 use crate::session::Action;
-use crate::ui::{Control, Editor, Purpose, Request, Shading, StepTarget, Tab, Tool, icons, keys_of, theme_of};
+use crate::ui::{Control, Editor, Pane, Purpose, Request, Shading, StepTarget, Tab, Tool, icons, keys_of, theme_of};
 
 /// Blanks before the words of an entry that may have a check mark.
 const ROOM_FOR_MARK: &str = "      ";
@@ -193,7 +193,8 @@ fn view_menu(menu: &mut Menu<'_>) {
     let editor = menu.editor;
     menu.part("Shading", |menu| {
         for shading in Shading::ALL {
-            menu.choice(editor.look.shading == shading, shading.title(), Request::SetShading(shading));
+            let is_on = Pane::BOTH.into_iter().any(|pane| editor.shading(pane) == shading);
+            menu.choice(is_on, shading.title(), Request::SetShading(shading));
         }
     });
     menu.switch(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);

@@ -4,7 +4,7 @@ use eframe::egui::{self, RichText};
 
 use crate::geom::VAxis;
 use crate::session::Action;
-use crate::ui::{Control, Editor, Offer, Purpose, Request, theme_of};
+use crate::ui::{Control, Editor, Offer, Purpose, Request, remark, theme_of};
 
 pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
@@ -31,8 +31,8 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (v_axis, words, tip) in [
-            (VAxis::Up, "v up", "v = 0 at the lower edge, as in OBJ files"),
-            (VAxis::Down, "v down", "v = 0 at the upper edge, as in pictures"),
+            (VAxis::Up, "v up", "v = 0 at the lower edge, as in OBJ files; pins keep their places on the picture"),
+            (VAxis::Down, "v down", "v = 0 at the upper edge, as in pictures; pins keep their places on the picture"),
         ] {
             let on = document.v_axis == v_axis;
             if ui.selectable_label(on, words).on_hover_text(tip).clicked() && !on {
@@ -43,8 +43,13 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
             ui.selectable_label(editor.look.is_sharp(), "Sharp").on_hover_text("Pixels are squares of one colour");
         sharp.asks(Request::ToggleSharp, requests);
     });
+    if let Some(plane) = editor.plane.scene().filter(|plane| document.picture.is_some() && plane.faces_outside > 0) {
+        let share = 100.0 * plane.faces_outside as f64 / plane.mesh.mesh().face_count().max(1) as f64;
+        let share = if share < 0.1 { "less than 0.1".to_owned() } else { format!("{share:.1}") };
+        remark(ui, format!("{share} % of the faces reach out of the picture: hatched in the embedding"));
+    }
     if document.picture.is_some() {
-        let mut percent = editor.look.opacity * 100.0;
+        let mut percent = editor.appearance().opacity * 100.0;
         let slider = egui::Slider::new(&mut percent, 0.0..=100.0).suffix(" %").fixed_decimals(0);
         let label = ui.weak("Opacity behind the embedding");
         let slider = ui.add(slider).labelled_by(label.id);

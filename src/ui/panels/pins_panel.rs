@@ -1,5 +1,6 @@
 //! The pins as a table: select, move by typing, choose how each is held, free. Below it what concerns all of them.
 
+use eframe::egui::containers::menu::MenuButton;
 use eframe::egui::{self, DragValue, RichText, Role, Sense, Vec2};
 
 use super::picture_panel;
@@ -8,6 +9,7 @@ use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::{Hold, Pin};
 use crate::ui::panes::pins::{Emphasis, PinKind};
+use crate::ui::panes::vertex_menu::{hold_entries, vertex_menu};
 use crate::ui::{Control, Editor, Offer, Purpose, Request, Tool, counted, keys_of, remark, sentence, theme_of};
 
 /// Height that is kept free below the table, points.
@@ -85,6 +87,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     hold_button(ui, row, requests);
     let selected = editor.selection.vertices().contains(&vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
+    label.context_menu(|ui| vertex_menu(ui, editor, vertex, requests));
     let label = label.on_hover_text("Select; Shift selects all up to it, Ctrl adds it, a double click shows it");
     if label.double_clicked() {
         requests.push(Request::GoTo(vec![vertex]));
@@ -99,23 +102,26 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
         (Hold::Fixed | Hold::Hard, Hold::Weighted(weight)) => {
             ui.weak(weight_words(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
         }
-        (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => exact(ui, editor, vertex),
+        (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => exact(ui, editor, row, requests),
     }
     let free = ui.small_button("×").on_hover_text("Free this pin").named(Role::Button, &format!("Free pin {vertex}"));
     free.asks(Action::Unpin(vec![vertex]), requests);
 }
 
-/// What there is to say about a pin that is to be met exactly.
-fn exact(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId) {
-    let theme = theme_of(ui);
-    if editor.unmet_shown().contains(&vertex) {
-        let label = ui.colored_label(theme.unmet, "not met");
-        label.on_hover_text("The embedding on the screen is planar, but this vertex is not on its target");
+/// What there is to say about a pin that is to be met exactly, and other ways to hold it.
+fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>) {
+    let (theme, vertex) = (theme_of(ui), row.vertex);
+    let (words, colour, tip) = if editor.unmet_shown().contains(&vertex) {
+        let tip = "The embedding on the screen is planar, but this vertex is not on its target";
+        ("not met", theme.unmet, tip.to_owned())
     } else if let Some(conflict) = editor.session.conflict_of(vertex) {
-        ui.colored_label(theme.stale, "conflict").on_hover_text(sentence(&conflict.words()));
+        ("conflict", theme.stale, sentence(&conflict.words()))
     } else {
-        ui.weak("exact");
-    }
+        ("exact", theme.weak_text, "Met exactly. Click: other ways to hold it".to_owned())
+    };
+    let button = egui::Button::new(RichText::new(words).color(colour)).frame(false);
+    let (menu, _) = MenuButton::from_button(button).ui(ui, |ui| hold_entries(ui, vertex, row.target.hold, requests));
+    menu.on_hover_text(tip).named(Role::Button, &format!("Hold of pin {vertex}: {words}"));
 }
 
 /// The pin's mark; a click makes a hard one weighted and a weighted one hard.

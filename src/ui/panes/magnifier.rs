@@ -15,7 +15,7 @@ use crate::geom::Bounds;
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame, Shading};
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
-use crate::ui::{Control, Defect, Editor, Request, Theme, keys_of, theme_of};
+use crate::ui::{Control, Defect, Editor, Pane, Request, Theme, keys_of, theme_of};
 use crate::view::{OrbitCamera, PlaneCamera, Sphere, bounds_of};
 
 /// Distance of insets from the pane's edges, points.
@@ -147,12 +147,17 @@ impl Magnifier {
     /// The bare embedding, its faces' outlines and defects.
     fn frame(&self, editor: &Editor, plane: &PlaneScene, theme: &Theme) -> PlaneFrame {
         PlaneFrame {
-            paint: editor.look.paint().map(|paint| Arc::clone(&paint.faces)),
+            paint: editor.look.paint(Pane::Plane).map(|paint| Arc::clone(&paint.faces)),
             fills: Vec::new(),
             lines: vec![mesh_pane::boundary_line(&plane.mesh, theme)],
             ghost: editor.plane.ghost_layer(theme),
             picture: None,
-            style: render::Style { shading: Shading::Plain, wire_in_points: 1.0, ..mesh_pane::style(editor) },
+            style: render::Style {
+                shading: Shading::Plain,
+                wire_in_points: 1.0,
+                face_opacity: 1.0,
+                ..mesh_pane::style(editor, Pane::Plane)
+            },
             ..plane_pane::frame(editor, plane, self.camera, theme)
         }
     }

@@ -7,13 +7,19 @@ use glam::DVec2;
 
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis, PinKind};
-use super::{bars, legend, magnifier};
+use super::{bars, legend, magnifier, vertex_menu};
 use crate::mesh::VertexId;
-use crate::render::{self, LineLayer, MeshFrame, PaneId, Style};
+use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::ui::editor::scene::MeshScene;
 use crate::ui::editor::views::picture_box;
 use crate::ui::{Editor, Pane, Request, Shading, Theme, Tool, theme_of};
 use crate::view::{OrbitCamera, Visibility};
+
+/// Opacity of the mark of a selected vertex that the mesh hides.
+const HIDDEN: f32 = 0.4;
+
+/// Opacity of faces that a picture shows through.
+const THIN_FILL: f32 = 0.3;
 
 /// Marks drawn at most for a large selection.
 const MARKS_SHOWN: usize = 2000;
@@ -53,12 +59,13 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         requests.push(Request::AddToSelection(vertices.filter(inside).collect()));
     }
     pane::click(ui, &response, editor, requests);
+    vertex_menu::of_pane(&response, editor, requests);
     if editor.host.has_gpu() {
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, frame(editor, &scene, camera, theme)));
     }
     marks(ui, view, editor, &scene);
-    legend::legend(ui, rect, editor);
-    legend::no_move_note(ui, rect, editor);
+    legend::legend(ui, rect, editor, Pane::Mesh);
+    legend::no_move_note(ui, rect, editor, Pane::Mesh);
     magnifier::over_mesh(ui, view, editor, &scene, requests);
 }
 
@@ -94,9 +101,9 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         lines: vec![boundary_line(scene, theme)],
-        picture: editor.look.picture_layer(picture_box(editor.session.document())),
-        paint: editor.plane.preview_paint().or(editor.look.paint().map(|paint| &paint.faces)).map(Arc::clone),
-        style: style(editor),
+        picture: picture_layer(editor),
+        paint: editor.plane.preview_paint().or(editor.look.paint(Pane::Mesh).map(|paint| &paint.faces)).map(Arc::clone),
+        style: style(editor, Pane::Mesh),
         palette: theme.palette,
         camera,
         plane,
@@ -108,10 +115,16 @@ pub(super) fn boundary_line(scene: &MeshScene, theme: &Theme) -> LineLayer {
     LineLayer { edges: Arc::clone(&scene.boundary), colour: theme.boundary, width_in_points: 1.5 }
 }
 
-/// How faces look, in both panes.
-pub(super) fn style(editor: &Editor) -> Style {
-    let shading = match editor.look.shading {
-        Shading::Plain => render::Shading::Plain,
+/// The picture as the panes draw it.
+pub(super) fn picture_layer(editor: &Editor) -> Option<PictureLayer> {
+    editor.look.picture_layer(picture_box(editor.session.document()), editor.appearance().opacity)
+}
+
+/// How faces look in a pane.
+pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
+    let chosen = editor.shading(pane);
+    let shading = match chosen {
+        Shading::Plain | Shading::SeeThrough => render::Shading::Plain,
         Shading::Picture if editor.has_picture() => render::Shading::Picture,
         Shading::Checker | Shading::Picture => render::Shading::Checker,
         // What was measured belongs to another embedding than the one that follows a drag.
@@ -123,6 +136,7 @@ pub(super) fn style(editor: &Editor) -> Style {
         shading,
         wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 },
         check_size: editor.look.check_size(),
+        face_opacity: if chosen == Shading::SeeThrough { THIN_FILL } else { 1.0 },
         ..Style::default()
     }
 }
@@ -179,8 +193,10 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
             pin.kind.mark(&painter, at, theme, Emphasis::strong_if(editor.selection.vertices().contains(&pin.vertex)));
         }
     }
-    for at in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| seen(vertex)) {
-        pane::halo(&painter, at, theme.selection, 6.0);
+    for (at, is_seen) in editor.selection.vertices().iter().take(MARKS_SHOWN).filter_map(|&vertex| place(vertex)) {
+        // What is hidden shows through the mesh, dimmed: "go to" may lead there.
+        let colour = if is_seen { theme.selection } else { theme.selection.gamma_multiply(HIDDEN) };
+        pane::halo(&painter, at, colour, 6.0);
     }
     if let Some((vertex, at)) = editor.pointer.vertex().and_then(|vertex| Some((vertex, seen(vertex)?))) {
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });

@@ -12,6 +12,7 @@
 //! | `inset.rs` | what both kinds of insets share: the wheel over them, the cross that closes them |
 //! | `pin_drag.rs` | a pin dragged with the pointer |
 //! | `pins.rs` | kinds of pins and their marks |
+//! | `vertex_menu.rs` | what a secondary click on a vertex or a pin offers |
 
 mod bars;
 pub(super) mod constrain;
@@ -23,6 +24,7 @@ pub(super) mod pane;
 pub(super) mod pin_drag;
 pub(super) mod pins;
 pub(super) mod plane_pane;
+pub(super) mod vertex_menu;
 
 pub use constrain::{Half, Intent};
 pub use pins::PinKind;

@@ -112,10 +112,7 @@ impl<C: Copy> PaneView<C> {
 
 /// Title, shading and the button for full size.
 pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
-    let title = match pane {
-        Pane::Mesh => "Mesh",
-        Pane::Plane => "Embedding",
-    };
+    let title = pane.title();
     ui.horizontal(|ui| {
         ui.set_min_height(26.0);
         ui.add_space(8.0);
@@ -135,26 +132,31 @@ pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &
                 switch.asks(Request::ToggleHull, requests);
             }
             if pane == Pane::Mesh || editor.layout.full() == Some(Pane::Plane) {
-                shading_menu(ui, editor, requests);
+                let tip = tip_with_keys(ui, "Wireframe", &Request::ToggleWireframe);
+                let wire = ui.selectable_label(editor.look.wireframe, "Wire").on_hover_text(tip);
+                wire.asks(Request::ToggleWireframe, requests);
             }
+            shading_menu(ui, editor, pane, requests);
         });
     });
 }
 
-fn shading_menu(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let tip = tip_with_keys(ui, "Wireframe", &Request::ToggleWireframe);
-    let wire = ui.selectable_label(editor.look.wireframe, "Wire").on_hover_text(tip);
-    wire.asks(Request::ToggleWireframe, requests);
+fn shading_menu(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
     let width = ui.spacing().combo_width;
-    list(ui, "Shading of both panes", width, editor.look.shading.title(), |ui| {
-        for shading in Shading::ALL {
-            let request = Request::SetShading(shading);
+    let now = editor.shading(pane);
+    let name = format!("Shading of the {}", pane.title().to_lowercase());
+    let menu = list(ui, &name, width, now.title(), |ui| {
+        for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
             let [title, about] = shading.words();
-            let tip = tip_with_keys(ui, about, &request);
-            let entry = ui.selectable_label(editor.look.shading == shading, title).on_hover_text(tip);
-            entry.asks(request, requests);
+            let tip = tip_with_keys(ui, about, &Request::SetShading(shading));
+            let entry = ui.selectable_label(now == shading, title).on_hover_text(tip);
+            entry.asks(Request::SetPaneShading(pane, shading), requests);
         }
     });
+    menu.on_hover_text(
+        "How faces show in this pane. Number keys shade the pane under the pointer, or both where it is over neither. \
+         The Constrain tool over a picture has shadings of its own",
+    );
 }
 
 /// Words in the middle of a pane that has nothing to show.

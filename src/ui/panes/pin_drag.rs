@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::pane::Viewport;
 use super::pins::{self, Emphasis, PinShown};
+use super::vertex_menu::vertex_menu;
 use crate::geom::PictureFrame;
 use crate::mesh::VertexId;
 use crate::session::Action;
@@ -91,6 +92,7 @@ pub(super) fn pins_ui(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &mut E
             let toggle = Request::ToggleSelected(pin.vertex);
             requests.push(if adds { toggle } else { Request::Select(vec![pin.vertex]) });
         }
+        response.context_menu(|ui| vertex_menu(ui, editor, pin.vertex, requests));
         grip.drag(ui, &response, editor, requests);
     }
 }

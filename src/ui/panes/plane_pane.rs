@@ -6,9 +6,9 @@ use eframe::egui::{self, Pos2, Rect, Response};
 use glam::DVec2;
 
 use super::magnifier::Magnifier;
-use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, style};
+use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, style};
 use super::pane::{self, Viewport};
-use super::{bars, constrain, inset, legend, magnifier, pin_drag, pins};
+use super::{bars, constrain, inset, legend, magnifier, pin_drag, pins, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::Surface;
@@ -51,6 +51,7 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
         requests.push(Request::AddToSelection(within(view, chosen, editor, &plane)));
     }
     pane::click(ui, &response, editor, requests);
+    vertex_menu::of_pane(&response, editor, requests);
     marks(ui, view, editor, &plane);
     equation_table::draw(ui, view, editor, &plane);
     if !plane.is_stage() {
@@ -61,8 +62,9 @@ pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
         magnifier.show(ui, editor, &plane, requests);
     }
     stage_selector(ui, rect, editor, requests);
-    if editor.layout.mesh_hidden() {
-        legend::legend(ui, rect, editor);
+    if legend::plane_has_own(editor) {
+        legend::legend(ui, rect, editor, Pane::Plane);
+        legend::no_move_note(ui, rect, editor, Pane::Plane);
     }
     if !plane.is_stage() {
         legend::ghost_note(ui, rect, editor, requests);
@@ -126,12 +128,12 @@ pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, th
     let hull = editor.plane.hull_scene();
     let mut lines = vec![boundary_line(&plane.mesh, theme)];
     lines.extend(hull.into_iter().flat_map(|scene| scene.lines(theme)));
-    let mut style = style(editor);
+    let mut style = style(editor, Pane::Plane);
     if plane.is_stage() && style.shading == render::Shading::Paint {
         style.shading = render::Shading::Plain;
     }
     let of_stage = hull.and_then(HullScene::paint).or(editor.plane.preview_paint());
-    let paint = of_stage.or(editor.look.paint().map(|paint| &paint.faces));
+    let paint = of_stage.or(editor.look.paint(Pane::Plane).map(|paint| &paint.faces));
     PlaneFrame {
         mesh: Arc::clone(&plane.mesh.arrays),
         plane: Some(Arc::clone(&plane.arrays)),
@@ -139,7 +141,7 @@ pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, th
         fills: hull.map(|scene| scene.fill(theme)).into_iter().collect(),
         lines,
         ghost: editor.plane.ghost_layer(theme).filter(|_| !plane.is_stage()),
-        picture: editor.look.picture_layer(picture_box(editor.session.document())),
+        picture: picture_layer(editor),
         outlined: picture_box(editor.session.document()),
         style,
         palette: theme.palette,

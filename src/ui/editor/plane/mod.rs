@@ -16,6 +16,7 @@ pub use hull::Stage;
 pub(super) use steps::SECONDS;
 
 use eframe::egui;
+use glam::DVec2;
 
 use super::host::Host;
 use super::scene::{MeshScene, PlaneScene};
@@ -115,6 +116,15 @@ impl PlaneView {
         let size = self.pane.size();
         if let Some(camera) = self.pane.camera_mut() {
             camera.frame(bounds, size);
+        }
+    }
+
+    /// Goes along with a move of all that the pane shows.
+    pub(super) fn go_along(&mut self, by: DVec2) {
+        let moved = |camera: PlaneCamera| camera.moved(by);
+        self.framed = self.framed.map(moved);
+        if let Some(camera) = self.pane.camera_mut() {
+            *camera = moved(*camera);
         }
     }
 

@@ -1,0 +1,118 @@
+//! Which way up an embedding lies that no pin holds: as its mesh stands, up for up.
+//!
+//! With w(v) the place of a vertex in the mesh's front view and z(v) that in the plane, complex numbers both, the turn is
+//!
+//! ```text
+//! turn = s / |s|,   s = Σ_f A_f (z_f − z̄)* w_f
+//! ```
+//!
+//! over the centroids of the faces, weighted by their areas in space; z̄ is the weighted mean, * the conjugate. Of all
+//! turns it brings the embedding nearest to the front view, in the sum of squares: never a reflection. The view is from the
+//! side that the faces look at, y up; a body that looks to no side is seen from the front, z towards the eye, and only a
+//! sheet that lies down from above or below.
+
+use glam::{DVec2, DVec3};
+
+use super::Embedding;
+use super::equations::length_scale;
+use crate::geom::power_of_two_near;
+use crate::mesh::{DiskMesh, FaceId};
+
+/// Length of the mean of the faces' normals above which a mesh is a sheet rather than a body: a hemisphere has 0.5.
+const NEARLY_FLAT: f64 = 0.6;
+
+/// Length of a mean normal, or of its horizontal part, below which it points nowhere.
+const NOWHERE: f64 = 0.1;
+
+/// |s| over the greatest that it could be, below which the front view says nothing of the turn.
+const LEAST_AGREEMENT: f64 = 1e-6;
+
+/// A turn as near to a multiple of 90° as this, radians, is one: rounding turns nothing.
+const NEARLY_QUARTER: f64 = 1e-9;
+
+/// Turns of an embedding that no pin holds, as complex numbers of length 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turns {
+    /// To where it stands upright.
+    pub(super) wished: DVec2,
+    /// The nearest multiple of 90° to that, which rounds nothing.
+    pub(super) quarter: DVec2,
+}
+
+impl Turns {
+    /// None at all.
+    pub(super) const NONE: Self = Self { wished: DVec2::X, quarter: DVec2::X };
+
+    /// Those that bring an embedding upright.
+    pub(super) fn upright(mesh: &DiskMesh, embedding: &Embedding) -> Self {
+        let Some(wished) = upright_turn(mesh, embedding) else { return Self::NONE };
+        let quarter = nearest_quarter(wished);
+        let is_quarter = wished.distance(quarter) < NEARLY_QUARTER;
+        Self { wished: if is_quarter { quarter } else { wished }, quarter }
+    }
+
+    /// By multiples of 90° alone.
+    pub(super) fn by_quarters(self) -> Self {
+        Self { wished: self.quarter, ..self }
+    }
+}
+
+fn nearest_quarter(turn: DVec2) -> DVec2 {
+    let along_x = turn.x.abs() >= turn.y.abs();
+    if along_x { DVec2::new(1.0_f64.copysign(turn.x), 0.0) } else { DVec2::new(0.0, 1.0_f64.copysign(turn.y)) }
+}
+
+/// A face as the sum takes it.
+struct Part {
+    area: f64,
+    in_plane: DVec2,
+    in_view: DVec2,
+}
+
+fn upright_turn(mesh: &DiskMesh, embedding: &Embedding) -> Option<DVec2> {
+    // Both near size 1, so that no product overflows or vanishes.
+    let in_space = length_scale(mesh);
+    let in_plane = power_of_two_near(embedding.bounds().size().max_element()).recip();
+    let origin = mesh.mesh().positions[0];
+    let corners = |face: FaceId| mesh.mesh().corners(face).map(|x| (x - origin) * in_space);
+    let doubled_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
+    let (normal, area) = mesh.faces().fold((DVec3::ZERO, 0.0), |(normal, area), face| {
+        let doubled = doubled_area(corners(face));
+        (normal + doubled, area + doubled.length())
+    });
+    let [right, up] = front_view(normal / area);
+    let parts = || {
+        mesh.faces().map(|face| {
+            let at = corners(face);
+            let middle = at.iter().sum::<DVec3>() / 3.0;
+            let z = embedding.corners(mesh, face).iter().sum::<DVec2>() / 3.0;
+            Part {
+                area: doubled_area(at).length(),
+                in_plane: z * in_plane,
+                in_view: DVec2::new(right.dot(middle), up.dot(middle)),
+            }
+        })
+    };
+    let mean = |of: fn(&Part) -> DVec2| parts().map(|part| part.area * of(&part)).sum::<DVec2>() / area;
+    let (z_mean, w_mean) = (mean(|part| part.in_plane), mean(|part| part.in_view));
+    let (mut sum, mut squares) = (DVec2::ZERO, DVec2::ZERO);
+    for Part { area, in_plane, in_view } in parts() {
+        let (z, w) = (in_plane - z_mean, in_view - w_mean);
+        // The conjugate of z, times w.
+        sum += area * DVec2::new(z.dot(w), z.perp_dot(w));
+        squares += area * DVec2::new(z.length_squared(), w.length_squared());
+    }
+    let is_clear = sum.length() > LEAST_AGREEMENT * (squares.x * squares.y).sqrt();
+    sum.try_normalize().filter(|_| is_clear)
+}
+
+/// Right and up of the view from the side that a surface faces. `mean_normal` has length 1 for a plane sheet and 0 for a
+/// closed surface.
+fn front_view(mean_normal: DVec3) -> [DVec3; 2] {
+    let across = DVec3::new(mean_normal.x, 0.0, mean_normal.z);
+    let right = if across.length() > NOWHERE { DVec3::Y.cross(across) } else { DVec3::X };
+    let right = right.try_normalize().unwrap_or(DVec3::X);
+    let is_sheet = mean_normal.length() > NEARLY_FLAT;
+    let up = if is_sheet { mean_normal.cross(right).try_normalize() } else { None };
+    [right, up.unwrap_or(DVec3::Y)]
+}
