@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `window.rs` | one frame: all panels and panes in their places |
 //! | `controls.rs` | what panels are put together from |
+//! | `typed.rs` | fields of numbers, marked where what was typed cannot be taken |
 //! | `editor/` | the editor's state and what a request does to it |
 //! | `panes/` | mesh and embedding |
 //! | `panels/` | menus, bars, panels, dialogs |
@@ -22,6 +23,7 @@ mod panes;
 mod presses;
 pub mod theme;
 mod timeline;
+mod typed;
 mod window;
 
 pub use controls::sentence;
@@ -35,4 +37,5 @@ use panels::{Answer, Unsaved};
 pub use panes::{Half, Intent, PinKind};
 use theme::{Theme, theme_of};
 use timeline::TimelineView;
+use typed::Typed;
 pub use window::window_ui;

@@ -59,6 +59,41 @@ fn a_weight_that_is_only_looked_at_keeps_its_digits() {
 }
 
 #[test]
+fn a_weight_out_of_range_changes_nothing_and_the_field_says_so_until_another_is_typed() {
+    let mut window = window();
+    corners(&mut window);
+    place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), 0.5))]);
+    window.click("Pins 6");
+    let field = "Weight of pin v30";
+    let mut shown = field.to_owned();
+    for (typed, says) in [
+        ("1e12", "1e12 is not taken: a weight lies between 1e-9 and 1e9"),
+        ("-3", "-3 is not taken: a weight lies between 1e-9 and 1e9"),
+        ("much", "“much” is no number"),
+    ] {
+        window.fill_in(Role::SpinButton, &shown, typed);
+        window.key(Key::Enter);
+        assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(0.5), "{typed}");
+        shown = format!("{field}: {says}");
+        window.harness.get_by_role_and_label(Role::SpinButton, &shown);
+    }
+    window.fill_in(Role::SpinButton, &shown, "250");
+    window.key(Key::Enter);
+    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(250.0));
+    window.harness.get_by_role_and_label(Role::SpinButton, field);
+}
+
+#[test]
+fn a_weight_beyond_the_range_of_the_field_is_not_changed_by_being_shown() {
+    let mut window = window();
+    corners(&mut window);
+    place(&mut window, &[(30, Target::weighted(DVec2::new(0.9, 0.1), 3e10))]);
+    window.click("Pins 6");
+    window.settle();
+    assert_eq!(pins(&window)[&VertexId::new(30)].hold, Hold::Weighted(3e10));
+}
+
+#[test]
 fn where_the_treatment_weighs_exact_pins_marks_and_rows_say_so() {
     let mut window = window();
     corners(&mut window);

@@ -2,6 +2,7 @@
 
 use eframe::egui;
 use egui::{Key, Modifiers};
+use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
 use freebound::solver::{Family, Method, Settings};
@@ -60,6 +61,24 @@ fn the_list_of_defects_jumps_to_a_face_in_both_panes() {
         assert!(window.plane_view().contains(window.place_in_plane(embedding[corner])));
         assert!(window.mesh_view().contains(window.place_on_mesh(corner)));
     }
+}
+
+#[test]
+fn from_the_cube_s_first_fold_to_the_equation_of_a_vertex_at_fault_it_is_three_actions() {
+    let mut window = Window::with_example(Example::Cube);
+    let disk = window.editor().session.model().and_then(|model| model.disk()).cloned().expect("a disk");
+    let rim = disk.boundary_loop();
+    let corners = [0, 1, 2, 3].map(|quarter| rim[quarter * rim.len() / 4].number());
+    let inside: Vec<u32> =
+        disk.vertices().filter(|&v| disk.boundary_place(v).is_none()).map(VertexId::number).collect();
+    exchange(&mut window, corners, [inside[0], inside[inside.len() - 1]]);
+    window.key(Key::D);
+    let Some(Defect::Flipped(face)) = window.editor().defects().first().copied() else { panic!("it folds") };
+    let corner = disk.face(face)[0];
+    window.click_at(window.place_in_plane(window.embedding()[corner]), Modifiers::NONE);
+    assert_eq!(*window.editor().selection.vertices(), [corner].into());
+    window.click("Vertex");
+    assert!(window.shows(&corner.to_string()) && window.shows("eq. "), "{:?}", window.words());
 }
 
 #[test]

@@ -1,13 +1,15 @@
 //! Method and weights, and the numbers of the last solve.
 
-use eframe::egui::{self, Role, WidgetInfo};
+use eframe::egui::{self, WidgetInfo};
 
 use super::compare_panel::comparison;
 use super::status::short;
 use crate::session::{Action, Outcome};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
 use crate::ui::timeline::chips::residual_words;
-use crate::ui::{Control, Editor, Request, figures, heads, list, number, pairs, remark, sentence, tip_with_keys};
+use crate::ui::{
+    Control, Editor, Request, Typed, figures, heads, list, number, pairs, remark, sentence, tip_with_keys,
+};
 
 /// Letters of a number of the distortion.
 const FIGURE: usize = 8;
@@ -197,8 +199,10 @@ fn more(ui: &mut egui::Ui, edit: &mut Edit) {
 }
 
 fn step_limit(ui: &mut egui::Ui, edit: &mut Edit) {
-    let field = ui.add(egui::DragValue::new(&mut edit.settings.max_steps).range(1..=10_000).suffix(" steps"));
-    let field = field.named(Role::SpinButton, "Step limit");
+    let typed = Typed::new("the limit", 1.0..=10_000.0).whole();
+    let drag = egui::DragValue::new(&mut edit.settings.max_steps).range(1..=10_000).suffix(" steps");
+    let field = ui.add(drag.custom_parser(|text| typed.number(text)));
+    let field = typed.name(ui, field, "Step limit");
     edit.slides |= field.changed();
     edit.ends |= field.has_ended();
     field.on_hover_text("The most mean-value iterations of a run. Drag, or click to type.");

@@ -1,5 +1,7 @@
 //! The pins as a table: select, move by typing, choose how each is held, free. Below it what concerns all of them.
 
+use std::ops::RangeInclusive;
+
 use eframe::egui::containers::menu::MenuButton;
 use eframe::egui::{self, DragValue, RichText, Role, Sense, Vec2};
 
@@ -10,13 +12,16 @@ use crate::session::Action;
 use crate::solver::{Hold, Pin};
 use crate::ui::panes::pins::{Emphasis, PinKind};
 use crate::ui::panes::vertex_menu::{hold_entries, vertex_menu};
-use crate::ui::{Control, Editor, Offer, Purpose, Request, Tool, counted, keys_of, remark, sentence, theme_of};
+use crate::ui::{Control, Editor, Offer, Purpose, Request, Tool, Typed, counted, keys_of, remark, sentence, theme_of};
 
 /// Height that is kept free below the table, points.
 const BELOW: f32 = 250.0;
 
 /// Widths of a coordinate's and a weight's field, points.
 const FIELDS: [f32; 2] = [56.0, 44.0];
+
+/// Weights that can be typed or dragged to.
+const WEIGHTS: RangeInclusive<f64> = 1e-9..=1e9;
 
 pub(in crate::ui) fn pins_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let document = editor.session.document();
@@ -169,8 +174,10 @@ fn coordinates(ui: &mut egui::Ui, Row { vertex, target, speed, .. }: Row, reques
     let mut has_ended = false;
     for (axis, name) in [(0, "u"), (1, "v")] {
         let tip = format!("{name} = {:?}", target[axis]);
-        let field = ui.add_sized([FIELDS[0], 20.0], coordinate(&mut moved[axis], speed)).on_hover_text(tip);
-        has_ended |= field.named(Role::SpinButton, &format!("{name} of pin {vertex}")).has_ended();
+        let typed = Typed::new("a coordinate", f64::MIN..=f64::MAX);
+        let drag = coordinate(&mut moved[axis], speed, &typed);
+        let field = ui.add_sized([FIELDS[0], 20.0], drag).on_hover_text(tip);
+        has_ended |= typed.name(ui, field, &format!("{name} of pin {vertex}")).has_ended();
     }
     if moved != target && moved.is_finite() {
         requests.push(Action::MovePin { vertex, target: moved }.into());
@@ -184,14 +191,13 @@ fn coordinates(ui: &mut egui::Ui, Row { vertex, target, speed, .. }: Row, reques
 fn weight_field(ui: &mut egui::Ui, name: &str, weight: f64, vertices: &[VertexId], requests: &mut Vec<Request>) {
     let mut typed = weight;
     let shown = weight_words(weight);
-    let drag = DragValue::new(&mut typed).range(1e-9..=1e9).speed(weight * 0.02).update_while_editing(false);
+    let taken = Typed::new("a weight", WEIGHTS);
+    let drag = DragValue::new(&mut typed).range(WEIGHTS).clamp_existing_to_range(false).speed(weight * 0.02);
     // A weight that is only looked at keeps all of its digits.
-    let drag = drag.custom_formatter(|weight, _| weight_words(weight)).custom_parser(move |text| {
-        let text = text.trim();
-        if text == shown { Some(weight) } else { text.parse().ok().filter(|weight: &f64| weight.is_finite()) }
-    });
+    let drag = drag.update_while_editing(false).custom_formatter(|weight, _| weight_words(weight));
+    let drag = drag.custom_parser(|text| if text.trim() == shown { Some(weight) } else { taken.number(text) });
     let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("How strongly it pulls: drag, or type");
-    let field = field.named(Role::SpinButton, name);
+    let field = taken.name(ui, field, name);
     let (vertices, hold) = (vertices.to_vec(), Hold::Weighted(typed));
     if field.drag_stopped() {
         requests.push(Action::EndGesture.into());
@@ -286,13 +292,13 @@ fn all_of_them(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) 
 }
 
 /// A field for a coordinate. It shows a few digits; a value that is not typed over keeps all of its own.
-fn coordinate(value: &mut f64, speed: f64) -> DragValue<'_> {
+fn coordinate<'a>(value: &'a mut f64, speed: f64, typed: &'a Typed) -> DragValue<'a> {
     let exact = *value;
     let shown = digits(exact);
-    DragValue::new(value).speed(speed).custom_formatter(|value, _| digits(value)).custom_parser(move |text| {
-        let text = text.trim().replace('−', "-");
-        if text == shown { Some(exact) } else { text.parse().ok() }
-    })
+    let drag = DragValue::new(value).speed(speed).custom_formatter(|value, _| digits(value));
+    drag.custom_parser(
+        move |text| if text.trim().replace('−', "-") == shown { Some(exact) } else { typed.number(text) },
+    )
 }
 
 /// A weight with a few digits that mean something.
