@@ -237,10 +237,14 @@ impl<T: Scalar> Factor<T> {
     /// Where pivots were replaced, tells a singular matrix from one that only wanted another order of elimination: a
     /// right-hand side with a part in every direction has a solution only if the matrix is regular.
     fn check_regular(&self, matrix: &CscMatrix<T>) -> Result<(), LinalgError> {
-        let Numeric::Lu(lu) = &self.numeric else { return Ok(()) };
-        let Some(row) = lu.replaced_rows.first().map(|&row| row as usize) else { return Ok(()) };
-        let probe = |(index, scale): (usize, &f64)| T::from_real((0.5 + spread(index)) / scale);
-        let rhs: Vec<T> = lu.row_scale.iter().enumerate().map(probe).collect();
+        let (row, scales) = match &self.numeric {
+            Numeric::Llt(_) => return Ok(()),
+            Numeric::Ldlt(ldlt) => (ldlt.replaced_row, None),
+            Numeric::Lu(lu) => (lu.replaced_rows.first().map(|&row| row as usize), Some(&lu.row_scale)),
+        };
+        let Some(row) = row else { return Ok(()) };
+        let probe = |index: usize| T::from_real((0.5 + spread(index)) / scales.map_or(1.0, |scales| scales[index]));
+        let rhs: Vec<T> = (0..self.shared.pattern.order()).map(probe).collect();
         match self.run(matrix, Operation::Plain, Accept::Residual, &rhs) {
             Err(LinalgError::ResidualTooLarge { .. }) => Err(LinalgError::Singular { row }),
             other => other.map(|_| ()),

@@ -7,7 +7,8 @@
 //!
 //! With E and F positive definite it exists for every order of elimination (Vanderbei 1995, "Symmetric quasi-definite
 //! matrices"). F may also be singular here: each row of F is then eliminated right after its partner in E, whose pivot
-//! has made a positive number of the coefficient that joins them. Half the memory of an LU.
+//! has made a positive number of the coefficient that joins them. Where that coefficient is zero there is no such number yet:
+//! pivots without the sign that they are to have are replaced, and refinement mends what that does. Half the memory of an LU.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
@@ -21,6 +22,10 @@ use super::order::{Order, Pattern};
 use super::scalar::Scalar;
 use super::{FactorStats, LinalgError};
 
+/// A pivot this small, relative to the largest entry, has no sign; it is replaced by one of this size.
+const NO_PIVOT: f64 = f64::EPSILON;
+const REPLACED: f64 = 1e-8;
+
 /// Symbolic factorization, the rows of each pair in turn.
 #[derive(Debug)]
 pub(super) struct LdltAnalysis {
@@ -33,6 +38,8 @@ pub(super) struct LdltAnalysis {
 pub(super) struct Ldlt<T> {
     values: Vec<T>,
     peak_bytes: usize,
+    /// The first row without a pivot of its own, where there is one.
+    pub(super) replaced_row: Option<usize>,
 }
 
 impl LdltAnalysis {
@@ -45,26 +52,47 @@ impl LdltAnalysis {
     }
 
     pub(super) fn factor<T: Scalar>(&self, pattern: &Pattern, matrix: &CscMatrix<T>) -> Result<Ldlt<T>, LinalgError> {
-        let mut values = vec![T::ZERO; self.symbolic.len_val()];
+        let mut ldlt = Ldlt { values: vec![T::ZERO; self.symbolic.len_val()], peak_bytes: 0, replaced_row: None };
+        if let Some(row) = self.run(pattern, matrix, LdltRegularization::default(), &mut ldlt)? {
+            let largest = matrix.values().iter().map(|value| value.size()).fold(0.0, f64::max);
+            let is_move = |row: usize| row < 2 * self.pairs && row % 2 == 1;
+            let signs: Vec<i8> = (0..pattern.order()).map(|row| if is_move(row) { 1 } else { -1 }).collect();
+            let replacing = LdltRegularization {
+                dynamic_regularization_signs: Some(&signs),
+                dynamic_regularization_delta: REPLACED * largest,
+                dynamic_regularization_epsilon: NO_PIVOT * largest,
+            };
+            ldlt.replaced_row = Some(row);
+            ldlt.values.fill(T::ZERO);
+            self.run(pattern, matrix, replacing, &mut ldlt)?;
+        }
+        Ok(ldlt)
+    }
+
+    /// Factors once. Returns the row whose pivot was zero, where that ended it.
+    fn run<T: Scalar>(
+        &self,
+        pattern: &Pattern,
+        matrix: &CscMatrix<T>,
+        regularization: LdltRegularization<'_, f64>,
+        ldlt: &mut Ldlt<T>,
+    ) -> Result<Option<usize>, LinalgError> {
         let par = Par::rayon(0);
         let scratch = self.symbolic.factorize_numeric_ldlt_scratch::<T>(par, Spec::default());
         let too_large = |_| LinalgError::TooLarge { order: pattern.order() };
         let mut memory = MemBuffer::try_new(scratch).map_err(too_large)?;
+        ldlt.peak_bytes = size_of_val(ldlt.values.as_slice()) + memory.len();
         let factored = self.symbolic.factorize_numeric_ldlt(
-            &mut values,
+            &mut ldlt.values,
             SparseColMatRef::new(pattern.as_faer(), matrix.values()),
             Side::Lower,
-            LdltRegularization::default(),
+            regularization,
             par,
             MemStack::new(&mut memory),
             Spec::default(),
         );
-        if let Err(LdltError::ZeroPivot { index }) = factored {
-            let row = self.symbolic.perm().map_or(index, |perm| perm.arrays().0[index] as usize);
-            return Err(LinalgError::Singular { row });
-        }
-        let peak_bytes = size_of_val(values.as_slice()) + memory.len();
-        Ok(Ldlt { values, peak_bytes })
+        let row_of = |index: usize| self.symbolic.perm().map_or(index, |perm| perm.arrays().0[index] as usize);
+        Ok(factored.err().map(|LdltError::ZeroPivot { index }| row_of(index)))
     }
 
     /// Solves A X = B in place; `columns` is column-major.
@@ -79,7 +107,7 @@ impl LdltAnalysis {
 impl<T> Ldlt<T> {
     pub(super) fn stats(&self) -> FactorStats {
         FactorStats {
-            replaced_pivots: 0,
+            replaced_pivots: usize::from(self.replaced_row.is_some()),
             factor_bytes: size_of_val(self.values.as_slice()),
             peak_bytes: self.peak_bytes,
         }

@@ -3,7 +3,7 @@
 use num_complex::Complex;
 
 /// An entry of a matrix: `f64` or `Complex<f64>`.
-pub trait Scalar: faer::traits::ComplexField + nalgebra::ComplexField<RealField = f64> + Copy {
+pub trait Scalar: faer::traits::ComplexField<Real = f64> + nalgebra::ComplexField<RealField = f64> + Copy {
     /// Additive identity.
     const ZERO: Self;
     /// Multiplicative identity.

@@ -98,12 +98,21 @@ impl Messages {
         self.last_id
     }
 
-    /// Says that files were written. It takes the place of what was said of others before.
+    /// Says that files were written, together with what still stands of others.
     pub(super) fn note(&mut self, verb: &str, written: Written) {
-        self.forget_notes();
         let about = written.about.as_ref().map_or_else(String::new, |about| format!(" ({about})"));
-        let message = Message::error(Place::Embedding, format!("{verb} {}{about}", written.names()));
-        self.say(Message { severity: Severity::Note, files: written.files, ..message });
+        let news = format!("{verb} {}{about}", written.names());
+        let notes = self.list.iter().filter(|message| message.severity == Severity::Note && message.text != news);
+        let (mut texts, mut files) = (Vec::new(), Vec::new());
+        for note in notes {
+            texts.push(note.text.clone());
+            files.extend_from_slice(&note.files);
+        }
+        texts.push(news);
+        files.extend(written.files);
+        self.forget_notes();
+        let message = Message::error(Place::Embedding, texts.join("; "));
+        self.say(Message { severity: Severity::Note, files, ..message });
     }
 
     /// Says that something did not work, and what to do about it.

@@ -58,17 +58,27 @@ impl Session {
     pub(super) fn run_on(&mut self) {
         self.solving.follow_newest();
         let goal = Goal::Until(self.stop_conditions());
-        if !self.solving.change_goal(|_| goal) && self.can_run() {
-            self.go_on(goal);
+        if self.solving.change_goal(|_| goal) {
+            return;
         }
+        if self.can_run() { self.go_on(goal) } else { self.relax_on() }
     }
 
     /// Lowers the distortion of the newest step on a person's wish, one-to-one throughout, constraints exact. The wish is
     /// an edit: it holds for the runs that follow, and is undone and repeated with the others.
     pub(super) fn relax(&mut self) {
+        self.solving.follow_newest();
         if self.relax_by(RELAX_ROUNDS) {
             let rounds = self.document.relaxed.saturating_add(RELAX_ROUNDS);
             self.history.apply(Command::SetRelaxed(rounds), &mut self.document);
+        }
+    }
+
+    /// Lets those rounds of relaxing follow that the document has and the run at rest was not asked for yet.
+    fn relax_on(&mut self) {
+        let left = self.document.relaxed.saturating_sub(self.solving.rounds_asked());
+        if left > 0 {
+            self.relax_by(left);
         }
     }
 
@@ -141,12 +151,7 @@ impl Session {
         match news.next {
             Some(Next::Anew) => self.solve(),
             Some(Next::On(goal)) => self.go_on(goal),
-            None if news.has_ended => {
-                let left = self.document.relaxed.saturating_sub(self.solving.rounds_asked());
-                if left > 0 {
-                    self.relax_by(left);
-                }
-            }
+            None if news.has_ended && !self.history.is_in_gesture() => self.relax_on(),
             None => {}
         }
     }

@@ -13,6 +13,9 @@ use super::{Embedding, GaugeSize, Pins};
 use crate::geom::{Bounds, Similarity, power_of_two_near};
 use crate::mesh::{DiskMesh, VertexId};
 
+/// What the rounding of a turn adds to a length at most, as a share of it.
+const TURN_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// What is wanted of an embedding's place.
 #[derive(Debug)]
 pub(super) struct Placing {
@@ -51,15 +54,8 @@ impl Placing {
                     .map(|[from, to]| Similarity::new(turn, from, to))
                     .into()
             }
-            (&[(vertex, target)], _) => {
-                let factors = with_power_of_two(factor_of(mesh, embedding, size), f64::round);
-                factors.map(|factor| scaled(factor, embedding[vertex], target)).into()
-            }
-            (_, GaugeSize::TrueArea) => {
-                let [factor, power] = with_power_of_two(factor_of(mesh, embedding, size), f64::round);
-                let ways = [(factor, turns.wished), (factor, turns.quarter), (power, turns.quarter)];
-                ways.map(|(factor, turn)| Similarity::new(factor * turn, DVec2::ZERO, DVec2::ZERO)).into()
-            }
+            (&[(vertex, target)], _) => upright_ways(mesh, embedding, free, [embedding[vertex], target]),
+            (_, GaugeSize::TrueArea) => upright_ways(mesh, embedding, free, [DVec2::ZERO; 2]),
             (_, GaugeSize::Within(into)) => {
                 let mut ways = within(embedding, into, turns.wished);
                 if turns.wished != turns.quarter {
@@ -115,10 +111,21 @@ pub(super) struct Free {
     pub(super) turns: Turns,
 }
 
+/// Ways to stand upright at a size, one point moved onto another, the best first.
+fn upright_ways(mesh: &DiskMesh, embedding: &Embedding, free: Free, [from, to]: [DVec2; 2]) -> Vec<Similarity> {
+    let Free { size, turns } = free;
+    let [factor, power] = with_power_of_two(factor_of(mesh, embedding, size), f64::round);
+    let ways = [(factor, turns.wished), (factor, turns.quarter), (power, turns.quarter)];
+    ways.map(|(factor, turn)| Similarity::new(factor * turn, from, to)).into()
+}
+
 /// Ways into the middle of a box as large as it holds an embedding that is turned, the best first.
 fn within(embedding: &Embedding, into: Bounds, turn: DVec2) -> Vec<Similarity> {
     let turned = Bounds::of(embedding.iter().map(|&z| turn.rotate(z)));
-    let [factor, power] = with_power_of_two(usable_factor((into.size() / turned.size()).min_element()), f64::floor);
+    let fitting = usable_factor((into.size() / turned.size()).min_element());
+    // The rounding of a turn must not reach out of the box.
+    let fitting = if turn == DVec2::X { fitting } else { fitting * (1.0 - TURN_ROUNDING) };
+    let [factor, power] = with_power_of_two(fitting, f64::floor);
     let (from, to) = (DVec2::new(turn.x, -turn.y).rotate(turned.middle()), into.middle());
     let shift = rounding_alike(to - power * turned.middle(), power * extent_of(embedding));
     let [by_factor, by_power] = [factor, power].map(|factor| factor * turn);

@@ -31,11 +31,23 @@ pub(super) struct Presses {
     pauses: bool,
 }
 
+/// A press that is longer is no click, seconds: a slow frame may lie between press and release.
+const CLICK_SECONDS: f64 = 10.0;
+
+/// Whether controls take a key once a pass, however often it was pressed.
+const fn is_for_focus(key: Key) -> bool {
+    use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Enter, Space, Tab};
+    matches!(key, ArrowDown | ArrowLeft | ArrowRight | ArrowUp | Enter | Space | Tab)
+}
+
 impl Presses {
     /// Hands all events of a window over in batches from now on.
     pub(super) fn install(context: &egui::Context) {
         context.add_plugin(Self::default());
-        context.options_mut(|options| options.max_passes = PASSES);
+        context.options_mut(|options| {
+            options.max_passes = PASSES;
+            options.input_options.max_click_duration = CLICK_SECONDS;
+        });
     }
 
     /// Whether events wait for the next pass.
@@ -75,7 +87,9 @@ impl Presses {
                     }
                     return batch;
                 }
-                Event::Key { key, pressed: true, modifiers, .. } if chord.is_some_and(|c| c != (key, modifiers)) => {
+                Event::Key { key, pressed: true, modifiers, .. }
+                    if chord.is_some_and(|c| c != (key, modifiers) || is_for_focus(key)) =>
+                {
                     self.waiting.push_front(event);
                     self.pauses = true;
                     return batch;

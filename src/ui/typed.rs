@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
-use eframe::egui::{Response, Role, Stroke, StrokeKind, Ui};
+use eframe::egui::{Id, Response, Role, Stroke, StrokeKind, Ui};
 
 use super::controls::Control;
 use super::theme::theme_of;
@@ -36,9 +36,15 @@ impl Typed {
         number
     }
 
+    /// The number that the field shows was typed again.
+    pub(in crate::ui) fn again(&self, number: f64) -> f64 {
+        self.last.replace(Some((String::new(), true)));
+        number
+    }
+
     /// Names the field, and marks it where what was typed last was not taken.
     pub(in crate::ui) fn name(self, ui: &Ui, field: Response, name: &str) -> Response {
-        let key = field.id.with("not taken");
+        let key = Id::unique(("not taken", name));
         if field.gained_focus() || field.dragged() {
             ui.data_mut(|data| data.remove_temp::<String>(key));
         }

@@ -62,6 +62,26 @@ fn the_factors_take_little_more_than_half_the_memory_of_an_lu() {
 }
 
 #[test]
+fn a_row_without_a_coefficient_of_its_own_has_its_pivot_replaced_and_the_answer_is_as_good() {
+    // A leaf on each vertex of a clique: it is eliminated first, and has no pivot then.
+    let (clique, pairs) = (12, 24);
+    let pattern = pattern_where(pairs, |i, j| i == j || (i < clique && j < clique) || i.abs_diff(j) == clique);
+    let mut random = Random(8);
+    let mut matrix = augmented(&pattern, pairs, 0.0, &mut random);
+    let entries: Vec<(usize, usize)> = matrix.pattern().entries().collect();
+    for (&(column, row), value) in entries.iter().zip(matrix.values_mut()) {
+        if row != column && row / 2 == column / 2 && row / 2 >= clique {
+            *value = Complex::ZERO;
+        }
+    }
+    let factor = factored(Kind::Augmented { pairs }, &matrix).expect("regular");
+    assert!(factor.stats().replaced_pivots > 0, "otherwise this tests nothing");
+    let rhs: Vec<_> = (0..matrix.nrows()).map(|_| Complex::draw(&mut random)).collect();
+    let solved = factor.solve(&matrix, &rhs).expect("regular");
+    assert!(deviation(&dense(&matrix), &solved.x, &rhs) < TOLERANCE);
+}
+
+#[test]
 fn an_augmented_matrix_with_an_empty_row_is_singular_and_the_row_is_named() {
     let pattern = grid_pattern(5);
     let mut matrix = augmented(&pattern, 20, 0.0, &mut Random(1));

@@ -1,10 +1,11 @@
 //! Relaxing comes to its end by itself, and what was proved before it stays where it fails.
 
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
-use freebound::solver::{Control, Ending, Family, Ladder, Method, Pins, Settings, Step, hard_pins};
+use freebound::solver::{Control, Ending, Family, Ladder, Method, Pin, Pins, Settings, Step, hard_pins};
 use glam::{DVec2, DVec3};
 
 use crate::makers::{disk, grid};
+use crate::weighted::bump;
 
 fn steps(mesh: &DiskMesh, settings: Settings, pins: &Pins) -> (Vec<Step>, Ending) {
     let mut steps = Vec::new();
@@ -52,4 +53,24 @@ fn relaxing_that_goes_round_in_circles_ends_by_itself() {
     assert!(rounds().filter(is_steep).count() >= 5 && rounds().any(|step| !is_steep(&step)), "it alternates");
     assert!(rounds().count() < 40, "{} rounds", rounds().count());
     assert!(ending == Ending::Planar && steps.iter().all(|step| step.rung != Method::Relax || step.verdict.planar));
+}
+
+#[test]
+fn weighted_constraints_do_not_keep_relaxing_from_going_on() {
+    let mesh = disk(bump(12));
+    let target = |v: u32| mesh.position(VertexId::new(v)).truncate();
+    let shifted = |v: u32, x: f64| target(v) + DVec2::new(x, 0.0);
+    let mut pins = hard_pins([(0, 0.0), (12, 0.3), (156, -0.2)].map(|(v, x)| (VertexId::new(v), shifted(v, x))));
+    pins.insert(VertexId::new(84), Pin::weighted(shifted(84, 0.2), 0.1));
+    for method in [Method::Auto, Method::Continuation] {
+        let settings = Settings { relax_rounds: Some(20), ..Settings::new(method, Family::Conformal) };
+        let (steps, ending) = steps(&mesh, settings, &pins);
+        let rounds: Vec<&Step> = steps.iter().filter(|step| step.rung == Method::Relax).collect();
+        assert!(ending == Ending::Planar && !rounds.is_empty(), "{method:?}");
+        assert!(
+            rounds.iter().any(|step| step.max_move.is_some_and(|length| length > 0.0)),
+            "{method:?}: nothing moves"
+        );
+        assert!(!rounds.iter().any(|step| step.note.as_deref().is_some_and(|note| note.contains("would fold"))));
+    }
 }

@@ -33,7 +33,8 @@ impl Solving {
                 messages.fail_background(Place::Embedding, "solving", &failure);
             }
             Some(((), Ok((run, result)))) => {
-                news.has_ended = result.is_ok() && self.running.as_ref().is_some_and(Running::goes_on_by_itself);
+                let went_on_by_itself = self.running.as_ref().is_some_and(Running::goes_on_by_itself);
+                news.has_ended = result.is_ok() && self.ending.is_some() && went_on_by_itself;
                 news.next = self.take_back(run, result, messages);
             }
         }

@@ -176,10 +176,10 @@ impl Solving {
     /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained. Returns whether it can.
     pub(super) fn relax(&mut self, task: Task, rounds: usize, messages: &mut Messages) -> bool {
         let Some(mut resting) = self.resting.take() else { return false };
-        self.timeline.follow_newest();
         self.rounds_asked = self.rounds_asked.saturating_add(rounds);
         match resting.run.relax(rounds) {
             Ok(()) => {
+                self.ending = None;
                 self.spawn(task, resting.run, Goal::End);
                 true
             }

@@ -110,18 +110,19 @@ impl Task {
         placed.way.is_none().then(|| "not yet moved to its place, whose numbers would fold it".to_owned())
     }
 
-    /// How a candidate is turned where no pin holds it: upright; the sides of a convex boundary stay level.
+    /// How a candidate is turned where pins leave it free: upright; the sides of a convex boundary stay level.
     fn turns(&self, mesh: &DiskMesh, candidate: &Candidate) -> Turns {
-        if !self.pins.is_empty() {
+        if !self.has_open_gauge() {
             return Turns::NONE;
         }
         let turns = Turns::upright(mesh, &candidate.solution.embedding);
         if candidate.has_convex_boundary() { turns.by_quarters() } else { turns }
     }
 
-    /// Whether all pins lie on their targets.
+    /// Whether all pins that are to be met exactly lie on their targets.
     pub(super) fn are_met(&self, embedding: &Embedding) -> bool {
-        self.pins.iter().all(|(vertex, pin)| embedding[vertex] == pin.target)
+        let mut exact = self.pins.iter().filter(|(_, pin)| self.settings.is_exact(pin.hold));
+        exact.all(|(vertex, pin)| embedding[vertex] == pin.target)
     }
 }
 

@@ -15,7 +15,7 @@ impl Editor {
             ThemePreference::Light => Some(false),
         };
         let shading = |pane| Some(self.look.usual.shading(pane).title().to_owned());
-        let size = context.content_rect().size();
+        let size = context.content_rect().size() * context.zoom_factor();
         Preferences {
             dark,
             wireframe: self.look.wireframe,
@@ -33,6 +33,7 @@ impl Editor {
         }
         self.look.wireframe = left.wireframe;
         self.put_on_shadings([left.mesh_shading.as_deref(), left.plane_shading.as_deref()]);
+        self.look.usual.is_kept = left.mesh_shading.is_some() || left.plane_shading.is_some();
         if let Some(width) = left.panel_width {
             self.layout.set_panel_width(width);
         }

@@ -23,11 +23,13 @@ pub struct Appearance {
     plane: Shading,
     /// From 0 to 1.
     pub opacity: f32,
+    /// Whether it is as the window was left: then the first picture that comes in changes nothing.
+    pub(super) is_kept: bool,
 }
 
 impl Appearance {
     /// While places on a picture are sought: clay to find vertices on, and all of the picture.
-    const OVER_PICTURE: Self = Self { mesh: Shading::Plain, plane: Shading::SeeThrough, opacity: 1.0 };
+    const OVER_PICTURE: Self = Self { mesh: Shading::Plain, plane: Shading::SeeThrough, opacity: 1.0, is_kept: false };
 
     /// The shading of a pane.
     pub fn shading(self, pane: Pane) -> Shading {
@@ -70,7 +72,7 @@ pub struct Look {
 impl Default for Look {
     fn default() -> Self {
         Self {
-            usual: Appearance { mesh: Shading::default(), plane: Shading::default(), opacity: OPACITY },
+            usual: Appearance { mesh: Shading::default(), plane: Shading::default(), opacity: OPACITY, is_kept: false },
             over_picture: Appearance::OVER_PICTURE,
             wireframe: false,
             magnifier: true,
@@ -135,10 +137,11 @@ impl Look {
             let picture = view::Picture::new([pixels.width, pixels.height], pixels.pixels.clone())?;
             Some((Arc::clone(pixels), Arc::new(picture)))
         });
+        let is_kept = wanted.is_some() && std::mem::take(&mut self.usual.is_kept);
         for shading in [&mut self.usual.mesh, &mut self.usual.plane] {
             *shading = match *shading {
                 Shading::Picture | Shading::SeeThrough if wanted.is_none() => Shading::Checker,
-                Shading::Plain | Shading::Checker if wanted.is_some() => Shading::Picture,
+                Shading::Plain | Shading::Checker if wanted.is_some() && !is_kept => Shading::Picture,
                 other => other,
             };
         }

@@ -214,6 +214,7 @@ fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
     ui.horizontal(|ui| {
         ui.spacing_mut().slider_width = (ui.available_width() - 62.0).max(60.0);
         let slider = egui::Slider::new(&mut wanted, POWERS).clamping(egui::SliderClamping::Never).fixed_decimals(2);
+        let slider = slider.custom_parser(|text| text.trim().parse().ok().filter(|power: &f64| power.is_finite()));
         let response = ui.add(slider).on_hover_text(
             "Power p of the offset d = r^p: −1 Wachspress, 0 mean value, 1 conformal. Type any number; double-click resets.",
         );
@@ -221,7 +222,7 @@ fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
         if response.double_clicked() {
             wanted = Family::CONFORMAL_POWER;
         }
-        if response.changed() || response.double_clicked() {
+        if (response.changed() || response.double_clicked()) && wanted.is_finite() {
             // Rounded to what the slider shows.
             edit.settings.family = Family::Power((wanted * 100.0).round() / 100.0);
             edit.slides = true;

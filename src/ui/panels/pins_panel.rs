@@ -195,7 +195,8 @@ fn weight_field(ui: &mut egui::Ui, name: &str, weight: f64, vertices: &[VertexId
     let drag = DragValue::new(&mut typed).range(WEIGHTS).clamp_existing_to_range(false).speed(weight * 0.02);
     // A weight that is only looked at keeps all of its digits.
     let drag = drag.update_while_editing(false).custom_formatter(|weight, _| weight_words(weight));
-    let drag = drag.custom_parser(|text| if text.trim() == shown { Some(weight) } else { taken.number(text) });
+    let drag =
+        drag.custom_parser(|text| if text.trim() == shown { Some(taken.again(weight)) } else { taken.number(text) });
     let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("How strongly it pulls: drag, or type");
     let field = taken.name(ui, field, name);
     let (vertices, hold) = (vertices.to_vec(), Hold::Weighted(typed));
@@ -249,7 +250,11 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
 
 /// How far the worst of the exact and of the weighted pins is from its target, in texture coordinates.
 fn errors(ui: &mut egui::Ui, editor: &Editor) {
-    let Some(outcome) = editor.step_on_screen().filter(|_| editor.session.is_current()) else { return };
+    let Some(outcome) =
+        editor.step_on_screen().filter(|_| editor.session.is_current() && !editor.plane.is_moving(&editor.session))
+    else {
+        return;
+    };
     let worst = |is_exact: bool| {
         let errors =
             outcome.pin_errors().filter(|(_, target, _)| outcome.problem.settings.is_exact(target.hold) == is_exact);
@@ -296,9 +301,9 @@ fn coordinate<'a>(value: &'a mut f64, speed: f64, typed: &'a Typed) -> DragValue
     let exact = *value;
     let shown = digits(exact);
     let drag = DragValue::new(value).speed(speed).custom_formatter(|value, _| digits(value));
-    drag.custom_parser(
-        move |text| if text.trim().replace('−', "-") == shown { Some(exact) } else { typed.number(text) },
-    )
+    drag.custom_parser(move |text| {
+        if text.trim().replace('−', "-") == shown { Some(typed.again(exact)) } else { typed.number(text) }
+    })
 }
 
 /// A weight with a few digits that mean something.
