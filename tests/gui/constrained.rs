@@ -142,6 +142,7 @@ fn a_constraint_that_needs_new_vertices_is_marked() {
     window.settle();
     assert_eq!(window.words().iter().filter(|words| *words == "conflict").count(), 3);
     assert!(window.shows("1 conflict needs new vertices"));
+    window.key(Key::F);
     let target = window.editor().pins_shown()[0].target;
     assert!(window.has_ring_at(window.place_in_plane(target)), "a mark on the pin");
 }

@@ -115,12 +115,13 @@ fn the_pointer_over_it_picks_nothing_behind_it() {
     let corner = VertexId::new(6);
     let at = |window: &Window| window.place_in_plane(window.embedding()[corner.index()]);
     // The lower right corner of the sheet, which has nothing to do with the defect.
-    let by = inset_rect(&window).center() - at(&window);
+    let up = glam::DVec2::new(0.0, -200.0);
+    window.editor_mut().plane.pane.camera_mut().expect("framed").pan(up);
+    window.settle();
     window.harness.hover_at(at(&window));
     window.harness.run_steps(2);
     assert_eq!(window.editor().pointer.vertex(), Some(corner), "as long as nothing lies over it");
-    let camera = window.editor_mut().plane.pane.camera_mut().expect("framed");
-    camera.pan(glam::DVec2::new(by.x.into(), by.y.into()));
+    window.editor_mut().plane.pane.camera_mut().expect("framed").pan(-up);
     window.settle();
     assert!(inset_rect(&window).contains(at(&window)));
     window.harness.hover_at(at(&window));

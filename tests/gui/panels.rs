@@ -182,10 +182,12 @@ fn a_coordinate_that_is_no_number_changes_nothing() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     pin(&mut window, &[0, 48]);
     let before = window.editor().session.document().clone();
+    let mut field = "u of pin v48".to_owned();
     for text in ["", "abc", "nan", "inf"] {
-        window.fill_in(Role::SpinButton, "u of pin v48", text);
+        window.fill_in(Role::SpinButton, &field, text);
         window.key(Key::Enter);
         assert_eq!(*window.editor().session.document(), before, "{text:?}");
+        field = format!("u of pin v48: “{text}” is no number");
     }
 }
 
