@@ -187,7 +187,9 @@ fn a_coordinate_that_is_no_number_changes_nothing() {
         window.fill_in(Role::SpinButton, &field, text);
         window.key(Key::Enter);
         assert_eq!(*window.editor().session.document(), before, "{text:?}");
-        field = format!("u of pin v48: “{text}” is no number");
+        if !text.is_empty() {
+            field = format!("u of pin v48: “{text}” is no number");
+        }
     }
 }
 

@@ -185,11 +185,11 @@ fn over_a_picture_a_click_means_a_place_and_with_shift_the_vertex() {
     assert_eq!(window.editor().tools.pair(), Some(Half::Vertex(VertexId::new(24))));
 }
 
-/// The colours that the window shows in the middles of the picture's quarters, on a flat mesh that covers it.
+/// The colours that the window shows in the picture's quarters: behind a flat mesh in the middle of it, and on it.
 fn quarters_shown(window: &mut Window) -> [[u8; 3]; 4] {
     let [low, high] = window.editor().session.document().frame().corners();
-    let middles = [(0.25, 0.75), (0.75, 0.75), (0.25, 0.25), (0.75, 0.25)];
-    let places = middles.map(|(x, y)| window.place_in_plane(low + (high - low) * DVec2::new(x, y)));
+    let inside = [(0.2, 0.75), (0.7, 0.75), (0.2, 0.25), (0.7, 0.25)];
+    let places = inside.map(|(x, y)| window.place_in_plane(low + (high - low) * DVec2::new(x, y)));
     window.harness.remove_cursor();
     window.settle();
     let image = window.harness.render().expect("a driver");
