@@ -70,7 +70,8 @@ enum Numeric<T> {
 /// The size of a factorization, and what was done to make it possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FactorStats {
-    /// Pivots that were too small and were replaced. Zero for a Hermitian matrix.
+    /// Pivots that were too small and were replaced. Zero for a Hermitian definite matrix; for an augmented one 1 stands for
+    /// any number.
     pub replaced_pivots: usize,
     /// Memory of the numbers that are kept, explicit zeros included, in bytes.
     pub factor_bytes: usize,

@@ -7,8 +7,9 @@
 //!
 //! With E and F positive definite it exists for every order of elimination (Vanderbei 1995, "Symmetric quasi-definite
 //! matrices"). F may also be singular here: each row of F is then eliminated right after its partner in E, whose pivot
-//! has made a positive number of the coefficient that joins them. Where that coefficient is zero there is no such number yet:
-//! pivots without the sign that they are to have are replaced, and refinement mends what that does. Half the memory of an LU.
+//! has made a positive number of the coefficient that joins them. Where that coefficient is zero there is no such number
+//! yet: pivots without the sign that they are to have are replaced, and refinement mends what that does.
+//! Half the memory of an LU.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};

@@ -11,8 +11,8 @@
 //!
 //! (the augmented system of Björck 1967, "Iterative refinement of linear least squares solutions"). Residual and move of a
 //! vertex are eliminated as a pair: a pair's pivot block is regular wherever the vertex's own coefficient is not zero, so
-//! that the order of elimination is as free as that of A itself, and A is never squared. The matrix is Hermitian. An exact pin has a residual alone, and
-//! only where one of its neighbours can move.
+//! that the order of elimination is as free as that of A itself, and A is never squared. The matrix is Hermitian. An exact
+//! pin has a residual alone, and only where one of its neighbours can move.
 
 use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
