@@ -223,7 +223,7 @@ fn a_pin_dragged_out_of_the_pane_stays_in_the_hand() {
     let from = window.place_in_plane(DVec2::new(0.5, 0.5));
     let outside = Pos2::new(window.plane_view().left() - 120.0, from.y);
     window.begin_drag(from, outside, Modifiers::NONE);
-    window.settle();
+    window.settle_while_held();
     assert_eq!(window.editor().tools.dragged(), Some(VertexId::new(40)));
     let back = from + Vec2::new(10.0, 0.0);
     window.harness.hover_at(back);

@@ -170,7 +170,7 @@ fn the_embedding_follows_while_a_pin_is_dragged() {
     let from = window.place_in_plane(window.embedding()[40]);
     let to = from + Vec2::new(60.0, -35.0);
     window.begin_drag(from, to, Modifiers::NONE);
-    window.settle();
+    window.settle_while_held();
     assert_eq!(window.editor().tools.dragged(), Some(VertexId::new(40)));
     let drawn = window.editor().plane.drawn().expect("solved").positions()[40];
     assert!(drawn.distance(in_embedding(&window, to)) < 1e-9, "{drawn}");

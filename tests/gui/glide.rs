@@ -148,7 +148,7 @@ fn a_sheet_that_followed_a_pin_goes_on_from_there_to_what_is_solved() {
     let from = window.place_in_plane(window.embedding()[40]);
     let to = from + Vec2::new(90.0, -60.0);
     window.begin_drag(from, to, Modifiers::NONE);
-    window.settle();
+    window.settle_while_held();
     let preview = drawn(&window);
     let mut frames = vec![preview.clone()];
     window.frame([crate::presses::button(to, false, Modifiers::NONE)]);
@@ -172,7 +172,7 @@ fn a_drag_that_is_given_up_goes_back_without_a_word_of_a_verdict_on_the_way() {
     let before = drawn(&window);
     let from = window.place_in_plane(window.embedding()[40]);
     window.begin_drag(from, from + Vec2::new(90.0, -60.0), Modifiers::NONE);
-    window.settle();
+    window.settle_while_held();
     window.key_now(Key::Escape);
     each_frame(&mut window, |window| {
         let is_there = drawn(window) == before;

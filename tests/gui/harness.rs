@@ -116,12 +116,22 @@ impl Window {
 
     /// Steps until nothing goes on in the background and both panes show its results.
     pub(crate) fn settle(&mut self) {
+        self.settle_by(Self::step);
+    }
+
+    /// As [`settle`](Self::settle), while the window's clock stands still: a pointer that is held down does not rest,
+    /// however long the background takes.
+    pub(crate) fn settle_while_held(&mut self) {
+        self.settle_by(|window| window.frame_after(0.0, []));
+    }
+
+    fn settle_by(&mut self, step: impl Fn(&mut Self)) {
         let start = Instant::now();
-        self.step();
+        step(self);
         while !self.is_settled() {
             assert!(start.elapsed() < PATIENCE, "still not settled: {:?}", self.editor());
             std::thread::sleep(Duration::from_millis(1));
-            self.step();
+            step(self);
         }
         // A grid has its final size in its second frame.
         self.harness.run_steps(2);

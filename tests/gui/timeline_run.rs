@@ -153,7 +153,7 @@ fn a_drag_shows_a_preview_and_says_so() {
     let from = window.place_in_plane(place);
     let to = from + Vec2::new(30.0, 12.0);
     window.begin_drag(from, to, Modifiers::NONE);
-    window.settle();
+    window.settle_while_held();
     assert!(window.verdict().starts_with("preview, not repaired · "), "{}", window.verdict());
     window.end_drag(to);
     assert!(!window.verdict().contains("preview"), "{}", window.verdict());
