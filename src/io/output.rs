@@ -14,7 +14,7 @@ use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_pi
 use super::report::{Report, write_report};
 use super::svg::write_svg;
 use super::{
-    Materials, ObjMesh, PictureFile, Texture, WriteError, refined_obj, write_atomically, write_to_standard_output,
+    Materials, MeshFile, PictureFile, Texture, WriteError, refined_obj, write_atomically, write_to_standard_output,
 };
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement};
@@ -137,7 +137,7 @@ impl ProvedEmbedding<'_> {
 #[derive(Debug)]
 pub struct Output<'a> {
     /// The file's contents as read.
-    pub source: &'a ObjMesh,
+    pub source: &'a MeshFile,
     /// The file that the mesh came from; none where that was a stream, or it is built in.
     pub source_path: Option<&'a Path>,
     /// What becomes of its material libraries.
@@ -236,12 +236,12 @@ impl Output<'_> {
     }
 
     /// The coordinates as those of the corners of the file's mesh.
-    fn texture_of(&self, mesh: &ObjMesh) -> Texture {
+    fn texture_of(&self, mesh: &MeshFile) -> Texture {
         Texture::per_vertex(&mesh.polygons, &self.coordinates)
     }
 
     /// The file's mesh, with the new vertices where there are any.
-    fn source_mesh(&self) -> Cow<'_, ObjMesh> {
+    fn source_mesh(&self) -> Cow<'_, MeshFile> {
         match self.refinement {
             Some(refinement) => Cow::Owned(refined_obj(self.source, refinement)),
             None => Cow::Borrowed(self.source),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{FileStamp, ObjMesh, PictureFile, ReadError, read_mesh_with, read_obj_with};
+use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
 use crate::mesh::{Diagnosis, DiskMesh, TriMesh, relative_volume};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
@@ -27,7 +27,7 @@ pub struct Model {
     /// Whether its faces are turned around, against its file.
     pub faces_turned: bool,
     /// The file's contents, to be written back with the result.
-    pub source: Arc<ObjMesh>,
+    pub source: Arc<MeshFile>,
     /// Its triangles and what is known of them.
     pub surface: Surface,
     /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
@@ -71,17 +71,17 @@ impl Model {
     ///
     /// As [`read_until`](Self::read_until).
     pub fn read_stream(name: &str, stream: impl Read, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        let source = read_obj_with(stream, &mut |_| flow(is_enough))?;
+        let source = read_stream_with(stream, &mut |_| flow(is_enough))?;
         Ok(Self::new(name.to_owned(), None, source))
     }
 
     /// A built-in mesh.
     pub fn example(example: Example) -> Self {
-        let source = ObjMesh::from(&example.mesh());
+        let source = MeshFile::from(&example.mesh());
         Self { example: Some(example), ..Self::new(example.title().to_owned(), None, source) }
     }
 
-    fn new(name: String, path: Option<PathBuf>, source: ObjMesh) -> Self {
+    fn new(name: String, path: Option<PathBuf>, source: MeshFile) -> Self {
         let surface = match DiskMesh::try_from(source.polygons.triangulate()) {
             Ok(disk) => Surface::Disk(Arc::new(disk)),
             Err(diagnosis) => Surface::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
