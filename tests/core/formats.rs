@@ -253,7 +253,7 @@ fn what_a_ply_header_says_is_not_believed_without_the_bytes() {
         ),
         (
             head("binary_little_endian", &format!("{}{face}", vertex.replace('3', "4000000000"))),
-            "byte  that",
+            "byte 178: the file says that",
         ),
         (
             head("ascii", &format!("{vertex}{face}")) + triangle + "4000000000 0 1 2",
