@@ -140,6 +140,7 @@ const fn code_of_solve(error: &SolveError) -> u8 {
         | SolveError::Linear { .. } => FALLS_SHORT,
         SolveError::CoincidentPins { .. }
         | SolveError::NoSuchVertex { .. }
+        | SolveError::UnusedVertex { .. }
         | SolveError::TargetNotFinite { .. }
         | SolveError::WeightNotPositive { .. }
         | SolveError::FamilyNotApplicable { .. }

@@ -71,3 +71,18 @@ impl EdgeTable {
         self.starts.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
     }
 }
+
+/// Numbers edges by their lower halfedge, of which `twin` is the other: the edge of each halfedge, and the lower halfedge
+/// of each edge.
+pub(super) fn number_edges(twin: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut edge = vec![0_u32; twin.len()];
+    let mut halfedge_of_edge = Vec::with_capacity(twin.len() / 2);
+    for (h, &other) in (0_u32..).zip(twin) {
+        if h < other {
+            edge[h as usize] = u32::try_from(halfedge_of_edge.len()).expect("an edge fits");
+            edge[other as usize] = edge[h as usize];
+            halfedge_of_edge.push(h);
+        }
+    }
+    (edge, halfedge_of_edge)
+}

@@ -7,6 +7,7 @@
 //! | `triangles.rs` | triangles that share vertices |
 //! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
 //! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
+//! | `measure.rs` | a disk's unit, and lengths a little longer than in space where faces have no area |
 //! | `unit.rs` | meshes of the largest and smallest sizes, brought to the middle of the range of numbers |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
 //! | `polygons.rs`, `diagonals.rs` | the polygons that a disk's triangles are cut from, and their other diagonals |
@@ -22,6 +23,7 @@ mod disk;
 mod edges;
 mod fault;
 mod ids;
+mod measure;
 mod orientation;
 mod polygon;
 mod polygons;

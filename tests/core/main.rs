@@ -25,6 +25,7 @@ mod flatten_cli;
 mod flatten_files;
 mod foldover_energy;
 mod geom;
+mod harmless;
 mod house;
 mod iterate;
 mod ladder;
