@@ -27,7 +27,11 @@ impl EdgeTable {
     /// If a triangle names a vertex beyond the last.
     pub fn new(vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
         let side_count = u32::try_from(3 * triangles.len()).expect("a mesh has fewer than 2^32 sides");
-        let ends = |side: u32| side_ends(triangles, side);
+        Self::of_sides(vertex_count, side_count, |side| side_ends(triangles, side))
+    }
+
+    /// Groups sides of any polygons, by the ends of each.
+    pub(super) fn of_sides(vertex_count: usize, side_count: u32, ends: impl Fn(u32) -> (VertexId, VertexId)) -> Self {
         let low = |side: u32| ends(side).0.min(ends(side).1).index();
         let high = |side: u32| ends(side).0.max(ends(side).1);
         let mut bucket_end = vec![0_u32; vertex_count + 1];

@@ -11,6 +11,7 @@
 //! | `unit.rs` | meshes of the largest and smallest sizes, brought to the middle of the range of numbers |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
 //! | `polygons.rs`, `diagonals.rs` | the polygons that a disk's triangles are cut from, and their other diagonals |
+//! | `repair/` | what keeps a mesh from being a disk, mended; surfaces cut open |
 //! | `refinement.rs` | a disk with new vertices on its edges |
 //! | `volume.rs` | which side of a surface is the outside |
 
@@ -28,6 +29,7 @@ mod orientation;
 mod polygon;
 mod polygons;
 mod refinement;
+mod repair;
 mod topology;
 mod triangles;
 mod triangulate;
@@ -43,5 +45,6 @@ pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
+pub use repair::{Done, Repair, RepairExtent, Repaired};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

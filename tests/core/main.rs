@@ -58,6 +58,7 @@ mod polygon;
 mod program;
 mod raster;
 mod relaxing;
+mod repair;
 mod report_schema;
 mod reproduction;
 mod schnyder;
