@@ -15,7 +15,7 @@ use super::report::{Report, write_report};
 use super::svg::write_svg;
 use super::{Materials, ObjMesh, PictureFile, WriteError, refined_obj, write_atomically, write_to_standard_output};
 use crate::geom::Picture;
-use crate::mesh::{DiskMesh, Refinement};
+use crate::mesh::{DiskMesh, Refinement, Repaired};
 use crate::solver::{Embedding, Verdict};
 
 /// Width and height of each half of a picture, pixels.
@@ -144,6 +144,8 @@ pub struct Output<'a> {
     pub mesh: &'a DiskMesh,
     /// The mesh with its new vertices, where there are any.
     pub refinement: Option<&'a Refinement>,
+    /// The repairs of the file's mesh, where there are any.
+    pub repaired: Option<&'a Repaired>,
     /// One texture coordinate per vertex, v up.
     pub coordinates: Embedding,
     /// The verdict on these coordinates.
@@ -232,9 +234,17 @@ impl Output<'_> {
 
     /// The file's mesh, with the new vertices where there are any.
     fn source_mesh(&self) -> Cow<'_, ObjMesh> {
-        match self.refinement {
-            Some(refinement) => Cow::Owned(refined_obj(self.source, refinement)),
-            None => Cow::Borrowed(self.source),
+        let repaired = self.repaired.map(|repaired| ObjMesh {
+            polygons: repaired.all_faces(&self.source.polygons),
+            statements: self.source.statements.clone(),
+            ..ObjMesh::default()
+        });
+        match (repaired, self.refinement) {
+            (repaired, Some(refinement)) => {
+                Cow::Owned(refined_obj(repaired.as_ref().unwrap_or(self.source), refinement))
+            }
+            (Some(repaired), None) => Cow::Owned(repaired),
+            (None, None) => Cow::Borrowed(self.source),
         }
     }
 }

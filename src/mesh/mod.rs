@@ -45,6 +45,6 @@ pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
-pub use repair::{Done, Repair, RepairExtent, Repaired};
+pub use repair::{Done, Form, Repair, RepairExtent, Repaired};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

@@ -59,6 +59,7 @@ mod program;
 mod raster;
 mod relaxing;
 mod repair;
+mod repair_cli;
 mod report_schema;
 mod reproduction;
 mod schnyder;

@@ -21,14 +21,40 @@ mod ways;
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{DiskMesh, PolygonMesh, TriMesh, VertexId, diagnose};
 
-/// What may be done to a mesh so that it flattens.
+/// What is made of a file's faces before they are flattened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Whether all faces are turned around: the other side is the outside.
+    pub faces_turned: bool,
+    /// What may be repaired.
+    pub repair: RepairExtent,
+    /// Whether what is no disk is cut open.
+    pub cut: bool,
+}
+
+impl Form {
+    /// All that can be done to make a disk.
+    pub const fn mended(self) -> Self {
+        Self { repair: RepairExtent::All, cut: true, ..self }
+    }
+
+    /// The repairs of a mesh, whose faces are turned already.
+    pub fn repaired(self, source: &PolygonMesh) -> Repaired {
+        let repaired = Repaired::new(source, self.repair);
+        if self.cut { repaired.cut_to_disk() } else { repaired }
+    }
+}
+
+/// What may be done to a mesh so that it flattens.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum RepairExtent {
     /// Nothing: a mesh with any fault is refused.
+    #[serde(rename = "none")]
     Nothing,
     /// What changes no visible surface.
     #[default]
@@ -174,6 +200,19 @@ impl Repaired {
     /// The corner of the mesh as given that a corner is.
     pub fn corner_of(&self, corner: usize) -> usize {
         self.corner_of[corner] as usize
+    }
+
+    /// The faces of the mesh as given, each with the corners that it has now. Faces that went stay as they were.
+    pub fn all_faces(&self, source: &PolygonMesh) -> PolygonMesh {
+        let mut kept = self.face_of.iter().enumerate().peekable();
+        let (mut corners, mut starts) = (Vec::new(), vec![0]);
+        for face in 0..source.face_count() {
+            let here = kept.next_if(|(_, of)| **of as usize == face);
+            corners.extend_from_slice(here.map_or(source.face(face), |(place, _)| self.polygons.face(place)));
+            starts.push(u32::try_from(corners.len()).expect("no more corners than before"));
+        }
+        let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
+        PolygonMesh { positions: self.polygons.positions.clone(), corners, starts: (!are_triangles).then_some(starts) }
     }
 
     /// The vertex of the mesh as given in whose place each vertex lies.
