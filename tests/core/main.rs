@@ -45,6 +45,7 @@ mod natural;
 mod needless;
 mod numbers;
 mod obj;
+mod obj_carried;
 mod obj_picture;
 mod obj_refined;
 mod obj_texture;

@@ -32,6 +32,16 @@ fn harmless_faults_are_no_reason_to_refuse_a_mesh_unless_none_may_be_mended() {
     ]);
     assert_eq!(repairs(&report), &expected);
     assert_eq!(report["mesh"]["unused_vertices"], json!(1));
+    // The file is what it was: its text, with coordinates at all corners but those of the face that is there twice.
+    let (before, after) =
+        ["odd.obj", "out.obj"].map(|name| std::fs::read_to_string(program.path(name)).expect("text")).into();
+    let without: Vec<&str> = after.lines().filter(|line| !line.starts_with("vt ")).collect();
+    for (before, after) in before.lines().zip(&without) {
+        let bare: Vec<&str> = after.split(' ').map(|word| word.split('/').next().unwrap_or(word)).collect();
+        assert_eq!(bare.join(" "), before);
+        assert_eq!(after.starts_with('f') && !after.contains('/'), before == "f 4 2 3", "{after}");
+    }
+    assert_eq!(without.len(), before.lines().count());
     let refused = program.run(&["flatten", "odd.obj", "--repair", "none"]).expect(3);
     for name in ["duplicate-faces", "unreferenced-vertices", "repeated-vertices"] {
         assert!(refused.stderr.contains(name), "{name}: {}", refused.stderr);

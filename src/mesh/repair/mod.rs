@@ -202,6 +202,24 @@ impl Repaired {
         self.corner_of[corner] as usize
     }
 
+    /// The vertex at each corner of the mesh as given; none at those of faces that went.
+    pub fn vertices_at_corners(&self, source: &PolygonMesh) -> Vec<Option<VertexId>> {
+        let mut vertices = vec![None; source.corners.len()];
+        for (&corner, &of) in self.polygons.corners.iter().zip(&self.corner_of) {
+            vertices[of as usize] = Some(corner);
+        }
+        for &face in &self.face_of {
+            // A repeated corner has the vertex that the face kept.
+            let range = source.corner_range(face as usize);
+            for corner in range.clone().filter(|&corner| vertices[corner].is_none()).collect::<Vec<_>>() {
+                let same =
+                    |&other: &usize| source.corners[other] == source.corners[corner] && vertices[other].is_some();
+                vertices[corner] = range.clone().find(same).and_then(|other| vertices[other]);
+            }
+        }
+        vertices
+    }
+
     /// The faces of the mesh as given, each with the corners that it has now. Faces that went stay as they were.
     pub fn all_faces(&self, source: &PolygonMesh) -> PolygonMesh {
         let mut kept = self.face_of.iter().enumerate().peekable();
