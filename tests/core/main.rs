@@ -72,6 +72,7 @@ mod session_drag;
 mod session_files;
 mod session_fuzz;
 mod session_history;
+mod session_mend;
 mod session_projects;
 mod session_recovery;
 mod session_run;
