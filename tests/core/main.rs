@@ -4,6 +4,7 @@
 
 mod arguments;
 mod assets;
+mod atlas;
 mod bad_input;
 mod check_cli;
 mod closed_polygon;
