@@ -17,7 +17,7 @@ use super::{
     Materials, MeshFile, PictureFile, Texture, WriteError, refined_obj, write_atomically, write_to_standard_output,
 };
 use crate::geom::Picture;
-use crate::mesh::{DiskMesh, Refinement};
+use crate::mesh::{DiskMesh, Refinement, Repaired};
 use crate::solver::{Embedding, Verdict};
 
 /// Width and height of each half of a picture, pixels.
@@ -146,6 +146,8 @@ pub struct Output<'a> {
     pub mesh: &'a DiskMesh,
     /// The mesh with its new vertices, where there are any.
     pub refinement: Option<&'a Refinement>,
+    /// The repairs of the file's mesh, where there are any.
+    pub repaired: Option<&'a Repaired>,
     /// One texture coordinate per vertex, v up.
     pub coordinates: Embedding,
     /// The verdict on these coordinates.
@@ -237,14 +239,21 @@ impl Output<'_> {
 
     /// The coordinates as those of the corners of the file's mesh.
     fn texture_of(&self, mesh: &MeshFile) -> Texture {
-        Texture::per_vertex(&mesh.polygons, &self.coordinates)
+        match self.repaired.filter(|_| self.refinement.is_none()) {
+            Some(repaired) => Texture::of_repaired(repaired, &self.source.polygons, &self.coordinates),
+            None => Texture::per_vertex(&mesh.polygons, &self.coordinates),
+        }
     }
 
-    /// The file's mesh, with the new vertices where there are any.
+    /// The file's mesh, with the new vertices where there are any. A mesh that was repaired and has new vertices is written
+    /// without its text: both its faces and its vertices are others.
     fn source_mesh(&self) -> Cow<'_, MeshFile> {
-        match self.refinement {
-            Some(refinement) => Cow::Owned(refined_obj(self.source, refinement)),
-            None => Cow::Borrowed(self.source),
-        }
+        let Some(refinement) = self.refinement else { return Cow::Borrowed(self.source) };
+        let repaired = self.repaired.map(|repaired| MeshFile {
+            polygons: repaired.all_faces(&self.source.polygons),
+            statements: self.source.statements.clone(),
+            ..MeshFile::default()
+        });
+        Cow::Owned(refined_obj(repaired.as_ref().unwrap_or(self.source), refinement))
     }
 }

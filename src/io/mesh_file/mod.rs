@@ -30,7 +30,7 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 
-use crate::mesh::{PolygonMesh, TriMesh};
+use crate::mesh::{PolygonMesh, Repaired, TriMesh, VertexId};
 use crate::solver::Embedding;
 
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
@@ -75,6 +75,14 @@ impl Texture {
             return Self::default();
         }
         let corners = polygons.corners.iter().map(|vertex| vertex.number()).collect();
+        Self { coordinates: coordinates.to_vec(), corners }
+    }
+
+    /// One coordinate per vertex of a repaired mesh, at the corners of the mesh as given. Faces that were left out have
+    /// none.
+    pub fn of_repaired(repaired: &Repaired, source: &PolygonMesh, coordinates: &Embedding) -> Self {
+        let number = |vertex: Option<VertexId>| vertex.map_or(NO_TEXTURE, VertexId::number);
+        let corners = repaired.vertices_at_corners(source).into_iter().map(number).collect();
         Self { coordinates: coordinates.to_vec(), corners }
     }
 }
