@@ -120,15 +120,15 @@ impl Surface<'_> {
     /// Opens a tree of ways between points of a sphere that lie far apart.
     fn open_sphere(&self, seam: &mut [bool]) {
         let from = |vertex: VertexId, by| self.ways.reach(std::iter::once(vertex), by);
-        let first = from(self.ways.edges()[0].ends[0], Measure::Length).farthest();
+        let first = from(self.ways.edges()[0].ends[0], Measure::Length).farthest(self.ways);
         let reach = from(first, Measure::Length);
-        let second = reach.farthest();
+        let second = reach.farthest(self.ways);
         let size = reach.far[second.index()];
         self.open(seam, &from(first, Measure::Cost).way_to(second, self.ways));
         for _ in 2..MOST_POINTS {
             let on_seam = || self.vertices_of(seam).into_iter();
             let reach = self.ways.reach(on_seam(), Measure::Length);
-            let next = reach.farthest();
+            let next = reach.farthest(self.ways);
             // A cut of one edge would be a boundary of two vertices.
             let is_cut = seam.iter().filter(|is_open| **is_open).count() > 1;
             if is_cut && reach.far[next.index()] <= FAR * size {
