@@ -38,9 +38,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         }
         Err(error) => return Err(Failure::Texture { path, error }),
     };
-    let mesh = match DiskMesh::try_from(texture.mesh.clone()) {
-        Ok(mesh) => mesh,
-        Err(_) => return check_charts(arguments, &texture, path, start),
+    let Ok(mesh) = DiskMesh::try_from(texture.mesh.clone()) else {
+        return check_charts(arguments, &texture, path, start);
     };
     let read = start.elapsed().as_secs_f64();
     go_on()?;

@@ -120,7 +120,7 @@ impl Model {
             }
         };
         let faces_point_inward = matches!(&surface, Surface::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME);
-        Self { form, source, surface, repaired, remedy, faces_point_inward, ..self.clone() }
+        Self { form, source, repaired, remedy, surface, faces_point_inward, ..self.clone() }
     }
 
     /// Where it came from, in words.

@@ -33,6 +33,13 @@ struct Found {
     wanted: Vec<Wanted>,
 }
 
+/// A face of the text, its corners found and sorted.
+struct FaceLine<'a> {
+    face: u32,
+    line: &'a [u8],
+    buffers: &'a Buffers,
+}
+
 /// The normal at a new vertex of a face.
 struct Wanted {
     face: u32,
@@ -93,7 +100,7 @@ impl Found {
                     if let Some(new) = vertices_in.get(&faces) {
                         buffers.take_corners(one, vertices);
                         buffers.sort_corners();
-                        found.want(faces, new, text, &buffers, one);
+                        found.want(&FaceLine { face: faces, line: one, buffers: &buffers }, new, text);
                     }
                     faces += 1;
                 }
@@ -104,10 +111,11 @@ impl Found {
     }
 
     /// Notes the normals that a face of the text needs at new vertices.
-    fn want(&mut self, face: u32, new: &BTreeSet<u32>, text: &Source, buffers: &Buffers, one: &[u8]) {
+    fn want(&mut self, of: &FaceLine<'_>, new: &BTreeSet<u32>, text: &Source) {
+        let &FaceLine { face, line, buffers } = of;
         let normal_at = |vertex: VertexId| {
             let place = buffers.place_of(vertex.number())?;
-            match CornerWord::of(&one[buffers.words[place].clone()]).normal_index()? {
+            match CornerWord::of(&line[buffers.words[place].clone()]).normal_index()? {
                 index @ 1.. => usize::try_from(index - 1).ok(),
                 index => self.normals.len().checked_sub(usize::try_from(index.unsigned_abs()).ok()?),
             }
