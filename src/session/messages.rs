@@ -5,6 +5,18 @@ use std::path::PathBuf;
 use super::{Failure, Session};
 use crate::mesh::VertexId;
 
+/// The most vertices that are named one by one.
+const MOST_NAMED: usize = 4;
+
+/// Vertices by their names: all of a few, the first of many.
+pub fn named(vertices: &[VertexId]) -> String {
+    let names: Vec<String> = vertices.iter().take(MOST_NAMED).map(VertexId::to_string).collect();
+    match vertices.len().saturating_sub(MOST_NAMED) {
+        0 => names.join(", "),
+        more => format!("{} and {more} more", names.join(", ")),
+    }
+}
+
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {

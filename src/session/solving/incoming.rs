@@ -84,7 +84,10 @@ impl Solving {
     /// Says what went wrong; where constraints cannot be met, which.
     fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
         self.forget_message(messages);
-        let mut message = Message::error(Place::Embedding, error.to_string());
+        let mut message = Message::error(Place::Embedding, error.to_string()).with_vertices(error.vertices());
+        if matches!(error, SolveError::LadderExhausted { .. }) {
+            self.ending = Some(Ending::Done);
+        }
         if *error == SolveError::Unmet {
             self.ending = Some(Ending::Unmet);
             let remedy = if has_new_vertices { "move these pins" } else { "allow new vertices, or move these pins" };

@@ -55,6 +55,8 @@ pub struct Look {
     pub(super) usual: Appearance,
     /// As chosen for the constrain tool over a picture.
     over_picture: Appearance,
+    /// What a person has chosen for the two panes, now or in a run before; a project's shadings are not theirs.
+    own: [Option<Shading>; 2],
     pub wireframe: bool,
     /// Whether insets magnify a defect and a pair.
     pub magnifier: bool,
@@ -74,6 +76,7 @@ impl Default for Look {
         Self {
             usual: Appearance { mesh: Shading::default(), plane: Shading::default(), opacity: OPACITY, is_kept: false },
             over_picture: Appearance::OVER_PICTURE,
+            own: [None; 2],
             wireframe: false,
             magnifier: true,
             glides: true,
@@ -93,6 +96,19 @@ impl Look {
     /// The scale of a shading by numbers.
     pub(in crate::ui) fn legend(&self, pane: Pane) -> Option<&Legend> {
         self.paint(pane)?.legend.as_ref()
+    }
+
+    /// What a person has chosen for a pane.
+    pub(super) fn own_shading(&self, pane: Pane) -> Option<Shading> {
+        self.own[pane as usize]
+    }
+
+    /// Takes over what a person has chosen in a run before, by its name.
+    pub(super) fn keep_own_shading(&mut self, pane: Pane, name: Option<&str>) {
+        let Some(shading) = Shading::called(name).filter(|shading| shading.is_for(pane)) else { return };
+        self.own[pane as usize] = Some(shading);
+        self.usual.shade(pane, shading);
+        self.usual.is_kept = true;
     }
 
     /// Whether pixels show as squares.
@@ -206,8 +222,16 @@ impl Editor {
     /// Shades the pane under the pointer, or both where it is over neither.
     pub(super) fn shade(&mut self, shading: Shading) {
         match self.pointer.pane() {
-            Some(pane) => self.appearance_mut().shade(pane, shading),
-            None => Pane::BOTH.into_iter().for_each(|pane| self.appearance_mut().shade(pane, shading)),
+            Some(pane) => self.shade_pane(pane, shading),
+            None => Pane::BOTH.into_iter().for_each(|pane| self.shade_pane(pane, shading)),
+        }
+    }
+
+    /// Shades a pane as a person chose.
+    pub(super) fn shade_pane(&mut self, pane: Pane, shading: Shading) {
+        self.appearance_mut().shade(pane, shading);
+        if !self.is_placing_on_picture() && shading.is_for(pane) {
+            self.look.own[pane as usize] = Some(shading);
         }
     }
 

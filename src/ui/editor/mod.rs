@@ -18,7 +18,7 @@
 
 mod host;
 mod kept;
-mod layout;
+pub(super) mod layout;
 mod look;
 mod mesh_view;
 mod opened;
@@ -137,7 +137,9 @@ impl Editor {
         }
         let (plane, around) = self.plane_in_surroundings();
         if let Some(scene) = plane.refresh(around) {
-            self.selection.keep_below(scene.mesh.mesh().vertex_count());
+            let vertex_count = scene.mesh.mesh().vertex_count();
+            self.selection.keep_below(vertex_count);
+            self.pointer.keep_menu_below(vertex_count);
             let count = self.defect_count();
             self.selection.keep_defect_below(count);
         }
@@ -188,7 +190,7 @@ impl Editor {
             self.selection.select([]);
             self.put_on_view();
         }
-        self.pointer.set_vertex(None);
+        self.pointer.forget_vertices();
         self.selection.set_defect(None);
         self.tools.end_drag();
         self.tools.set_pair(None);
