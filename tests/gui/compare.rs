@@ -190,9 +190,9 @@ fn move_is_one_of_the_shadings() {
     let mut window = two_steps();
     window.choose("Shading of the mesh", "Move");
     assert_eq!(window.shadings(), [Shading::Move, Shading::Checker]);
-    window.menu(&["View", "Shading", "Checker"]);
-    window.menu(&["View", "Shading", "Move"]);
-    assert_eq!(window.shadings(), [Shading::Move; 2]);
+    window.menu(&["View", "Shading of the mesh", "Checker"]);
+    window.menu(&["View", "Shading of the embedding", "Move"]);
+    assert_eq!(window.shadings(), [Shading::Checker, Shading::Move]);
 }
 
 #[test]

@@ -207,9 +207,9 @@ fn its_cross_closes_it_and_the_menu_opens_it_again() {
 fn a_drag_pans_it_until_another_defect_is_shown() {
     let mut window = folded();
     let Defect::Flipped(face) = window.editor().defects()[0] else { panic!("flipped faces come first") };
-    let corner = window.editor().session.model().expect("open").mesh().triangles[face.index()][0];
-    let place = |window: &Window| window.place_in_plane(window.embedding()[corner.index()]);
-    let around = |window: &Window| window.has_frame_around(Rect::from_min_max(place(window), place(window)));
+    let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
+    let place = |window: &Window, v: VertexId| window.place_in_plane(window.embedding()[v.index()]);
+    let around = |window: &Window| window.has_frame_around(Rect::from_points(&corners.map(|v| place(window, v))));
     assert!(around(&window), "the frame on the layout lies around the defect");
     let (camera, name) = (window.editor().plane.pane.camera(), inset(&window));
     let middle = inset_rect(&window).center();

@@ -316,9 +316,13 @@ fn coordinate<'a>(value: &'a mut f64, speed: f64, typed: &'a Typed) -> DragValue
     })
 }
 
-/// A weight with a few digits that mean something.
+/// A weight with the five digits that mean something.
 fn weight_words(weight: f64) -> String {
-    if (1e-3..1e6).contains(&weight) { ((weight * 1e4).round() / 1e4).to_string() } else { format!("{weight:.3e}") }
+    if !(1e-3..1e5).contains(&weight) {
+        return format!("{weight:.1e}");
+    }
+    let unit = 10_f64.powf((4.0 - weight.log10().floor()).clamp(0.0, 4.0));
+    ((weight * unit).round() / unit).to_string()
 }
 
 /// Four digits behind the point, of which a pixel of a large picture is one; fewer where more stand before it.
