@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use freebound::io::{ObjMesh, read_mesh, write_atomically, write_obj};
+use freebound::io::{ObjMesh, Texture, read_mesh, write_atomically, write_obj};
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::solver::{Control, Embedding, PhaseSeconds, Pins, Prepared, Settings, distortion, verdict};
 use glam::DVec3;
@@ -65,7 +65,8 @@ impl PhaseTimes {
 }
 
 fn write(path: &Path, mesh: &ObjMesh, texture: &Embedding) {
-    write_atomically(path, |out| write_obj(out, mesh, texture)).expect("the temporary folder has room");
+    write_atomically(path, |out| write_obj(out, mesh, &Texture::per_vertex(&mesh.polygons, texture)))
+        .expect("the temporary folder has room");
 }
 
 /// Seconds of every phase by size.

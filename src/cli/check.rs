@@ -10,7 +10,7 @@ use super::standard::read_model;
 use super::summary::deliver;
 use super::{Failure, Status};
 use crate::io::{MeshReport, Report, Seconds, TextureError, verdict_as_in_file};
-use crate::mesh::{DiskMesh, Fault};
+use crate::mesh::{DiskMesh, Fault, Form};
 use crate::solver::{distortion, verdict};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
@@ -18,7 +18,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let places = Places::of_check(arguments);
     places.spare(&arguments.mesh, "the mesh")?;
     await_report(arguments.report.as_deref());
-    let model = read_model(&arguments.mesh)?;
+    let model = read_model(&arguments.mesh, Form::default())?;
     places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
     let texture = match model.source.texture_mesh() {
@@ -41,7 +41,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let mesh = DiskMesh::try_from(texture.mesh).map_err(|mut diagnosis| {
         // Charts lie beside each other in space: that is what seams are.
         diagnosis.faults.retain(|fault| !matches!(fault, Fault::CoincidentVertices(_)));
-        Failure::NotADisk { path: format!("{path} (cut along the seams of its texture coordinates)"), diagnosis }
+        Failure::NotADisk {
+            path: format!("{path} (cut along the seams of its texture coordinates)"),
+            diagnosis,
+            remedy: None,
+        }
     })?;
     let read = start.elapsed().as_secs_f64();
     go_on()?;

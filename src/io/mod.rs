@@ -42,8 +42,8 @@ pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use obj::{
-    MAX_PARSE_FAULTS, Materials, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, Statement,
-    Texture, TextureError, TextureMesh, copies_of_materials, material_files, material_picture, read_mesh,
+    MAX_PARSE_FAULTS, Materials, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, SourceText,
+    Statement, Texture, TextureError, TextureMesh, copies_of_materials, material_files, material_picture, read_mesh,
     read_mesh_with, read_obj, read_obj_with, refined_obj, write_obj,
 };
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
+use crate::mesh::{DiskMesh, Done, FaceId, TriMesh, VertexId};
 use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
 
 /// Version of the form of reports, which `docs/report.schema.json` describes. It counts up where a field goes or changes
@@ -109,6 +109,12 @@ pub struct MeshReport {
     pub dividing_edges: usize,
     /// Triangles with two boundary edges.
     pub ears: usize,
+    /// Vertices of no face.
+    pub unused_vertices: usize,
+    /// By how much every length was taken longer, where faces have no area; 0 where all have one. In the mesh's units.
+    pub mollification: f64,
+    /// What was repaired, in order.
+    pub repairs: Vec<Done>,
 }
 
 impl MeshReport {
@@ -121,6 +127,9 @@ impl MeshReport {
             boundary_vertices: mesh.boundary_loop().len(),
             dividing_edges: mesh.dividing_edges().len(),
             ears: mesh.ears().len(),
+            unused_vertices: mesh.vertex_count() - mesh.used_vertex_count(),
+            mollification: mesh.mollification() * mesh.unit(),
+            repairs: Vec::new(),
         }
     }
 }

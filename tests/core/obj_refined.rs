@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use freebound::io::{ObjMesh, read_mesh, read_obj, refined_obj, write_obj};
+use freebound::io::{ObjMesh, Texture, read_mesh, read_obj, refined_obj, write_obj};
 use freebound::mesh::{DiskMesh, FaceId, NewVertex, Refinement, VertexId};
 use freebound::solver::{Embedding, verdict};
 
@@ -37,7 +37,7 @@ fn refined() -> (ObjMesh, DiskMesh, Refinement) {
 /// The file as text.
 fn text_of(mesh: &ObjMesh, texture: &Embedding) -> String {
     let mut bytes = Vec::new();
-    write_obj(&mut bytes, mesh, texture).unwrap();
+    write_obj(&mut bytes, mesh, &Texture::per_vertex(&mesh.polygons, texture)).unwrap();
     String::from_utf8(bytes).unwrap()
 }
 

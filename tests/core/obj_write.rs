@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 
-use freebound::io::{ObjMesh, Statement, read_mesh, read_obj, write_atomically, write_obj};
+use freebound::io::{ObjMesh, Statement, Texture, read_mesh, read_obj, write_atomically, write_obj};
 use freebound::mesh::{PolygonMesh, VertexId};
 use freebound::solver::Embedding;
 use glam::{DVec2, DVec3};
@@ -14,7 +14,7 @@ use crate::makers::grid;
 
 fn written(mesh: &ObjMesh, texture: &Embedding) -> Vec<u8> {
     let mut bytes = Vec::new();
-    write_obj(&mut bytes, mesh, texture).expect("memory takes all");
+    write_obj(&mut bytes, mesh, &Texture::per_vertex(&mesh.polygons, texture)).expect("memory takes all");
     bytes
 }
 
@@ -66,7 +66,7 @@ fn any_mesh() -> impl Strategy<Value = (ObjMesh, Embedding)> {
             .into_iter()
             .map(|(face, text)| Statement { before_face: face.min(face_count), text: text.into_bytes() })
             .collect();
-        let obj = ObjMesh { polygons: mesh, texture: None, statements };
+        let obj = ObjMesh { polygons: mesh, statements, ..ObjMesh::default() };
         (obj, points.iter().map(|&(.., u, v)| DVec2::new(u, v)).collect())
     })
 }

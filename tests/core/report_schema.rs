@@ -172,8 +172,9 @@ const FILES: [(&str, &str); 10] = [
 ];
 
 /// Runs with their exit status: all kinds of fields of a report occur in them.
-const RUNS: [(&[&str], i32); 15] = [
+const RUNS: [(&[&str], i32); 16] = [
     (&["flatten", "tent.obj"], 0),
+    (&["flatten", "closed.obj", "--cut", "auto"], 0),
     (&["flatten", "tent.obj", "--relax", "2", "--pin", "0:0,0", "--pin", "1:1,0.2:3", "--pin", "2:0.9,1"], 0),
     (
         &[

@@ -22,6 +22,7 @@ mod layout;
 mod magnifier;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
+mod mend;
 mod messages;
 mod pane_shading;
 mod panels;

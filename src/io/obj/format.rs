@@ -42,8 +42,9 @@ pub(super) fn format_of_word(word: &[u8]) -> Option<&'static str> {
     })
 }
 
-/// What a file with a zero byte is, going by its beginning.
-pub(super) fn not_text(head: &[u8], lines_before: u64) -> ReadError {
+/// What a file with a zero byte is, going by its beginning where this is all that was read: the zero byte stands behind
+/// `read_before` bytes.
+pub(super) fn not_text(head: &[u8], read_before: usize) -> ReadError {
     const MARKS: [(&[u8], &str); 6] = [
         (b"glTF", "glTF"),
         (b"Kaydara FBX Binary", "FBX"),
@@ -55,6 +56,6 @@ pub(super) fn not_text(head: &[u8], lines_before: u64) -> ReadError {
     let mark = MARKS.iter().find(|(mark, _)| head.starts_with(mark)).map(|&(_, format)| format);
     let first_line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
     let of_word = || words(first_line).next().and_then(format_of_word);
-    let format = if lines_before > 0 { None } else { mark.or_else(of_word) };
+    let format = if read_before > 0 { None } else { mark.or_else(of_word) };
     format.map_or(ReadError::NotText, ReadError::NotReadYet)
 }

@@ -1,5 +1,7 @@
 //! The words of one OBJ line: numbers and corners.
 
+use std::ops::Range;
+
 use super::error::ParseFaultKind;
 
 /// Next line, line separator and paragraph separator in UTF-8.
@@ -11,6 +13,14 @@ const QUOTED: usize = 40;
 /// Words of a line between blanks, up to a comment.
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     all_words(line).take_while(|word| word[0] != b'#')
+}
+
+/// Where the [`words`] of a line stand in it.
+pub(super) fn word_ranges(line: &[u8]) -> impl Iterator<Item = Range<usize>> {
+    words(line).map(|word| {
+        let begin = word.as_ptr().addr() - line.as_ptr().addr();
+        begin..begin + word.len()
+    })
 }
 
 /// Whether a comment stands on a line.

@@ -3,7 +3,8 @@
 //! | file           | what it holds                                                           |
 //! |----------------|-------------------------------------------------------------------------|
 //! | `mod`          | what is kept of a file                                                  |
-//! | `read`         | reads a file in chunks, with progress                                   |
+//! | `read`         | reads a file, with progress                                             |
+//! | `lines`        | the lines of a text as pieces of its bytes                              |
 //! | `parse`        | lines put together to a mesh                                            |
 //! | `line`         | words of a line: numbers and corners                                    |
 //! | `format`       | formats that are not read, told by name or by beginning                 |
@@ -14,16 +15,19 @@
 //! | `libraries`    | material libraries of a mesh that is written into another folder        |
 //! | `beside`       | files that belong to a mesh and lie beside it                           |
 //! | `write`        | writes a file that reads back bit for bit                               |
+//! | `carried`      | a mesh written as the text that it was read from                        |
 //! | `with_picture` | writes a file, its material and its picture side by side                |
 //!
-//! Vertex order, sharing, positions, polygons, texture coordinates and the statements among the faces are kept, so that
-//! the file can be written back. Normals, lines, points, vertex colours and comments are not.
+//! A file is kept as its text, which is written back with other texture coordinates and not another byte changed; and as
+//! what it says: positions, polygons, texture coordinates and the statements among the faces.
 
 mod beside;
+mod carried;
 mod error;
 mod format;
 mod libraries;
 mod line;
+mod lines;
 mod material;
 mod parse;
 mod read;
@@ -36,8 +40,11 @@ use std::borrow::Cow;
 
 use glam::DVec2;
 
-use crate::mesh::{PolygonMesh, TriMesh};
+use crate::mesh::{PolygonMesh, Repaired, TriMesh, VertexId};
+use crate::solver::Embedding;
 
+pub(in crate::io) use carried::Edits;
+pub use carried::SourceText;
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
 pub use libraries::{Materials, copies_of_materials};
 pub(in crate::io) use libraries::{copy_materials, relocated};
@@ -60,6 +67,8 @@ pub struct ObjMesh {
     pub texture: Option<Texture>,
     /// Names, groups, smoothing and materials, in file order.
     pub statements: Vec<Statement>,
+    /// The text that it was read from. Where there is one it is what is written, and no other statements than its own.
+    pub text: Option<SourceText>,
 }
 
 /// Texture coordinates, and which of them each corner has.
@@ -69,6 +78,25 @@ pub struct Texture {
     pub coordinates: Vec<DVec2>,
     /// One index into `coordinates` for each corner of `polygons.corners`, or [`NO_TEXTURE`].
     pub corners: Vec<u32>,
+}
+
+impl Texture {
+    /// One coordinate per vertex, at all corners there; none where there are no coordinates.
+    pub fn per_vertex(polygons: &PolygonMesh, coordinates: &Embedding) -> Self {
+        if coordinates.is_empty() {
+            return Self::default();
+        }
+        let corners = polygons.corners.iter().map(|vertex| vertex.number()).collect();
+        Self { coordinates: coordinates.to_vec(), corners }
+    }
+
+    /// One coordinate per vertex of a repaired mesh, at the corners of the mesh as given. Faces that were left out have
+    /// none.
+    pub fn of_repaired(repaired: &Repaired, source: &PolygonMesh, coordinates: &Embedding) -> Self {
+        let number = |vertex: Option<VertexId>| vertex.map_or(NO_TEXTURE, VertexId::number);
+        let corners = repaired.vertices_at_corners(source).into_iter().map(number).collect();
+        Self { coordinates: coordinates.to_vec(), corners }
+    }
 }
 
 /// An `o`, `g`, `s`, `usemtl` or `mtllib` line.

@@ -1,20 +1,23 @@
-//! Reads OBJ files in chunks: beside the mesh only a few lines are in memory.
+//! Reads OBJ files: the whole text first, which is kept to be written again, then its lines.
 //!
 //! Understood: `v` (words behind the third number are ignored), `vt`, `f` in all its forms with positive and negative
 //! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines that go on behind a `\`. Anything else is skipped. A
 //! positive index may name an element that comes later in the file. A line ends with LF, with CR LF, or with CR alone.
 
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use memchr::{memchr, memrchr2};
+
 use super::format::{format_of_extension, not_text};
-use super::parse::Parser;
-use super::{ObjMesh, ReadError};
+use super::lines::Lines;
+use super::parse::parse;
+use super::{ObjMesh, ReadError, SourceText};
 
 /// Bytes read at once.
-const CHUNK: usize = 256 << 10;
+const CHUNK: u64 = 256 << 10;
 
 /// Longest line, bytes: a polygon with a million corners fits.
 const MAX_LINE: usize = 16 << 20;
@@ -70,59 +73,31 @@ pub fn read_obj_with(
     mut reader: impl Read,
     watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<ObjMesh, ReadError> {
-    let mut parser = Parser::default();
-    let mut buffer = vec![0; CHUNK];
-    let mut filled = 0;
-    let mut total = 0;
-    loop {
-        if filled == buffer.len() {
-            if filled >= MAX_LINE {
-                return Err(ReadError::LineTooLong { line: parser.lines_taken() + 1, limit: MAX_LINE });
-            }
-            buffer.resize(2 * filled, 0);
-        }
-        let count = match reader.read(&mut buffer[filled..]) {
-            Ok(0) => break,
-            Ok(count) => count,
-            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
-            Err(error) => return Err(error.into()),
-        };
-        end_lines(&mut buffer[..filled + count], filled);
-        let fresh = &buffer[filled..filled + count];
-        let (has_zero, has_line) = (fresh.contains(&0), fresh.contains(&b'\n'));
-        filled += count;
-        total += count as u64;
-        if has_zero {
-            return Err(not_text(&buffer[..filled], parser.lines_taken()));
-        }
-        if has_line {
-            let taken = parser.take_lines(&buffer[..filled])?;
-            buffer.copy_within(taken..filled, 0);
-            filled -= taken;
-        }
-        if watch(total).is_break() {
-            return Err(ReadError::Cancelled);
-        }
-    }
-    buffer.truncate(filled);
-    // The last line may lack its end, and may end with a `\` that nothing follows.
-    buffer.push(b'\n');
-    let taken = parser.take_lines(&buffer)?;
-    parser.finish(&buffer[taken..])
+    let text = read_text(&mut reader, watch)?;
+    let size = text.len() as u64;
+    let mut mesh = parse(&text, &mut || watch(size))?;
+    mesh.text = Some(SourceText::of(text, mesh.polygons.positions.len()));
+    Ok(mesh)
 }
 
-/// Makes a line feed of every carriage return that stands alone, as other programs read it. The last byte waits for the
-/// next chunk. `fresh` is where the bytes begin that are new.
-fn end_lines(bytes: &mut [u8], fresh: usize) {
-    let mut at = fresh.saturating_sub(1);
-    // Most files have none, and to look for one byte alone is fast.
-    if !bytes[at..].contains(&b'\r') {
-        return;
-    }
-    while let Some(found) = bytes[at..].iter().position(|&byte| byte == b'\r') {
-        at += found + 1;
-        if bytes.get(at).is_some_and(|&next| next != b'\n') {
-            bytes[at - 1] = b'\n';
+/// Reads all of a text. What is no text, or has lines that no reader should hold, is refused as soon as it is seen.
+fn read_text(reader: &mut impl Read, watch: &mut dyn FnMut(u64) -> ControlFlow<()>) -> Result<Vec<u8>, ReadError> {
+    let mut text = Vec::new();
+    let mut line_begin = 0;
+    loop {
+        let fresh = text.len();
+        match reader.by_ref().take(CHUNK).read_to_end(&mut text)? {
+            0 => return Ok(text),
+            _ if memchr(0, &text[fresh..]).is_some() => return Err(not_text(&text, fresh)),
+            _ => {}
+        }
+        line_begin = memrchr2(b'\n', b'\r', &text[fresh..]).map_or(line_begin, |at| fresh + at + 1);
+        if text.len() - line_begin > MAX_LINE {
+            let line = 1 + Lines::of(&text[..line_begin]).map(|line| line.count).sum::<u64>();
+            return Err(ReadError::LineTooLong { line, limit: MAX_LINE });
+        }
+        if watch(text.len() as u64).is_break() {
+            return Err(ReadError::Cancelled);
         }
     }
 }
