@@ -201,7 +201,8 @@ impl SolveError {
     pub fn vertices(&self) -> Vec<VertexId> {
         match self {
             Self::CoincidentPins { first, second } | Self::TargetsTooNear { first, second } => vec![*first, *second],
-            Self::TargetNotFinite { vertex }
+            Self::UnusedVertex { vertex }
+            | Self::TargetNotFinite { vertex }
             | Self::WeightNotPositive { vertex, .. }
             | Self::OutOfRange { vertex }
             | Self::Singular { vertex } => vec![*vertex],
