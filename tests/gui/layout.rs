@@ -7,7 +7,7 @@ use egui_kittest::Node;
 use egui_kittest::kittest::NodeT as _;
 use freebound::app::Start;
 use freebound::examples::Example;
-use freebound::io::Target;
+use freebound::io::{StepReport, Target};
 use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::Action;
 use freebound::solver::{Family, Method, Settings};
@@ -163,13 +163,21 @@ fn the_values_at_the_ends_of_a_curve_lie_beside_it() {
 fn a_curve_whose_numbers_are_all_zero_is_named_in_the_menu_and_not_drawn() {
     let mut window = folded();
     let records = window.editor().session.timeline().records();
-    assert!(records.iter().all(|record| record.boundary_crossings == 0));
-    assert!(records.iter().any(|record| record.flipped_faces > 0));
+    let is_zero = |count: fn(&StepReport) -> usize| records.iter().all(|record| count(record) == 0);
+    let counts = [
+        ("Flipped", "flipped faces", is_zero(|record| record.flipped_faces)),
+        ("Crossings", "pairs of boundary edges that cross", is_zero(|record| record.boundary_crossings)),
+        ("Concave", "concave polygons", is_zero(|record| record.concave_polygons)),
+        ("Overwound", "overwound vertices", is_zero(|record| record.overwound_vertices)),
+    ];
+    assert!(!counts[0].2 && counts[2].2, "a fold, but no polygons: {counts:?}");
     let names: Vec<String> = curves(&window).into_iter().map(|(name, _)| name).collect();
-    assert!(names.contains(&"Curve: flipped faces".to_owned()), "{names:?}");
-    assert!(!names.contains(&"Curve: pairs of boundary edges that cross".to_owned()), "{names:?}");
     window.click("Which curves show");
-    assert!(window.shows("Crossings: 0 in every step"), "{:?}", window.words());
+    for (title, about, is_zero) in counts {
+        assert!(!(is_zero && names.contains(&format!("Curve: {about}"))), "{title}: {names:?}");
+        assert_eq!(window.shows(&format!("{title}: 0 in every step")), is_zero, "{:?}", window.words());
+    }
+    assert!(names.contains(&"Curve: flipped faces".to_owned()), "{names:?}");
 }
 
 /// A strip of two rows of so many vertices.
@@ -191,6 +199,7 @@ fn the_columns_of_the_pins_never_touch() {
         for (vertex, target) in [
             (3000, Target::hard(DVec2::new(-0.456_78, -12.345))),
             (3001, Target::hard(DVec2::new(-0.456_78 - 1e-11, -12.345))),
+            (3003, Target::hard(DVec2::splat(100.0))),
             (3002, Target::weighted(DVec2::new(-123.456, -0.000_123), 12345.678)),
         ] {
             session.handle(Action::Place { vertex: VertexId::new(vertex), target });
