@@ -23,7 +23,7 @@ mod running;
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
 
-pub(super) use self::running::{Next, Task};
+pub(super) use self::running::{Next, Rest, Task};
 use self::running::{Resting, Running, Shared, take_steps};
 use super::stop::Goal;
 use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Timeline, Wake};
@@ -49,10 +49,23 @@ pub(super) struct Solving {
     resting: Option<Resting>,
     /// Rounds of relaxing that the run was asked for after its end.
     rounds_asked: usize,
+    /// Those of them that are under way.
+    relaxing: Option<Relaxing>,
+    /// Rounds that were cut short, beside those: the run at rest would still take them.
+    rounds_cut: usize,
     /// Whether the targets changed since the first step under way began.
     is_outdated: bool,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
     message: Option<u64>,
+}
+
+/// Rounds of relaxing that a person has asked for.
+#[derive(Clone, Copy, Debug)]
+struct Relaxing {
+    /// The step that they follow.
+    after: usize,
+    /// How many were asked for.
+    rounds: usize,
 }
 
 /// What is asked.
@@ -68,6 +81,8 @@ impl Solving {
             running: None,
             resting: None,
             rounds_asked: 0,
+            relaxing: None,
+            rounds_cut: 0,
             is_outdated: false,
             message: None,
         }
@@ -91,6 +106,11 @@ impl Solving {
     /// Rounds of relaxing that the run was asked for after its end.
     pub(super) fn rounds_asked(&self) -> usize {
         self.rounds_asked
+    }
+
+    /// Whether the run has come to its own end.
+    pub(super) fn has_ended(&self) -> bool {
+        self.ending.is_some()
     }
 
     /// Whether another run is to begin where targets changed while a first step was under way.
@@ -135,7 +155,7 @@ impl Solving {
             return;
         }
         let run = task.problem.ladder().with_kept(&self.kept);
-        self.rounds_asked = 0;
+        (self.rounds_asked, self.relaxing, self.rounds_cut) = (0, None, 0);
         self.spawn(task, run, goal);
     }
 
@@ -176,10 +196,10 @@ impl Solving {
     /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained. Returns whether it can.
     pub(super) fn relax(&mut self, task: Task, rounds: usize, messages: &mut Messages) -> bool {
         let Some(mut resting) = self.resting.take() else { return false };
-        self.rounds_asked = self.rounds_asked.saturating_add(rounds);
         match resting.run.relax(rounds) {
             Ok(()) => {
-                self.ending = None;
+                self.begin_rounds(rounds);
+                (self.ending, self.rounds_cut) = (None, 0);
                 self.spawn(task, resting.run, Goal::End);
                 true
             }
@@ -189,6 +209,32 @@ impl Solving {
                 false
             }
         }
+    }
+
+    fn begin_rounds(&mut self, rounds: usize) {
+        let after = self.timeline.newest().unwrap_or(0);
+        self.rounds_asked = self.rounds_asked.saturating_add(rounds);
+        self.relaxing = Some(Relaxing { after, rounds });
+    }
+
+    /// The run is at rest: rounds of relaxing that it was asked for and has not come to are cut short. Returns how many.
+    fn cut_rounds(&mut self) -> usize {
+        let Some(Relaxing { after, rounds }) = self.relaxing.take().filter(|_| self.ending.is_none()) else { return 0 };
+        let taken = self.timeline.newest().unwrap_or(0).saturating_sub(after);
+        let left = rounds.saturating_sub(taken);
+        self.rounds_asked = self.rounds_asked.saturating_sub(left);
+        self.rounds_cut += left;
+        left
+    }
+
+    /// Takes up rounds of relaxing that were cut short, so many at most. Returns how many.
+    pub(super) fn resume_rounds(&mut self, most: usize) -> usize {
+        let rounds = if self.running.is_none() { self.rounds_cut.min(most) } else { 0 };
+        if rounds > 0 {
+            self.rounds_cut -= rounds;
+            self.begin_rounds(rounds);
+        }
+        rounds
     }
 
     /// Chooses where a run that goes on by itself comes to rest.

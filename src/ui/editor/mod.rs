@@ -8,18 +8,22 @@
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
+//! | `making.rs` | scenes are made in the background |
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
 //! | `look.rs` | how faces show: shading of each pane, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
 //! | `kept.rs` | what of the window is kept between runs |
 //! | `opened.rs` | what the window keeps of the open document, and how it looks, for the project file |
 //! | `host.rs` | egui's context and the graphics card |
+//! | `frames.rs` | how long frames take |
 //! | `views.rs` | what the cameras look at; defects |
 
+mod frames;
 mod host;
 mod kept;
 mod layout;
 mod look;
+mod making;
 mod mesh_view;
 mod opened;
 mod plane;
@@ -42,7 +46,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
-use crate::session::{Busy, RecentFiles, Session};
+use crate::session::{Busy, Place, RecentFiles, Session};
 use crate::ui::TimelineView;
 use host::Host;
 use layout::Layout;
@@ -124,7 +128,6 @@ impl Editor {
 
     /// Takes in what the background has finished. Call at the start of each frame.
     pub fn poll(&mut self) {
-        self.host.begin_pass();
         if self.opened.view_is_due(&self.session) {
             // For copies for recovery.
             self.keep_view();
@@ -141,6 +144,7 @@ impl Editor {
             let count = self.defect_count();
             self.selection.keep_defect_below(count);
         }
+        self.tell_failures();
         self.look.refresh_picture(self.session.document());
         self.poll_shot();
         if let Some(plane) = self.plane.scene() {
@@ -158,6 +162,14 @@ impl Editor {
         }
         if let Some(choice) = self.files.dialogs.poll() {
             self.take_choice(choice);
+        }
+    }
+
+    /// Says what could not be drawn.
+    fn tell_failures(&mut self) {
+        let failures = [(Place::Mesh, self.mesh.take_failure()), (Place::Embedding, self.plane.take_failure())];
+        for (place, failure) in failures.into_iter().filter_map(|(place, failure)| Some((place, failure?))) {
+            self.session.tell_failure(place, "drawing", &failure);
         }
     }
 
