@@ -103,11 +103,11 @@ impl Editor {
         Self {
             mesh: MeshView::new(&wake),
             plane: PlaneView::new(&wake),
-            session: Session::new(wake, recent),
+            session: Session::new(Arc::clone(&wake), recent),
             selection: Selection::default(),
             pointer: Pointer::default(),
             tools: ToolState::default(),
-            look: Look::default(),
+            look: Look::new(&wake),
             layout: Layout::default(),
             opened: Opened::default(),
             host,
@@ -152,7 +152,8 @@ impl Editor {
         }
         self.refresh_paints();
         self.host.note_work(self.session.busy().is_some(), Instant::now());
-        let scenes_pending = self.mesh.is_making_scene() || self.plane.is_making_scene();
+        let scenes_pending =
+            self.mesh.is_making_scene() || self.plane.is_making_scene() || self.look.is_making_picture();
         if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
             self.host.context().request_repaint_after(Duration::from_millis(100));
         }
@@ -167,7 +168,8 @@ impl Editor {
 
     /// Says what could not be drawn.
     fn tell_failures(&mut self) {
-        let failures = [(Place::Mesh, self.mesh.take_failure()), (Place::Embedding, self.plane.take_failure())];
+        let [mesh, plane, picture] = [self.mesh.take_failure(), self.plane.take_failure(), self.look.take_failure()];
+        let failures = [(Place::Mesh, mesh), (Place::Embedding, plane), (Place::Embedding, picture)];
         for (place, failure) in failures.into_iter().filter_map(|(place, failure)| Some((place, failure?))) {
             self.session.tell_failure(place, "drawing", &failure);
         }
