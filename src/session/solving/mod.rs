@@ -16,13 +16,16 @@
 //! | `mod`      | the part: what is asked of it and done with it                            |
 //! | `running`  | what is to be solved; a run at rest and in the background, where it works |
 //! | `incoming` | takes in steps, and a run that has come to rest                           |
+//! | `rounds`   | rounds of relaxing that a person has asked for                            |
 
 mod incoming;
+mod rounds;
 mod running;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
 
+use self::rounds::Rounds;
 pub(super) use self::running::{Next, Rest, Task};
 use self::running::{Resting, Running, Shared, take_steps};
 use super::stop::Goal;
@@ -47,25 +50,12 @@ pub(super) struct Solving {
     running: Option<Running>,
     /// The run that waits to be taken on.
     resting: Option<Resting>,
-    /// Rounds of relaxing that the run was asked for after its end.
-    rounds_asked: usize,
-    /// Those of them that are under way.
-    relaxing: Option<Relaxing>,
-    /// Rounds that were cut short, beside those: the run at rest would still take them.
-    rounds_cut: usize,
+    /// Rounds of relaxing that it was asked for after its end.
+    rounds: Rounds,
     /// Whether the targets changed since the first step under way began.
     is_outdated: bool,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
     message: Option<u64>,
-}
-
-/// Rounds of relaxing that a person has asked for.
-#[derive(Clone, Copy, Debug)]
-struct Relaxing {
-    /// The step that they follow.
-    after: usize,
-    /// How many were asked for.
-    rounds: usize,
 }
 
 /// What is asked.
@@ -80,9 +70,7 @@ impl Solving {
             kept: Kept::default(),
             running: None,
             resting: None,
-            rounds_asked: 0,
-            relaxing: None,
-            rounds_cut: 0,
+            rounds: Rounds::default(),
             is_outdated: false,
             message: None,
         }
@@ -91,6 +79,10 @@ impl Solving {
     /// The newest step.
     fn newest(&self) -> Option<&Arc<Outcome>> {
         self.timeline.outcome(self.timeline.newest()?)
+    }
+
+    fn newest_index(&self) -> usize {
+        self.timeline.newest().unwrap_or(0)
     }
 
     /// Kept from solves that succeeded, for problems where only targets differ.
@@ -105,7 +97,7 @@ impl Solving {
 
     /// Rounds of relaxing that the run was asked for after its end.
     pub(super) fn rounds_asked(&self) -> usize {
-        self.rounds_asked
+        self.rounds.asked()
     }
 
     /// Whether the run has come to its own end.
@@ -155,7 +147,7 @@ impl Solving {
             return;
         }
         let run = task.problem.ladder().with_kept(&self.kept);
-        (self.rounds_asked, self.relaxing, self.rounds_cut) = (0, None, 0);
+        self.rounds = Rounds::default();
         self.spawn(task, run, goal);
     }
 
@@ -198,8 +190,8 @@ impl Solving {
         let Some(mut resting) = self.resting.take() else { return false };
         match resting.run.relax(rounds) {
             Ok(()) => {
-                self.begin_rounds(rounds);
-                (self.ending, self.rounds_cut) = (None, 0);
+                self.rounds.begin(rounds, self.newest_index());
+                self.ending = None;
                 self.spawn(task, resting.run, Goal::End);
                 true
             }
@@ -211,30 +203,17 @@ impl Solving {
         }
     }
 
-    fn begin_rounds(&mut self, rounds: usize) {
-        let after = self.timeline.newest().unwrap_or(0);
-        self.rounds_asked = self.rounds_asked.saturating_add(rounds);
-        self.relaxing = Some(Relaxing { after, rounds });
-    }
-
     /// The run is at rest: rounds of relaxing that it was asked for and has not come to are cut short. Returns how many.
     fn cut_rounds(&mut self) -> usize {
-        let Some(Relaxing { after, rounds }) = self.relaxing.take().filter(|_| self.ending.is_none()) else { return 0 };
-        let taken = self.timeline.newest().unwrap_or(0).saturating_sub(after);
-        let left = rounds.saturating_sub(taken);
-        self.rounds_asked = self.rounds_asked.saturating_sub(left);
-        self.rounds_cut += left;
-        left
+        if self.has_ended() {
+            self.rounds.end();
+        }
+        self.rounds.cut_short(self.newest_index())
     }
 
     /// Takes up rounds of relaxing that were cut short, so many at most. Returns how many.
     pub(super) fn resume_rounds(&mut self, most: usize) -> usize {
-        let rounds = if self.running.is_none() { self.rounds_cut.min(most) } else { 0 };
-        if rounds > 0 {
-            self.rounds_cut -= rounds;
-            self.begin_rounds(rounds);
-        }
-        rounds
+        if self.running.is_none() { self.rounds.resume(most, self.newest_index()) } else { 0 }
     }
 
     /// Chooses where a run that goes on by itself comes to rest.
