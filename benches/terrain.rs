@@ -12,9 +12,9 @@ mod makers;
 
 use std::path::Path;
 
-use freebound::io::{ObjMesh, write_atomically, write_obj};
+use freebound::io::{MeshFile, Texture, write_atomically, write_obj};
 use freebound::mesh::{DiskMesh, TriMesh};
-use freebound::solver::{Control, Embedding, Family, Method, Pins, Settings, distortion, solve_once, verdict};
+use freebound::solver::{Control, Family, Method, Pins, Settings, distortion, solve_once, verdict};
 use glam::{DVec2, DVec3};
 
 use common::machine::print_machine;
@@ -84,8 +84,8 @@ fn terrain() -> TriMesh {
 fn main() {
     let mesh = terrain();
     if let Some(path) = arguments().first() {
-        let file = ObjMesh::from(&mesh);
-        write_atomically(Path::new(path), |out| write_obj(out, &file, &Embedding::default()))
+        let file = MeshFile::from(&mesh);
+        write_atomically(Path::new(path), |out| write_obj(out, &file, &Texture::default()))
             .expect("the file can be written");
         println!("wrote {path}");
         return;

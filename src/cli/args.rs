@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::DVec2;
 
 use crate::io::{ConstraintFault, OutputFit, OutputKind, Target};
-use crate::mesh::VertexId;
+use crate::mesh::{Form, RepairExtent, VertexId};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
@@ -44,12 +44,18 @@ pub enum Command {
 /// Arguments of `flatten`.
 #[derive(Debug, Args)]
 pub struct FlattenArguments {
-    /// The mesh, an OBJ file; standard input with `-`.
+    /// The mesh, an OBJ, PLY, STL or OFF file; standard input with `-`.
     pub mesh: PathBuf,
     /// Write the mesh with texture coordinates here (OBJ), or to standard output with `-`. The mesh that is read, or
     /// anything else that is, is never written over.
     #[arg(short, long, value_name = "OBJ|-")]
     pub output: Option<PathBuf>,
+    /// What may be repaired before the mesh is flattened: nothing, what changes no visible surface, or all that can be.
+    #[arg(long, value_enum, default_value_t)]
+    pub repair: Extent,
+    /// Whether a surface that is no disk is cut open until it is one.
+    #[arg(long, value_enum, default_value_t)]
+    pub cut: Cut,
     /// How to flatten.
     #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
     pub method: Method,
@@ -118,7 +124,39 @@ pub struct FlattenArguments {
     pub threads: Option<u16>,
 }
 
+/// What may be repaired, as it is typed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Extent {
+    /// What changes no visible surface: repeated corners, duplicate faces, fans of faces that only touch
+    #[default]
+    Safe,
+    /// Parts that only touch are welded and edges of three faces split, too, and faces turned to run alike
+    All,
+    /// Nothing: a mesh with any fault is refused
+    None,
+}
+
+/// Whether a surface is cut open, as it is typed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Cut {
+    /// No
+    #[default]
+    None,
+    /// Where it is closed, has handles, holes, or one side only: along short ways, creases first
+    Auto,
+}
+
 impl FlattenArguments {
+    /// What is to be made of the mesh's faces.
+    pub fn form(&self) -> Form {
+        let repair = match self.repair {
+            Extent::Safe => RepairExtent::Safe,
+            Extent::All => RepairExtent::All,
+            Extent::None => RepairExtent::Nothing,
+        };
+        Form { repair, cut: self.cut == Cut::Auto, ..Form::default() }
+    }
+
     /// The files to write, apart from the report.
     pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
         // The mesh comes last, so that what it names is there.
@@ -178,7 +216,7 @@ pub struct FiguresArguments {
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// The mesh, an OBJ file; standard input with `-`.
+    /// The mesh, an OBJ, PLY, STL or OFF file; standard input with `-`.
     pub mesh: PathBuf,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]

@@ -7,7 +7,7 @@ use super::failed::Subject;
 use super::say::warn;
 use super::standard::name_of_input;
 use crate::io::{ConstraintsError, PictureError, ReadError, TextureError, WriteError};
-use crate::mesh::Diagnosis;
+use crate::mesh::{Diagnosis, Done};
 use crate::solver::{Choice as _, Method, SolveError};
 
 /// Our fault, or the system's.
@@ -67,12 +67,14 @@ pub enum Failure {
         error: TextureError,
     },
     /// The mesh is not a disk.
-    #[error("{path}: cannot be flattened as it is\n{diagnosis}")]
+    #[error("{path}: cannot be flattened as it is\n{diagnosis}{}", remedy_words(remedy.as_deref()))]
     NotADisk {
         /// The file.
         path: String,
         /// Everything that is wrong with it.
         diagnosis: Box<Diagnosis>,
+        /// What would make a disk of it, where that can be.
+        remedy: Option<Vec<Done>>,
     },
     /// The solver gave no embedding. The name of the mesh is said before it.
     #[error("{0}")]
@@ -94,6 +96,13 @@ pub enum Failure {
     /// Asked for something that cannot be.
     #[error("{0}")]
     Usage(String),
+}
+
+/// How a mesh can be mended, for a message.
+fn remedy_words(remedy: Option<&[Done]>) -> String {
+    let Some(remedy) = remedy else { return String::new() };
+    let done: Vec<String> = remedy.iter().map(ToString::to_string).collect();
+    format!("\nit can be mended with --repair all --cut auto: {}", done.join(", "))
 }
 
 impl Failure {
@@ -141,6 +150,7 @@ const fn code_of_solve(error: &SolveError) -> u8 {
         | SolveError::Linear { .. } => FALLS_SHORT,
         SolveError::CoincidentPins { .. }
         | SolveError::NoSuchVertex { .. }
+        | SolveError::UnusedVertex { .. }
         | SolveError::TargetNotFinite { .. }
         | SolveError::WeightNotPositive { .. }
         | SolveError::FamilyNotApplicable { .. }

@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = read_model(&arguments.mesh)?;
+        let model = read_model(&arguments.mesh, arguments.form())?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
@@ -265,7 +265,8 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
     match &model.surface {
         Surface::Disk(disk) => Ok(disk),
         Surface::Faulty(_, diagnosis) => {
-            Err(Failure::NotADisk { path: model.path_words(), diagnosis: Box::new(diagnosis.as_ref().clone()) })
+            let remedy = model.remedy.as_ref().map(|remedy| remedy.done().to_vec());
+            Err(Failure::NotADisk { path: model.path_words(), diagnosis: Box::new(diagnosis.as_ref().clone()), remedy })
         }
     }
 }

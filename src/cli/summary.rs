@@ -9,7 +9,8 @@ use super::flatten::Solved;
 use super::say::{say, warn};
 use super::standard::is_standard;
 use crate::io::{
-    Output, PinsReport, Placement, Report, WriteError, write_atomically, write_report, write_to_standard_output,
+    MeshReport, Output, PinsReport, Placement, Report, WriteError, write_atomically, write_report,
+    write_to_standard_output,
 };
 use crate::mesh::VertexId;
 use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step, Verdict};
@@ -106,6 +107,19 @@ pub(super) fn deliver(report: &Report, to: Option<&Path>, words: impl FnOnce() -
     to.map_or(Ok(()), |path| Ok(put_report(report, path)?))
 }
 
+/// What had to be done with the mesh.
+fn mesh_words(mesh: &MeshReport) -> Option<String> {
+    let unused = match mesh.unused_vertices {
+        0 => None,
+        1 => Some("1 vertex of no face".to_owned()),
+        count => Some(format!("{count} vertices of no face")),
+    };
+    let longer = Some(mesh.mollification).filter(|&by| by > 0.0);
+    let longer = longer.map(|by| format!("faces without area, measured by lengths longer by {by:.1e}"));
+    let words: Vec<String> = mesh.repairs.iter().map(ToString::to_string).chain(unused).chain(longer).collect();
+    (!words.is_empty()).then(|| format!("mesh: {}", words.join(", ")))
+}
+
 /// What a run came to.
 pub(super) fn summary(report: &Report, verdict: &str) -> String {
     let mesh = &report.mesh;
@@ -113,6 +127,7 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
         "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
         mesh.path, mesh.vertices, mesh.faces, mesh.boundary_vertices, mesh.dividing_edges, mesh.ears
     )];
+    lines.extend(mesh_words(mesh));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     // Where there is no linear system, there is no residual.
     let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());

@@ -13,9 +13,11 @@ use super::obj::{copy_materials, relocated, write_obj_with};
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::{Report, write_report};
 use super::svg::write_svg;
-use super::{Materials, ObjMesh, PictureFile, WriteError, refined_obj, write_atomically, write_to_standard_output};
+use super::{
+    Materials, MeshFile, PictureFile, Texture, WriteError, refined_obj, write_atomically, write_to_standard_output,
+};
 use crate::geom::Picture;
-use crate::mesh::{DiskMesh, Refinement};
+use crate::mesh::{DiskMesh, Refinement, Repaired};
 use crate::solver::{Embedding, Verdict};
 
 /// Width and height of each half of a picture, pixels.
@@ -73,7 +75,7 @@ static FORMATS: [Format; 4] = [
         title: "Save the mesh with texture coordinates",
         write: |output, path, out| {
             let mesh = output.source_mesh();
-            write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &output.coordinates)
+            write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &output.texture_of(&mesh))
         },
     },
     Format {
@@ -135,7 +137,7 @@ impl ProvedEmbedding<'_> {
 #[derive(Debug)]
 pub struct Output<'a> {
     /// The file's contents as read.
-    pub source: &'a ObjMesh,
+    pub source: &'a MeshFile,
     /// The file that the mesh came from; none where that was a stream, or it is built in.
     pub source_path: Option<&'a Path>,
     /// What becomes of its material libraries.
@@ -144,6 +146,8 @@ pub struct Output<'a> {
     pub mesh: &'a DiskMesh,
     /// The mesh with its new vertices, where there are any.
     pub refinement: Option<&'a Refinement>,
+    /// The repairs of the file's mesh, where there are any.
+    pub repaired: Option<&'a Repaired>,
     /// One texture coordinate per vertex, v up.
     pub coordinates: Embedding,
     /// The verdict on these coordinates.
@@ -193,11 +197,14 @@ impl Output<'_> {
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
         self.check().map_err(|source| WriteError::writing(path, source))?;
         match (kind, self.picture, self.materials) {
-            (OutputKind::Obj, Some(picture), _) => picture.write_beside(path, &self.source_mesh(), &self.coordinates),
+            (OutputKind::Obj, Some(picture), _) => {
+                let mesh = self.source_mesh();
+                picture.write_beside(path, &mesh, &self.texture_of(&mesh))
+            }
             (OutputKind::Obj, None, Materials::Copied) => {
                 let mesh = self.source_mesh();
-                let (statements, copies) = copy_materials(&mesh, self.source_place(), path)?;
-                write_atomically(path, |out| write_obj_with(out, &mesh, &statements, &self.coordinates))?;
+                let (edits, copies) = copy_materials(&mesh, self.source_place(), path)?;
+                write_atomically(path, |out| write_obj_with(out, &mesh, &edits, &self.texture_of(&mesh)))?;
                 Ok(std::iter::once(path.to_owned()).chain(copies).collect())
             }
             _ => {
@@ -230,11 +237,23 @@ impl Output<'_> {
         self.source_path.unwrap_or(Path::new(NAMELESS))
     }
 
-    /// The file's mesh, with the new vertices where there are any.
-    fn source_mesh(&self) -> Cow<'_, ObjMesh> {
-        match self.refinement {
-            Some(refinement) => Cow::Owned(refined_obj(self.source, refinement)),
-            None => Cow::Borrowed(self.source),
+    /// The coordinates as those of the corners of the file's mesh.
+    fn texture_of(&self, mesh: &MeshFile) -> Texture {
+        match self.repaired.filter(|_| self.refinement.is_none()) {
+            Some(repaired) => Texture::of_repaired(repaired, &self.source.polygons, &self.coordinates),
+            None => Texture::per_vertex(&mesh.polygons, &self.coordinates),
         }
+    }
+
+    /// The file's mesh, with the new vertices where there are any. A mesh that was repaired and has new vertices is written
+    /// without its text: both its faces and its vertices are others.
+    fn source_mesh(&self) -> Cow<'_, MeshFile> {
+        let Some(refinement) = self.refinement else { return Cow::Borrowed(self.source) };
+        let repaired = self.repaired.map(|repaired| MeshFile {
+            polygons: repaired.all_faces(&self.source.polygons),
+            statements: self.source.statements.clone(),
+            ..MeshFile::default()
+        });
+        Cow::Owned(refined_obj(repaired.as_ref().unwrap_or(self.source), refinement))
     }
 }

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::mesh::{DiskMesh, FaceId, TriMesh, VertexId};
-use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
+use crate::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
+use crate::solver::{AtlasVerdict, Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
 
 /// Version of the form of reports, which `docs/report.schema.json` describes. It counts up where a field goes or changes
 /// its meaning, not where one comes.
@@ -40,6 +40,9 @@ pub struct Report {
     /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
+    /// The exact verdict on a layout of several charts, or of one with holes, in place of the verdict.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub atlas: Option<AtlasVerdict>,
     /// Distortion summed up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distortion: Option<DistortionSummary>,
@@ -109,6 +112,12 @@ pub struct MeshReport {
     pub dividing_edges: usize,
     /// Triangles with two boundary edges.
     pub ears: usize,
+    /// Vertices of no face.
+    pub unused_vertices: usize,
+    /// By how much every length was taken longer, where faces have no area; 0 where all have one. In the mesh's units.
+    pub mollification: f64,
+    /// What was repaired, in order.
+    pub repairs: Vec<Done>,
 }
 
 impl MeshReport {
@@ -121,6 +130,23 @@ impl MeshReport {
             boundary_vertices: mesh.boundary_loop().len(),
             dividing_edges: mesh.dividing_edges().len(),
             ears: mesh.ears().len(),
+            unused_vertices: mesh.vertex_count() - mesh.used_vertex_count(),
+            mollification: mesh.mollification() * mesh.unit(),
+            repairs: Vec::new(),
+        }
+    }
+}
+
+impl MeshReport {
+    /// Describes a layout of charts that came from `path`, over so many vertices.
+    pub fn of_charts(path: String, vertices: usize, charts: &[Part]) -> Self {
+        let loops = || charts.iter().flat_map(Part::loops);
+        Self {
+            path,
+            vertices,
+            faces: charts.iter().map(|chart| chart.mesh().face_count()).sum(),
+            boundary_vertices: loops().map(Vec::len).sum(),
+            ..Self::default()
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Is a mesh a disk, and if not, what are all the reasons?
 //!
 //! A disk is a connected, consistently oriented 2-manifold with one boundary loop and no handles, whose positions are
-//! finite and whose faces have an area. [`diagnose`] names every fault of a mesh at once; a mesh without faults becomes
-//! a [`DiskMesh`], and only so.
+//! finite. [`diagnose`] names every fault of a mesh at once; a mesh whose faults are all harmless becomes a [`DiskMesh`],
+//! and only so.
 //!
 //! Limits: handles are counted only where no edge has three faces or more and the surface has two sides, because the
 //! number means nothing elsewhere.
@@ -13,6 +13,7 @@ use super::area::is_zero_area;
 use super::coincident::coincident_vertices;
 use super::edges::{EdgeTable, side_ends};
 use super::fault::{FaceList, Fault};
+use super::measure::{Measure, least_mollification};
 use super::orientation::Orientation;
 use super::topology::Topology;
 use super::unit::take_unit;
@@ -48,9 +49,9 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// Whether the mesh is a disk: whether there are no faults.
+    /// Whether the mesh is a disk: whether there are no faults but harmless ones.
     pub fn is_disk(&self) -> bool {
-        self.faults.is_empty()
+        self.faults.iter().all(Fault::is_harmless)
     }
 
     fn add(&mut self, fault: Fault) {
@@ -62,7 +63,7 @@ impl Diagnosis {
 
 impl fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_disk() {
+        if self.faults.is_empty() {
             return write!(f, "the mesh is a disk");
         }
         let faults: Vec<String> = self.faults.iter().map(Fault::to_string).collect();
@@ -80,36 +81,39 @@ pub fn diagnose(mesh: &TriMesh) -> Diagnosis {
 impl TryFrom<TriMesh> for DiskMesh {
     type Error = Box<Diagnosis>;
 
-    /// Takes a mesh that is a disk.
+    /// Takes a mesh that is a disk. Where faces have no area, lengths are mollified.
     ///
     /// # Errors
     ///
-    /// The diagnosis, if there are faults.
+    /// The diagnosis, if there are faults that are not harmless.
     fn try_from(mesh: TriMesh) -> Result<Self, Self::Error> {
-        Self::unless(mesh, |_| true, |mesh| take_unit(&mut mesh.positions))
+        Self::measured(mesh, |mesh| take_unit(&mut mesh.positions), true)
     }
 }
 
 impl DiskMesh {
-    /// Takes a mesh that is a disk as far as its faces fit together, whatever their areas.
+    /// Takes a mesh that is a disk, with the positions that it has: faces without area have none.
     ///
     /// # Errors
     ///
-    /// The diagnosis, if there are other faults than faces without area.
+    /// As [`try_from`](Self::try_from).
     pub fn of_topology(mesh: TriMesh) -> Result<Self, Box<Diagnosis>> {
-        Self::unless(mesh, |fault| !matches!(fault, Fault::ZeroArea(_)), |_| 1.0)
+        Self::measured(mesh, |_| 1.0, false)
     }
 
     /// Takes a mesh without grave faults, in the units that it is brought to.
-    fn unless(
+    fn measured(
         mut mesh: TriMesh,
-        is_grave: impl Fn(&Fault) -> bool,
         take_unit: impl FnOnce(&mut TriMesh) -> f64,
+        mollifies: bool,
     ) -> Result<Self, Box<Diagnosis>> {
         match examine(&mesh) {
-            (diagnosis, Some(table)) if !diagnosis.faults.iter().any(is_grave) => {
+            (diagnosis, Some(table)) if diagnosis.is_disk() => {
+                let has_no_area = diagnosis.faults.iter().any(|fault| matches!(fault, Fault::ZeroArea(_)));
                 let unit = take_unit(&mut mesh);
-                Ok(Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears).in_units_of(unit))
+                let mollification = if mollifies && has_no_area { least_mollification(&mesh) } else { 0.0 };
+                let disk = Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears);
+                Ok(disk.measured_by(Measure { unit, mollification }))
             }
             (diagnosis, _) => Err(Box::new(diagnosis)),
         }

@@ -9,7 +9,8 @@
 use glam::DVec3;
 
 use super::diagonals::Diagonals;
-use super::edges::{EdgeTable, side_ends};
+use super::edges::{EdgeTable, number_edges, side_ends};
+use super::measure::Measure;
 use super::polygons::{Polygon, Polygons};
 use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
 
@@ -17,7 +18,7 @@ use super::{EdgeId, FaceId, HalfedgeId, TriMesh, VertexId};
 #[derive(Clone, Debug)]
 pub struct DiskMesh {
     mesh: TriMesh,
-    unit: f64,
+    measure: Measure,
     twin: Vec<u32>,
     edge: Vec<u32>,
     halfedge_of_edge: Vec<u32>,
@@ -33,9 +34,10 @@ pub struct DiskMesh {
 }
 
 impl DiskMesh {
-    /// Joins the halfedges of a mesh that the diagnosis found to be a disk.
+    /// Joins the halfedges of a mesh that the diagnosis found to be a disk. Vertices of no face are moved to the first
+    /// vertex of the boundary, where they stretch no bounds.
     pub(super) fn join(
-        mesh: TriMesh,
+        mut mesh: TriMesh,
         table: &EdgeTable,
         dividing_edges: Vec<[VertexId; 2]>,
         ears: Vec<FaceId>,
@@ -75,10 +77,16 @@ impl DiskMesh {
                 *held = side;
             }
         }
+        let first = mesh.positions[boundary_loop[0].index()];
+        for (position, &side) in mesh.positions.iter_mut().zip(&halfedge_of_vertex) {
+            if side == u32::MAX {
+                *position = first;
+            }
+        }
         let polygons = Polygons::of(&mesh);
         let disk = Self {
             mesh,
-            unit: 1.0,
+            measure: Measure::default(),
             twin,
             edge,
             halfedge_of_edge,
@@ -132,15 +140,14 @@ impl DiskMesh {
         &self.ears
     }
 
-    /// The same with positions in units of this length.
-    pub(super) fn in_units_of(self, unit: f64) -> Self {
-        Self { unit, ..self }
+    /// The same, measured otherwise.
+    pub(super) fn measured_by(self, measure: Measure) -> Self {
+        Self { measure, ..self }
     }
 
-    /// The length that positions are in units of: a power of two, 1 but for meshes of the largest and smallest sizes,
-    /// which are brought to the middle of the range of numbers.
-    pub fn unit(&self) -> f64 {
-        self.unit
+    /// How its lengths are measured.
+    pub(super) fn measure(&self) -> Measure {
+        self.measure
     }
 
     /// Positions and triangles.
@@ -158,7 +165,18 @@ impl DiskMesh {
         self.mesh.triangles[face.index()]
     }
 
-    /// Number of vertices.
+    /// Whether a vertex belongs to a face. One that does not is a vertex by its number alone.
+    pub fn is_used(&self, vertex: VertexId) -> bool {
+        self.halfedge_of_vertex.get(vertex.index()).is_some_and(|&side| side != u32::MAX)
+    }
+
+    /// Number of vertices that belong to faces.
+    pub fn used_vertex_count(&self) -> usize {
+        // Of a disk: vertices − edges + faces = 1.
+        1 + self.edge_count() - self.face_count()
+    }
+
+    /// Number of vertices, those of no face included.
     pub fn vertex_count(&self) -> usize {
         self.mesh.vertex_count()
     }
@@ -178,7 +196,7 @@ impl DiskMesh {
         self.twin.len()
     }
 
-    /// All vertices.
+    /// All vertices, those of no face included.
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = VertexId> + Clone + use<> {
         (0..self.vertex_count()).map(VertexId::from_index)
     }
@@ -315,28 +333,14 @@ impl DiskMesh {
     }
 
     /// Outgoing halfedges of a vertex, counter-clockwise. At a boundary vertex the fan begins at the boundary and
-    /// ends with the outer halfedge.
+    /// ends with the outer halfedge. A vertex of no face has none.
     pub fn outgoing(&self, vertex: VertexId) -> impl Iterator<Item = HalfedgeId> + '_ {
         let first = HalfedgeId::new(self.halfedge_of_vertex[vertex.index()]);
-        let mut at = Some(first);
+        let mut at = self.is_used(vertex).then_some(first);
         std::iter::from_fn(move || {
             let here = at?;
             at = (!self.is_outer(here)).then(|| self.twin(self.previous(here))).filter(|&h| h != first);
             Some(here)
         })
     }
-}
-
-/// Numbers edges by their lower halfedge.
-fn number_edges(twin: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let mut edge = vec![0_u32; twin.len()];
-    let mut halfedge_of_edge = Vec::with_capacity(twin.len() / 2);
-    for (h, &other) in (0_u32..).zip(twin) {
-        if h < other {
-            edge[h as usize] = u32::try_from(halfedge_of_edge.len()).expect("an edge fits");
-            edge[other as usize] = edge[h as usize];
-            halfedge_of_edge.push(h);
-        }
-    }
-    (edge, halfedge_of_edge)
 }

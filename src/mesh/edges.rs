@@ -27,7 +27,11 @@ impl EdgeTable {
     /// If a triangle names a vertex beyond the last.
     pub fn new(vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
         let side_count = u32::try_from(3 * triangles.len()).expect("a mesh has fewer than 2^32 sides");
-        let ends = |side: u32| side_ends(triangles, side);
+        Self::of_sides(vertex_count, side_count, |side| side_ends(triangles, side))
+    }
+
+    /// Groups sides of any polygons, by the ends of each.
+    pub(super) fn of_sides(vertex_count: usize, side_count: u32, ends: impl Fn(u32) -> (VertexId, VertexId)) -> Self {
         let low = |side: u32| ends(side).0.min(ends(side).1).index();
         let high = |side: u32| ends(side).0.max(ends(side).1);
         let mut bucket_end = vec![0_u32; vertex_count + 1];
@@ -70,4 +74,19 @@ impl EdgeTable {
     pub fn edges(&self) -> impl Iterator<Item = &[u32]> {
         self.starts.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
     }
+}
+
+/// Numbers edges by their lower halfedge, of which `twin` is the other: the edge of each halfedge, and the lower halfedge
+/// of each edge.
+pub(super) fn number_edges(twin: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut edge = vec![0_u32; twin.len()];
+    let mut halfedge_of_edge = Vec::with_capacity(twin.len() / 2);
+    for (h, &other) in (0_u32..).zip(twin) {
+        if h < other {
+            edge[h as usize] = u32::try_from(halfedge_of_edge.len()).expect("an edge fits");
+            edge[other as usize] = edge[h as usize];
+            halfedge_of_edge.push(h);
+        }
+    }
+    (edge, halfedge_of_edge)
 }

@@ -123,6 +123,11 @@ impl Fault {
         }
     }
 
+    /// Whether the mesh is flattened all the same: neither faces without area nor vertices of no face change the surface.
+    pub const fn is_harmless(&self) -> bool {
+        matches!(self, Self::ZeroArea(_) | Self::UnreferencedVertices(_))
+    }
+
     /// A fixed lower-case name, for reports and tests.
     pub const fn name(&self) -> &'static str {
         self.words()[0]

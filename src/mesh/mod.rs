@@ -3,13 +3,16 @@
 //! | file | what |
 //! |---|---|
 //! | `ids.rs` | typed indices of vertices, halfedges, edges, faces |
+//! | `parts.rs` | the parts of a surface that hang together, each with its boundary loops |
 //! | `polygon.rs`, `triangulate.rs`, `blockers.rs` | polygons as a file gives them, cut into triangles |
 //! | `triangles.rs` | triangles that share vertices |
 //! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
 //! | `edges.rs`, `topology.rs`, `orientation.rs`, `coincident.rs`, `union.rs`, `area.rs` | what the diagnosis looks at |
+//! | `measure.rs` | a disk's unit, and lengths a little longer than in space where faces have no area |
 //! | `unit.rs` | meshes of the largest and smallest sizes, brought to the middle of the range of numbers |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
 //! | `polygons.rs`, `diagonals.rs` | the polygons that a disk's triangles are cut from, and their other diagonals |
+//! | `repair/` | what keeps a mesh from being a disk, mended; surfaces cut open |
 //! | `refinement.rs` | a disk with new vertices on its edges |
 //! | `volume.rs` | which side of a surface is the outside |
 
@@ -22,10 +25,13 @@ mod disk;
 mod edges;
 mod fault;
 mod ids;
+mod measure;
 mod orientation;
+mod parts;
 mod polygon;
 mod polygons;
 mod refinement;
+mod repair;
 mod topology;
 mod triangles;
 mod triangulate;
@@ -38,8 +44,10 @@ pub use disk::DiskMesh;
 pub use edges::EdgeTable;
 pub use fault::{Elements, FaceList, Fault};
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
+pub use repair::{Done, Form, Repair, RepairExtent, Repaired};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

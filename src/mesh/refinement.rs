@@ -52,7 +52,7 @@ impl Refinement {
             source.extend(std::iter::repeat_n(face, parts.len()));
         }
         let polygon_of = Some(source.iter().map(|&face| old.polygon(face)).collect());
-        let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of })?.in_units_of(mesh.unit());
+        let disk = DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of })?.measured_by(mesh.measure());
         let old_count = mesh.vertex_count();
         let was_whole: BTreeSet<u32> = mesh.polygons().map(|polygon| old.polygon(polygon.first_face)).collect();
         let is_whole = |polygon: &Polygon<'_>, of: &TriMesh| {

@@ -41,6 +41,8 @@ pub enum Action {
     SetVAxis(VAxis),
     /// Turns the mesh's faces around: the other side is the outside.
     TurnFaces,
+    /// Mends what keeps the mesh from being a disk, and cuts it open.
+    Mend,
     /// Places a constraint: pins a vertex, which may be pinned already.
     Place {
         /// The vertex.

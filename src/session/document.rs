@@ -7,7 +7,7 @@ use super::model::example_picture;
 use crate::examples::Example;
 use crate::geom::{Bounds, PictureFrame, VAxis};
 use crate::io::{PictureFile, Target, Targets, hard_targets, pins_in_plane};
-use crate::mesh::VertexId;
+use crate::mesh::{Form, VertexId};
 use crate::solver::{GaugeSize, Pins, Settings};
 
 /// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
@@ -23,8 +23,8 @@ pub struct Document {
     pub aspect: Option<f64>,
     /// Where v = 0 is on the picture.
     pub v_axis: VAxis,
-    /// Whether the mesh's faces are turned around.
-    pub faces_turned: bool,
+    /// What is made of the mesh's faces.
+    pub form: Form,
     /// Rounds of relaxing that a person has asked for: they follow wherever a run comes to its end, whatever happens to
     /// pins, picture and faces. Choosing method or weights in any way, a repair and solving again drop them; a pause leaves
     /// those that were taken.
@@ -79,8 +79,8 @@ pub enum Command {
     SetPicture(Option<Arc<PictureFile>>),
     /// Chooses where v = 0 is.
     SetVAxis(VAxis),
-    /// Turns the mesh's faces around, or back.
-    SetFacesTurned(bool),
+    /// Takes the mesh's faces in another form.
+    SetForm(Form),
     /// Chooses how many rounds of relaxing follow a run.
     SetRelaxed(usize),
     /// Several edits that are one for the user.
@@ -102,7 +102,7 @@ impl Command {
             Self::SetSettings(settings) => Self::SetSettings(std::mem::replace(&mut document.settings, settings)),
             Self::SetPicture(picture) => Self::SetPicture(std::mem::replace(&mut document.picture, picture)),
             Self::SetVAxis(v_axis) => Self::SetVAxis(std::mem::replace(&mut document.v_axis, v_axis)),
-            Self::SetFacesTurned(turned) => Self::SetFacesTurned(std::mem::replace(&mut document.faces_turned, turned)),
+            Self::SetForm(form) => Self::SetForm(std::mem::replace(&mut document.form, form)),
             Self::SetRelaxed(rounds) => Self::SetRelaxed(std::mem::replace(&mut document.relaxed, rounds)),
             Self::Together(commands) => {
                 let mut inverses: Vec<Self> = commands.into_iter().map(|command| command.apply(document)).collect();

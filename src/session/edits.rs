@@ -10,7 +10,7 @@ use super::errands::Errand;
 use super::{Command, Document, Session};
 use crate::geom::{Bounds, PictureFrame, Similarity, VAxis};
 use crate::io::{Constraints, PictureFile, Target, Targets};
-use crate::mesh::VertexId;
+use crate::mesh::{Form, VertexId};
 use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Ladder, Method, Pins, Settings, SolveError};
 
 /// The mesh flattened without pins, upright in the middle of the picture.
@@ -18,12 +18,12 @@ pub(super) struct Flat {
     /// The picture's frame.
     frame: PictureFrame,
     /// Whether the mesh's faces were turned around.
-    faces_turned: bool,
+    form: Form,
     embedding: Result<Embedding, SolveError>,
 }
 
 /// The errand that turns the faces around.
-const TURNING: &str = "turning the faces";
+const FORMING: &str = "turning or mending the faces";
 
 /// Edits.
 impl Session {
@@ -73,7 +73,15 @@ impl Session {
     /// Turns the faces around.
     pub(super) fn turn_faces(&mut self) {
         if self.model().is_some() {
-            self.edit(vec![Command::SetFacesTurned(!self.document.faces_turned)]);
+            let form = self.document.form;
+            self.edit(vec![Command::SetForm(Form { faces_turned: !form.faces_turned, ..form })]);
+        }
+    }
+
+    /// Mends the mesh as far as that can be done, and cuts it open.
+    pub(super) fn mend(&mut self) {
+        if self.model().is_some_and(|model| model.remedy.is_some()) {
+            self.edit(vec![Command::SetForm(self.document.form.mended())]);
         }
     }
 
@@ -190,8 +198,7 @@ impl Session {
             return self.complain(text, Some("place another constraint"));
         }
         let model = self.model();
-        let Some((disk, faces_turned)) = model.and_then(|model| Some((model.disk()?.clone(), model.faces_turned)))
-        else {
+        let Some((disk, form)) = model.and_then(|model| Some((model.disk()?.clone(), model.form))) else {
             return self.complain("a mesh with faults has nothing to fit to", None);
         };
         let frame = self.document.frame();
@@ -200,7 +207,7 @@ impl Session {
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
         self.errands.send("fitting the targets", move |cancel| {
             let step = Ladder::new(settings, Pins::new()).step(&disk, Control::new(cancel, &|_| {}));
-            Errand::Flat(Flat { frame, faces_turned, embedding: step.map(|step| step.candidate.solution.embedding) })
+            Errand::Flat(Flat { frame, form, embedding: step.map(|step| step.candidate.solution.embedding) })
         });
     }
 
@@ -210,7 +217,7 @@ impl Session {
             Ok(embedding) => embedding,
             Err(error) => return self.complain(format!("there is nothing to fit to: {error}"), None),
         };
-        if flat.frame != self.document.frame() || flat.faces_turned != self.document.faces_turned {
+        if flat.frame != self.document.frame() || flat.form != self.document.form {
             let text = "picture or faces changed while the targets were being fitted";
             return self.complain(text, Some("fit them again"));
         }
@@ -266,9 +273,9 @@ impl Session {
                 }
                 Errand::Constraints { read: Err(error), .. } => self.complain(error.to_string(), None),
                 Errand::Flat(flat) => self.take_flat(&flat),
-                Errand::Turned(model) => {
-                    self.mesh.take_other_side(*model);
-                    if !self.has_faces_as_wanted() {
+                Errand::Formed(model) => {
+                    self.mesh.take_other(*model);
+                    if !self.has_form_as_wanted() {
                         self.solve();
                     }
                 }
@@ -287,22 +294,25 @@ impl Session {
         }
     }
 
-    /// Brings the mesh's faces to where the document wants them. Where that takes time, a solve follows by itself.
-    /// Returns whether they are there now.
-    pub(super) fn bring_faces(&mut self) -> bool {
-        if self.has_faces_as_wanted() {
+    /// Brings the mesh into the form that the document wants. Where that takes time, a solve follows by itself. Returns
+    /// whether it has it now.
+    pub(super) fn bring_form(&mut self) -> bool {
+        if self.has_form_as_wanted() {
             return true;
         }
         // What goes on is of no use any more.
         self.solving.give_up_all();
-        if self.mesh.turn_over() {
+        let form = self.document.form;
+        if self.mesh.change_form(form) {
             self.forget_steps();
+            self.messages.forget_mesh();
+            self.tell_faults();
             return true;
         }
         if let Some(model) = self.model().cloned()
-            && !self.errands.is_under_way(TURNING)
+            && !self.errands.is_under_way(FORMING)
         {
-            self.errands.send(TURNING, move |_| Errand::Turned(Box::new(model.turned())));
+            self.errands.send(FORMING, move |_| Errand::Formed(Box::new(model.in_form(form))));
         }
         false
     }

@@ -16,8 +16,8 @@ pub(super) enum Errand {
         path: PathBuf,
         read: Result<Constraints, ConstraintsError>,
     },
-    /// The open mesh with its faces turned around.
-    Turned(Box<Model>),
+    /// The open mesh in another form.
+    Formed(Box<Model>),
     /// The open mesh flattened, to fit the targets to.
     Flat(Flat),
 }
@@ -54,11 +54,11 @@ impl Errands {
         self.arrived.clear();
     }
 
-    /// The next errand that came back. In a gesture only turned faces are let through, which are no edit.
+    /// The next errand that came back. In a gesture only a mesh in another form is let through, which is no edit.
     pub(super) fn poll(&mut self, is_in_gesture: bool, messages: &mut Messages) -> Option<Errand> {
         while let Some((what, errand)) = self.under_way.poll() {
             match errand {
-                Ok(turned @ Errand::Turned(_)) => return Some(turned),
+                Ok(formed @ Errand::Formed(_)) => return Some(formed),
                 Ok(errand) => self.arrived.push(errand),
                 Err(failure) => messages.fail_background(Place::Embedding, what, &failure),
             }

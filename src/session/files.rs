@@ -9,6 +9,7 @@ use super::saving::{ProjectSaves, Request, picture_source, source_of};
 use super::{Background, Document, Messages, Model, Place, RecentFiles, Session, Wake, Written};
 use crate::examples::Example;
 use crate::io::{ProjectFile, ProjectSource, ProjectView, RecoveryNote, WriteError};
+use crate::mesh::Form;
 
 /// How long the end of a session waits for files that a person asked for, which may be large.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -92,7 +93,8 @@ impl Files {
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
-        project.faces_turned = document.faces_turned;
+        let Form { faces_turned, repair, cut } = document.form;
+        (project.faces_turned, project.repair, project.cut) = (faces_turned, repair, cut);
         project.relaxed = document.relaxed;
         project.picture = match &document.picture {
             Some(picture) => picture_source(picture, model),

@@ -38,7 +38,7 @@ impl Session {
         }
     }
 
-    fn tell_faults(&mut self) {
+    pub(super) fn tell_faults(&mut self) {
         let Some(model) = self.model().cloned() else { return };
         let Surface::Faulty(_, diagnosis) = &model.surface else { return };
         for fault in &diagnosis.faults {

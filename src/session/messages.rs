@@ -130,6 +130,11 @@ impl Messages {
         self.list.retain(|message| message.id != id);
     }
 
+    /// Takes away what was said of the mesh: it is another one now.
+    pub(super) fn forget_mesh(&mut self) {
+        self.list.retain(|message| message.place != Place::Mesh);
+    }
+
     /// Takes away what went well.
     pub(super) fn forget_notes(&mut self) {
         self.list.retain(|message| message.severity != Severity::Note);

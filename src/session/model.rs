@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{FileStamp, ObjMesh, PictureFile, ReadError, read_mesh_with, read_obj_with};
-use crate::mesh::{Diagnosis, DiskMesh, TriMesh, relative_volume};
+use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
+use crate::mesh::{Diagnosis, DiskMesh, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, diagnose, relative_volume};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
 /// it is high.
@@ -24,10 +24,14 @@ pub struct Model {
     pub stamp: Option<FileStamp>,
     /// The built-in mesh that it is.
     pub example: Option<Example>,
-    /// Whether its faces are turned around, against its file.
-    pub faces_turned: bool,
-    /// The file's contents, to be written back with the result.
-    pub source: Arc<ObjMesh>,
+    /// What is made of its faces.
+    pub form: Form,
+    /// The file's contents, its faces turned around where the form says so, to be written back with the result.
+    pub source: Arc<MeshFile>,
+    /// The repairs of it, where there are any.
+    pub repaired: Option<Arc<Repaired>>,
+    /// The repairs that would make a disk of what is none.
+    pub remedy: Option<Arc<Repaired>>,
     /// Its triangles and what is known of them.
     pub surface: Surface,
     /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
@@ -50,8 +54,8 @@ impl Model {
     /// # Errors
     ///
     /// Where the file cannot be read as a mesh at all. A mesh with faults is no error here.
-    pub fn read(path: &Path) -> Result<Self, ReadError> {
-        Ok(Self { stamp: FileStamp::read(path).ok(), ..Self::read_until(path, &|| false)? })
+    pub fn read(path: &Path, form: Form) -> Result<Self, ReadError> {
+        Ok(Self { stamp: FileStamp::read(path).ok(), ..Self::read_until(path, form, &|| false)? })
     }
 
     /// As [`read`](Self::read), without the file's stamp, looking now and then whether to stop.
@@ -59,10 +63,10 @@ impl Model {
     /// # Errors
     ///
     /// As [`read`](Self::read), and [`ReadError::Cancelled`] where it was to stop.
-    pub fn read_until(path: &Path, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
+    pub fn read_until(path: &Path, form: Form, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
         let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        Ok(Self::new(name, Some(path.to_owned()), source))
+        Ok(Self::as_in_file(name, Some(path.to_owned()), source).in_form(form))
     }
 
     /// Reads and diagnoses a stream, looking now and then whether to stop. `name` is what to call it.
@@ -70,36 +74,53 @@ impl Model {
     /// # Errors
     ///
     /// As [`read_until`](Self::read_until).
-    pub fn read_stream(name: &str, stream: impl Read, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        let source = read_obj_with(stream, &mut |_| flow(is_enough))?;
-        Ok(Self::new(name.to_owned(), None, source))
+    pub fn read_stream(
+        name: &str,
+        stream: impl Read,
+        form: Form,
+        is_enough: &dyn Fn() -> bool,
+    ) -> Result<Self, ReadError> {
+        let source = read_stream_with(stream, &mut |_| flow(is_enough))?;
+        Ok(Self::as_in_file(name.to_owned(), None, source).in_form(form))
     }
 
     /// A built-in mesh.
     pub fn example(example: Example) -> Self {
-        let source = ObjMesh::from(&example.mesh());
-        Self { example: Some(example), ..Self::new(example.title().to_owned(), None, source) }
+        let source = MeshFile::from(&example.mesh());
+        let model = Self::as_in_file(example.title().to_owned(), None, source);
+        Self { example: Some(example), ..model.in_form(Form::default()) }
     }
 
-    fn new(name: String, path: Option<PathBuf>, source: ObjMesh) -> Self {
-        let surface = match DiskMesh::try_from(source.polygons.triangulate()) {
-            Ok(disk) => Surface::Disk(Arc::new(disk)),
-            Err(diagnosis) => Surface::Faulty(Arc::new(source.polygons.triangulate()), Arc::new(*diagnosis)),
+    /// A mesh of which nothing is known yet.
+    fn as_in_file(name: String, path: Option<PathBuf>, source: MeshFile) -> Self {
+        Self {
+            name,
+            path,
+            stamp: None,
+            example: None,
+            form: Form::default(),
+            source: Arc::new(source),
+            repaired: None,
+            remedy: None,
+            surface: Surface::default(),
+            faces_point_inward: false,
+        }
+    }
+
+    /// The same mesh in another form: the order of its faces stays, and so does every vertex of the file, with its number.
+    #[must_use = "the mesh itself stays as it is"]
+    pub fn in_form(&self, form: Form) -> Self {
+        let is_turned = form.faces_turned != self.form.faces_turned;
+        let source = if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) };
+        let (surface, repaired) = surface_of(&source.polygons, form);
+        let remedy = match &surface {
+            Surface::Disk(_) => None,
+            Surface::Faulty(..) => {
+                Some(form.mended().repaired(&source.polygons)).filter(Repaired::is_disk).map(Arc::new)
+            }
         };
         let faces_point_inward = matches!(&surface, Surface::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME);
-        let source = Arc::new(source);
-        Self { name, path, stamp: None, example: None, faces_turned: false, source, surface, faces_point_inward }
-    }
-
-    /// The same mesh with its faces turned around: positions and vertices stay, and so does the order of the polygons.
-    #[must_use = "the mesh itself stays as it is"]
-    pub fn turned(&self) -> Self {
-        Self {
-            stamp: self.stamp.clone(),
-            example: self.example,
-            faces_turned: !self.faces_turned,
-            ..Self::new(self.name.clone(), self.path.clone(), self.source.turned())
-        }
+        Self { form, source, repaired, remedy, surface, faces_point_inward, ..self.clone() }
     }
 
     /// Where it came from, in words.
@@ -124,6 +145,34 @@ impl Model {
         match &self.surface {
             Surface::Disk(disk) => Some(disk),
             Surface::Faulty(..) => None,
+        }
+    }
+}
+
+impl Default for Surface {
+    fn default() -> Self {
+        Self::Faulty(Arc::default(), Arc::default())
+    }
+}
+
+/// The triangles of a file's faces in a form, and the repairs that this took.
+fn surface_of(polygons: &PolygonMesh, form: Form) -> (Surface, Option<Arc<Repaired>>) {
+    let as_given = DiskMesh::try_from(polygons.triangulate()).and_then(|disk| {
+        let diagnosis = match form.repair {
+            RepairExtent::Nothing => diagnose(&polygons.triangulate()),
+            RepairExtent::Safe | RepairExtent::All => Diagnosis::default(),
+        };
+        if diagnosis.faults.is_empty() { Ok(disk) } else { Err(Box::new(diagnosis)) }
+    });
+    match as_given {
+        Ok(disk) => (Surface::Disk(Arc::new(disk)), None),
+        Err(diagnosis) => {
+            let repaired = form.repaired(polygons);
+            let disk = if repaired.done().is_empty() { None } else { DiskMesh::try_from(repaired.triangulate()).ok() };
+            match disk {
+                Some(disk) => (Surface::Disk(Arc::new(disk)), Some(Arc::new(repaired))),
+                None => (Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(*diagnosis)), None),
+            }
         }
     }
 }

@@ -1,34 +1,34 @@
-//! The open mesh, its faces one way around or the other.
+//! The open mesh, in one form or another.
 
 use std::sync::Arc;
 
 use super::{Model, Session};
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, Form};
 
 /// The open mesh.
 #[derive(Debug, Default)]
 pub(super) struct OpenMesh {
     model: Option<Arc<Model>>,
-    /// The same mesh with its faces the other way around, once somebody turned them.
-    other_side: Option<Arc<Model>>,
-    /// Counts the meshes opened and turned around.
+    /// The same mesh in the form that was wanted before, or is wanted next.
+    other: Option<Arc<Model>>,
+    /// Counts the meshes opened, and their changes of form.
     revision: u64,
 }
 
 impl OpenMesh {
     pub(super) fn open(&mut self, model: Model) {
-        *self = Self { model: Some(Arc::new(model)), other_side: None, revision: self.revision + 1 };
+        *self = Self { model: Some(Arc::new(model)), other: None, revision: self.revision + 1 };
     }
 
-    /// Takes in the mesh with its faces turned around, for [`turn_over`](Self::turn_over).
-    pub(super) fn take_other_side(&mut self, model: Model) {
-        self.other_side = Some(Arc::new(model));
+    /// Takes in the mesh in another form, for [`change_form`](Self::change_form).
+    pub(super) fn take_other(&mut self, model: Model) {
+        self.other = Some(Arc::new(model));
     }
 
-    /// Turns the faces around. Returns whether the other side was there to be shown.
-    pub(super) fn turn_over(&mut self) -> bool {
-        let Some(other_side) = self.other_side.take() else { return false };
-        self.other_side = self.model.replace(other_side);
+    /// Shows the mesh in another form. Returns whether it was there to be shown.
+    pub(super) fn change_form(&mut self, form: Form) -> bool {
+        let Some(other) = self.other.take_if(|other| other.form == form) else { return false };
+        self.other = self.model.replace(other);
         self.revision += 1;
         true
     }
@@ -40,7 +40,7 @@ impl Session {
         self.mesh.model.as_ref()
     }
 
-    /// Changes whenever another mesh is open, or the same one with its faces turned around.
+    /// Changes whenever another mesh is open, or the same one in another form.
     pub fn model_revision(&self) -> u64 {
         self.mesh.revision
     }
@@ -55,8 +55,8 @@ impl Session {
         self.model().map_or(0, |model| model.mesh().vertex_count())
     }
 
-    /// Whether the mesh has its faces as the document wants them. Where nothing is open, there is nothing to turn.
-    pub(super) fn has_faces_as_wanted(&self) -> bool {
-        self.model().is_none_or(|model| model.faces_turned == self.document.faces_turned)
+    /// Whether the mesh has the form that the document wants. Where nothing is open, there is none.
+    pub(super) fn has_form_as_wanted(&self) -> bool {
+        self.model().is_none_or(|model| model.form == self.document.form)
     }
 }

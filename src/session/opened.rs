@@ -10,6 +10,7 @@ use crate::io::{
     FileStamp, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError,
     RecoveryNote, Targets, material_picture,
 };
+use crate::mesh::Form;
 
 /// Something that was opened, ready to be put on the table.
 #[derive(Debug)]
@@ -69,7 +70,7 @@ impl Opened {
         if is_project {
             return Self::project(ProjectFile::read(path)?, Origin::Project(path.to_owned()));
         }
-        let model = read_model(path)?;
+        let model = read_model(path, Form::default())?;
         let mut remarks = Vec::new();
         let picture = material_picture(&model.source, path).and_then(|picture| {
             let found = PictureFile::read(&picture);
@@ -105,10 +106,8 @@ impl Opened {
 
     fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
-        let mut model = project_mesh(&project.mesh, &mut remarks)?;
-        if project.faces_turned {
-            model = model.turned();
-        }
+        let form = Form { faces_turned: project.faces_turned, repair: project.repair, cut: project.cut };
+        let model = project_mesh(&project.mesh, form, &mut remarks)?;
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);
@@ -118,7 +117,7 @@ impl Opened {
             settings,
             picture,
             v_axis: project.v_axis,
-            faces_turned: project.faces_turned,
+            form,
             relaxed: project.relaxed,
             aspect: None,
         };
@@ -130,21 +129,21 @@ impl Opened {
     }
 }
 
-fn read_model(path: &Path) -> Result<Model, OpenError> {
-    Model::read(path).map_err(|source| OpenError::Mesh { path: path.to_owned(), source })
+fn read_model(path: &Path, form: Form) -> Result<Model, OpenError> {
+    Model::read(path, form).map_err(|source| OpenError::Mesh { path: path.to_owned(), source })
 }
 
-fn project_mesh(source: &ProjectSource, remarks: &mut Vec<Message>) -> Result<Model, OpenError> {
+fn project_mesh(source: &ProjectSource, form: Form, remarks: &mut Vec<Message>) -> Result<Model, OpenError> {
     match source {
         ProjectSource::Example(name) => {
             let example = example_called(name).ok_or_else(|| OpenError::NoExample { name: name.clone() })?;
-            Ok(Model::example(example))
+            Ok(Model::example(example).in_form(form))
         }
         ProjectSource::File { path, stamp } => {
             if !path.exists() {
                 return Err(OpenError::NoMesh { mesh: path.clone() });
             }
-            let model = read_model(path)?;
+            let model = read_model(path, form)?;
             if has_changed(stamp.as_ref(), model.stamp.as_ref()) {
                 let text = format!("{}: the mesh has changed since the project was saved", path.display());
                 let remedy = "check that the pins are on the right vertices, then save the project";

@@ -215,6 +215,7 @@ impl Outcome {
         };
         let solve = steps.iter().map(|step| step.seconds).sum();
         let verify = step.verify_seconds + start.elapsed().as_secs_f64();
+        let repairs = model.repaired.as_ref().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
         let report = Report {
             method: Some(settings.method),
             family: settings.method.uses_family().then_some(settings.family),
@@ -228,7 +229,7 @@ impl Outcome {
             split_edges: step.refinement.as_ref().map(|r| r.split_edges()).unwrap_or_default(),
             cut_polygons: step.refinement.as_ref().map(|r| r.cut_polygons(given)).unwrap_or_default(),
             seconds: Seconds { solve, verify, total: solve + verify, ..Seconds::default() },
-            ..Report::of_mesh(MeshReport::new(model.path_words(), given))
+            ..Report::of_mesh(MeshReport { repairs, ..MeshReport::new(model.path_words(), given) })
         };
         Output {
             source: &model.source,
@@ -236,6 +237,7 @@ impl Outcome {
             materials: Materials::default(),
             mesh,
             refinement: step.refinement.as_deref(),
+            repaired: model.repaired.as_deref(),
             coordinates,
             verdict,
             report,

@@ -11,8 +11,8 @@ const RELAX_ROUNDS: usize = 20;
 impl Session {
     /// What is to be solved, once the mesh is there with its faces as the document wants them.
     pub(super) fn task(&mut self) -> Option<Task> {
-        let has_faces = self.bring_faces();
-        let mesh = self.disk().filter(|_| has_faces)?.clone();
+        let has_form = self.bring_form();
+        let mesh = self.disk().filter(|_| has_form)?.clone();
         Some(Task { mesh, problem: self.document.problem() })
     }
 

@@ -89,6 +89,7 @@ impl Session {
             Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
             Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
+            Action::Mend => self.mend(),
             Action::MirrorTargets => self.mirror_targets(),
             Action::FitTargets => self.fit_targets(),
             Action::ImportConstraints(path) => self.import_constraints(path),

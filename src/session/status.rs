@@ -69,7 +69,7 @@ impl Session {
     /// Whether the outcome on the screen belongs to the document as it is now.
     pub fn is_current(&self) -> bool {
         let is_solved = |outcome: &Arc<Outcome>| outcome.problem.has_steps_of(&self.document.problem());
-        self.has_faces_as_wanted() && self.outcome().is_some_and(is_solved)
+        self.has_form_as_wanted() && self.outcome().is_some_and(is_solved)
     }
 
     /// Whether what a drag needs is being computed: its column, or the verdict on its preview. That is no work to wait

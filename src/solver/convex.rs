@@ -23,9 +23,9 @@ pub fn convex_boundary(mesh: &DiskMesh, shape: BoundaryShape) -> Result<PinPosit
 
 /// Share of the boundary's length before each vertex of the loop, from 0 towards 1.
 fn boundary_arcs(mesh: &DiskMesh) -> Vec<f64> {
-    let positions: Vec<_> = mesh.boundary_loop().iter().map(|&v| mesh.position(v)).collect();
+    let boundary = mesh.boundary_loop();
     let lengths: Vec<f64> =
-        positions.iter().zip(positions.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).collect();
+        boundary.iter().zip(boundary.iter().cycle().skip(1)).map(|(&a, &b)| mesh.length([a, b])).collect();
     let total: f64 = lengths.iter().sum();
     let mut walked = 0.0;
     lengths

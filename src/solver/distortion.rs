@@ -40,7 +40,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Embedding;
-use crate::mesh::{DiskMesh, TriMesh, VertexId};
+use crate::mesh::{DiskMesh, VertexId};
 
 /// Distortion of one face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,7 +113,7 @@ pub struct Spread {
 /// If the embedding does not have one position per vertex.
 pub fn distortion(mesh: &DiskMesh, embedding: &Embedding) -> Distortion {
     assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
-    let maps = face_maps(mesh.mesh(), embedding);
+    let maps = face_maps(mesh, embedding);
     let total = |of: fn(&FaceMap) -> f64| maps.iter().map(of).filter(|area| area.is_finite()).sum::<f64>();
     let (area_in_embedding, area) = (total(|map| map.double_area * map.determinant), total(|map| map.double_area));
     // Multiplies a squared length in the plane to make the total areas equal.
@@ -139,14 +139,15 @@ struct FaceMap {
 /// Faces that share the work of one task.
 const FACES_PER_TASK: usize = 4096;
 
-fn face_maps(mesh: &TriMesh, embedding: &Embedding) -> Vec<FaceMap> {
+fn face_maps(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceMap> {
+    let mesh = disk.mesh();
     let extent = |greatest: f64, size: f64| if size.is_finite() { greatest.max(size) } else { greatest };
     let in_space =
         reciprocal(mesh.positions.iter().map(|&p| (p - mesh.positions[0]).abs().max_element()).fold(0.0, extent));
     let origin = embedding.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
     let in_plane = reciprocal(embedding.iter().map(|&p| (p - origin).abs().max_element()).fold(0.0, extent));
     let map = |triangle: &[VertexId; 3]| {
-        let corners = triangle.map(|v| mesh.positions[v.index()]);
+        let corners = disk.shape(*triangle);
         let images = triangle.map(|v| embedding[v]);
         FaceMap::new(
             [1, 2].map(|k| (corners[k] - corners[0]) * in_space),

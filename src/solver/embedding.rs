@@ -46,6 +46,14 @@ impl Embedding {
         Self(points[..mesh.vertex_count()].to_vec())
     }
 
+    /// Lays vertices of no face where the boundary begins, so that they stretch no bounds.
+    pub(super) fn gather_unused(&mut self, mesh: &DiskMesh) {
+        if mesh.used_vertex_count() < mesh.vertex_count() {
+            let begin = self[mesh.boundary_loop()[0]];
+            mesh.vertices().filter(|&vertex| !mesh.is_used(vertex)).for_each(|vertex| self[vertex] = begin);
+        }
+    }
+
     /// The list of positions.
     pub fn into_inner(self) -> Vec<DVec2> {
         self.0

@@ -105,7 +105,7 @@ pub fn barycentric(mesh: &DiskMesh, power: f64) -> Result<Equations<f64>, SolveE
 fn cotangents(mesh: &DiskMesh) -> Result<Equations<f64>, SolveError> {
     let scale = length_scale(mesh);
     sum_pieces(mesh, |piece, k| {
-        let corners = piece.corners.map(|v| mesh.position(v) * scale);
+        let corners = mesh.shape(piece.corners).map(|x| x * scale);
         let (cotangent, bounded) = Corner::at(from_corner(corners, k)).cotangent();
         let opposite = piece.links[(k + 1) % 3];
         ([(opposite, cotangent), (mesh.twin(opposite), cotangent)], bounded)
@@ -121,7 +121,7 @@ pub fn natural(mesh: &DiskMesh, power: f64) -> Result<Equations<Complex<f64>>, S
     let scale = length_scale(mesh);
     let mut equations = barycentric(mesh, power)?.to_complex();
     equations.add_boundary_terms(mesh, |inner| {
-        let length = (mesh.position(mesh.head(inner)) * scale - mesh.position(mesh.tail(inner)) * scale).length();
+        let length = mesh.length([mesh.head(inner), mesh.tail(inner)]) * scale;
         length.powf(power - 1.0)
     });
     Ok(equations)
@@ -178,7 +178,7 @@ fn sum_corners<T: Scalar>(
 ) -> Result<Equations<T>, SolveError> {
     sum_pieces(mesh, |piece, k| {
         let CornerWeights { shares: [to_next, to_previous], bounded } =
-            weights(from_corner(piece.corners.map(|v| mesh.position(v)), k));
+            weights(from_corner(mesh.shape(piece.corners), k));
         ([(piece.links[k], to_next), (mesh.twin(piece.links[(k + 2) % 3]), to_previous)], bounded)
     })
 }

@@ -34,6 +34,13 @@ pub enum SolveError {
         count: usize,
     },
 
+    /// A pin on a vertex of no face.
+    #[error("vertex {vertex} is pinned, but belongs to no face: free it")]
+    UnusedVertex {
+        /// The vertex asked for.
+        vertex: VertexId,
+    },
+
     /// A pin's target is infinite or not a number.
     #[error("the target of pinned vertex {vertex} is not finite")]
     TargetNotFinite {
@@ -169,6 +176,7 @@ impl SolveError {
             Self::NotFinite { .. } => "weight-not-finite",
             Self::CoincidentPins { .. } => "coincident-pins",
             Self::NoSuchVertex { .. } => "no-such-vertex",
+            Self::UnusedVertex { .. } => "unused-vertex",
             Self::TargetNotFinite { .. } => "target-not-finite",
             Self::WeightNotPositive { .. } => "weight-not-positive",
             Self::FamilyNotApplicable { .. } => "family-not-applicable",

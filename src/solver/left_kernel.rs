@@ -31,7 +31,7 @@ fn gauge_of(mesh: &DiskMesh, equations: &Equations<C64>, control: Control<'_>) -
         }
     }
     let factor = system.analysis(Kind::General)?.factor(&matrix, control.cancel()).map_err(named)?;
-    let n = mesh.vertex_count();
+    let n = system.free().len();
     // Any start that has a part in the kernel will do: an even column and an alternating one.
     let mut kernel: Vec<C64> =
         (0..2 * n).map(|i| C64::new(1.0, if i < n { 0.0 } else { (i % 7) as f64 - 3.0 })).collect();
@@ -49,7 +49,7 @@ fn gauge_of(mesh: &DiskMesh, equations: &Equations<C64>, control: Control<'_>) -
     if a == b {
         return Err(SolveError::Linear { reason: "the left kernel has one dimension".to_owned() });
     }
-    Ok([VertexId::from_index(a.min(b)), VertexId::from_index(a.max(b))])
+    Ok([a.min(b), a.max(b)].map(|row| system.free()[row]))
 }
 
 /// Makes two columns orthonormal (Gram and Schmidt).

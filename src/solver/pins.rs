@@ -123,6 +123,9 @@ pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
         if vertex.index() >= mesh.vertex_count() {
             return Err(SolveError::NoSuchVertex { vertex, count: mesh.vertex_count() });
         }
+        if !mesh.is_used(vertex) {
+            return Err(SolveError::UnusedVertex { vertex });
+        }
         if !pin.target.is_finite() {
             return Err(SolveError::TargetNotFinite { vertex });
         }

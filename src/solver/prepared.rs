@@ -145,7 +145,9 @@ impl Prepared {
         }
         let target = |v: VertexId| if moved.contains(&v) { DVec2::X } else { DVec2::ZERO };
         let targets: PinPositions = self.asked.keys().map(|&v| (v, target(v))).collect();
-        Ok(free.solve(Site { mesh, system: &self.system }, &targets)?.0.into_inner())
+        let (mut column, _) = free.solve(Site { mesh, system: &self.system }, &targets)?;
+        column.gather_unused(mesh);
+        Ok(column.into_inner())
     }
 
     /// Solves for the embedding that has the pins on their targets.
@@ -187,6 +189,7 @@ impl Prepared {
             Values::Free(free) => free.solve(site, &targets)?,
             Values::Fixed(fixed) => fixed.solve(site, &targets)?,
         };
+        embedding.gather_unused(mesh);
         let linear = match &self.values {
             Values::Free(free) => free.numbers(mesh, &embedding, residual),
             Values::Fixed(fixed) => fixed.numbers(site, &embedding, residual),

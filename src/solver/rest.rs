@@ -70,7 +70,7 @@ impl Rest {
     fn of(mesh: &DiskMesh, triangles: impl Iterator<Item = ([VertexId; 3], f64)>) -> Self {
         let scale = length_scale(mesh);
         let shape = |(corners, part): ([VertexId; 3], f64)| {
-            let flat = laid_flat(corners.map(|v| scale * mesh.position(v)));
+            let flat = laid_flat(mesh.shape(corners).map(|x| scale * x));
             let [a, b, c] = flat;
             Shape { corners, flat, share: part * 0.5 * (b - a).perp_dot(c - a) }
         };
@@ -127,7 +127,10 @@ impl Rest {
         });
         let count = u32::try_from(mesh.vertex_count()).expect("vertices fit");
         let is_exact = |vertex: VertexId| pins.get(&vertex).is_some_and(|pin| pin.hold.is_exact());
-        let is_held = |point: u32| point >= count || is_exact(VertexId::new(point));
+        let is_held = |point: u32| {
+            let vertex = VertexId::new(point);
+            point >= count || is_exact(vertex) || !mesh.is_used(vertex)
+        };
         Ok((Membrane::new(points.len(), elements, springs.collect(), is_held, similar)?, points))
     }
 
@@ -150,7 +153,7 @@ impl Rest {
 
 /// Area of a triangle in space.
 fn area(mesh: &DiskMesh, corners: [VertexId; 3]) -> f64 {
-    let [a, b, c] = corners.map(|v| mesh.position(v));
+    let [a, b, c] = mesh.shape(corners);
     0.5 * (b - a).cross(c - a).length()
 }
 
@@ -171,7 +174,7 @@ fn can_be_convex(mesh: &DiskMesh) -> Vec<bool> {
 /// The stiffness of weight 1: a vertex that is one mean edge away costs as much as its share of the surface.
 fn spring_unit(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let mean = mean_edge_length(mesh, embedding);
-    1.0 / (mean * mean * mesh.vertex_count() as f64)
+    1.0 / (mean * mean * mesh.used_vertex_count() as f64)
 }
 
 pub(super) fn mean_edge_length(mesh: &DiskMesh, embedding: &Embedding) -> f64 {

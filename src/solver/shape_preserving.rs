@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use super::equations::Equations;
-use crate::mesh::{DiskMesh, HalfedgeId};
+use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// Shape-preserving coefficients of the interior vertices' equations. Boundary rows stay empty.
 pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
@@ -18,9 +18,8 @@ pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
     let mut bounded_corners = 0;
     for vertex in mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()) {
         let spokes: Vec<HalfedgeId> = mesh.outgoing(vertex).collect();
-        let centre = mesh.position(vertex);
-        let arms: Vec<_> = spokes.iter().map(|&h| mesh.position(mesh.head(h)) - centre).collect();
-        let (weights, fell_back) = ring_weights(&arms);
+        let neighbours: Vec<VertexId> = spokes.iter().map(|&h| mesh.head(h)).collect();
+        let (weights, fell_back) = ring_weights(mesh, vertex, &neighbours);
         bounded_corners += usize::from(fell_back);
         for (h, weight) in spokes.iter().zip(weights) {
             coefficients[h.index()] = weight;
@@ -30,23 +29,28 @@ pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
 }
 
 /// Angle and radius of each neighbour in the flattened ring.
-fn polar_map(arms: &[glam::DVec3]) -> Vec<(f64, f64)> {
-    let gaps: Vec<f64> = arms.iter().zip(arms.iter().cycle().skip(1)).map(|(a, b)| a.angle_between(*b)).collect();
+fn polar_map(mesh: &DiskMesh, centre: VertexId, neighbours: &[VertexId]) -> Vec<(f64, f64)> {
+    let gap = |(&next, &previous): (&VertexId, &VertexId)| {
+        let [at, a, b] = mesh.shape([centre, next, previous]);
+        (a - at).angle_between(b - at)
+    };
+    let gaps: Vec<f64> = neighbours.iter().zip(neighbours.iter().cycle().skip(1)).map(gap).collect();
     let total: f64 = gaps.iter().sum();
     let mut angle = 0.0;
-    arms.iter()
+    neighbours
+        .iter()
         .zip(gaps)
-        .map(|(arm, gap)| {
+        .map(|(&neighbour, gap)| {
             let here = angle;
             angle += gap * TAU / total;
-            (here, arm.length())
+            (here, mesh.length([centre, neighbour]))
         })
         .collect()
 }
 
-/// Weights of an interior vertex's ring, given by the edges to its neighbours, and whether a degenerate ring made them equal.
-pub(super) fn ring_weights(arms: &[glam::DVec3]) -> (Vec<f64>, bool) {
-    let ring = polar_map(arms);
+/// Weights of an interior vertex's ring, given by its neighbours in order, and whether a degenerate ring made them equal.
+pub(super) fn ring_weights(mesh: &DiskMesh, centre: VertexId, neighbours: &[VertexId]) -> (Vec<f64>, bool) {
+    let ring = polar_map(mesh, centre, neighbours);
     let count = ring.len();
     let point = |i: usize| ring[i].1 * DVec2::from_angle(ring[i].0);
     let mut weights = vec![0.0; count];

@@ -33,14 +33,14 @@ pub struct FreeSystem {
 }
 
 impl FreeSystem {
-    /// Lays out the system of all vertices that are not pinned.
+    /// Lays out the system of all vertices that belong to faces and are not pinned.
     ///
     /// # Panics
     ///
     /// If the system has 2³² entries or more.
     pub fn new(mesh: &DiskMesh, is_pinned: impl Fn(VertexId) -> bool) -> Self {
         let mut row_of_vertex = vec![NONE; mesh.vertex_count()];
-        let free: Vec<VertexId> = mesh.vertices().filter(|&v| !is_pinned(v)).collect();
+        let free: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_used(v) && !is_pinned(v)).collect();
         for (row, v) in (0_u32..).zip(&free) {
             row_of_vertex[v.index()] = row;
         }
@@ -85,7 +85,7 @@ impl FreeSystem {
         &self.free
     }
 
-    /// The row of a vertex, `None` where it is pinned.
+    /// The row of a vertex, `None` where it is pinned, or of no face.
     pub fn row(&self, vertex: VertexId) -> Option<usize> {
         let row = self.row_of_vertex[vertex.index()];
         (row != NONE).then_some(row as usize)

@@ -211,21 +211,19 @@ impl Fan {
 fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: VertexId) -> VertexEquation {
     let power = family.power();
     let fan = if power.is_some() { Fan::of_mesh(mesh, vertex) } else { Fan::of_faces(mesh, vertex) };
-    let centre = mesh.position(vertex);
-    let arms: Vec<_> = fan.neighbours.iter().map(|&v| mesh.position(v) - centre).collect();
     let Some(power) = power else {
-        let ones = vec![1.0; arms.len()];
+        let ones = vec![1.0; fan.neighbours.len()];
         let weights = match family {
-            Family::ShapePreserving if fan.ends.is_none() => ring_weights(&arms).0,
+            Family::ShapePreserving if fan.ends.is_none() => ring_weights(mesh, vertex, &fan.neighbours).0,
             _ => ones.clone(),
         };
         return put_together(&fan, embedding, [weights, ones.clone(), ones]);
     };
     let shares = |next, previous| {
-        let corner = [vertex, next, previous].map(|v: VertexId| mesh.position(v));
+        let corner = mesh.shape([vertex, next, previous]);
         three_point_weights(&Corner::at(corner), power).shares
     };
-    let radii: Vec<f64> = arms.iter().map(|arm| arm.length()).collect();
+    let radii: Vec<f64> = fan.neighbours.iter().map(|&v| mesh.length([v, vertex])).collect();
     let offsets = radii.iter().map(|r| r.powf(power)).collect();
     put_together(&fan, embedding, [fan.sums(shares), offsets, radii])
 }

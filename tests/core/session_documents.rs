@@ -245,8 +245,8 @@ fn faces_turned_to_and_fro_at_once_end_as_the_document_says() {
         }
         settled(&mut session, Action::EndGesture);
         let is_turned = count % 2 == 1;
-        assert_eq!(session.document().faces_turned, is_turned);
-        assert_eq!(session.model().expect("open").faces_turned, is_turned);
+        assert_eq!(session.document().form.faces_turned, is_turned);
+        assert_eq!(session.model().expect("open").form.faces_turned, is_turned);
         assert!(session.is_current(), "after {count}");
     }
 }
@@ -257,7 +257,7 @@ fn a_cancelled_turn_is_made_up_for_by_the_next_solve() {
     session.handle(Action::TurnFaces);
     settled(&mut session, Action::Cancel);
     settled(&mut session, Action::Solve);
-    assert!(session.is_current() && session.model().expect("open").faces_turned);
+    assert!(session.is_current() && session.model().expect("open").form.faces_turned);
 }
 
 #[test]

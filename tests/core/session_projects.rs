@@ -66,7 +66,7 @@ fn everything_in_a_project_comes_back_bit_for_bit() {
     assert!(after.messages().is_empty(), "{:?}", after.messages());
     let (a, b) = (before.document(), after.document());
     assert_eq!(a.settings, b.settings);
-    assert_eq!((a.v_axis, a.faces_turned), (b.v_axis, b.faces_turned));
+    assert_eq!((a.v_axis, a.form), (b.v_axis, b.form));
     assert_eq!(a.picture.as_ref().map(|p| (&p.name, &p.pixels)), b.picture.as_ref().map(|p| (&p.name, &p.pixels)));
     let bits = |session: &Session| -> Vec<_> {
         let pins = session.document().targets.iter();
@@ -74,7 +74,7 @@ fn everything_in_a_project_comes_back_bit_for_bit() {
     };
     assert_eq!(bits(&before), bits(&after));
     assert_eq!(before.view(), after.view());
-    assert!(after.model().expect("open").faces_turned && after.is_current());
+    assert!(after.model().expect("open").form.faces_turned && after.is_current());
     let embedding = |session: &Session| session.outcome().expect("solved").step.solution.embedding.clone();
     assert_eq!(embedding(&before), embedding(&after));
 }

@@ -5,7 +5,7 @@ use std::fs;
 
 use freebound::examples::Example;
 use freebound::io::{OutputFit, Placement, read_mesh};
-use freebound::mesh::{DiskMesh, TriMesh};
+use freebound::mesh::{DiskMesh, Form, TriMesh};
 use freebound::session::{Model, Outcome, Problem};
 use freebound::solver::{Control, Embedding, Family, Ladder, Method, Pins, Settings, to_unit_square, verdict};
 use glam::DVec2;
@@ -247,7 +247,7 @@ fn finish(mesh: &TriMesh, places: Embedding) -> (bool, Placement, bool) {
     let disk = DiskMesh::try_from(mesh.clone()).expect("a disk");
     let program = Program::new();
     let path = program.write("in.obj", &crate::program::obj_text(&crate::program::polygons_of(&disk)));
-    let model = Model::read(&path).expect("it was written just now");
+    let model = Model::read(&path, Form::default()).expect("it was written just now");
     let outcome = outcome_with(&disk, places);
     let was_planar = outcome.step.verdict.planar;
     let finished = outcome.finished(&model, Vec::new(), OutputFit::Unit);

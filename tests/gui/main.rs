@@ -21,6 +21,7 @@ mod hull;
 mod magnifier;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
+mod mend;
 mod messages;
 mod pane_shading;
 mod panels;

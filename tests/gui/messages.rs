@@ -18,7 +18,7 @@ use crate::dialogs::{ask_where_to_save, name, window};
 use crate::harness::{Window, corpus, sheet, write_obj};
 
 /// Files of `bad` that can be read as meshes and flattened.
-const USABLE: [&str; 1] = ["raw_polygonfaces.obj"];
+const USABLE: [&str; 2] = ["raw_polygonfaces.obj", "degenerate_capsule.obj"];
 
 #[test]
 fn a_sentence_has_a_capital_but_a_file_keeps_its_name() {
@@ -92,14 +92,13 @@ fn try_everything(window: &mut Window) {
 fn a_message_is_copied_gone_to_and_dismissed() {
     let mut window = window();
     let mut bad = sheet(4, 0.3);
-    // A face without area, in the middle.
-    bad.positions[12] = bad.positions[13];
+    bad.triangles[12].reverse();
     write_obj(&window.path("bad.obj"), &bad);
     let file = window.path("bad.obj");
     window.open(&file);
     let message = window.editor().session.messages()[0].clone();
     let Some(Surface::Faulty(..)) = window.editor().session.model().map(|model| &model.surface) else {
-        panic!("it has no area")
+        panic!("a face is turned over")
     };
     window.harness.get_by_label("Copy").click();
     window.step();

@@ -1,13 +1,13 @@
 //! Material libraries of a mesh that is written into another folder: named from there, or copied along.
 
-use std::borrow::Cow;
 use std::convert::Infallible;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::Edits;
 use super::beside::Beside;
 use super::material::{Library, libraries_of, picture_argument, picture_within};
-use super::{ObjMesh, Statement};
+use crate::io::mesh_file::MeshFile;
 use crate::io::paths::{named_in_files, relative, whole_folder_of};
 use crate::io::{WriteError, is_same_file};
 
@@ -21,12 +21,12 @@ pub enum Materials {
     Copied,
 }
 
-/// The statements of the mesh that was read at `from`, for a file at `to`: material libraries that are there are named
-/// from the new place, all else stays as it is.
-pub(in crate::io) fn relocated<'a>(mesh: &'a ObjMesh, from: &Path, to: &Path) -> Cow<'a, [Statement]> {
+/// What becomes of the statements of the mesh that was read at `from`, in a file at `to`: material libraries that are
+/// there are named from the new place, all else stays as it is.
+pub(in crate::io) fn relocated(mesh: &MeshFile, from: &Path, to: &Path) -> Edits {
     let (old, new) = (whole_folder_of(from), whole_folder_of(to));
     if old == new {
-        return Cow::Borrowed(&mesh.statements);
+        return Edits::default();
     }
     let name_from_new = |library: &Library| {
         if library.path == Path::new(&library.name) && library.path.is_absolute() {
@@ -36,8 +36,8 @@ pub(in crate::io) fn relocated<'a>(mesh: &'a ObjMesh, from: &Path, to: &Path) ->
         let whole = folder.join(library.path.file_name()?);
         named_in_files(&relative(&whole, &new).unwrap_or(whole))
     };
-    let Ok(statements) = with_libraries(mesh, &old, |library| Ok::<_, Infallible>(name_from_new(library)));
-    Cow::Owned(statements)
+    let Ok(edits) = with_libraries(mesh, &old, |library| Ok::<_, Infallible>(name_from_new(library)));
+    edits
 }
 
 /// As [`relocated`], and the libraries with their pictures are copied beside `to`, under other names where files of
@@ -47,13 +47,13 @@ pub(in crate::io) fn relocated<'a>(mesh: &'a ObjMesh, from: &Path, to: &Path) ->
 ///
 /// The file that cannot be read or written.
 pub(in crate::io) fn copy_materials(
-    mesh: &ObjMesh,
+    mesh: &MeshFile,
     from: &Path,
     to: &Path,
-) -> Result<(Vec<Statement>, Vec<PathBuf>), WriteError> {
+) -> Result<(Edits, Vec<PathBuf>), WriteError> {
     let mut beside = Beside::writing(to);
-    let statements = copy(mesh, from, &mut beside)?;
-    Ok((statements, beside.written()))
+    let edits = copy(mesh, from, &mut beside)?;
+    Ok((edits, beside.written()))
 }
 
 /// Where the copies of the material libraries and their pictures are to lie beside `to`, if nothing else comes there.
@@ -62,13 +62,13 @@ pub(in crate::io) fn copy_materials(
 /// # Errors
 ///
 /// The file that cannot be read.
-pub fn copies_of_materials(mesh: &ObjMesh, from: &Path, to: &Path) -> Result<Vec<PathBuf>, WriteError> {
+pub fn copies_of_materials(mesh: &MeshFile, from: &Path, to: &Path) -> Result<Vec<PathBuf>, WriteError> {
     let mut beside = Beside::planning(to);
     copy(mesh, from, &mut beside)?;
     Ok(beside.planned())
 }
 
-fn copy(mesh: &ObjMesh, from: &Path, beside: &mut Beside<'_>) -> Result<Vec<Statement>, WriteError> {
+fn copy(mesh: &MeshFile, from: &Path, beside: &mut Beside<'_>) -> Result<Edits, WriteError> {
     with_libraries(mesh, &whole_folder_of(from), |library| {
         let name = library.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if is_beside(&library.path, beside.mesh) {
@@ -99,30 +99,30 @@ fn with_copied_picture(line: &[u8], library: &Path, beside: &mut Beside<'_>) -> 
     Ok(Some(format!("{before}{name}{blanks}")))
 }
 
-/// The statements with other names for the libraries that are there; where there is none, the name stays.
+/// Other names for the libraries that are there; where there is none, the name stays.
 fn with_libraries<E>(
-    mesh: &ObjMesh,
+    mesh: &MeshFile,
     folder: &Path,
     mut name_of: impl FnMut(&Library) -> Result<Option<String>, E>,
-) -> Result<Vec<Statement>, E> {
-    let mut statements = Vec::with_capacity(mesh.statements.len());
-    for statement in &mesh.statements {
+) -> Result<Edits, E> {
+    let mut edits = Edits::default();
+    for (place, statement) in mesh.statements.iter().enumerate() {
         let libraries = match statement.keyword() {
             b"mtllib" => libraries_of(statement, folder),
             _ => Vec::new(),
         };
-        if !libraries.iter().any(|library| library.path.is_file()) {
-            statements.push(statement.clone());
-            continue;
-        }
         // Each on a line of its own, for a name may hold blanks.
+        let (mut lines, mut is_changed) = (Vec::new(), false);
         for library in libraries {
             let renamed = if library.path.is_file() { name_of(&library)? } else { None };
-            let text = format!("mtllib {}", renamed.unwrap_or(library.name)).into_bytes();
-            statements.push(Statement { before_face: statement.before_face, text });
+            is_changed |= renamed.as_ref().is_some_and(|name| *name != library.name);
+            lines.push(format!("mtllib {}", renamed.unwrap_or(library.name)).into_bytes());
+        }
+        if is_changed {
+            edits.statements.insert(place, lines);
         }
     }
-    Ok(statements)
+    Ok(edits)
 }
 
 fn is_beside(file: &Path, mesh: &Path) -> bool {

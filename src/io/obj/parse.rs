@@ -1,19 +1,41 @@
 //! Takes OBJ lines one by one and puts a mesh together.
 //!
 //! Every fault is noted and the reading goes on, so that all of them are known at the end.
+//!
+//! Understood: `v` (words behind the third number are ignored), `vt`, `f` in all its forms with positive and negative
+//! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines that go on behind a `\`. Anything else is skipped. A
+//! positive index may name an element that comes later in the file. A line ends with LF, with CR LF, or with CR alone.
+
+use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 
-use super::error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError};
-use super::format::format_of_word;
-use super::line::{corner, has_comment, numbers, statement, words};
-use super::{NO_TEXTURE, ObjMesh, Statement, Texture};
+use super::line::{corner, numbers, statement, words};
+use super::lines::{Line, Lines, split_mark};
+use crate::io::mesh_file::{
+    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, ReadError, Statement, Texture,
+};
 use crate::mesh::VertexId;
+
+/// Lines between two looks whether to go on.
+const LINES_AT_ONCE: usize = 1 << 14;
+
+/// Puts a mesh together from text, looking now and then whether to go on; the text itself is not kept.
+pub(in crate::io) fn parse(text: &[u8], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<MeshFile, ReadError> {
+    let mut parser = Parser::default();
+    for (count, line) in Lines::of(split_mark(text).1).enumerate() {
+        parser.take(&line)?;
+        if count % LINES_AT_ONCE == 0 && watch().is_break() {
+            return Err(ReadError::Cancelled);
+        }
+    }
+    parser.finish()
+}
 
 /// The mesh as far as it is read.
 #[derive(Debug, Default)]
-pub(super) struct Parser {
-    mesh: ObjMesh,
+struct Parser {
+    mesh: MeshFile,
     coordinates: Vec<DVec2>,
     /// Empty until a corner has a texture coordinate.
     texture_corners: Vec<u32>,
@@ -22,8 +44,6 @@ pub(super) struct Parser {
     line_runs: Vec<(u32, u64)>,
     /// Complete lines before the present one.
     line: u64,
-    /// Whether a line with words was seen.
-    begun: bool,
     faults: Vec<ParseFault>,
     fault_count: usize,
     /// A line put together from continued ones.
@@ -31,51 +51,18 @@ pub(super) struct Parser {
 }
 
 impl Parser {
-    /// Complete lines so far.
-    pub(super) fn lines_taken(&self) -> u64 {
-        self.line
+    /// Takes one line.
+    fn take(&mut self, line: &Line<'_>) -> Result<(), ReadError> {
+        let mut joined = std::mem::take(&mut self.joined);
+        let taken = self.take_line(line.as_one(&mut joined));
+        self.joined = joined;
+        self.line += line.count;
+        taken
     }
 
-    /// Takes all complete lines and returns where the incomplete rest begins.
-    pub(super) fn take_lines(&mut self, text: &[u8]) -> Result<usize, ReadError> {
-        let mut start = 0;
-        loop {
-            let mut end = start;
-            let mut line_count = 0;
-            loop {
-                let Some(length) = text[end..].iter().position(|&byte| byte == b'\n') else {
-                    return Ok(start);
-                };
-                line_count += 1;
-                end += length + 1;
-                if !goes_on(&text[start..end - 1]) {
-                    break;
-                }
-            }
-            let line = &text[start..end - 1];
-            if line_count == 1 {
-                self.take_line(line)?;
-            } else {
-                let mut joined = std::mem::take(&mut self.joined);
-                join_lines(line, &mut joined);
-                self.take_line(&joined)?;
-                self.joined = joined;
-            }
-            self.line += line_count;
-            start = end;
-        }
-    }
-
-    /// Takes one line, put together from continued ones if it was.
     fn take_line(&mut self, line: &[u8]) -> Result<(), ReadError> {
-        let line = if self.line == 0 { line.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(line) } else { line };
         let mut words = words(line);
         let Some(keyword) = words.next() else { return Ok(()) };
-        if !std::mem::replace(&mut self.begun, true)
-            && let Some(format) = format_of_word(keyword)
-        {
-            return Err(ReadError::NotReadYet(format));
-        }
         match keyword {
             b"v" => match numbers::<3>(words) {
                 Ok(position) => self.mesh.polygons.positions.push(DVec3::from(position)),
@@ -173,11 +160,8 @@ impl Parser {
         }
     }
 
-    /// Takes the rest behind the last complete line, and checks what can be checked only now.
-    pub(super) fn finish(mut self, rest: &[u8]) -> Result<ObjMesh, ReadError> {
-        let mut line = Vec::new();
-        join_lines(rest, &mut line);
-        self.take_line(&line)?;
+    /// Checks what can be checked only at the end.
+    fn finish(mut self) -> Result<MeshFile, ReadError> {
         if !self.texture_corners.is_empty() {
             self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
         }
@@ -230,7 +214,7 @@ fn out_of_range(element: &'static str, resolved: u32, count: usize) -> ParseFaul
 }
 
 /// From an index as written to one from 0. Positive ones are checked when the file is read.
-fn resolve(element: &'static str, index: i64, count: usize) -> Result<u32, ParseFaultKind> {
+pub(super) fn resolve(element: &'static str, index: i64, count: usize) -> Result<u32, ParseFaultKind> {
     let from_zero = match index {
         1.. => Some(index - 1),
         0 => return Err(ParseFaultKind::IndexZero),
@@ -241,20 +225,4 @@ fn resolve(element: &'static str, index: i64, count: usize) -> Result<u32, Parse
         .and_then(|value| u32::try_from(value).ok())
         .filter(|&value| value != NO_TEXTURE)
         .ok_or(ParseFaultKind::IndexOutOfRange { element, index, count })
-}
-
-/// Whether a line goes on in the next: it ends with a `\`, and not within a comment, where a path may end so.
-fn goes_on(line: &[u8]) -> bool {
-    let line = line.strip_suffix(b"\r").unwrap_or(line);
-    line.ends_with(b"\\") && !has_comment(line)
-}
-
-/// Puts a blank in place of each `\` and the line end behind it.
-fn join_lines(lines: &[u8], joined: &mut Vec<u8>) {
-    joined.clear();
-    for line in lines.split(|&byte| byte == b'\n') {
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        joined.extend_from_slice(line.strip_suffix(b"\\").unwrap_or(line));
-        joined.push(b' ');
-    }
 }

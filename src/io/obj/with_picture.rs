@@ -4,11 +4,11 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+use super::Edits;
 use super::beside::{Beside, begins_with, is_free, name_of, place_for, stem_of, without_blanks};
 use super::write::write_obj_with;
-use super::{ObjMesh, Statement};
+use crate::io::mesh_file::{MeshFile, Statement, Texture};
 use crate::io::{PictureFile, WriteError, is_same_file, write_atomically};
-use crate::solver::Embedding;
 
 /// Name of the material.
 const MATERIAL: &str = "picture";
@@ -52,8 +52,8 @@ impl PictureFile {
     pub(in crate::io) fn write_beside(
         &self,
         path: &Path,
-        mesh: &ObjMesh,
-        coordinates: &Embedding,
+        mesh: &MeshFile,
+        texture: &Texture,
     ) -> Result<Vec<PathBuf>, WriteError> {
         let mut beside = Beside::writing(path);
         let picture_name = put_picture(self, &mut beside)?;
@@ -65,23 +65,22 @@ impl PictureFile {
             writeln!(out, "Ka 0 0 0\nKd 1 1 1\nKs 0 0 0\nd 1\nillum 1")?;
             writeln!(out, "map_Kd {picture_name}")
         })?;
-        let statements = with_material(mesh, &library_name);
-        write_atomically(path, |out| write_obj_with(out, mesh, &statements, coordinates))?;
+        let edits = with_material(mesh, &library_name);
+        write_atomically(path, |out| write_obj_with(out, mesh, &edits, texture))?;
         Ok([path.to_owned(), library].into_iter().chain(beside.written()).collect())
     }
 }
 
-/// The statements of a mesh with this material on all faces, and with no other.
-fn with_material(mesh: &ObjMesh, library: &str) -> Vec<Statement> {
-    let statement = |text: String| Statement { before_face: 0, text: text.into_bytes() };
-    let of_material = |statement: &&Statement| matches!(statement.keyword(), b"mtllib" | b"usemtl");
-    let kept = mesh.statements.iter().filter(|statement| !of_material(statement)).cloned();
-    // A library is named before anything else, a material within the object that it is on.
-    let (mut statements, mut later): (Vec<_>, Vec<_>) = kept.partition(|statement| statement.before_face == 0);
-    statements.insert(0, statement(format!("mtllib {library}")));
-    statements.push(statement(format!("usemtl {MATERIAL}")));
-    statements.append(&mut later);
-    statements
+/// What makes this material that of all faces, and the only one.
+fn with_material(mesh: &MeshFile, library: &str) -> Edits {
+    let of_material = |statement: &Statement| matches!(statement.keyword(), b"mtllib" | b"usemtl");
+    let dropped = mesh.statements.iter().enumerate().filter(|(_, statement)| of_material(statement));
+    Edits {
+        statements: dropped.map(|(place, _)| (place, Vec::new())).collect(),
+        // A library is named before anything else, a material within the object that it is on.
+        first: Some(format!("mtllib {library}").into_bytes()),
+        before_faces: Some(format!("usemtl {MATERIAL}").into_bytes()),
+    }
 }
 
 /// First line of the material library of an OBJ file. One of another mesh's begins otherwise: it may be in use.

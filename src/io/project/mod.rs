@@ -23,6 +23,7 @@ use super::door::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::VAxis;
+use crate::mesh::RepairExtent;
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
@@ -42,6 +43,12 @@ pub struct ProjectFile {
     /// Whether the mesh's faces are turned around.
     #[serde(default)]
     pub faces_turned: bool,
+    /// What may be repaired of it.
+    #[serde(default)]
+    pub repair: RepairExtent,
+    /// Whether it is cut open where it is no disk.
+    #[serde(default)]
+    pub cut: bool,
     /// The picture.
     #[serde(default)]
     pub picture: Option<ProjectSource>,
@@ -156,6 +163,8 @@ impl ProjectFile {
             freebound_project: PROJECT_VERSION,
             mesh,
             faces_turned: false,
+            repair: RepairExtent::default(),
+            cut: false,
             picture: None,
             v_axis: VAxis::default(),
             method,

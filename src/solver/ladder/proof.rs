@@ -30,6 +30,7 @@ impl Ladder {
         let task = Arc::clone(&self.plan.part().task);
         let refinement = candidate.refinement.clone();
         let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
+        candidate.solution.embedding.gather_unused(disk);
         let placing = task.place(disk, &mut candidate);
         let mut verdict = self.verdict_of(mesh, &candidate);
         let is_start = self.plan.part().aim == Aim::PlanarStart;

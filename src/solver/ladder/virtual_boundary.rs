@@ -221,10 +221,7 @@ impl Bend {
 fn on_circle(mesh: &DiskMesh, count: usize) -> PinPositions {
     let boundary = mesh.boundary_loop();
     let chosen: Vec<usize> = (0..count).map(|j| j * boundary.len() / count).collect();
-    let edge = |place: usize| {
-        let [a, b] = [place, place + 1].map(|p| mesh.position(boundary[p % boundary.len()]));
-        a.distance(b)
-    };
+    let edge = |place: usize| mesh.length([place, place + 1].map(|p| boundary[p % boundary.len()]));
     let end = |j: usize| chosen.get(j + 1).copied().unwrap_or(boundary.len());
     let lengths: Vec<f64> = (0..count).map(|j| (chosen[j]..end(j)).map(edge).sum()).collect();
     let total: f64 = lengths.iter().sum();

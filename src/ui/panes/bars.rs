@@ -43,6 +43,12 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
         let words = "The faces point inward: the mesh shows from behind, and its picture mirrored";
         warning(ui, words, offers, requests);
     }
+    if let Some(remedy) = session.model().and_then(|model| model.remedy.as_ref()).filter(|_| pane == Pane::Mesh) {
+        let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
+        let words = format!("The mesh can be mended: {}", done.join(", "));
+        let tip = "Make a disk of it. The file's positions and faces stay; undo takes it back";
+        warning(ui, &words, [Offer::new("Mend all", tip, Action::Mend)], requests);
+    }
     let is_dragging = editor.tools.dragged().is_some();
     if pane == Pane::Plane && !is_dragging && editor.opened.targets_look_mirrored(session) {
         let offers = [
@@ -70,7 +76,7 @@ fn ago(since: Duration) -> String {
     }
 }
 
-fn warning(ui: &mut egui::Ui, words: &str, offers: [Offer; 2], requests: &mut Vec<Request>) {
+fn warning(ui: &mut egui::Ui, words: &str, offers: impl IntoIterator<Item = Offer>, requests: &mut Vec<Request>) {
     bar(ui, Sign::Warning, |ui| {
         ui.add(Label::new(words).wrap());
         ui.horizontal_wrapped(|ui| offers.into_iter().for_each(|offer| offer.show(ui, requests)));

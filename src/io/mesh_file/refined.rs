@@ -1,8 +1,8 @@
-//! An OBJ file's mesh with new vertices, or with polygons cut into triangles: everything else as it was.
+//! A file's mesh with new vertices, or with polygons cut into triangles: everything else as it was.
 
 use std::collections::HashSet;
 
-use super::{ObjMesh, Statement};
+use super::{MeshFile, Statement};
 use crate::mesh::{PolygonMesh, Refinement, VertexId};
 
 /// The mesh of a file with the new vertices of a refinement of it.
@@ -14,14 +14,15 @@ use crate::mesh::{PolygonMesh, Refinement, VertexId};
 /// # Panics
 ///
 /// If the refinement is of another mesh, with more polygons than this one.
-pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
+pub fn refined_obj(source: &MeshFile, refinement: &Refinement) -> MeshFile {
     let disk = refinement.disk();
     let old_count = refinement.old_vertex_count();
-    let (mut corners, mut starts) = (Vec::new(), vec![0]);
-    let mut push = |polygon: &[VertexId]| {
+    let (mut corners, mut starts, mut face_of) = (Vec::new(), vec![0], Vec::new());
+    let mut push = |polygon: &[VertexId], number: u32| {
         corners.extend_from_slice(polygon);
         starts.push(u32::try_from(corners.len()).expect("a mesh has fewer than 2^32 corners"));
-        u32::try_from(starts.len() - 1).expect("a mesh has fewer than 2^32 faces")
+        face_of.push(number);
+        u32::try_from(face_of.len()).expect("a mesh has fewer than 2^32 faces")
     };
     let is_whole: HashSet<u32> = disk.polygons().map(|whole| disk.mesh().polygon(whole.first_face)).collect();
     let mut face_count = 0;
@@ -36,10 +37,10 @@ pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
         }
         let is_old = triangles.as_flattened().iter().all(|corner| corner.index() < old_count);
         if is_old && (triangles.len() <= 1 || is_whole.contains(&number)) {
-            face_count = push(source.polygons.face(polygon));
+            face_count = push(source.polygons.face(polygon), number);
         } else {
             for triangle in &triangles {
-                face_count = push(triangle);
+                face_count = push(triangle, number);
             }
         }
     }
@@ -51,9 +52,10 @@ pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
     let mut positions = source.polygons.positions.clone();
     positions.extend(disk.mesh().positions[old_count..].iter().map(|&position| position * disk.unit()));
     let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
-    ObjMesh {
+    MeshFile {
         polygons: PolygonMesh { positions, corners, starts: (!are_triangles).then_some(starts) },
+        texture: None,
         statements: source.statements.iter().map(moved).collect(),
-        ..ObjMesh::default()
+        source: source.source.as_ref().map(|file| file.changed(&face_of, refinement.new_vertices())),
     }
 }

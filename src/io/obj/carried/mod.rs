@@ -1,0 +1,258 @@
+//! A mesh written as the text that it was read from, with other texture coordinates.
+//!
+//! | file     | what it holds                                                                     |
+//! |----------|-----------------------------------------------------------------------------------|
+//! | `mod`    | the text, the lines of it that change, and the way through it                     |
+//! | `face`   | a face's line: its corners' texture coordinates, or its triangles                 |
+//! | `corner` | a corner's word with other indices                                                |
+//! | `added`  | vertices and normals that the text does not have                                  |
+//!
+//! Every line is copied byte for byte, but for these.
+//!
+//! * `vt` lines: the new ones stand where the first was, or before the first face if that comes first.
+//! * `f` lines: of each corner the index of the texture coordinate. `l` lines that have such indices get those of
+//!   corners at the same vertices.
+//! * Faces that are triangles now stand in their place. New vertices follow the last vertex and new normals the last
+//!   normal, so that all positive indices keep their meaning. Negative ones behind them count further back.
+//! * Statements that name materials, where [`Edits`] say so.
+
+mod added;
+mod corner;
+mod face;
+
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::ops::Range;
+
+use self::added::Added;
+use self::corner::{CornerWord, Indices};
+use super::line::{word_ranges, words};
+use super::lines::{Line, Lines, split_mark};
+use super::parse::resolve;
+use super::write::write_numbers;
+use crate::io::mesh_file::{MeshFile, NO_TEXTURE, Source, Texture};
+
+/// What becomes of the statements of a file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(in crate::io) struct Edits {
+    /// By their places among the statements, those that change: to these lines.
+    pub(super) statements: BTreeMap<usize, Vec<Vec<u8>>>,
+    /// A line before all others.
+    pub(super) first: Option<Vec<u8>>,
+    /// A line before the first face.
+    pub(super) before_faces: Option<Vec<u8>>,
+}
+
+/// Writes a mesh as its text, with these texture coordinates.
+pub(super) fn write_carried(
+    out: &mut impl Write,
+    mesh: &MeshFile,
+    text: &Source,
+    written: Written<'_>,
+) -> io::Result<()> {
+    let (mark, lines) = split_mark(&text.bytes);
+    out.write_all(mark)?;
+    let line_end = match Lines::of(lines).next() {
+        Some(first) if !first.end().is_empty() => first.end().to_vec(),
+        _ => b"\n".to_vec(),
+    };
+    let mut writer = Writer {
+        out,
+        mesh,
+        text,
+        written,
+        added: Added::find(mesh, text, lines),
+        line_end,
+        seen: Seen::default(),
+        at_vertex: OnceCell::new(),
+        buffers: Buffers::default(),
+    };
+    let mut joined = Vec::new();
+    Lines::of(lines).try_for_each(|line| writer.line(&line, &mut joined))
+}
+
+/// What is written otherwise than the text has it.
+#[derive(Clone, Copy)]
+pub(super) struct Written<'a> {
+    pub(super) edits: &'a Edits,
+    pub(super) texture: &'a Texture,
+}
+
+struct Writer<'a, W> {
+    out: &'a mut W,
+    mesh: &'a MeshFile,
+    text: &'a Source,
+    written: Written<'a>,
+    added: Added,
+    /// Of lines that are added.
+    line_end: Vec<u8>,
+    seen: Seen,
+    /// A texture coordinate of each vertex, or [`NO_TEXTURE`].
+    at_vertex: OnceCell<Vec<u32>>,
+    buffers: Buffers,
+}
+
+/// What has been passed so far.
+#[derive(Default)]
+struct Seen {
+    vertices: usize,
+    normals: usize,
+    statements: usize,
+    /// Faces of the text.
+    faces: u32,
+    /// Faces of the mesh.
+    own_faces: usize,
+    /// Whether a line with words was there.
+    has_begun: bool,
+    /// Whether texture coordinates are written.
+    has_texture: bool,
+}
+
+/// Room that is used for every line.
+#[derive(Default)]
+struct Buffers {
+    line: Vec<u8>,
+    /// Where the corners stand in a line.
+    words: Vec<Range<usize>>,
+    vertices: Vec<u32>,
+    /// Vertices with their places, ascending; as `order` found only where it is needed.
+    by_vertex: Vec<(u32, usize)>,
+    /// For each corner of a face the corner of the line that it is.
+    order: Vec<usize>,
+}
+
+impl<W: Write> Writer<'_, W> {
+    fn line(&mut self, line: &Line<'_>, joined: &mut Vec<u8>) -> io::Result<()> {
+        let one = line.as_one(joined);
+        let Some(keyword) = words(one).next() else { return self.out.write_all(line.whole) };
+        if !std::mem::replace(&mut self.seen.has_begun, true) {
+            self.add_line(self.written.edits.first.as_ref())?;
+        }
+        match keyword {
+            b"v" => self.vertex(line),
+            b"vn" => self.normal(line),
+            b"vt" => self.texture(),
+            b"f" => {
+                self.texture()?;
+                if self.seen.faces == 0 {
+                    self.add_line(self.written.edits.before_faces.as_ref())?;
+                }
+                self.face(line, one)
+            }
+            b"l" | b"p" => self.element(line, one),
+            b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" => self.statement(line),
+            _ => self.out.write_all(line.whole),
+        }
+    }
+
+    fn add_line(&mut self, line: Option<&Vec<u8>>) -> io::Result<()> {
+        let Some(line) = line else { return Ok(()) };
+        self.out.write_all(line)?;
+        self.out.write_all(&self.line_end)
+    }
+
+    /// Copies a line that others are to follow at once.
+    fn copy_with_end(&mut self, line: &Line<'_>) -> io::Result<()> {
+        self.out.write_all(line.whole)?;
+        if line.end().is_empty() { self.out.write_all(&self.line_end) } else { Ok(()) }
+    }
+
+    fn vertex(&mut self, line: &Line<'_>) -> io::Result<()> {
+        self.seen.vertices += 1;
+        let new = &self.mesh.polygons.positions[self.text.vertex_count..];
+        if self.seen.vertices < self.text.vertex_count || new.is_empty() {
+            return self.out.write_all(line.whole);
+        }
+        self.copy_with_end(line)?;
+        for (position, further) in new.iter().zip(&self.added.further_numbers) {
+            write_numbers(self.out, b"v", position.to_array().iter().chain(further))?;
+            self.out.write_all(&self.line_end)?;
+        }
+        Ok(())
+    }
+
+    fn normal(&mut self, line: &Line<'_>) -> io::Result<()> {
+        self.seen.normals += 1;
+        if self.seen.normals < self.added.normal_count || self.added.normals.is_empty() {
+            return self.out.write_all(line.whole);
+        }
+        self.copy_with_end(line)?;
+        for normal in &self.added.normals {
+            write_numbers(self.out, b"vn", &normal.to_array())?;
+            self.out.write_all(&self.line_end)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the texture coordinates, if that is still to be done.
+    fn texture(&mut self) -> io::Result<()> {
+        if std::mem::replace(&mut self.seen.has_texture, true) {
+            return Ok(());
+        }
+        for coordinate in &self.written.texture.coordinates {
+            write_numbers(self.out, b"vt", &coordinate.to_array())?;
+            self.out.write_all(&self.line_end)?;
+        }
+        Ok(())
+    }
+
+    fn statement(&mut self, line: &Line<'_>) -> io::Result<()> {
+        let place = self.seen.statements;
+        self.seen.statements += 1;
+        let Some(lines) = self.written.edits.statements.get(&place) else {
+            return self.out.write_all(line.whole);
+        };
+        lines.iter().try_for_each(|line| self.add_line(Some(line)))
+    }
+
+    /// A line or points between vertices.
+    fn element(&mut self, line: &Line<'_>, one: &[u8]) -> io::Result<()> {
+        let (indices, mut at) = (self.indices(), 0);
+        let has_texture = one.contains(&b'/');
+        if !has_texture && !indices.are_shifted() {
+            return self.out.write_all(line.whole);
+        }
+        let mut changed = std::mem::take(&mut self.buffers.line);
+        changed.clear();
+        for range in word_ranges(one).skip(1) {
+            let word = CornerWord::of(&one[range.clone()]);
+            let Some(vertex) = word.vertex_index().and_then(|index| resolve("", index, self.seen.vertices).ok()) else {
+                continue;
+            };
+            changed.extend_from_slice(&line.whole[at..range.start]);
+            let texture = if word.has_texture { self.texture_at(vertex) } else { None };
+            indices.push(&mut changed, &word, texture);
+            at = range.end;
+        }
+        changed.extend_from_slice(&line.whole[at..]);
+        self.out.write_all(&changed)?;
+        self.buffers.line = changed;
+        Ok(())
+    }
+
+    /// The texture coordinate of some corner at a vertex.
+    fn texture_at(&self, vertex: u32) -> Option<u32> {
+        let at_vertex = self.at_vertex.get_or_init(|| {
+            let mut found = vec![NO_TEXTURE; self.mesh.polygons.positions.len()];
+            let corners = self.mesh.polygons.corners.iter().zip(&self.written.texture.corners);
+            corners.rev().for_each(|(corner, &texture)| found[corner.index()] = texture);
+            found
+        });
+        at_vertex.get(vertex as usize).copied().filter(|&texture| texture != NO_TEXTURE)
+    }
+
+    /// How indices are written at this place.
+    fn indices(&self) -> Indices {
+        let new_vertices = self.mesh.polygons.positions.len() - self.text.vertex_count;
+        let have_vertices = self.seen.vertices == self.text.vertex_count;
+        let have_normals = self.seen.normals == self.added.normal_count;
+        Indices {
+            vertices: self.seen.vertices,
+            new_vertices: if have_vertices { new_vertices } else { 0 },
+            normals: self.seen.normals,
+            new_normals: if have_normals { self.added.normals.len() } else { 0 },
+            coordinates: if self.seen.has_texture { self.written.texture.coordinates.len() } else { 0 },
+        }
+    }
+}

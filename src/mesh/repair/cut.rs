@@ -1,0 +1,178 @@
+//! A connected surface is cut along edges until it is a disk.
+//!
+//! # Method
+//!
+//! A tree of shortest ways reaches all vertices: from the boundary, all of whose vertices it begins at, or from one vertex of
+//! a closed surface. A tree of faces, across edges that are not in the first, reaches all faces. Each edge in neither closes one loop, or
+//! one way from boundary to boundary, with the shortest ways from its ends: 2g + b − 1 of them for genus g and b loops of the
+//! boundary. What is left when the surface is cut along all of these is a disk: the tree of faces, unfolded. The tree of
+//! faces takes the longest loops first, so that the shortest are left to be cut. A surface with one side is cut alike; its faces are turned
+//! over afterwards where they clash.
+//!
+//! On a sphere nothing is left to cut: it is cut along a tree of shortest ways between far points.
+//!
+//! Source: J. Erickson, K. Whittlesey, "Greedy optimal homotopy and homology generators", 2005; the far points as in
+//! A. Sheffer, "Spanning tree seams for reducing parameterization distortion of triangulated surfaces", 2002.
+
+use super::sides::Sides;
+use super::ways::{Measure, Reach, Ways};
+use super::{Repair, Repaired};
+use crate::mesh::VertexId;
+use crate::mesh::union::DisjointSets;
+
+/// A point is joined to a sphere's cut while it is farther from it than this share of the first two points' distance.
+const FAR: f64 = 0.5;
+
+/// The most points of a sphere's cut.
+const MOST_POINTS: usize = 8;
+
+/// The mesh cut open. One that is a disk already, or has no faces, stays as it is.
+pub(super) fn cut_open(whole: &Repaired) -> Repaired {
+    let mut cut = whole.clone();
+    if whole.polygons.face_count() == 0 {
+        return cut;
+    }
+    let sides = Sides::new(&whole.polygons);
+    let ways = Ways::new(&whole.polygons, &sides);
+    let seam = Surface { sides: &sides, ways: &ways }.seam();
+    let count = seam.iter().filter(|is_open| **is_open).count();
+    if count == 0 {
+        return cut;
+    }
+    let is_open = by_first_side(&sides, &seam, whole.polygons.corners.len());
+    let fans = sides.fans(|on| on.len() == 2 && !is_open[on[0] as usize]);
+    cut.split_into(fans);
+    cut.note(Repair::Cut, count);
+    cut.turn_faces();
+    cut
+}
+
+/// Whether an edge is open, by its first side.
+fn by_first_side(sides: &Sides<'_>, seam: &[bool], side_count: usize) -> Vec<bool> {
+    let mut is_open = vec![false; side_count];
+    for (on, &open) in sides.table.edges().zip(seam) {
+        is_open[on[0] as usize] = open;
+    }
+    is_open
+}
+
+struct Surface<'a> {
+    sides: &'a Sides<'a>,
+    ways: &'a Ways,
+}
+
+impl Surface<'_> {
+    /// For each edge whether it is to be cut.
+    fn seam(&self) -> Vec<bool> {
+        let boundary = self.boundary_vertices();
+        let tree = self.ways.reach(self.roots(&boundary), Measure::Cost);
+        let left = self.left_over(&tree);
+        let mut seam = vec![false; self.ways.edges().len()];
+        for edge in left {
+            seam[edge as usize] = true;
+            for end in self.ways.edges()[edge as usize].ends {
+                open(&mut seam, &tree.way_to(end, self.ways));
+            }
+        }
+        if !seam.contains(&true) && !boundary.contains(&true) {
+            self.open_sphere(&mut seam);
+        }
+        self.prune(&mut seam, &boundary);
+        seam
+    }
+
+    fn boundary_vertices(&self) -> Vec<bool> {
+        let mut is_boundary = vec![false; self.ways.vertex_count()];
+        for on in self.sides.table.edges().filter(|on| on.len() == 1) {
+            self.sides.ends(on[0]).into_iter().for_each(|v| is_boundary[v.index()] = true);
+        }
+        is_boundary
+    }
+
+    /// Where the shortest ways begin: at the boundary, or, of a closed surface, where they are cheapest on the whole.
+    fn roots(&self, boundary: &[bool]) -> impl Iterator<Item = VertexId> + use<> {
+        let mut roots: Vec<VertexId> = (0..boundary.len()).filter(|&v| boundary[v]).map(VertexId::from_index).collect();
+        if roots.is_empty() {
+            let cheapest = self.ways.edges().iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
+            roots.extend(cheapest.map(|edge| edge.ends[0]));
+        }
+        roots.into_iter()
+    }
+
+    /// The edges that neither the tree of ways nor a tree of faces has.
+    fn left_over(&self, tree: &Reach) -> Vec<u32> {
+        let mut is_of_tree = vec![false; self.ways.edges().len()];
+        tree.back.iter().flatten().for_each(|&edge| is_of_tree[edge as usize] = true);
+        let loop_cost = |edge: u32| {
+            let edge = self.ways.edges()[edge as usize];
+            edge.cost + edge.ends.iter().map(|v| tree.far[v.index()]).sum::<f64>()
+        };
+        let inner = (0_u32..).zip(self.sides.table.edges()).filter(|(_, on)| on.len() == 2);
+        let mut edges: Vec<(u32, [u32; 2])> = inner
+            .filter(|(edge, _)| !is_of_tree[*edge as usize])
+            .map(|(edge, on)| (edge, [0, 1].map(|k| self.sides.face[on[k] as usize])))
+            .collect();
+        edges.sort_by(|(a, _), (b, _)| loop_cost(*b).total_cmp(&loop_cost(*a)).then(a.cmp(b)));
+        let mut faces = DisjointSets::new(self.sides.face.last().map_or(0, |&last| last as usize + 1));
+        edges.into_iter().filter(|(_, [a, b])| !faces.join(*a, *b)).map(|(edge, _)| edge).collect()
+    }
+
+    /// Opens a tree of ways between points of a sphere that lie far apart.
+    fn open_sphere(&self, seam: &mut [bool]) {
+        let from = |vertex: VertexId, by| self.ways.reach(std::iter::once(vertex), by);
+        let first = from(self.ways.edges()[0].ends[0], Measure::Length).farthest(self.ways);
+        let reach = from(first, Measure::Length);
+        let second = reach.farthest(self.ways);
+        let size = reach.far[second.index()];
+        open(seam, &from(first, Measure::Cost).way_to(second, self.ways));
+        for _ in 2..MOST_POINTS {
+            let on_seam = || self.vertices_of(seam).into_iter();
+            let reach = self.ways.reach(on_seam(), Measure::Length);
+            let next = reach.farthest(self.ways);
+            // A cut of one edge would be a boundary of two vertices.
+            let is_cut = seam.iter().filter(|is_open| **is_open).count() > 1;
+            if is_cut && reach.far[next.index()] <= FAR * size {
+                break;
+            }
+            let way = self.ways.reach(on_seam(), Measure::Cost).way_to(next, self.ways);
+            open(seam, &way);
+        }
+    }
+
+    fn vertices_of(&self, seam: &[bool]) -> Vec<VertexId> {
+        let open = self.ways.edges().iter().zip(seam).filter(|(_, is_open)| **is_open);
+        open.flat_map(|(edge, _)| edge.ends).collect()
+    }
+
+    /// Closes what hangs on the cut by one end, and lies on no boundary, unless nothing else would be left.
+    fn prune(&self, seam: &mut [bool], boundary: &[bool]) {
+        let degree = |seam: &[bool], v: VertexId| self.ways.at(v).iter().filter(|&&edge| seam[edge as usize]).count();
+        let has_core = boundary.contains(&true) || self.has_loop(seam);
+        if !has_core {
+            return;
+        }
+        let is_end = |seam: &[bool], v: VertexId| !boundary[v.index()] && degree(seam, v) == 1;
+        let mut ends: Vec<VertexId> = self.vertices_of(seam).into_iter().filter(|&v| is_end(seam, v)).collect();
+        while let Some(vertex) = ends.pop() {
+            let Some(&edge) = self.ways.at(vertex).iter().find(|&&edge| seam[edge as usize]) else { continue };
+            seam[edge as usize] = false;
+            let other = self.ways.other_end(edge, vertex);
+            if is_end(seam, other) {
+                ends.push(other);
+            }
+        }
+    }
+
+    /// Whether the cut goes around a loop.
+    fn has_loop(&self, seam: &[bool]) -> bool {
+        let mut sets = DisjointSets::new(self.ways.vertex_count());
+        let open = self.ways.edges().iter().zip(seam).filter(|(_, is_open)| **is_open);
+        open.map(|(edge, _)| edge.ends).any(|[a, b]| !sets.join(a.number(), b.number()))
+    }
+}
+
+fn open(seam: &mut [bool], way: &[u32]) {
+    for &edge in way {
+        seam[edge as usize] = true;
+    }
+}

@@ -1,0 +1,87 @@
+//! Vertices in one place become one, or one becomes several; faces are turned over.
+
+use std::collections::HashMap;
+
+use super::sides::Sides;
+use super::{Repair, Repaired};
+use crate::mesh::coincident::coincident_vertices;
+use crate::mesh::fault::Elements;
+use crate::mesh::union::DisjointSets;
+use crate::mesh::{Fault, VertexId, diagnose};
+
+impl Repaired {
+    /// Joins vertices of different parts that lie in one place, to the bit.
+    pub(super) fn weld(&mut self) {
+        let mesh = self.polygons.triangulate();
+        let found = coincident_vertices(&mesh, &mesh.triangles);
+        if found.is_empty() {
+            return;
+        }
+        // −0 is 0 here.
+        let place = |v: VertexId| mesh.positions[v.index()].to_array().map(|x| (x + 0.0).to_bits());
+        let mut first: HashMap<[u64; 3], VertexId> = found.iter().map(|&v| (place(v), v)).collect();
+        for &v in mesh.triangles.iter().flatten() {
+            first.entry(place(v)).and_modify(|lowest| *lowest = v.min(*lowest));
+        }
+        for corner in self.polygons.corners.iter_mut().filter(|corner| found.binary_search(corner).is_ok()) {
+            *corner = first[&place(*corner)];
+        }
+        self.note(Repair::WeldVertices, found.len());
+    }
+
+    /// Gives faces at edges of three or more edges of their own.
+    pub(super) fn split_edges(&mut self) {
+        let sides = Sides::new(&self.polygons);
+        let crowded = sides.table.edges().filter(|sides| sides.len() > 2).count();
+        if crowded > 0 {
+            let fans = sides.fans(|sides| sides.len() == 2);
+            self.split_into(fans);
+            self.note(Repair::SplitEdges, crowded);
+        }
+    }
+
+    /// Gives fans of faces that meet in nothing but a vertex one each.
+    pub(super) fn split_vertices(&mut self) {
+        let fans = Sides::new(&self.polygons).fans(|_| true);
+        let split = self.split_into(fans);
+        self.note(Repair::SplitVertices, split);
+    }
+
+    /// Gives each fan of corners a vertex of its own: the first of a vertex keeps it, new ones follow behind all others.
+    /// Returns how many vertices were split.
+    pub(super) fn split_into(&mut self, mut fans: DisjointSets) -> usize {
+        const NONE: u32 = u32::MAX;
+        let mut fan_of_vertex = vec![NONE; self.polygons.positions.len()];
+        let mut new_of_fan: HashMap<u32, VertexId> = HashMap::new();
+        let mut split = std::collections::BTreeSet::new();
+        for (number, corner) in (0..).zip(&mut self.polygons.corners) {
+            let fan = fans.find(number);
+            let holder = &mut fan_of_vertex[corner.index()];
+            if *holder == NONE {
+                *holder = fan;
+            } else if *holder != fan {
+                let old = *corner;
+                split.insert(old);
+                *corner = *new_of_fan.entry(fan).or_insert_with(|| {
+                    let position = self.polygons.positions[old.index()];
+                    self.polygons.positions.push(position);
+                    VertexId::from_index(self.polygons.positions.len() - 1)
+                });
+            }
+        }
+        split.len()
+    }
+
+    /// Turns the fewer faces of each part over, so that all run around alike.
+    pub(super) fn turn_faces(&mut self) {
+        let found = diagnose(&self.polygons.triangulate());
+        let mixed = found.faults.iter().find(|fault| matches!(fault, Fault::MixedOrientation { .. }));
+        let Some(Elements::Faces(faces)) = mixed.map(Fault::elements) else { return };
+        for &face in &faces.polygons {
+            let range = self.polygons.corner_range(face as usize);
+            self.polygons.corners[range.clone()].reverse();
+            self.corner_of[range].reverse();
+        }
+        self.note(Repair::TurnFaces, faces.polygons.len());
+    }
+}

@@ -1,0 +1,273 @@
+//! Repairs: what keeps a mesh from being a disk, mended as far as it can be, and where each corner comes from.
+//!
+//! | file | what |
+//! |---|---|
+//! | `mod.rs` | the repairs by name, and a mesh with some done |
+//! | `sides.rs` | sides of polygons, and which lie on one edge |
+//! | `leave_out.rs` | repeated corners and duplicate faces left out |
+//! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
+//! | `cut.rs` | a surface cut open until it is a disk |
+//! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
+//!
+//! A repair changes connectivity alone: every position stays, and old vertices keep their numbers; new ones, which lie where
+//! an old one does, follow. The file that the mesh came from is never changed but for its texture coordinates, which
+//! [`Repaired::corner_of`] carries back.
+
+mod cut;
+mod join;
+mod leave_out;
+mod sides;
+mod ways;
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{DiskMesh, PolygonMesh, TriMesh, VertexId, diagnose};
+
+/// What is made of a file's faces before they are flattened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Whether all faces are turned around: the other side is the outside.
+    pub faces_turned: bool,
+    /// What may be repaired.
+    pub repair: RepairExtent,
+    /// Whether what is no disk is cut open.
+    pub cut: bool,
+}
+
+impl Form {
+    /// All that can be done to make a disk.
+    #[must_use]
+    pub const fn mended(self) -> Self {
+        Self { repair: RepairExtent::All, cut: true, ..self }
+    }
+
+    /// The repairs of a mesh, whose faces are turned already.
+    pub fn repaired(self, source: &PolygonMesh) -> Repaired {
+        let repaired = Repaired::new(source, self.repair);
+        if self.cut { repaired.cut_to_disk() } else { repaired }
+    }
+}
+
+/// What may be done to a mesh so that it flattens.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RepairExtent {
+    /// Nothing: a mesh with any fault is refused.
+    #[serde(rename = "none")]
+    Nothing,
+    /// What changes no visible surface.
+    #[default]
+    Safe,
+    /// All that can be done, cutting aside.
+    All,
+}
+
+/// One kind of repair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Repair {
+    /// Corners that name a vertex again leave their face; what has fewer than three left goes.
+    DropRepeatedCorners,
+    /// Faces with the vertices of an earlier one go.
+    DropDuplicateFaces,
+    /// Vertices of different parts that lie in one place become one.
+    WeldVertices,
+    /// Faces at edges of three or more get edges of their own.
+    SplitEdges,
+    /// The fewer faces of a part are turned over, so that all run around alike.
+    TurnFaces,
+    /// Fans of faces that meet in nothing but a vertex get one each.
+    SplitVertices,
+    /// The surface is cut along edges until it is a disk.
+    Cut,
+}
+
+impl Repair {
+    /// A fixed lower-case name, as reports have it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::DropRepeatedCorners => "drop-repeated-corners",
+            Self::DropDuplicateFaces => "drop-duplicate-faces",
+            Self::WeldVertices => "weld-vertices",
+            Self::SplitEdges => "split-edges",
+            Self::TurnFaces => "turn-faces",
+            Self::SplitVertices => "split-vertices",
+            Self::Cut => "cut",
+        }
+    }
+
+    /// What was done, for one element and for several.
+    const fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::DropRepeatedCorners => [
+                "face that names a vertex twice mended, or left out",
+                "faces that name a vertex twice mended, or left out",
+            ],
+            Self::DropDuplicateFaces => ["duplicate face left out", "duplicate faces left out"],
+            Self::WeldVertices => {
+                ["vertex joined with another in its place", "vertices joined with others in their place"]
+            }
+            Self::SplitEdges => ["edge of three faces or more split", "edges of three faces or more split"],
+            Self::TurnFaces => ["face turned over", "faces turned over"],
+            Self::SplitVertices => {
+                ["vertex split, one for each fan of faces", "vertices split, one for each fan of faces"]
+            }
+            Self::Cut => ["edge cut open", "edges cut open"],
+        }
+    }
+}
+
+/// A repair, and how many elements it was done to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Done {
+    /// What was done.
+    pub repair: Repair,
+    /// How often.
+    pub count: usize,
+}
+
+impl fmt::Display for Done {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [one, many] = self.repair.words();
+        write!(f, "{} {}", self.count, if self.count == 1 { one } else { many })
+    }
+}
+
+/// A mesh with repairs done, and where each part of it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repaired {
+    polygons: PolygonMesh,
+    /// For each corner the corner of the mesh as given that it is.
+    corner_of: Vec<u32>,
+    /// For each face the face of the mesh as given that it is.
+    face_of: Vec<u32>,
+    done: Vec<Done>,
+}
+
+impl Repaired {
+    /// Repairs a mesh as far as is allowed. Where nothing is to be done, [`done`](Self::done) is empty.
+    pub fn new(source: &PolygonMesh, extent: RepairExtent) -> Self {
+        let mut repaired = Self::of(source);
+        if extent != RepairExtent::Nothing && repaired.is_sound() {
+            repaired.leave_out();
+            if extent == RepairExtent::All {
+                repaired.weld();
+                repaired.leave_out();
+                repaired.split_edges();
+                repaired.turn_faces();
+            }
+            repaired.split_vertices();
+        }
+        repaired
+    }
+
+    /// The mesh as given.
+    fn of(source: &PolygonMesh) -> Self {
+        let count = |count: usize| u32::try_from(count).expect("a mesh has fewer than 2^32 corners");
+        Self {
+            polygons: source.clone(),
+            corner_of: (0..count(source.corners.len())).collect(),
+            face_of: (0..count(source.face_count())).collect(),
+            done: Vec::new(),
+        }
+    }
+
+    /// Whether every corner has a vertex: where some are missing, nothing can be known of the rest.
+    fn is_sound(&self) -> bool {
+        let count = self.polygons.positions.len();
+        self.polygons.corners.iter().all(|corner| corner.index() < count)
+    }
+
+    /// Cuts the surface open until it is a disk: for one connected part without crowded edges. Nothing where it is a disk
+    /// already, or cutting makes none of it.
+    #[must_use]
+    pub fn cut_to_disk(self) -> Self {
+        let cut = cut::cut_open(&self);
+        if DiskMesh::try_from(cut.triangulate()).is_ok() { cut } else { self }
+    }
+
+    /// What was done, in order.
+    pub fn done(&self) -> &[Done] {
+        &self.done
+    }
+
+    /// Positions and faces.
+    pub fn polygons(&self) -> &PolygonMesh {
+        &self.polygons
+    }
+
+    /// The corner of the mesh as given that a corner is.
+    pub fn corner_of(&self, corner: usize) -> usize {
+        self.corner_of[corner] as usize
+    }
+
+    /// The vertex at each corner of the mesh as given; none at those of faces that went.
+    pub fn vertices_at_corners(&self, source: &PolygonMesh) -> Vec<Option<VertexId>> {
+        let mut vertices = vec![None; source.corners.len()];
+        for (&corner, &of) in self.polygons.corners.iter().zip(&self.corner_of) {
+            vertices[of as usize] = Some(corner);
+        }
+        for &face in &self.face_of {
+            // A repeated corner has the vertex that the face kept.
+            let range = source.corner_range(face as usize);
+            for corner in range.clone().filter(|&corner| vertices[corner].is_none()).collect::<Vec<_>>() {
+                let same =
+                    |&other: &usize| source.corners[other] == source.corners[corner] && vertices[other].is_some();
+                vertices[corner] = range.clone().find(same).and_then(|other| vertices[other]);
+            }
+        }
+        vertices
+    }
+
+    /// The faces of the mesh as given, each with the corners that it has now. Faces that went stay as they were.
+    ///
+    /// # Panics
+    ///
+    /// If `source` is another mesh, with more corners.
+    pub fn all_faces(&self, source: &PolygonMesh) -> PolygonMesh {
+        let mut kept = self.face_of.iter().enumerate().peekable();
+        let (mut corners, mut starts) = (Vec::new(), vec![0]);
+        for face in 0..source.face_count() {
+            let here = kept.next_if(|(_, of)| **of as usize == face);
+            corners.extend_from_slice(here.map_or(source.face(face), |(place, _)| self.polygons.face(place)));
+            starts.push(u32::try_from(corners.len()).expect("no more corners than before"));
+        }
+        let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
+        PolygonMesh { positions: self.polygons.positions.clone(), corners, starts: (!are_triangles).then_some(starts) }
+    }
+
+    /// The vertex of the mesh as given in whose place each vertex lies.
+    pub fn vertices_of(&self, source: &PolygonMesh) -> Vec<VertexId> {
+        let mut vertices: Vec<VertexId> = (0..self.polygons.positions.len()).map(VertexId::from_index).collect();
+        for (corner, &of) in self.polygons.corners.iter().zip(&self.corner_of) {
+            vertices[corner.index()] = source.corners[of as usize];
+        }
+        vertices
+    }
+
+    /// Its faces as triangles, numbered as in the file.
+    pub fn triangulate(&self) -> TriMesh {
+        let TriMesh { positions, triangles, polygon_of } = self.polygons.triangulate();
+        let of_triangle = |face: usize| self.face_of[polygon_of.as_ref().map_or(face, |of| of[face] as usize)];
+        let polygon_of = Some((0..triangles.len()).map(of_triangle).collect());
+        TriMesh { positions, triangles, polygon_of }
+    }
+
+    /// Notes what was done, where it was.
+    fn note(&mut self, repair: Repair, count: usize) {
+        if count == 0 {
+            return;
+        }
+        match self.done.iter_mut().find(|done| done.repair == repair) {
+            Some(done) => done.count += count,
+            None => self.done.push(Done { repair, count }),
+        }
+    }
+
+    /// Whether nothing keeps it from being a disk.
+    pub fn is_disk(&self) -> bool {
+        diagnose(&self.triangulate()).is_disk()
+    }
+}

@@ -1,0 +1,90 @@
+//! `freebound flatten` on meshes that are no disks: what is done to them by itself, and on request.
+
+use freebound::io::read_mesh;
+use freebound::mesh::DiskMesh;
+use serde_json::{Value, json};
+
+use crate::common::manifest;
+use crate::makers::{band, tetrahedron};
+use crate::program::{Program, argument, obj_text};
+
+fn repairs(report: &Value) -> &Value {
+    &report["mesh"]["repairs"]
+}
+
+#[test]
+fn harmless_faults_are_no_reason_to_refuse_a_mesh_unless_none_may_be_mended() {
+    let program = Program::new();
+    // A vertex of no face; a face twice; a quad that names a corner twice; a face without area.
+    program.write(
+        "odd.obj",
+        "v 9 9 9\nv 0 0 0\nv 1 0 .2\nv 1 1 0\nv 0 1 .1\nv 2 0 0\nv 2 1 0\nv 1 .5 .1\n\
+         f 2 3 4\nf 2 4 5\nf 4 2 3\nf 3 6 6 7\nf 3 7 4 8\nf 3 8 4\n",
+    );
+    let run = program.run(&["flatten", "odd.obj", "-o", "out.obj", "--report", "out.json"]).expect(0);
+    assert!(run.stdout.contains("1 duplicate face left out"), "{}", run.stdout);
+    let text = std::fs::read_to_string(program.path("out.json")).expect("written");
+    let report: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["verdict"]["planar"], json!(true));
+    let expected = json!([
+        {"repair": "drop-repeated-corners", "count": 1},
+        {"repair": "drop-duplicate-faces", "count": 1},
+    ]);
+    assert_eq!(repairs(&report), &expected);
+    assert_eq!(report["mesh"]["unused_vertices"], json!(1));
+    // The file is what it was: its text, with coordinates at all corners but those of the face that is there twice.
+    let (before, after) =
+        ["odd.obj", "out.obj"].map(|name| std::fs::read_to_string(program.path(name)).expect("text")).into();
+    let without: Vec<&str> = after.lines().filter(|line| !line.starts_with("vt ")).collect();
+    for (before, after) in before.lines().zip(&without) {
+        let bare: Vec<&str> = after.split(' ').map(|word| word.split('/').next().unwrap_or(word)).collect();
+        assert_eq!(bare.join(" "), before);
+        assert_eq!(after.starts_with('f') && !after.contains('/'), before == "f 4 2 3", "{after}");
+    }
+    assert_eq!(without.len(), before.lines().count());
+    let refused = program.run(&["flatten", "odd.obj", "--repair", "none"]).expect(3);
+    for name in ["duplicate-faces", "unreferenced-vertices", "repeated-vertices"] {
+        assert!(refused.stderr.contains(name), "{name}: {}", refused.stderr);
+    }
+}
+
+#[test]
+fn a_closed_surface_is_refused_with_the_way_on_and_cut_open_where_that_is_asked_for() {
+    let program = Program::new();
+    program.write("closed.obj", &obj_text(&(&tetrahedron()).into()));
+    let refused = program.run(&["flatten", "closed.obj"]).expect(3);
+    assert!(refused.stderr.contains("--repair all --cut auto: 3 edges cut open"), "{}", refused.stderr);
+    let run = program.run(&["flatten", "closed.obj", "--cut", "auto", "-o", "out.obj", "--report", "-"]);
+    let report = run.expect(0).json();
+    assert_eq!(repairs(&report), &json!([{"repair": "cut", "count": 3}]));
+    // The proof is of what the file says: its seams make it the disk that was flattened.
+    let written = read_mesh(&program.path("out.obj")).expect("written").texture_mesh().expect("complete");
+    let disk = DiskMesh::try_from(written.mesh).expect("cut along its seams");
+    assert_eq!(disk.boundary_loop().len(), 6);
+    let check = program.run(&["check", "out.obj", "--report", "-"]).expect(0).json();
+    assert_eq!(check["verdict"]["planar"], json!(true));
+    assert_eq!(check["distortion"], report["distortion"]);
+}
+
+#[test]
+fn a_pin_on_the_side_of_a_cut_that_is_new_is_met() {
+    let program = Program::new();
+    program.write("ring.obj", &obj_text(&(&band(8, 0)).into()));
+    let arguments = ["flatten", "ring.obj", "--cut", "auto", "--report", "-"];
+    let report = program.run(&[&arguments[..], &["--pin", "0:0,0", "--pin", "16:1,0"]].concat()).expect(0).json();
+    assert_eq!(report["pins"]["unmet"], json!([]));
+    assert_eq!(report["pins"]["count"], json!(2));
+}
+
+#[test]
+fn every_bad_file_of_one_part_is_mended_cut_and_proved() {
+    let wanted =
+        ["closed_fish", "degenerate_capsule", "holes_plane", "moebius", "torus_one_hole", "raw_negative_indices"];
+    for entry in manifest().iter().filter(|entry| wanted.iter().any(|name| entry.file == format!("bad/{name}.obj"))) {
+        let program = Program::new();
+        let arguments = ["flatten", argument(&entry.path), "--repair", "all", "--cut", "auto", "--report", "-"];
+        let report = program.run(&arguments).expect(0).json();
+        assert_eq!(report["verdict"]["planar"], json!(true), "{}", entry.file);
+        assert_eq!(report["verdict"]["f32"], json!(true), "{}", entry.file);
+    }
+}
