@@ -26,7 +26,7 @@ const BAD: [(&str, i32, i32, &str, &str); 14] = [
     ("raw_notenoughindices.obj", 3, 3, "line 9", "line 9"),
     ("raw_polygonfaces.obj", 0, 0, "", ""),
     ("raw_joined_tetrahedra.obj", 3, 3, "non-manifold-edges", "non-manifold-edges"),
-    ("raw_corrupted_invalid_double.off", 3, 3, "format not read yet: OFF", "format not read yet: OFF"),
+    ("raw_corrupted_invalid_double.off", 3, 3, "line 4: \"X0.425325\" is not", "line 4: \"X0.425325\" is not"),
 ];
 
 /// Every output that there is, by its option.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use freebound::io::{NO_TEXTURE, ObjMesh, Texture, read_mesh, read_obj, write_obj};
+use freebound::io::{MeshFile, NO_TEXTURE, Texture, read_mesh, read_stream, write_obj};
 use freebound::mesh::{DiskMesh, NewVertex, Refinement, VertexId};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -12,14 +12,14 @@ use crate::common::manifest;
 use crate::obj::read;
 use crate::program::Program;
 
-fn written(mesh: &ObjMesh, texture: &Texture) -> String {
+fn written(mesh: &MeshFile, texture: &Texture) -> String {
     let mut bytes = Vec::new();
     write_obj(&mut bytes, mesh, texture).expect("memory takes all");
     String::from_utf8(bytes).expect("the texts of these tests are UTF-8")
 }
 
 /// Coordinates of their own for all corners, none of them alike, in an order that is not that of the corners.
-fn by_corner(mesh: &ObjMesh) -> Texture {
+fn by_corner(mesh: &MeshFile) -> Texture {
     let count = u32::try_from(mesh.polygons.corners.len()).expect("few");
     let coordinates = (0..count).map(|k| DVec2::new(f64::from(k) / 7.0, -f64::from(k).powi(2))).collect();
     Texture { coordinates, corners: (0..count).rev().collect() }
@@ -79,7 +79,7 @@ fn assert_carried(text: &str, texture: &Texture) -> String {
     let mesh = read(text);
     let out = written(&mesh, texture);
     assert_eq!(unchanged(&out), unchanged(text), "{out}");
-    let again = read_obj(out.as_bytes()).unwrap_or_else(|error| panic!("{error}: {out}"));
+    let again = read_stream(out.as_bytes()).unwrap_or_else(|error| panic!("{error}: {out}"));
     assert_eq!(again.polygons, mesh.polygons, "{out}");
     assert_eq!(again.statements, mesh.statements);
     let expected = (!texture.coordinates.is_empty()).then_some(texture);
@@ -165,7 +165,7 @@ const TWO_QUADS: &str = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 
     f -6/-1/2 -3/-1/1 -2/-1/1 -5/-1/3\nf 3//1 6//1 7//1\np 1\n";
 
 /// The mesh with a new vertex, number 7, on the edge between the quads, a quarter of the way up.
-fn refined(file: &ObjMesh) -> ObjMesh {
+fn refined(file: &MeshFile) -> MeshFile {
     let disk = DiskMesh::try_from(file.polygons.triangulate()).expect("a disk");
     let [a, b] = [1, 2].map(VertexId::new);
     let new = VertexId::from_index(disk.vertex_count());
@@ -368,7 +368,7 @@ proptest! {
         let texture = by_corner(&mesh);
         let out = written(&mesh, &texture);
         prop_assert_eq!(unchanged(&as_lines(&out)), unchanged(&as_lines(&text)));
-        let again = read_obj(out.as_bytes()).expect("it reads back");
+        let again = read_stream(out.as_bytes()).expect("it reads back");
         prop_assert_eq!(again.polygons, mesh.polygons);
         prop_assert_eq!(again.texture, Some(texture));
     }
