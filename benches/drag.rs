@@ -13,7 +13,7 @@ mod makers;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::io::{ObjMesh, Target, Texture, write_obj};
+use freebound::io::{MeshFile, Target, Texture, write_obj};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, RecentFiles, Session};
 use freebound::solver::{Family, Hold, Method, Settings, verdict};
@@ -59,7 +59,7 @@ fn opened(vertices: usize) -> Session {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("sheet.obj");
     let mut text = Vec::new();
-    write_obj(&mut text, &ObjMesh::from(&sheet_of_faces(2 * vertices)), &Texture::default()).expect("memory takes it");
+    write_obj(&mut text, &MeshFile::from(&sheet_of_faces(2 * vertices)), &Texture::default()).expect("memory takes it");
     std::fs::write(&path, text).expect("a file");
     let mut session = Session::new(Arc::new(|| ()), RecentFiles::default());
     session.handle(Action::Open(path));

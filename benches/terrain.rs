@@ -12,7 +12,7 @@ mod makers;
 
 use std::path::Path;
 
-use freebound::io::{ObjMesh, Texture, write_atomically, write_obj};
+use freebound::io::{MeshFile, Texture, write_atomically, write_obj};
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::solver::{Control, Family, Method, Pins, Settings, distortion, solve_once, verdict};
 use glam::{DVec2, DVec3};
@@ -84,7 +84,7 @@ fn terrain() -> TriMesh {
 fn main() {
     let mesh = terrain();
     if let Some(path) = arguments().first() {
-        let file = ObjMesh::from(&mesh);
+        let file = MeshFile::from(&mesh);
         write_atomically(Path::new(path), |out| write_obj(out, &file, &Texture::default()))
             .expect("the file can be written");
         println!("wrote {path}");

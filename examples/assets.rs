@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 
 use freebound::examples::{Example, Landmark};
-use freebound::io::{ObjMesh, Texture, write_obj};
+use freebound::io::{MeshFile, Texture, write_obj};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 
@@ -21,7 +21,7 @@ fn main() {
     };
     for example in Example::ALL {
         let mut text = Vec::new();
-        write_obj(&mut text, &ObjMesh::from(&makers::example_mesh(example)), &Texture::default())
+        write_obj(&mut text, &MeshFile::from(&makers::example_mesh(example)), &Texture::default())
             .expect("memory takes it");
         write(&format!("{}.obj", example.name()), &text);
     }

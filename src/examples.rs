@@ -4,7 +4,7 @@
 //! good triangles, counter-clockwise seen from outside.
 
 use crate::geom::Picture;
-use crate::io::{decode_picture, read_obj};
+use crate::io::{decode_picture, read_stream};
 use crate::mesh::{TriMesh, VertexId};
 
 /// A built-in mesh.
@@ -109,7 +109,7 @@ impl Example {
     ///
     /// If its file was damaged when the program was built.
     pub fn mesh(self) -> TriMesh {
-        read_obj(self.entry().obj).expect("a test reads all built-in meshes").polygons.triangulate()
+        read_stream(self.entry().obj).expect("a test reads all built-in meshes").polygons.triangulate()
     }
 
     /// Which of its vertices belong to which places of [`Self::picture`].

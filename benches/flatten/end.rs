@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use freebound::io::{ObjMesh, Texture, write_atomically, write_obj};
+use freebound::io::{MeshFile, Texture, write_atomically, write_obj};
 
 use crate::common::Times;
 use crate::common::machine::PeakWatch;
@@ -25,7 +25,7 @@ pub(crate) fn end_to_end() {
     for (faces, runs, most_seconds, most_megabytes) in CASES {
         let mesh = sheet_of_faces(faces);
         let source = folder.path().join("sheet.obj");
-        write_atomically(&source, |out| write_obj(out, &ObjMesh::from(&mesh), &Texture::default()))
+        write_atomically(&source, |out| write_obj(out, &MeshFile::from(&mesh), &Texture::default()))
             .expect("room in the folder");
         let mut wall = Times::default();
         let mut parts: [Times; 4] = Default::default();

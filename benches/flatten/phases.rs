@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use freebound::io::{ObjMesh, Texture, read_mesh, write_atomically, write_obj};
+use freebound::io::{MeshFile, Texture, read_mesh, write_atomically, write_obj};
 use freebound::mesh::{DiskMesh, TriMesh};
 use freebound::solver::{Control, Embedding, PhaseSeconds, Pins, Prepared, Settings, distortion, verdict};
 use glam::DVec3;
@@ -64,7 +64,7 @@ impl PhaseTimes {
     }
 }
 
-fn write(path: &Path, mesh: &ObjMesh, texture: &Embedding) {
+fn write(path: &Path, mesh: &MeshFile, texture: &Embedding) {
     write_atomically(path, |out| write_obj(out, mesh, &Texture::per_vertex(&mesh.polygons, texture)))
         .expect("the temporary folder has room");
 }
@@ -92,7 +92,7 @@ pub(crate) fn growth() {
     for thousand in THOUSANDS {
         let cells = (1000 * thousand).isqrt() - 1;
         let mesh = jittered_sheet(u32::try_from(cells).expect("few cells"));
-        write(&source, &ObjMesh::from(&mesh), &Embedding::default());
+        write(&source, &MeshFile::from(&mesh), &Embedding::default());
         let mut times = PhaseTimes::default();
         let mut last = (0, 0.0);
         for _ in 0..rounds(mesh.vertex_count()) {
@@ -153,7 +153,7 @@ pub(crate) fn reader() {
     let exact = sheet_of_faces(LARGE_FACES);
     let rounded = TriMesh { positions: exact.positions.iter().map(|&p| six_decimals(p)).collect(), ..exact.clone() };
     for (words, mesh) in [("all digits", exact), ("6 decimals", rounded)] {
-        let mesh = ObjMesh::from(&mesh);
+        let mesh = MeshFile::from(&mesh);
         let [mut to_read, mut to_write] = <[Times; 2]>::default();
         for _ in 0..5 {
             to_write.run(|| write(&path, &mesh, &Embedding::default()));

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use freebound::io::ObjMesh;
+use freebound::io::MeshFile;
 use freebound::mesh::{DiskMesh, TriMesh};
 use glam::DVec3;
 
@@ -86,7 +86,7 @@ pub(crate) fn disk(mesh: TriMesh) -> DiskMesh {
 /// Writes a mesh to a file, all its digits with it.
 pub(crate) fn write_obj(path: &Path, mesh: &TriMesh) {
     let mut text = Vec::new();
-    freebound::io::write_obj(&mut text, &ObjMesh::from(mesh), &freebound::io::Texture::default())
+    freebound::io::write_obj(&mut text, &MeshFile::from(mesh), &freebound::io::Texture::default())
         .expect("memory takes it");
     std::fs::write(path, text).expect("a folder for files");
 }

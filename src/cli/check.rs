@@ -9,9 +9,9 @@ use super::places::Places;
 use super::standard::read_model;
 use super::summary::deliver;
 use super::{Failure, Status};
-use crate::io::{MeshReport, Report, Seconds, TextureError, verdict_as_in_file};
-use crate::mesh::{DiskMesh, Fault, Form};
-use crate::solver::{distortion, verdict};
+use crate::io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
+use crate::mesh::{DiskMesh, Form, parts};
+use crate::solver::{atlas_verdict, distortion, verdict};
 
 pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let start = Instant::now();
@@ -38,15 +38,9 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         }
         Err(error) => return Err(Failure::Texture { path, error }),
     };
-    let mesh = DiskMesh::try_from(texture.mesh).map_err(|mut diagnosis| {
-        // Charts lie beside each other in space: that is what seams are.
-        diagnosis.faults.retain(|fault| !matches!(fault, Fault::CoincidentVertices(_)));
-        Failure::NotADisk {
-            path: format!("{path} (cut along the seams of its texture coordinates)"),
-            diagnosis,
-            remedy: None,
-        }
-    })?;
+    let Ok(mesh) = DiskMesh::try_from(texture.mesh.clone()) else {
+        return check_charts(arguments, &texture, path, start);
+    };
     let read = start.elapsed().as_secs_f64();
     go_on()?;
     let verdict = verdict(&mesh, &texture.embedding);
@@ -61,6 +55,33 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     };
     deliver(&report, arguments.report.as_deref(), || words)?;
     Ok(if verdict.planar { Status::Fine } else { Status::FallsShort })
+}
+
+/// The verdict on a layout of several charts, or of one with holes.
+fn check_charts(
+    arguments: &CheckArguments,
+    texture: &TextureMesh,
+    path: String,
+    start: Instant,
+) -> Result<Status, Failure> {
+    let charts = parts(&texture.mesh).map_err(|diagnosis| Failure::NotADisk {
+        path: format!("{path} (cut along the seams of its texture coordinates)"),
+        diagnosis,
+        remedy: None,
+    })?;
+    let read = start.elapsed().as_secs_f64();
+    go_on()?;
+    let verdict = atlas_verdict(&charts, &texture.embedding);
+    go_on()?;
+    let in_f32 = if verdict.holds_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
+    let in_f32 = if verdict.planar { in_f32 } else { "" };
+    let words = format!("{path}: texture coordinates: {}{in_f32}", verdict.summary());
+    let status = if verdict.planar { Status::Fine } else { Status::FallsShort };
+    let atlas = Some(verdict.as_in_file(&texture.mesh));
+    let report =
+        Report { atlas, ..report(MeshReport::of_charts(path, texture.mesh.vertex_count(), &charts), start, read) };
+    deliver(&report, arguments.report.as_deref(), || words)?;
+    Ok(status)
 }
 
 /// A report on the mesh alone.

@@ -6,7 +6,7 @@ use super::Failure;
 use super::args::{CheckArguments, FlattenArguments};
 use super::standard::is_standard;
 use crate::io::{
-    ObjMesh, PictureFile, StepsFolder, copies_of_materials, is_same_file, is_standard_input, material_files,
+    MeshFile, PictureFile, StepsFolder, copies_of_materials, is_same_file, is_standard_input, material_files,
     would_replace,
 };
 
@@ -60,7 +60,7 @@ impl Places {
     pub(super) fn spare_copies(
         &self,
         arguments: &FlattenArguments,
-        source: &ObjMesh,
+        source: &MeshFile,
         picture: Option<&PictureFile>,
     ) -> Result<(), Failure> {
         let Some(mesh) = arguments.output.as_deref().filter(|path| !is_standard(path)) else { return Ok(()) };
@@ -90,7 +90,7 @@ impl Places {
     }
 
     /// Refuses to write over files that the mesh's materials name.
-    pub(super) fn spare_materials(&self, source: &ObjMesh, mesh: &Path) -> Result<(), Failure> {
+    pub(super) fn spare_materials(&self, source: &MeshFile, mesh: &Path) -> Result<(), Failure> {
         material_files(source, mesh)
             .iter()
             .try_for_each(|file| self.spare(file, "a file that the mesh's materials name"))

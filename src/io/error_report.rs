@@ -71,6 +71,8 @@ pub enum FaultElements {
     Loops(Vec<Vec<VertexId>>),
     /// A line of the file, counted from 1.
     Line(u64),
+    /// A byte of the file, counted from 0.
+    Byte(u64),
 }
 
 impl ErrorReport {
@@ -99,8 +101,16 @@ impl FaultReport {
 
     /// The faults of a file that was not understood.
     pub fn of_file(error: &ReadError) -> Vec<Self> {
-        let ReadError::Parse { faults, .. } = error else { return Vec::new() };
-        faults.iter().map(|ParseFault { line, kind }| Self::of_line(*line, kind.to_string())).collect()
+        match error {
+            ReadError::Parse { faults, .. } => {
+                faults.iter().map(|ParseFault { line, kind }| Self::of_line(*line, kind.to_string())).collect()
+            }
+            ReadError::Bytes { byte, kind } => {
+                let elements = Some(FaultElements::Byte(*byte));
+                vec![Self { kind: "byte", message: kind.to_string(), remedy: None, elements }]
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// The fault of a constraint file.

@@ -2,7 +2,9 @@
 //!
 //! | file          | what it holds                                                              |
 //! |---------------|----------------------------------------------------------------------------|
-//! | `obj`         | meshes: OBJ files with their materials and texture coordinates             |
+//! | `mesh_file`   | meshes of any format: what is kept of a file, and the way in               |
+//! | `obj`         | OBJ files with their materials, in and out                                 |
+//! | `ply`         | PLY files                                                                  |
 //! | `targets`     | the user's pins in texture coordinates                                     |
 //! | `constraints` | constraint files: a pinned vertex a line                                   |
 //! | `project`     | project files: what a person has made of a mesh (JSON)                     |
@@ -25,10 +27,12 @@ mod constraints;
 mod door;
 mod error_report;
 pub mod figure;
+mod mesh_file;
 mod obj;
 mod output;
 mod paths;
 mod picture;
+mod ply;
 mod project;
 pub mod raster;
 mod report;
@@ -41,11 +45,11 @@ mod unfinished;
 pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
-pub use obj::{
-    MAX_PARSE_FAULTS, Materials, NO_TEXTURE, ObjMesh, ParseFault, ParseFaultKind, Progress, ReadError, SourceText,
-    Statement, Texture, TextureError, TextureMesh, copies_of_materials, material_files, material_picture, read_mesh,
-    read_mesh_with, read_obj, read_obj_with, refined_obj, write_obj,
+pub use mesh_file::{
+    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError, Source, Statement,
+    Texture, TextureError, TextureMesh, read_mesh, read_mesh_with, read_stream, read_stream_with, refined_obj,
 };
+pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};
 pub use picture::{PictureError, PictureFile, decode_picture};

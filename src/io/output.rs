@@ -14,7 +14,7 @@ use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_pi
 use super::report::{Report, write_report};
 use super::svg::write_svg;
 use super::{
-    Materials, ObjMesh, PictureFile, Texture, WriteError, refined_obj, write_atomically, write_to_standard_output,
+    Materials, MeshFile, PictureFile, Texture, WriteError, refined_obj, write_atomically, write_to_standard_output,
 };
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement, Repaired};
@@ -137,7 +137,7 @@ impl ProvedEmbedding<'_> {
 #[derive(Debug)]
 pub struct Output<'a> {
     /// The file's contents as read.
-    pub source: &'a ObjMesh,
+    pub source: &'a MeshFile,
     /// The file that the mesh came from; none where that was a stream, or it is built in.
     pub source_path: Option<&'a Path>,
     /// What becomes of its material libraries.
@@ -195,7 +195,7 @@ impl Output<'_> {
     ///
     /// Where the file cannot be written, or coordinates are infinite or not numbers; the error names the file.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
-        self.check().map_err(|source| WriteError { path: path.to_owned(), source })?;
+        self.check().map_err(|source| WriteError::writing(path, source))?;
         match (kind, self.picture, self.materials) {
             (OutputKind::Obj, Some(picture), _) => {
                 let mesh = self.source_mesh();
@@ -238,7 +238,7 @@ impl Output<'_> {
     }
 
     /// The coordinates as those of the corners of the file's mesh.
-    fn texture_of(&self, mesh: &ObjMesh) -> Texture {
+    fn texture_of(&self, mesh: &MeshFile) -> Texture {
         match self.repaired.filter(|_| self.refinement.is_none()) {
             Some(repaired) => Texture::of_repaired(repaired, &self.source.polygons, &self.coordinates),
             None => Texture::per_vertex(&mesh.polygons, &self.coordinates),
@@ -247,12 +247,12 @@ impl Output<'_> {
 
     /// The file's mesh, with the new vertices where there are any. A mesh that was repaired and has new vertices is written
     /// without its text: both its faces and its vertices are others.
-    fn source_mesh(&self) -> Cow<'_, ObjMesh> {
+    fn source_mesh(&self) -> Cow<'_, MeshFile> {
         let Some(refinement) = self.refinement else { return Cow::Borrowed(self.source) };
-        let repaired = self.repaired.map(|repaired| ObjMesh {
+        let repaired = self.repaired.map(|repaired| MeshFile {
             polygons: repaired.all_faces(&self.source.polygons),
             statements: self.source.statements.clone(),
-            ..ObjMesh::default()
+            ..MeshFile::default()
         });
         Cow::Owned(refined_obj(repaired.as_ref().unwrap_or(self.source), refinement))
     }

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::mesh::{DiskMesh, Done, FaceId, TriMesh, VertexId};
-use crate::solver::{Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
+use crate::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
+use crate::solver::{AtlasVerdict, Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
 
 /// Version of the form of reports, which `docs/report.schema.json` describes. It counts up where a field goes or changes
 /// its meaning, not where one comes.
@@ -40,6 +40,9 @@ pub struct Report {
     /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
+    /// The exact verdict on a layout of several charts, or of one with holes, in place of the verdict.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub atlas: Option<AtlasVerdict>,
     /// Distortion summed up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distortion: Option<DistortionSummary>,
@@ -130,6 +133,20 @@ impl MeshReport {
             unused_vertices: mesh.vertex_count() - mesh.used_vertex_count(),
             mollification: mesh.mollification() * mesh.unit(),
             repairs: Vec::new(),
+        }
+    }
+}
+
+impl MeshReport {
+    /// Describes a layout of charts that came from `path`, over so many vertices.
+    pub fn of_charts(path: String, vertices: usize, charts: &[Part]) -> Self {
+        let loops = || charts.iter().flat_map(Part::loops);
+        Self {
+            path,
+            vertices,
+            faces: charts.iter().map(|chart| chart.mesh().face_count()).sum(),
+            boundary_vertices: loops().map(Vec::len).sum(),
+            ..Self::default()
         }
     }
 }

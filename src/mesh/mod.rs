@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `ids.rs` | typed indices of vertices, halfedges, edges, faces |
+//! | `parts.rs` | the parts of a surface that hang together, each with its boundary loops |
 //! | `polygon.rs`, `triangulate.rs`, `blockers.rs` | polygons as a file gives them, cut into triangles |
 //! | `triangles.rs` | triangles that share vertices |
 //! | `diagnosis.rs`, `fault.rs` | whether a mesh is a disk, and all that keeps it from being one |
@@ -26,6 +27,7 @@ mod fault;
 mod ids;
 mod measure;
 mod orientation;
+mod parts;
 mod polygon;
 mod polygons;
 mod refinement;
@@ -42,6 +44,7 @@ pub use disk::DiskMesh;
 pub use edges::EdgeTable;
 pub use fault::{Elements, FaceList, Fault};
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};

@@ -55,7 +55,7 @@ impl Session {
     /// Chooses method and weights as part of a drag of a slider.
     pub(super) fn slide_settings(&mut self, settings: Settings) {
         if settings != self.document.settings {
-            self.slide(Command::SetSettings(settings));
+            self.slide(Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]));
         }
     }
 

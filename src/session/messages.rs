@@ -163,6 +163,11 @@ impl Session {
         &self.messages.list
     }
 
+    /// Says that work in the background gave no outcome. `work` is a noun, such as "drawing".
+    pub fn tell_failure(&mut self, place: Place, work: &str, failure: &Failure) {
+        self.messages.fail_background(place, work, failure);
+    }
+
     /// Says beside the embedding that something did not work, and what to do about it.
     pub(super) fn complain(&mut self, text: impl Into<String>, remedy: Option<&str>) {
         self.messages.fail(Place::Embedding, text, remedy);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{FileStamp, ObjMesh, PictureFile, ReadError, read_mesh_with, read_obj_with};
+use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
 use crate::mesh::{Diagnosis, DiskMesh, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, diagnose, relative_volume};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
@@ -27,7 +27,7 @@ pub struct Model {
     /// What is made of its faces.
     pub form: Form,
     /// The file's contents, its faces turned around where the form says so, to be written back with the result.
-    pub source: Arc<ObjMesh>,
+    pub source: Arc<MeshFile>,
     /// The repairs of it, where there are any.
     pub repaired: Option<Arc<Repaired>>,
     /// The repairs that would make a disk of what is none.
@@ -80,19 +80,19 @@ impl Model {
         form: Form,
         is_enough: &dyn Fn() -> bool,
     ) -> Result<Self, ReadError> {
-        let source = read_obj_with(stream, &mut |_| flow(is_enough))?;
+        let source = read_stream_with(stream, &mut |_| flow(is_enough))?;
         Ok(Self::as_in_file(name.to_owned(), None, source).in_form(form))
     }
 
     /// A built-in mesh.
     pub fn example(example: Example) -> Self {
-        let source = ObjMesh::from(&example.mesh());
+        let source = MeshFile::from(&example.mesh());
         let model = Self::as_in_file(example.title().to_owned(), None, source);
         Self { example: Some(example), ..model.in_form(Form::default()) }
     }
 
     /// A mesh of which nothing is known yet.
-    fn as_in_file(name: String, path: Option<PathBuf>, source: ObjMesh) -> Self {
+    fn as_in_file(name: String, path: Option<PathBuf>, source: MeshFile) -> Self {
         Self {
             name,
             path,
@@ -120,7 +120,7 @@ impl Model {
             }
         };
         let faces_point_inward = matches!(&surface, Surface::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME);
-        Self { form, source, surface, repaired, remedy, faces_point_inward, ..self.clone() }
+        Self { form, source, repaired, remedy, surface, faces_point_inward, ..self.clone() }
     }
 
     /// Where it came from, in words.

@@ -15,9 +15,10 @@
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
-//! | `verdict`, `distortion`, `vertex_equation` | what is said of an embedding |
+//! | `verdict`, `atlas`, `distortion`, `vertex_equation` | what is said of an embedding |
 //! | `control`, `error` | progress and cancelling; why no embedding was produced |
 
+mod atlas;
 mod block_pattern;
 mod choice;
 mod conflicts;
@@ -62,6 +63,7 @@ mod vertex_equation;
 mod virtual_boundary;
 pub mod weights;
 
+pub use atlas::{AtlasVerdict, ChartVerdict, OVERLAPS_LISTED, atlas_verdict};
 pub use choice::{Choice, Words};
 pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use control::{Control, Phase};

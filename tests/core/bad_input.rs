@@ -23,7 +23,7 @@ const EXPECTED: [(&str, &[(&str, usize)]); 14] = [
     ("raw_polygonfaces.obj", &[]),
     // The triangle between the two tetrahedra is there twice, once from either side.
     ("raw_joined_tetrahedra.obj", &[("duplicate-faces", 1), ("non-manifold-edges", 3), ("closed", 1)]),
-    ("raw_corrupted_invalid_double.off", &[("format not read yet: OFF", 0)]),
+    ("raw_corrupted_invalid_double.off", &[("line 4: \"X0.425325\" is not a number", 1)]),
 ];
 
 /// Faults of a file, each with the number of its elements.

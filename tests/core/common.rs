@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use freebound::io::{ObjMesh, read_mesh};
+use freebound::io::{MeshFile, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
 
 use crate::makers::corpus;
@@ -30,7 +30,7 @@ impl Entry {
     }
 
     /// The file as read.
-    pub(crate) fn read(&self) -> ObjMesh {
+    pub(crate) fn read(&self) -> MeshFile {
         read_mesh(&self.path).unwrap_or_else(|error| panic!("{}: {error}", self.file))
     }
 

@@ -75,14 +75,14 @@ fn a_mesh_without_all_of_its_texture_coordinates_names_the_faces() {
 fn every_message_names_the_file_first() {
     let program = Program::new();
     program.write("tent.obj", TENT);
-    for (name, text) in [("empty.obj", ""), ("mesh.stl", "solid\n"), ("bad.txt", "0 x y\n"), ("text.png", "none")] {
+    for (name, text) in [("empty.obj", ""), ("mesh.dae", "mesh\n"), ("bad.txt", "0 x y\n"), ("text.png", "none")] {
         program.write(name, text);
     }
     program.write("pins.txt", "0 0 0\n1 1 0\n");
     let cases: [(&[&str], i32, &str); 11] = [
         (&["flatten", "missing.obj"], 3, "missing.obj: cannot be read: "),
         (&["flatten", "empty.obj"], 3, "empty.obj: the file has no faces; "),
-        (&["flatten", "mesh.stl"], 3, "mesh.stl: format not read yet: STL; merge coincident vertices"),
+        (&["flatten", "mesh.dae"], 3, "mesh.dae: format not read yet: COLLADA; export the mesh as OBJ or PLY"),
         (&["flatten", "tent.obj", "--constraints", "bad.txt"], 3, "bad.txt: line 1: "),
         (&["flatten", "tent.obj", "--constraints", "gone.txt"], 3, "gone.txt: the constraints cannot be read: "),
         (&["flatten", "tent.obj", "--picture", "text.png"], 3, "text.png: the picture cannot be read: "),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use freebound::io::{material_picture, read_mesh, read_obj};
+use freebound::io::{material_picture, read_mesh, read_stream};
 use tempfile::TempDir;
 
 use crate::program::Program;
@@ -23,7 +23,7 @@ fn folder(files: &[(&str, &str)]) -> TempDir {
 /// The picture of an OBJ text in a folder, relative to it.
 fn picture_in(folder: &Path, statements: &str) -> Option<String> {
     let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n{statements}");
-    let mesh = read_obj(text.as_bytes()).unwrap();
+    let mesh = read_stream(text.as_bytes()).unwrap();
     let picture = material_picture(&mesh, &folder.join("mesh.obj"))?;
     Some(picture.strip_prefix(folder).unwrap().to_str().unwrap().to_owned())
 }
@@ -177,4 +177,20 @@ fn copying_materials_needs_a_place_and_does_not_go_with_a_picture() {
         program.run(&[&["flatten", "in/mesh.obj"], options].concat()).expect(2);
     }
     assert_eq!(listing(&program.path("out")), Vec::<String>::new());
+}
+
+/// On Linux a program's memory is a file that cannot be read from its beginning, whoever asks.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_to_be_copied_that_cannot_be_read_is_unusable_input() {
+    for file in ["in/looks/m.mtl", "in/looks/the skin.png"] {
+        let program = with_materials();
+        fs::remove_file(program.path(file)).unwrap();
+        std::os::unix::fs::symlink("/proc/self/mem", program.path(file)).unwrap();
+        let arguments = ["flatten", "in/mesh.obj", "--copy-materials", "-o", "out/flat.obj", "--report", "out/r.json"];
+        let run = program.run(&arguments).expect(3);
+        assert!(run.stderr.contains(&format!("{file}: cannot be read: ")), "{}", run.stderr);
+        assert_eq!(listing(&program.path("out")), ["r.json"]);
+        assert!(fs::read_to_string(program.path("out/r.json")).unwrap().contains("\"unreadable\""));
+    }
 }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use freebound::geom::{PictureFrame, VAxis};
-use freebound::io::{ObjMesh, Target, Targets, Texture, pins_in_plane, write_constraints, write_obj};
+use freebound::io::{MeshFile, Target, Targets, Texture, pins_in_plane, write_constraints, write_obj};
 use freebound::mesh::{DiskMesh, PolygonMesh, TriMesh, VertexId};
 use freebound::solver::equations::barycentric;
 use freebound::solver::{
@@ -192,7 +192,7 @@ fn no_writer_lets_a_nan_or_an_infinity_pass() {
         let mesh = sheet();
         let mut embedding: Embedding = mesh.positions.iter().map(|p| p.truncate()).collect();
         embedding[3].y = bad;
-        let file = ObjMesh::from(&mesh);
+        let file = MeshFile::from(&mesh);
         let mut text = Vec::new();
         assert!(write_obj(&mut text, &file, &Texture::per_vertex(&file.polygons, &embedding)).is_err());
         let target = Target::hard(DVec2::new(0.0, bad));

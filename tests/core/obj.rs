@@ -4,7 +4,7 @@ use std::io::{self, Read};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use freebound::io::{MAX_PARSE_FAULTS, ObjMesh, ReadError, read_mesh, read_mesh_with, read_obj, read_obj_with};
+use freebound::io::{MAX_PARSE_FAULTS, MeshFile, ReadError, read_mesh, read_mesh_with, read_stream, read_stream_with};
 use freebound::mesh::VertexId;
 use glam::DVec3;
 use proptest::prelude::*;
@@ -13,8 +13,8 @@ use crate::common::manifest;
 use crate::makers::Random;
 
 /// Reads text that is right.
-pub(crate) fn read(text: &str) -> ObjMesh {
-    read_obj(text.as_bytes()).unwrap_or_else(|error| panic!("{text}: {error}"))
+pub(crate) fn read(text: &str) -> MeshFile {
+    read_stream(text.as_bytes()).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
 /// Four vertices, three texture coordinates and two normals to refer to.
@@ -97,7 +97,7 @@ fn a_byte_order_mark_is_passed_over() {
 
 #[test]
 fn text_that_is_not_utf8_is_kept_in_names_and_passed_over_in_comments() {
-    let mesh = read_obj(&b"# caf\xe9\nv 0 0 0\ng caf\xe9 \xff\nf 1 1 1\n"[..]).expect("it is right");
+    let mesh = read_stream(&b"# caf\xe9\nv 0 0 0\ng caf\xe9 \xff\nf 1 1 1\n"[..]).expect("it is right");
     assert_eq!(mesh.statements[0].text, b"g caf\xe9 \xff");
     assert_eq!(mesh.statements[0].keyword(), b"g");
 }
@@ -123,7 +123,7 @@ fn statements_are_kept_with_the_face_they_stand_before() {
 
 /// The parse faults of a text, as messages.
 fn faults(text: &str) -> Vec<String> {
-    match read_obj(text.as_bytes()) {
+    match read_stream(text.as_bytes()) {
         Err(ReadError::Parse { faults, total }) => {
             assert_eq!(faults.len(), total.min(MAX_PARSE_FAULTS));
             faults.iter().map(ToString::to_string).collect()
@@ -190,7 +190,7 @@ fn all_faults_are_collected_by_line() {
 #[test]
 fn faults_beyond_the_limit_are_counted() {
     let text = format!("{ELEMENTS}{}{}", "f 9 1 2\n".repeat(15), "f 1 2\n".repeat(40));
-    let Err(error) = read_obj(text.as_bytes()) else { panic!("it is wrong") };
+    let Err(error) = read_stream(text.as_bytes()) else { panic!("it is wrong") };
     let message = error.to_string();
     assert_eq!(message.lines().count(), MAX_PARSE_FAULTS + 1);
     assert!(message.ends_with("and 35 more faults like these"), "{message}");
@@ -200,7 +200,7 @@ fn faults_beyond_the_limit_are_counted() {
 #[test]
 fn a_file_without_faces_is_named() {
     for (text, vertices) in [("", 0), ("\n\n# nothing\n", 0), ("v 1 2 3\nv 1 2 4\n", 2), ("hello, world\n", 0)] {
-        match read_obj(text.as_bytes()) {
+        match read_stream(text.as_bytes()) {
             Err(ReadError::NoFaces { vertices: found }) => assert_eq!(found, vertices, "{text}"),
             other => panic!("{text}: {other:?}"),
         }
@@ -210,21 +210,20 @@ fn a_file_without_faces_is_named() {
 #[test]
 fn other_formats_are_named_by_extension_and_by_content() {
     let folder = tempfile::tempdir().expect("a folder");
-    for (extension, format) in [("off", "OFF"), ("PLY", "PLY"), ("stl", "STL"), ("gltf", "glTF"), ("glb", "glTF")] {
+    for (extension, format) in [("FBX", "FBX"), ("gltf", "glTF"), ("glb", "glTF"), ("usdz", "USD")] {
         let path = folder.path().join(format!("mesh.{extension}"));
         std::fs::write(&path, "whatever").expect("written");
         let error = read_mesh(&path).expect_err("it is not read yet");
         assert_eq!(error.to_string(), format!("format not read yet: {format}"));
     }
     for (content, format) in [
-        (&b"OFF\n3 1 0\n"[..], "OFF"),
-        (b"# comment\nCOFF\n", "OFF"),
-        (b"ply\nformat ascii 1.0\n", "PLY"),
-        (b"ply\nformat binary_little_endian 1.0\nend_header\n\0\0", "PLY"),
-        (b"solid name\n facet normal 0 0 1\n", "STL"),
+        (&b"4OFF\n3 1 0\n"[..], "OFF of other than three coordinates"),
+        (b"# comment\nOFF BINARY\n", "binary OFF"),
+        (b"<?xml version=\"1.0\"?>\n", "XML"),
         (b"glTF\x02\0\0\0", "glTF"),
     ] {
-        assert_eq!(read_obj(content).expect_err("not OBJ").to_string(), format!("format not read yet: {format}"));
+        let error = read_stream(content).expect_err("not read");
+        assert_eq!(error.to_string(), format!("format not read yet: {format}"));
     }
 }
 
@@ -272,12 +271,12 @@ proptest! {
     #[test]
     fn the_mesh_does_not_depend_on_where_the_bytes_are_torn_apart(sizes in prop::collection::vec(1_usize..9, 1..6)) {
         let reader = Pieces { bytes: TORN.as_bytes(), sizes, next: 0, breaks: None };
-        prop_assert_eq!(read_obj(reader).expect("it is right"), read(TORN));
+        prop_assert_eq!(read_stream(reader).expect("it is right"), read(TORN));
     }
 
     #[test]
     fn any_bytes_are_read_or_refused_without_a_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
-        drop(read_obj(bytes.as_slice()));
+        drop(read_stream(bytes.as_slice()));
     }
 
     #[test]
@@ -289,7 +288,7 @@ proptest! {
             0..60,
         )
     ) {
-        if let Ok(mesh) = read_obj(words.concat().as_bytes()) {
+        if let Ok(mesh) = read_stream(words.concat().as_bytes()) {
             let triangles = mesh.polygons.triangulate();
             freebound::mesh::diagnose(&triangles);
             drop(mesh.texture_mesh());
@@ -311,7 +310,7 @@ fn a_line_longer_than_the_first_chunk_is_read() {
 fn a_stream_that_breaks_off_is_an_error() {
     let reader =
         Pieces { bytes: ELEMENTS.as_bytes(), sizes: vec![7], next: 0, breaks: Some(io::ErrorKind::ConnectionReset) };
-    let error = read_obj(reader).expect_err("it broke off");
+    let error = read_stream(reader).expect_err("it broke off");
     assert!(matches!(error, ReadError::Unreadable(_)), "{error}");
 }
 
@@ -331,7 +330,7 @@ fn a_hundred_megabytes_of_garbage_are_refused() {
         }
     }
     let size = 100_000_000;
-    let garbage = |map| read_obj(Garbage(Random(9), size, map)).expect_err("it is garbage");
+    let garbage = |map| read_stream(Garbage(Random(9), size, map)).expect_err("it is garbage");
     assert!(matches!(garbage(|byte| byte), ReadError::NotText));
     assert!(matches!(garbage(|byte| b' ' + byte % 95), ReadError::LineTooLong { .. }));
     assert!(matches!(garbage(|byte| if byte < 4 { b'\n' } else { 128 | byte }), ReadError::NoFaces { .. }));
@@ -350,7 +349,7 @@ fn reading_reports_progress_and_stops_when_asked() {
         ControlFlow::Continue(())
     });
     assert!(watched.is_ok() && seen.len() > 2 && seen.is_sorted() && seen.last() == Some(&size), "{seen:?}");
-    let stopped = read_obj_with(ELEMENTS.as_bytes(), &mut |_| ControlFlow::Break(()));
+    let stopped = read_stream_with(ELEMENTS.as_bytes(), &mut |_| ControlFlow::Break(()));
     assert!(matches!(stopped, Err(ReadError::Cancelled)));
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use freebound::io::{ObjMesh, Texture, read_mesh, read_obj, refined_obj, write_obj};
+use freebound::io::{MeshFile, Texture, read_mesh, read_stream, refined_obj, write_obj};
 use freebound::mesh::{DiskMesh, FaceId, NewVertex, Refinement, VertexId};
 use freebound::solver::{Embedding, verdict};
 
@@ -15,8 +15,8 @@ v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0.25\nv 1 1 0.1\nv 2 1 0\nv 0.5 2 0\nv 3 0.5 0\
 o thing\ng left\nf 1 2 5 4\ng right\nf 2 3 6 5\nusemtl skin\nf 4 5 7\ns off\nf 3 8 6\n";
 
 /// The mesh as read, as a disk, and refined: a new vertex on the edge between the first square and the triangle on top.
-fn refined() -> (ObjMesh, DiskMesh, Refinement) {
-    let file = read_obj(MESH.as_bytes()).unwrap();
+fn refined() -> (MeshFile, DiskMesh, Refinement) {
+    let file = read_stream(MESH.as_bytes()).unwrap();
     let disk = DiskMesh::try_from(file.polygons.triangulate()).unwrap();
     let [a, b] = [3, 4].map(VertexId::new);
     let new = VertexId::from_index(disk.vertex_count());
@@ -35,7 +35,7 @@ fn refined() -> (ObjMesh, DiskMesh, Refinement) {
 }
 
 /// The file as text.
-fn text_of(mesh: &ObjMesh, texture: &Embedding) -> String {
+fn text_of(mesh: &MeshFile, texture: &Embedding) -> String {
     let mut bytes = Vec::new();
     write_obj(&mut bytes, mesh, &Texture::per_vertex(&mesh.polygons, texture)).unwrap();
     String::from_utf8(bytes).unwrap()
@@ -66,7 +66,7 @@ fn the_refined_file_is_the_refined_mesh() {
     let (file, _, refinement) = refined();
     let disk = refinement.disk();
     let embedding: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
-    let back = read_obj(text_of(&refined_obj(&file, &refinement), &embedding).as_bytes()).unwrap();
+    let back = read_stream(text_of(&refined_obj(&file, &refinement), &embedding).as_bytes()).unwrap();
     let texture = back.texture_mesh().unwrap();
     assert_eq!(texture.mesh.positions, disk.mesh().positions);
     assert_eq!(texture.mesh.triangles, disk.mesh().triangles, "in the same order");

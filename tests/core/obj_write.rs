@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 
-use freebound::io::{ObjMesh, Statement, Texture, read_mesh, read_obj, write_atomically, write_obj};
+use freebound::io::{MeshFile, Statement, Texture, read_mesh, read_stream, write_atomically, write_obj};
 use freebound::mesh::{PolygonMesh, VertexId};
 use freebound::solver::Embedding;
 use glam::{DVec2, DVec3};
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use crate::common::manifest;
 use crate::makers::grid;
 
-fn written(mesh: &ObjMesh, texture: &Embedding) -> Vec<u8> {
+fn written(mesh: &MeshFile, texture: &Embedding) -> Vec<u8> {
     let mut bytes = Vec::new();
     write_obj(&mut bytes, mesh, &Texture::per_vertex(&mesh.polygons, texture)).expect("memory takes all");
     bytes
@@ -45,7 +45,7 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 /// Meshes of polygons with any positions, texture coordinates and statements.
-fn any_mesh() -> impl Strategy<Value = (ObjMesh, Embedding)> {
+fn any_mesh() -> impl Strategy<Value = (MeshFile, Embedding)> {
     let points = prop::collection::vec((any_number(), any_number(), any_number(), any_number(), any_number()), 3..20);
     let polygons = prop::collection::vec(prop::collection::vec(any::<prop::sample::Index>(), 3..6), 1..12);
     let statements = prop::collection::vec((0_u32..14, "(o|g|usemtl|mtllib)( [a-zA-Z0-9.é]{1,5}){1,3}|s off"), 0..5);
@@ -66,7 +66,7 @@ fn any_mesh() -> impl Strategy<Value = (ObjMesh, Embedding)> {
             .into_iter()
             .map(|(face, text)| Statement { before_face: face.min(face_count), text: text.into_bytes() })
             .collect();
-        let obj = ObjMesh { polygons: mesh, statements, ..ObjMesh::default() };
+        let obj = MeshFile { polygons: mesh, statements, ..MeshFile::default() };
         (obj, points.iter().map(|&(.., u, v)| DVec2::new(u, v)).collect())
     })
 }
@@ -74,7 +74,7 @@ fn any_mesh() -> impl Strategy<Value = (ObjMesh, Embedding)> {
 proptest! {
     #[test]
     fn what_is_written_reads_back_bit_for_bit((mesh, texture) in any_mesh()) {
-        let read = read_obj(written(&mesh, &texture).as_slice()).expect("it reads back");
+        let read = read_stream(written(&mesh, &texture).as_slice()).expect("it reads back");
         prop_assert_eq!(bits(&read.polygons.positions), bits(&mesh.polygons.positions));
         prop_assert_eq!(&read.polygons.corners, &mesh.polygons.corners);
         prop_assert_eq!(&read.polygons.starts, &mesh.polygons.starts);
@@ -91,7 +91,7 @@ proptest! {
 fn the_corpus_comes_back_from_the_writer() {
     for entry in manifest() {
         let Ok(mesh) = read_mesh(&entry.path) else { continue };
-        let back = read_obj(written(&mesh, &Embedding::default()).as_slice()).expect("it reads back");
+        let back = read_stream(written(&mesh, &Embedding::default()).as_slice()).expect("it reads back");
         assert_eq!(bits(&back.polygons.positions), bits(&mesh.polygons.positions), "{}", entry.file);
         assert_eq!(back.polygons, mesh.polygons, "{}", entry.file);
         assert_eq!(back.statements, mesh.statements, "{}", entry.file);
@@ -113,7 +113,7 @@ fn a_published_map_goes_through_a_file_unchanged() {
             })
             .collect();
         let mesh = entry.read();
-        let back = read_obj(written(&mesh, &texture).as_slice()).expect("it reads back");
+        let back = read_stream(written(&mesh, &texture).as_slice()).expect("it reads back");
         let texture_mesh = back.texture_mesh().expect("it is complete");
         assert_eq!(texture_mesh.embedding, texture, "{name}");
         assert_eq!(texture_mesh.mesh, mesh.polygons.triangulate(), "{name}");
@@ -122,7 +122,7 @@ fn a_published_map_goes_through_a_file_unchanged() {
 
 #[test]
 fn a_mesh_looks_as_any_program_expects() {
-    let mut mesh = ObjMesh::from(&grid(1, 1));
+    let mut mesh = MeshFile::from(&grid(1, 1));
     mesh.statements = vec![
         Statement { before_face: 0, text: b"usemtl skin".to_vec() },
         Statement { before_face: 1, text: b"g left".to_vec() },

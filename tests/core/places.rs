@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 use std::process::Stdio;
 
-use freebound::io::read_obj;
+use freebound::io::read_stream;
 use image::RgbImage;
 
 use crate::program::{Program, Run};
@@ -217,7 +217,7 @@ fn a_mesh_goes_in_and_out_without_a_file() {
 fn a_mesh_on_standard_output_stands_alone_and_its_report_in_a_file() {
     let program = Program::new();
     let run = fed(&program, &["flatten", "-", "-o", "-", "--report", "out.json"], TENT).expect(0);
-    assert_eq!(read_obj(run.stdout.as_bytes()).unwrap().polygons.face_count(), 4);
+    assert_eq!(read_stream(run.stdout.as_bytes()).unwrap().polygons.face_count(), 4);
     assert_eq!([run.stdout.lines().next(), run.stderr.lines().next()], [Some("v 0 0 0"), None]);
     assert_eq!(program.files(), ["out.json"]);
 }

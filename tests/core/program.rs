@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use freebound::examples::Example;
-use freebound::io::ObjMesh;
+use freebound::io::MeshFile;
 use freebound::mesh::{DiskMesh, PolygonMesh};
 use freebound::solver::Embedding;
 use glam::DVec2;
@@ -151,7 +151,7 @@ pub(crate) fn example_file(program: &Program, example: Example) -> DiskMesh {
 }
 
 /// Texture coordinates by vertex of a file that gives every vertex one.
-pub(crate) fn coordinates_by_vertex(file: &ObjMesh) -> Embedding {
+pub(crate) fn coordinates_by_vertex(file: &MeshFile) -> Embedding {
     let texture = file.texture.as_ref().expect("the file has texture coordinates");
     let mut found = Embedding::from(vec![DVec2::NAN; file.polygons.positions.len()]);
     for (vertex, &place) in file.polygons.corners.iter().zip(&texture.corners) {

@@ -138,8 +138,7 @@ fn surface_of_genus(genus: u32) -> TriMesh {
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     for part in 0..genus {
         for k in 0..around * along {
-            let (x, y) = (k % around, k / around);
-            let [a, b, c, d] = [at(part, x, y), at(part, x + 1, y), at(part, x + 1, y + 1), at(part, x, y + 1)];
+            let [[a, b], [d, c]] = [0, 1].map(|up| [0, 1].map(|along| at(part, k % around + along, k / around + up)));
             if k == 0 && part > 0 {
                 // The square faces the one taken out of the part before.
                 let other = [at(part - 1, 3, 4), at(part - 1, 4, 4), at(part - 1, 4, 5), at(part - 1, 3, 5)];
@@ -234,6 +233,45 @@ fn polygons_are_cut_along_their_own_edges() {
     let disk = DiskMesh::try_from(cut.triangulate()).expect("a disk");
     assert_eq!(disk.polygons().count(), 72, "no quad is cut through");
     assert_eq!(done(&cut), [(Repair::Cut, 6)], "the shortest cut goes straight across");
+}
+
+/// A ball of quads around the origin, as a cube's sides blown up; it looks to the front with a flat face.
+fn ball(cells: u32) -> PolygonMesh {
+    let mut numbers = std::collections::BTreeMap::new();
+    let (mut positions, mut corners, mut starts) = (Vec::new(), Vec::new(), vec![0_u32]);
+    let middle = f64::from(cells) / 2.0;
+    for axis in 0..3 {
+        for side in [0, cells] {
+            for (a, b) in (0..cells).flat_map(|a| (0..cells).map(move |b| (a, b))) {
+                let mut square = [[a, b], [a + 1, b], [a + 1, b + 1], [a, b + 1]];
+                if side == 0 {
+                    square.reverse();
+                }
+                for [a, b] in square {
+                    let mut at = [0; 3];
+                    (at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3]) = (side, a, b);
+                    let number = *numbers.entry(at).or_insert_with(|| {
+                        let out = DVec3::from(at.map(|x| f64::from(x) - middle)).normalize_or_zero();
+                        positions.push(DVec3::new(out.x, out.y, out.z.min(0.8)));
+                        VertexId::from_index(positions.len() - 1)
+                    });
+                    corners.push(number);
+                }
+                starts.push(u32::try_from(corners.len()).expect("few"));
+            }
+        }
+    }
+    PolygonMesh { positions, corners, starts: Some(starts) }
+}
+
+#[test]
+fn a_closed_head_is_cut_behind_its_face() {
+    let head = ball(12);
+    let cut = repaired(&head, RepairExtent::Safe).cut_to_disk();
+    let disk = DiskMesh::try_from(cut.triangulate()).expect("a disk");
+    assert_eq!(disk.polygons().count(), 6 * 12 * 12);
+    let front = disk.boundary_loop().iter().filter(|&&v| disk.position(v).z > 0.5).count();
+    assert_eq!(front, 0, "of {} vertices of the cut", disk.boundary_loop().len());
 }
 
 #[test]

@@ -151,7 +151,11 @@ fn has_type(value: &Value, rule: &Value) -> bool {
 pub(crate) const TENT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0.3\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
 
 /// Files to run on, with what is wrong with them.
-const FILES: [(&str, &str); 10] = [
+const FILES: [(&str, &str); 12] = [
+    (
+        "charts.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\nf 1/1 2/2 3/3\nf 1/4 3/5 4/6\n",
+    ),
     ("tent.obj", TENT),
     (
         "folded.obj",
@@ -159,8 +163,13 @@ const FILES: [(&str, &str); 10] = [
     ),
     ("half.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\nf 1 3 4\n"),
     ("lines.obj", "v 0 0 0\nv 1 0 x\nv 1 1 0\nf 1 2\nf 1 2 3\n"),
+    (
+        "bytes.ply",
+        "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\n\
+            end_header\n",
+    ),
     ("empty.obj", "# nothing\n"),
-    ("mesh.stl", "solid\n"),
+    ("mesh.dae", "mesh\n"),
     ("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"),
     ("fins.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 9 9 9\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),
     (
@@ -172,7 +181,8 @@ const FILES: [(&str, &str); 10] = [
 ];
 
 /// Runs with their exit status: all kinds of fields of a report occur in them.
-const RUNS: [(&[&str], i32); 16] = [
+const RUNS: [(&[&str], i32); 18] = [
+    (&["check", "charts.obj"], 4),
     (&["flatten", "tent.obj"], 0),
     (&["flatten", "closed.obj", "--cut", "auto"], 0),
     (&["flatten", "tent.obj", "--relax", "2", "--pin", "0:0,0", "--pin", "1:1,0.2:3", "--pin", "2:0.9,1"], 0),
@@ -188,8 +198,9 @@ const RUNS: [(&[&str], i32); 16] = [
     (&["check", "folded.obj"], 4),
     (&["check", "half.obj"], 3),
     (&["flatten", "lines.obj"], 3),
+    (&["flatten", "bytes.ply"], 3),
     (&["flatten", "empty.obj"], 3),
-    (&["flatten", "mesh.stl"], 3),
+    (&["flatten", "mesh.dae"], 3),
     (&["flatten", "missing.obj"], 3),
     (&["flatten", "closed.obj"], 3),
     (&["flatten", "fins.obj"], 3),

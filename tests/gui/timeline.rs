@@ -224,9 +224,9 @@ fn space_on_a_control_with_the_focus_is_the_control_s() {
 fn what_is_no_disk_has_no_timeline() {
     let cap = sheet(4, 0.3);
     let mut triangles = cap.triangles.clone();
-    triangles.extend(cap.triangles.iter().take(1));
+    triangles[3].reverse();
     let mut window = Window::with_mesh(
-        "twice.obj",
+        "turned.obj",
         &TriMesh::new(cap.positions, &triangles.iter().map(|t| t.map(VertexId::number)).collect::<Vec<_>>()),
     );
     assert!(!window.editor().has_disk() && !window.has_button("Run"));

@@ -4,9 +4,10 @@ use std::convert::Infallible;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::Edits;
 use super::beside::Beside;
 use super::material::{Library, libraries_of, picture_argument, picture_within};
-use super::{Edits, ObjMesh};
+use crate::io::mesh_file::MeshFile;
 use crate::io::paths::{named_in_files, relative, whole_folder_of};
 use crate::io::{WriteError, is_same_file};
 
@@ -22,7 +23,7 @@ pub enum Materials {
 
 /// What becomes of the statements of the mesh that was read at `from`, in a file at `to`: material libraries that are
 /// there are named from the new place, all else stays as it is.
-pub(in crate::io) fn relocated(mesh: &ObjMesh, from: &Path, to: &Path) -> Edits {
+pub(in crate::io) fn relocated(mesh: &MeshFile, from: &Path, to: &Path) -> Edits {
     let (old, new) = (whole_folder_of(from), whole_folder_of(to));
     if old == new {
         return Edits::default();
@@ -46,7 +47,7 @@ pub(in crate::io) fn relocated(mesh: &ObjMesh, from: &Path, to: &Path) -> Edits 
 ///
 /// The file that cannot be read or written.
 pub(in crate::io) fn copy_materials(
-    mesh: &ObjMesh,
+    mesh: &MeshFile,
     from: &Path,
     to: &Path,
 ) -> Result<(Edits, Vec<PathBuf>), WriteError> {
@@ -61,13 +62,13 @@ pub(in crate::io) fn copy_materials(
 /// # Errors
 ///
 /// The file that cannot be read.
-pub fn copies_of_materials(mesh: &ObjMesh, from: &Path, to: &Path) -> Result<Vec<PathBuf>, WriteError> {
+pub fn copies_of_materials(mesh: &MeshFile, from: &Path, to: &Path) -> Result<Vec<PathBuf>, WriteError> {
     let mut beside = Beside::planning(to);
     copy(mesh, from, &mut beside)?;
     Ok(beside.planned())
 }
 
-fn copy(mesh: &ObjMesh, from: &Path, beside: &mut Beside<'_>) -> Result<Edits, WriteError> {
+fn copy(mesh: &MeshFile, from: &Path, beside: &mut Beside<'_>) -> Result<Edits, WriteError> {
     with_libraries(mesh, &whole_folder_of(from), |library| {
         let name = library.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if is_beside(&library.path, beside.mesh) {
@@ -100,7 +101,7 @@ fn with_copied_picture(line: &[u8], library: &Path, beside: &mut Beside<'_>) -> 
 
 /// Other names for the libraries that are there; where there is none, the name stays.
 fn with_libraries<E>(
-    mesh: &ObjMesh,
+    mesh: &MeshFile,
     folder: &Path,
     mut name_of: impl FnMut(&Library) -> Result<Option<String>, E>,
 ) -> Result<Edits, E> {
@@ -129,5 +130,5 @@ fn is_beside(file: &Path, mesh: &Path) -> bool {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, WriteError> {
-    fs::read(path).map_err(|source| WriteError { path: path.to_owned(), source })
+    fs::read(path).map_err(|source| WriteError::reading(path, source))
 }

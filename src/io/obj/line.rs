@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::error::ParseFaultKind;
+use crate::io::mesh_file::ParseFaultKind;
 
 /// Next line, line separator and paragraph separator in UTF-8.
 const UNICODE_LINE_ENDS: [&[u8]; 3] = ["\u{85}".as_bytes(), "\u{2028}".as_bytes(), "\u{2029}".as_bytes()];
@@ -11,7 +11,7 @@ const UNICODE_LINE_ENDS: [&[u8]; 3] = ["\u{85}".as_bytes(), "\u{2028}".as_bytes(
 const QUOTED: usize = 40;
 
 /// Words of a line between blanks, up to a comment.
-pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
+pub(in crate::io) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     all_words(line).take_while(|word| word[0] != b'#')
 }
 
@@ -61,7 +61,7 @@ pub(super) fn numbers<'a, const N: usize>(
 }
 
 /// A number, rounded correctly. Infinities and NaNs are numbers here, in the spellings that C libraries write.
-pub(super) fn number(word: &[u8]) -> Option<f64> {
+pub(in crate::io) fn number(word: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(word).ok()?;
     text.parse().ok().or_else(|| special_number(text))
 }
@@ -117,7 +117,7 @@ fn index(word: &[u8]) -> Option<(i64, &[u8])> {
 }
 
 /// A word for a message: readable, and not too long.
-pub(super) fn quoted(word: &[u8]) -> String {
+pub(in crate::io) fn quoted(word: &[u8]) -> String {
     let text = String::from_utf8_lossy(&word[..word.len().min(4 * QUOTED)]);
     let mut shown: String = text.chars().take(QUOTED).map(|c| if c.is_control() { '\u{FFFD}' } else { c }).collect();
     if shown.len() < word.len() && text.chars().count() >= QUOTED {

@@ -11,30 +11,30 @@ use super::line::has_comment;
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
 /// A text's byte order mark, if it has one, and its lines.
-pub(super) fn split_mark(text: &[u8]) -> (&[u8], &[u8]) {
+pub(in crate::io) fn split_mark(text: &[u8]) -> (&[u8], &[u8]) {
     text.split_at(if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 })
 }
 
 /// All lines of a text without its byte order mark.
-pub(super) struct Lines<'a> {
+pub(in crate::io) struct Lines<'a> {
     rest: &'a [u8],
 }
 
 /// A line, put together from continued ones if it was.
 #[derive(Clone, Copy)]
-pub(super) struct Line<'a> {
+pub(in crate::io) struct Line<'a> {
     /// All its bytes, its end among them.
-    pub(super) whole: &'a [u8],
+    pub(in crate::io) whole: &'a [u8],
     /// How many bytes stand before its end.
-    pub(super) length: usize,
+    pub(in crate::io) length: usize,
     /// How many lines of the file it is.
-    pub(super) count: u64,
+    pub(in crate::io) count: u64,
     /// Whether one of them goes on in the next.
     pub(super) is_continued: bool,
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn of(text: &'a [u8]) -> Self {
+    pub(in crate::io) fn of(text: &'a [u8]) -> Self {
         Self { rest: text }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::{ObjMesh, Statement};
+use crate::io::mesh_file::{MeshFile, Statement};
 
 /// Keywords of lines that name pictures, beside those that begin with `map_`.
 const PICTURE_KEYWORDS: [&str; 5] = ["bump", "decal", "disp", "norm", "refl"];
@@ -13,7 +13,7 @@ const PICTURE_KEYWORDS: [&str; 5] = ["bump", "decal", "disp", "norm", "refl"];
 /// names a picture. The picture itself need not be there.
 ///
 /// Where one material library is missing or broken, the others still count.
-pub fn material_picture(mesh: &ObjMesh, path: &Path) -> Option<PathBuf> {
+pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut pictures: BTreeMap<String, PathBuf> = BTreeMap::new();
     for library in libraries(mesh, folder) {
@@ -36,7 +36,7 @@ pub fn material_picture(mesh: &ObjMesh, path: &Path) -> Option<PathBuf> {
 }
 
 /// The material libraries of an OBJ file at `path`, and the pictures that they name, as far as they are there.
-pub fn material_files(mesh: &ObjMesh, path: &Path) -> Vec<PathBuf> {
+pub fn material_files(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
         let folder = library.parent().unwrap_or(Path::new(""));
@@ -70,7 +70,7 @@ pub(super) struct Library {
 }
 
 /// The material libraries.
-fn libraries(mesh: &ObjMesh, folder: &Path) -> Vec<PathBuf> {
+fn libraries(mesh: &MeshFile, folder: &Path) -> Vec<PathBuf> {
     let statements = mesh.statements.iter().filter(|statement| statement.keyword() == b"mtllib");
     statements.flat_map(|statement| libraries_of(statement, folder)).map(|library| library.path).collect()
 }
@@ -90,7 +90,7 @@ fn before_comment(argument: &str) -> &str {
 }
 
 /// How many faces each material is on. A material may come more than once.
-fn faces_by_material(mesh: &ObjMesh) -> Vec<(String, usize)> {
+fn faces_by_material(mesh: &MeshFile) -> Vec<(String, usize)> {
     let uses: Vec<_> = mesh.statements.iter().filter(|statement| statement.keyword() == b"usemtl").collect();
     let end = mesh.polygons.face_count();
     let ends = uses.iter().skip(1).map(|next| next.before_face as usize).chain([end]);

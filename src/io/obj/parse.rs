@@ -1,23 +1,27 @@
 //! Takes OBJ lines one by one and puts a mesh together.
 //!
 //! Every fault is noted and the reading goes on, so that all of them are known at the end.
+//!
+//! Understood: `v` (words behind the third number are ignored), `vt`, `f` in all its forms with positive and negative
+//! indices, `o`, `g`, `s`, `usemtl`, `mtllib`, comments, lines that go on behind a `\`. Anything else is skipped. A
+//! positive index may name an element that comes later in the file. A line ends with LF, with CR LF, or with CR alone.
 
 use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 
-use super::error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError};
-use super::format::format_of_word;
 use super::line::{corner, numbers, statement, words};
 use super::lines::{Line, Lines, split_mark};
-use super::{NO_TEXTURE, ObjMesh, Statement, Texture};
+use crate::io::mesh_file::{
+    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, ReadError, Statement, Texture,
+};
 use crate::mesh::VertexId;
 
 /// Lines between two looks whether to go on.
 const LINES_AT_ONCE: usize = 1 << 14;
 
 /// Puts a mesh together from text, looking now and then whether to go on; the text itself is not kept.
-pub(super) fn parse(text: &[u8], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<ObjMesh, ReadError> {
+pub(in crate::io) fn parse(text: &[u8], watch: &mut dyn FnMut() -> ControlFlow<()>) -> Result<MeshFile, ReadError> {
     let mut parser = Parser::default();
     for (count, line) in Lines::of(split_mark(text).1).enumerate() {
         parser.take(&line)?;
@@ -31,7 +35,7 @@ pub(super) fn parse(text: &[u8], watch: &mut dyn FnMut() -> ControlFlow<()>) -> 
 /// The mesh as far as it is read.
 #[derive(Debug, Default)]
 struct Parser {
-    mesh: ObjMesh,
+    mesh: MeshFile,
     coordinates: Vec<DVec2>,
     /// Empty until a corner has a texture coordinate.
     texture_corners: Vec<u32>,
@@ -40,8 +44,6 @@ struct Parser {
     line_runs: Vec<(u32, u64)>,
     /// Complete lines before the present one.
     line: u64,
-    /// Whether a line with words was seen.
-    begun: bool,
     faults: Vec<ParseFault>,
     fault_count: usize,
     /// A line put together from continued ones.
@@ -61,11 +63,6 @@ impl Parser {
     fn take_line(&mut self, line: &[u8]) -> Result<(), ReadError> {
         let mut words = words(line);
         let Some(keyword) = words.next() else { return Ok(()) };
-        if !std::mem::replace(&mut self.begun, true)
-            && let Some(format) = format_of_word(keyword)
-        {
-            return Err(ReadError::NotReadYet(format));
-        }
         match keyword {
             b"v" => match numbers::<3>(words) {
                 Ok(position) => self.mesh.polygons.positions.push(DVec3::from(position)),
@@ -164,7 +161,7 @@ impl Parser {
     }
 
     /// Checks what can be checked only at the end.
-    fn finish(mut self) -> Result<ObjMesh, ReadError> {
+    fn finish(mut self) -> Result<MeshFile, ReadError> {
         if !self.texture_corners.is_empty() {
             self.texture_corners.resize(self.mesh.polygons.corners.len(), NO_TEXTURE);
         }

@@ -4,9 +4,10 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+use super::Edits;
 use super::beside::{Beside, begins_with, is_free, name_of, place_for, stem_of, without_blanks};
 use super::write::write_obj_with;
-use super::{Edits, ObjMesh, Statement, Texture};
+use crate::io::mesh_file::{MeshFile, Statement, Texture};
 use crate::io::{PictureFile, WriteError, is_same_file, write_atomically};
 
 /// Name of the material.
@@ -51,7 +52,7 @@ impl PictureFile {
     pub(in crate::io) fn write_beside(
         &self,
         path: &Path,
-        mesh: &ObjMesh,
+        mesh: &MeshFile,
         texture: &Texture,
     ) -> Result<Vec<PathBuf>, WriteError> {
         let mut beside = Beside::writing(path);
@@ -71,7 +72,7 @@ impl PictureFile {
 }
 
 /// What makes this material that of all faces, and the only one.
-fn with_material(mesh: &ObjMesh, library: &str) -> Edits {
+fn with_material(mesh: &MeshFile, library: &str) -> Edits {
     let of_material = |statement: &Statement| matches!(statement.keyword(), b"mtllib" | b"usemtl");
     let dropped = mesh.statements.iter().enumerate().filter(|(_, statement)| of_material(statement));
     Edits {
@@ -93,7 +94,7 @@ fn put_picture(picture: &PictureFile, beside: &mut Beside<'_>) -> Result<String,
     let Some(source) = &picture.path else {
         let name = format!("{}-{MATERIAL}.png", stem_of(mesh));
         let mut bytes = Vec::new();
-        let failed = |source| WriteError { path: mesh.with_file_name(&name), source };
+        let failed = |source| WriteError::writing(mesh.with_file_name(&name), source);
         picture.pixels.write_png(&mut bytes).map_err(failed)?;
         return beside.put_under(&[name], &bytes);
     };
@@ -101,6 +102,6 @@ fn put_picture(picture: &PictureFile, beside: &mut Beside<'_>) -> Result<String,
     if source.is_file() && is_same_file(source, &mesh.with_file_name(&name)) {
         return Ok(name);
     }
-    let bytes = fs::read(source).map_err(|error| WriteError { path: source.to_owned(), source: error })?;
+    let bytes = fs::read(source).map_err(|error| WriteError::reading(source, error))?;
     beside.put(&name, &bytes)
 }

@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use super::carried::{Edits, Written, write_carried};
-use super::{NO_TEXTURE, ObjMesh, Texture};
 use crate::io::door::check_finite;
+use crate::io::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
 
 /// Writes a mesh with these texture coordinates, or with none if they are empty.
 ///
@@ -20,14 +20,14 @@ use crate::io::door::check_finite;
 /// # Panics
 ///
 /// If the texture's corners are neither none nor as many as the mesh's, or name coordinates that it does not have.
-pub fn write_obj(out: &mut impl Write, mesh: &ObjMesh, texture: &Texture) -> io::Result<()> {
+pub fn write_obj(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::Result<()> {
     write_obj_with(out, mesh, &Edits::default(), texture)
 }
 
 /// As [`write_obj`], with changes to the mesh's statements.
 pub(in crate::io) fn write_obj_with(
     out: &mut impl Write,
-    mesh: &ObjMesh,
+    mesh: &MeshFile,
     edits: &Edits,
     texture: &Texture,
 ) -> io::Result<()> {
@@ -35,14 +35,16 @@ pub(in crate::io) fn write_obj_with(
     assert!(corners.is_empty() || corners.len() == mesh.polygons.corners.len(), "one index per corner");
     assert!(corners.iter().all(|&at| at == NO_TEXTURE || (at as usize) < coordinates), "coordinates that there are");
     check_finite(&texture.coordinates)?;
-    match &mesh.text {
-        Some(text) => write_carried(out, mesh, text, Written { edits, texture }),
-        None => write_new(out, mesh, edits, texture),
+    match &mesh.source {
+        Some(source) if source.format == SourceFormat::Obj => {
+            write_carried(out, mesh, source, Written { edits, texture })
+        }
+        _ => write_new(out, mesh, edits, texture),
     }
 }
 
 /// Writes a mesh that has no text.
-fn write_new(out: &mut impl Write, mesh: &ObjMesh, edits: &Edits, texture: &Texture) -> io::Result<()> {
+fn write_new(out: &mut impl Write, mesh: &MeshFile, edits: &Edits, texture: &Texture) -> io::Result<()> {
     let polygons = &mesh.polygons;
     write_lines(out, &edits.first)?;
     for position in &polygons.positions {
@@ -92,7 +94,7 @@ fn write_lines<'a>(out: &mut impl Write, lines: impl IntoIterator<Item = &'a Vec
 }
 
 /// Writes a line but for its end.
-pub(super) fn write_numbers<'a>(
+pub(in crate::io) fn write_numbers<'a>(
     out: &mut impl Write,
     keyword: &[u8],
     numbers: impl IntoIterator<Item = &'a f64>,
@@ -105,7 +107,7 @@ pub(super) fn write_numbers<'a>(
 }
 
 /// Appends decimal digits: several times faster than `write!`, and most of a file is indices.
-pub(super) fn push_index(line: &mut Vec<u8>, index: u64) {
+pub(in crate::io) fn push_index(line: &mut Vec<u8>, index: u64) {
     let begin = line.len();
     let mut rest = index;
     loop {

@@ -71,7 +71,7 @@ impl Surface<'_> {
         for edge in left {
             seam[edge as usize] = true;
             for end in self.ways.edges()[edge as usize].ends {
-                self.open(&mut seam, &tree.way_to(end, self.ways));
+                open(&mut seam, &tree.way_to(end, self.ways));
             }
         }
         if !seam.contains(&true) && !boundary.contains(&true) {
@@ -120,28 +120,22 @@ impl Surface<'_> {
     /// Opens a tree of ways between points of a sphere that lie far apart.
     fn open_sphere(&self, seam: &mut [bool]) {
         let from = |vertex: VertexId, by| self.ways.reach(std::iter::once(vertex), by);
-        let first = from(self.ways.edges()[0].ends[0], Measure::Length).farthest();
+        let first = from(self.ways.edges()[0].ends[0], Measure::Length).farthest(self.ways);
         let reach = from(first, Measure::Length);
-        let second = reach.farthest();
+        let second = reach.farthest(self.ways);
         let size = reach.far[second.index()];
-        self.open(seam, &from(first, Measure::Cost).way_to(second, self.ways));
+        open(seam, &from(first, Measure::Cost).way_to(second, self.ways));
         for _ in 2..MOST_POINTS {
             let on_seam = || self.vertices_of(seam).into_iter();
             let reach = self.ways.reach(on_seam(), Measure::Length);
-            let next = reach.farthest();
+            let next = reach.farthest(self.ways);
             // A cut of one edge would be a boundary of two vertices.
             let is_cut = seam.iter().filter(|is_open| **is_open).count() > 1;
             if is_cut && reach.far[next.index()] <= FAR * size {
                 break;
             }
             let way = self.ways.reach(on_seam(), Measure::Cost).way_to(next, self.ways);
-            self.open(seam, &way);
-        }
-    }
-
-    fn open(&self, seam: &mut [bool], way: &[u32]) {
-        for &edge in way {
-            seam[edge as usize] = true;
+            open(seam, &way);
         }
     }
 
@@ -174,5 +168,11 @@ impl Surface<'_> {
         let mut sets = DisjointSets::new(self.ways.vertex_count());
         let open = self.ways.edges().iter().zip(seam).filter(|(_, is_open)| **is_open);
         open.map(|(edge, _)| edge.ends).any(|[a, b]| !sets.join(a.number(), b.number()))
+    }
+}
+
+fn open(seam: &mut [bool], way: &[u32]) {
+    for &edge in way {
+        seam[edge as usize] = true;
     }
 }

@@ -38,6 +38,7 @@ pub struct Form {
 
 impl Form {
     /// All that can be done to make a disk.
+    #[must_use]
     pub const fn mended(self) -> Self {
         Self { repair: RepairExtent::All, cut: true, ..self }
     }
@@ -221,6 +222,10 @@ impl Repaired {
     }
 
     /// The faces of the mesh as given, each with the corners that it has now. Faces that went stay as they were.
+    ///
+    /// # Panics
+    ///
+    /// If `source` is another mesh, with more corners.
     pub fn all_faces(&self, source: &PolygonMesh) -> PolygonMesh {
         let mut kept = self.face_of.iter().enumerate().peekable();
         let (mut corners, mut starts) = (Vec::new(), vec![0]);

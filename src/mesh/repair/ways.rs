@@ -31,6 +31,8 @@ pub(super) struct Ways {
     at: Vec<u32>,
     /// Where the edges of each vertex begin, and the end of the last.
     starts: Vec<u32>,
+    /// How far each vertex looks to the front, from 0 to 1.
+    fronts: Vec<f64>,
 }
 
 /// An edge as a way.
@@ -84,7 +86,12 @@ impl Ways {
                 *place += 1;
             }
         }
-        Self { edges, at, starts }
+        let mut vertex_normals = vec![DVec3::ZERO; polygons.positions.len()];
+        for (face, normal) in normals.iter().enumerate() {
+            polygons.face(face).iter().for_each(|v| vertex_normals[v.index()] += *normal);
+        }
+        let fronts = vertex_normals.iter().map(|normal| normal.normalize_or_zero().z.max(0.0)).collect();
+        Self { edges, at, starts, fronts }
     }
 
     pub(super) fn vertex_count(&self) -> usize {
@@ -150,15 +157,15 @@ impl Reach {
         way
     }
 
-    /// The farthest vertex that a way leads to, the first of several.
-    pub(super) fn farthest(&self) -> VertexId {
-        let nearer =
-            |best: usize, v: usize| if self.far[v].is_finite() && self.far[v] > self.far[best] { v } else { best };
-        VertexId::from_index((0..self.far.len()).fold(self.first(), nearer))
-    }
-
-    fn first(&self) -> usize {
-        self.far.iter().position(|far| far.is_finite()).unwrap_or(0)
+    /// The farthest vertex that a way leads to, the first of several. One that looks straight to the front counts as half
+    /// as far.
+    pub(super) fn farthest(&self, ways: &Ways) -> VertexId {
+        let score = |v: usize| {
+            let far = if self.far[v].is_finite() { self.far[v] } else { -1.0 };
+            far * (1.0 - 0.5 * ways.fronts[v])
+        };
+        let farther = |best: usize, v: usize| if score(v) > score(best) { v } else { best };
+        VertexId::from_index((0..self.far.len()).fold(0, farther))
     }
 }
 

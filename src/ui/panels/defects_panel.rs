@@ -2,10 +2,10 @@
 
 use eframe::egui::{self, Color32, RichText, Role};
 
+use super::diagnosis;
 use crate::mesh::VertexId;
-use crate::session::Surface;
 use crate::solver::Verdict;
-use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, sentence, theme_of};
+use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, theme_of};
 
 /// Height of a row, points.
 const ROW: f32 = 22.0;
@@ -54,12 +54,11 @@ impl Kind {
 
 pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
-    if let Some(Surface::Faulty(_, diagnosis)) = editor.session.model().map(|model| &model.surface) {
-        ui.label("The mesh cannot be flattened as it is:");
-        for fault in &diagnosis.faults {
-            ui.colored_label(theme.flipped, sentence(&fault.message()));
+    if let Some(model) = editor.session.model() {
+        if diagnosis::faults(ui, model, requests) {
+            return;
         }
-        return;
+        diagnosis::notes(ui, model);
     }
     let Some(outcome) = editor.step_on_screen().cloned() else {
         ui.label("Nothing is solved yet.");

@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use super::super::ObjMesh;
 use super::super::line::{number, numbers, words};
 use super::super::lines::Lines;
+use super::Buffers;
 use super::corner::CornerWord;
-use super::{Buffers, SourceText};
+use crate::io::mesh_file::{MeshFile, Source};
 use crate::mesh::{NewVertex, VertexId};
 
 /// What is added to a text, found in a first look at it. Nothing where there are no new vertices.
@@ -33,6 +33,13 @@ struct Found {
     wanted: Vec<Wanted>,
 }
 
+/// A face of the text, its corners found and sorted.
+struct FaceLine<'a> {
+    face: u32,
+    line: &'a [u8],
+    buffers: &'a Buffers,
+}
+
 /// The normal at a new vertex of a face.
 struct Wanted {
     face: u32,
@@ -44,7 +51,7 @@ struct Wanted {
 }
 
 impl Added {
-    pub(super) fn find(mesh: &ObjMesh, text: &SourceText, lines: &[u8]) -> Self {
+    pub(super) fn find(mesh: &MeshFile, text: &Source, lines: &[u8]) -> Self {
         if text.new_vertices.is_empty() {
             return Self::default();
         }
@@ -71,7 +78,7 @@ impl Added {
 }
 
 impl Found {
-    fn in_text(mesh: &ObjMesh, text: &SourceText, lines: &[u8]) -> Self {
+    fn in_text(mesh: &MeshFile, text: &Source, lines: &[u8]) -> Self {
         let ends: BTreeSet<VertexId> = text.new_vertices.iter().flat_map(|new| new.edge).collect();
         let vertices_in = new_vertices_by_face(mesh, text);
         let mut found = Self::default();
@@ -93,7 +100,7 @@ impl Found {
                     if let Some(new) = vertices_in.get(&faces) {
                         buffers.take_corners(one, vertices);
                         buffers.sort_corners();
-                        found.want(faces, new, text, &buffers, one);
+                        found.want(&FaceLine { face: faces, line: one, buffers: &buffers }, new, text);
                     }
                     faces += 1;
                 }
@@ -104,10 +111,11 @@ impl Found {
     }
 
     /// Notes the normals that a face of the text needs at new vertices.
-    fn want(&mut self, face: u32, new: &BTreeSet<u32>, text: &SourceText, buffers: &Buffers, one: &[u8]) {
+    fn want(&mut self, of: &FaceLine<'_>, new: &BTreeSet<u32>, text: &Source) {
+        let &FaceLine { face, line, buffers } = of;
         let normal_at = |vertex: VertexId| {
             let place = buffers.place_of(vertex.number())?;
-            match CornerWord::of(&one[buffers.words[place].clone()]).normal_index()? {
+            match CornerWord::of(&line[buffers.words[place].clone()]).normal_index()? {
                 index @ 1.. => usize::try_from(index - 1).ok(),
                 index => self.normals.len().checked_sub(usize::try_from(index.unsigned_abs()).ok()?),
             }
@@ -135,7 +143,7 @@ impl Found {
 }
 
 /// The new vertices at corners of each face of the text that has some.
-fn new_vertices_by_face(mesh: &ObjMesh, text: &SourceText) -> BTreeMap<u32, BTreeSet<u32>> {
+fn new_vertices_by_face(mesh: &MeshFile, text: &Source) -> BTreeMap<u32, BTreeSet<u32>> {
     let mut found: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
     for face in 0..mesh.polygons.face_count() {
         for corner in mesh.polygons.face(face).iter().filter(|corner| corner.index() >= text.vertex_count) {

@@ -6,9 +6,9 @@ use std::ops::Range;
 use super::super::line::word_ranges;
 use super::super::lines::Line;
 use super::super::parse::resolve;
-use super::super::{NO_TEXTURE, Texture};
 use super::corner::{CornerWord, NewCorner};
 use super::{Buffers, Writer};
+use crate::io::mesh_file::{NO_TEXTURE, Texture};
 use crate::mesh::VertexId;
 
 impl<W: Write> Writer<'_, W> {

@@ -24,7 +24,6 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::ops::Range;
-use std::sync::Arc;
 
 use self::added::Added;
 use self::corner::{CornerWord, Indices};
@@ -32,41 +31,7 @@ use super::line::{word_ranges, words};
 use super::lines::{Line, Lines, split_mark};
 use super::parse::resolve;
 use super::write::write_numbers;
-use super::{NO_TEXTURE, ObjMesh, Texture};
-use crate::mesh::NewVertex;
-
-/// The text that a mesh was read from, and how the mesh has changed since.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SourceText {
-    bytes: Arc<Vec<u8>>,
-    vertex_count: usize,
-    /// For each face of the mesh the text's face that it is or is a part of, ascending; `None` where all are as they were.
-    face_of: Option<Vec<u32>>,
-    /// Vertices that the text does not have, numbered after its own.
-    new_vertices: Vec<NewVertex>,
-}
-
-impl SourceText {
-    /// Text of a mesh with so many vertices.
-    pub(super) fn of(text: Vec<u8>, vertex_count: usize) -> Self {
-        Self { bytes: Arc::new(text), vertex_count, face_of: None, new_vertices: Vec::new() }
-    }
-
-    /// The text's face that a face of the mesh is or is a part of.
-    fn face_of(&self, face: usize) -> u32 {
-        self.face_of.as_ref().map_or_else(|| u32::try_from(face).expect("faces fit"), |faces| faces[face])
-    }
-
-    /// The same text for another mesh: new vertices follow the present ones, and each of its faces is, or is a part of,
-    /// a face of the present mesh, `face_of` it, in their order.
-    pub(super) fn changed(&self, face_of: &[u32], new_vertices: &[NewVertex]) -> Self {
-        Self {
-            face_of: Some(face_of.iter().map(|&face| self.face_of(face as usize)).collect()),
-            new_vertices: [&self.new_vertices, new_vertices].concat(),
-            ..self.clone()
-        }
-    }
-}
+use crate::io::mesh_file::{MeshFile, NO_TEXTURE, Source, Texture};
 
 /// What becomes of the statements of a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -82,8 +47,8 @@ pub(in crate::io) struct Edits {
 /// Writes a mesh as its text, with these texture coordinates.
 pub(super) fn write_carried(
     out: &mut impl Write,
-    mesh: &ObjMesh,
-    text: &SourceText,
+    mesh: &MeshFile,
+    text: &Source,
     written: Written<'_>,
 ) -> io::Result<()> {
     let (mark, lines) = split_mark(&text.bytes);
@@ -116,8 +81,8 @@ pub(super) struct Written<'a> {
 
 struct Writer<'a, W> {
     out: &'a mut W,
-    mesh: &'a ObjMesh,
-    text: &'a SourceText,
+    mesh: &'a MeshFile,
+    text: &'a Source,
     written: Written<'a>,
     added: Added,
     /// Of lines that are added.

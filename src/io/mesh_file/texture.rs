@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{NO_TEXTURE, ObjMesh, Texture, TextureError};
+use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
 use crate::mesh::{TriMesh, VertexId};
 use crate::solver::Embedding;
 
@@ -17,7 +17,7 @@ pub struct TextureMesh {
     pub vertex_of: Vec<VertexId>,
 }
 
-impl ObjMesh {
+impl MeshFile {
     /// Makes one vertex of all corners that share a vertex and a texture coordinate.
     ///
     /// Coordinates are the same where their bits are, except that −0 equals 0. So charts are cut along seams, and copies

@@ -1,8 +1,8 @@
-//! An OBJ file's mesh with new vertices, or with polygons cut into triangles: everything else as it was.
+//! A file's mesh with new vertices, or with polygons cut into triangles: everything else as it was.
 
 use std::collections::HashSet;
 
-use super::{ObjMesh, Statement};
+use super::{MeshFile, Statement};
 use crate::mesh::{PolygonMesh, Refinement, VertexId};
 
 /// The mesh of a file with the new vertices of a refinement of it.
@@ -14,7 +14,7 @@ use crate::mesh::{PolygonMesh, Refinement, VertexId};
 /// # Panics
 ///
 /// If the refinement is of another mesh, with more polygons than this one.
-pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
+pub fn refined_obj(source: &MeshFile, refinement: &Refinement) -> MeshFile {
     let disk = refinement.disk();
     let old_count = refinement.old_vertex_count();
     let (mut corners, mut starts, mut face_of) = (Vec::new(), vec![0], Vec::new());
@@ -52,10 +52,10 @@ pub fn refined_obj(source: &ObjMesh, refinement: &Refinement) -> ObjMesh {
     let mut positions = source.polygons.positions.clone();
     positions.extend(disk.mesh().positions[old_count..].iter().map(|&position| position * disk.unit()));
     let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
-    ObjMesh {
+    MeshFile {
         polygons: PolygonMesh { positions, corners, starts: (!are_triangles).then_some(starts) },
         texture: None,
         statements: source.statements.iter().map(moved).collect(),
-        text: source.text.as_ref().map(|text| text.changed(&face_of, refinement.new_vertices())),
+        source: source.source.as_ref().map(|file| file.changed(&face_of, refinement.new_vertices())),
     }
 }

@@ -1,4 +1,4 @@
-//! Everything that can keep an OBJ file from being read.
+//! Everything that can keep a mesh file from being read.
 
 /// How many parse faults of a file are kept; the others are only counted.
 pub const MAX_PARSE_FAULTS: usize = 20;
@@ -14,7 +14,7 @@ pub enum ReadError {
     #[error("format not read yet: {0}")]
     NotReadYet(&'static str),
     /// The file holds a zero byte, which no text does.
-    #[error("this is no text, so no OBJ file")]
+    #[error("this is no text, and no binary format that is read")]
     NotText,
     /// One line is longer than any reader should hold.
     #[error("line {line}: longer than {} MiB", limit >> 20)]
@@ -31,6 +31,14 @@ pub enum ReadError {
         faults: Vec<ParseFault>,
         /// How many there are in all.
         total: usize,
+    },
+    /// Bytes of a binary file that cannot be understood.
+    #[error("byte {byte}: {kind}")]
+    Bytes {
+        /// Where they begin, counted from 0.
+        byte: u64,
+        /// What is wrong with them.
+        kind: ParseFaultKind,
     },
     /// The file has no face.
     #[error("the file has no faces{}", if *vertices == 0 { String::new() } else { format!(", only {vertices} vertices") })]
@@ -51,17 +59,31 @@ impl ReadError {
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::Unreadable(_) => "check the path and the permissions",
-            // Its triangles share no vertices, so that nothing hangs together.
-            Self::NotReadYet("STL") => {
-                "merge coincident vertices in the program that wrote it, and export the mesh as OBJ (Wavefront)"
-            }
-            Self::NotReadYet(_) => "export the mesh as OBJ (Wavefront) from the program that wrote it",
-            Self::NotText | Self::LineTooLong { .. } => "export the mesh as OBJ (Wavefront), and choose that file",
+            Self::NotReadYet(_) => "export the mesh as OBJ or PLY from the program that wrote it",
+            Self::NotText | Self::LineTooLong { .. } => "export the mesh as OBJ or PLY, and choose that file",
             Self::Parse { .. } => "mend these lines, or export the file again",
+            Self::Bytes { .. } => "export the file again, or copy it again if it was cut short",
             Self::NoFaces { .. } => "export the surface with its faces",
             Self::TooLarge => "simplify the mesh",
             Self::Cancelled => "open the file again",
         }
+    }
+}
+
+/// Where a fault is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::io) enum Place {
+    /// Counted from 1.
+    Line(u64),
+    /// Counted from 0.
+    Byte(u64),
+}
+
+/// The only fault of a file.
+pub(in crate::io) fn fault_at(place: Place, kind: ParseFaultKind) -> ReadError {
+    match place {
+        Place::Line(line) => ReadError::Parse { faults: vec![ParseFault { line, kind }], total: 1 },
+        Place::Byte(byte) => ReadError::Bytes { byte, kind },
     }
 }
 
@@ -83,7 +105,7 @@ pub struct ParseFault {
     pub kind: ParseFaultKind,
 }
 
-/// What is wrong with a line. Indices are quoted as the file writes them, counted from 1 or backwards from −1.
+/// What is wrong with a line or with bytes. Indices are quoted as the file writes them.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ParseFaultKind {
@@ -104,6 +126,28 @@ pub enum ParseFaultKind {
     /// An index that no element can have.
     #[error("index 0: OBJ files count from 1")]
     IndexZero,
+    /// The file ends where more is to come.
+    #[error("the file ends here, and more is to come")]
+    EndsEarly,
+    /// The file says that it has more elements than it has room for.
+    #[error("the file says that it has {count} of \"{element}\", and ends before")]
+    TooMany {
+        /// What the elements are.
+        element: String,
+        /// How many there should be.
+        count: u64,
+    },
+    /// A position that is infinite or not a number.
+    #[error("a position that is infinite or not a number")]
+    NotFinite,
+    /// A line of a header, or a word in the place of another.
+    #[error("\"{found}\" where {expected} should stand")]
+    Unexpected {
+        /// What the file has.
+        found: String,
+        /// What it should have.
+        expected: &'static str,
+    },
     /// An index that names an element which the file does not have.
     #[error("{element} {index} is out of range: there are {count}")]
     IndexOutOfRange {

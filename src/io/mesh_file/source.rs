@@ -1,0 +1,48 @@
+//! The bytes that a mesh was read from, and how the mesh has changed since.
+
+use std::sync::Arc;
+
+use crate::io::ply::Header;
+use crate::mesh::NewVertex;
+
+/// What a mesh was read from, and how the mesh has changed since.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    pub(in crate::io) format: SourceFormat,
+    pub(in crate::io) bytes: Arc<Vec<u8>>,
+    /// How many vertices the file has.
+    pub(in crate::io) vertex_count: usize,
+    /// For each face of the mesh the file's face that it is or is a part of, ascending; `None` where all are as they were.
+    face_of: Option<Vec<u32>>,
+    /// Vertices that the file does not have, numbered after its own.
+    pub(in crate::io) new_vertices: Vec<NewVertex>,
+}
+
+/// A format that files can be written back in.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::io) enum SourceFormat {
+    Obj,
+    Ply(Arc<Header>),
+}
+
+impl Source {
+    /// A file's bytes, of a mesh with so many vertices.
+    pub(in crate::io) fn of(format: SourceFormat, bytes: Vec<u8>, vertex_count: usize) -> Self {
+        Self { format, bytes: Arc::new(bytes), vertex_count, face_of: None, new_vertices: Vec::new() }
+    }
+
+    /// The file's face that a face of the mesh is or is a part of.
+    pub(in crate::io) fn face_of(&self, face: usize) -> u32 {
+        self.face_of.as_ref().map_or_else(|| u32::try_from(face).expect("faces fit"), |faces| faces[face])
+    }
+
+    /// The same file for another mesh: new vertices follow the present ones, and each of its faces is, or is a part of, a
+    /// face of the present mesh, `face_of` it, in their order.
+    pub(super) fn changed(&self, face_of: &[u32], new_vertices: &[NewVertex]) -> Self {
+        Self {
+            face_of: Some(face_of.iter().map(|&face| self.face_of(face as usize)).collect()),
+            new_vertices: [&self.new_vertices, new_vertices].concat(),
+            ..self.clone()
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! The words of a text, with the lines that they stand on.
+
+use super::{ParseFaultKind, Place, ReadError, fault_at};
+use crate::io::obj::{number, quoted};
+
+/// Goes through the words of a text, between blanks and line ends.
+pub(in crate::io) struct Words<'a> {
+    text: &'a [u8],
+    at: usize,
+    /// Counted from 1.
+    line: u64,
+}
+
+impl<'a> Words<'a> {
+    /// The words of a text whose first line has this number.
+    pub(in crate::io) fn of(text: &'a [u8], line: u64) -> Self {
+        Self { text, at: 0, line }
+    }
+
+    /// The line of the word that came last, or of the one that is next where it is not behind a line end.
+    pub(in crate::io) fn place(&self) -> Place {
+        Place::Line(self.line)
+    }
+
+    /// How many bytes are left.
+    pub(in crate::io) fn left(&self) -> usize {
+        self.text.len() - self.at
+    }
+
+    /// The next word as a number; the end of the text is a fault, too.
+    pub(in crate::io) fn number(&mut self) -> Result<f64, ReadError> {
+        let word = self.next().ok_or_else(|| fault_at(self.place(), ParseFaultKind::EndsEarly))?;
+        number(word).ok_or_else(|| fault_at(self.place(), ParseFaultKind::BadNumber(quoted(word))))
+    }
+}
+
+impl<'a> Iterator for Words<'a> {
+    type Item = &'a [u8];
+
+    fn next(&mut self) -> Option<&'a [u8]> {
+        loop {
+            match *self.text.get(self.at)? {
+                b'\n' => self.line += 1,
+                b'\r' if self.text.get(self.at + 1) != Some(&b'\n') => self.line += 1,
+                byte if is_blank(byte) => {}
+                _ => break,
+            }
+            self.at += 1;
+        }
+        let rest = &self.text[self.at..];
+        let length = rest.iter().position(|&byte| is_blank(byte)).unwrap_or(rest.len());
+        self.at += length;
+        Some(&rest[..length])
+    }
+}
+
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0x0B | 0x0C)
+}

@@ -1,0 +1,24 @@
+//! PLY files, as text and binary of both orders of bytes.
+//!
+//! | file      | what it holds                                                  |
+//! |-----------|----------------------------------------------------------------|
+//! | `header`  | which elements a file has, and their properties                |
+//! | `numbers` | the numbers behind the header, in any encoding                 |
+//! | `read`    | a mesh of them                                                 |
+//!
+//! Source: G. Turk, "The PLY polygon file format", 1994. Its own crates were looked at: they keep a map of names for each
+//! element, which is ten times the memory of the mesh.
+
+mod header;
+mod numbers;
+mod read;
+
+pub(in crate::io) use header::Header;
+pub(in crate::io) use read::parse_ply;
+
+/// The names of texture coordinates of vertices: those of u beside those of v.
+const TEXTURE_NAMES: [[&str; 2]; 4] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
+
+/// The names of the lists of faces.
+const CORNER_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
+const FACE_TEXTURE: &str = "texcoord";

@@ -1,0 +1,169 @@
+//! Makes PLY files, number by number, and takes them apart again: knows nothing of the library's reader and writer.
+
+use std::fmt::Write as _;
+
+use freebound::mesh::PolygonMesh;
+
+/// How numbers are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Encoding {
+    Text,
+    Little,
+    Big,
+}
+
+impl Encoding {
+    pub(crate) const ALL: [Self; 3] = [Self::Text, Self::Little, Self::Big];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Text => "ascii",
+            Self::Little => "binary_little_endian",
+            Self::Big => "binary_big_endian",
+        }
+    }
+}
+
+/// A PLY file of a mesh.
+#[derive(Clone, Copy)]
+pub(crate) struct PlyMaker<'a> {
+    pub(crate) mesh: &'a PolygonMesh,
+    pub(crate) encoding: Encoding,
+    /// Type of positions.
+    pub(crate) number: &'static str,
+    /// Type of the corners of faces, and their name.
+    pub(crate) index: &'static str,
+    pub(crate) corners: &'static str,
+    /// Names of texture coordinates of vertices, which are their x and y.
+    pub(crate) at_vertices: Option<[&'static str; 2]>,
+    /// How many faces have texture coordinates of corners, of those there are: the x and y of the corners.
+    pub(crate) at_corners: Option<usize>,
+    /// Whether there are properties and elements beside those of the mesh.
+    pub(crate) is_rich: bool,
+}
+
+impl<'a> PlyMaker<'a> {
+    pub(crate) fn plain(mesh: &'a PolygonMesh) -> Self {
+        let [number, index, corners] = ["double", "int", "vertex_indices"];
+        let (at_vertices, at_corners) = (None, None);
+        Self { mesh, encoding: Encoding::Text, number, index, corners, at_vertices, at_corners, is_rich: false }
+    }
+
+    pub(crate) fn rich(mesh: &'a PolygonMesh) -> Self {
+        Self { is_rich: true, ..Self::plain(mesh) }
+    }
+
+    pub(crate) fn bytes(&self) -> Vec<u8> {
+        let mut out = self.head().into_bytes();
+        let mut put = Put { out: &mut out, encoding: self.encoding };
+        for (k, p) in self.mesh.positions.iter().enumerate() {
+            if self.is_rich {
+                put.number("uchar", (k % 256) as f64);
+            }
+            p.to_array().iter().for_each(|&x| put.number(self.number, x));
+            if self.at_vertices.is_some() {
+                [p.x, p.y].iter().for_each(|&x| put.number(self.number, x));
+            }
+            if self.is_rich {
+                put.list("uchar", "short", &vec![-3.0; k % 3]);
+                put.number("float", 0.5);
+            }
+            put.end();
+        }
+        if self.is_rich {
+            [7.0, 8.0].iter().for_each(|&x| put.number("double", x));
+            put.end();
+        }
+        for face in 0..self.mesh.face_count() {
+            let corners: Vec<f64> = self.mesh.face(face).iter().map(|v| f64::from(v.number())).collect();
+            if self.is_rich {
+                put.number("int", -1.0);
+            }
+            put.list("uchar", self.index, &corners);
+            if let Some(count) = self.at_corners {
+                let flat = |v: &freebound::mesh::VertexId| self.mesh.positions[v.index()].truncate().to_array();
+                let coordinates: Vec<f64> = self.mesh.face(face).iter().flat_map(flat).collect();
+                put.list("uchar", self.number, if face < count { &coordinates } else { &[] });
+            }
+            if self.is_rich {
+                put.number("uchar", 255.0);
+            }
+            put.end();
+        }
+        if self.is_rich {
+            put.list("int", "int", &[0.0, 1.0, -1.0]);
+            put.end();
+        }
+        out
+    }
+
+    fn head(&self) -> String {
+        let mut head = format!("ply\nformat {} 1.0\ncomment TextureFile some.png\n", self.encoding.name());
+        let mut line = |text: String| writeln!(head, "{text}").expect("memory");
+        line(format!("element vertex {}", self.mesh.positions.len()));
+        if self.is_rich {
+            line("property uchar red".into());
+        }
+        ["x", "y", "z"].iter().for_each(|name| line(format!("property {} {name}", self.number)));
+        self.at_vertices.iter().flatten().for_each(|name| line(format!("property {} {name}", self.number)));
+        if self.is_rich {
+            line("property list uchar short weights".into());
+            line("property float confidence".into());
+            line("obj_info made by hand".into());
+            line("element camera 1\nproperty double focus\nproperty double range".into());
+        }
+        line(format!("element face {}", self.mesh.face_count()));
+        if self.is_rich {
+            line("property int32 flags".into());
+        }
+        line(format!("property list uchar {} {}", self.index, self.corners));
+        if self.at_corners.is_some() {
+            line(format!("property list uchar {} texcoord", self.number));
+        }
+        if self.is_rich {
+            line("property uint8 alpha".into());
+            line("element tristrips 1\nproperty list int int strip_indices".into());
+        }
+        line("end_header".into());
+        head
+    }
+}
+
+/// Puts numbers one behind the other.
+struct Put<'a> {
+    out: &'a mut Vec<u8>,
+    encoding: Encoding,
+}
+
+impl Put<'_> {
+    fn list(&mut self, count: &str, item: &str, items: &[f64]) {
+        self.number(count, items.len() as f64);
+        items.iter().for_each(|&x| self.number(item, x));
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "tests give numbers of the type")]
+    fn number(&mut self, kind: &str, x: f64) {
+        let is_integer = !matches!(kind, "float" | "double");
+        let mut little = match kind.trim_start_matches('u') {
+            _ if self.encoding == Encoding::Text && is_integer => format!("{} ", x as i64).into_bytes(),
+            _ if self.encoding == Encoding::Text => format!("{x:?} ").into_bytes(),
+            "char" | "int8" => (x as i64).to_le_bytes()[..1].to_vec(),
+            "short" | "int16" => (x as i64).to_le_bytes()[..2].to_vec(),
+            "int" | "int32" => (x as i64).to_le_bytes()[..4].to_vec(),
+            "float" => (x as f32).to_le_bytes().to_vec(),
+            "double" => x.to_le_bytes().to_vec(),
+            other => panic!("{other}"),
+        };
+        if self.encoding == Encoding::Big {
+            little.reverse();
+        }
+        self.out.extend(little);
+    }
+
+    fn end(&mut self) {
+        if self.encoding == Encoding::Text {
+            self.out.pop();
+            self.out.push(b'\n');
+        }
+    }
+}
