@@ -87,7 +87,7 @@ pub enum Failure {
         /// Why it gave none.
         error: SolveError,
     },
-    /// A result could not be written.
+    /// A result could not be written, or a file that is copied with it could not be read.
     #[error("{0}")]
     Write(#[from] WriteError),
     /// Standard output takes no more.
@@ -125,6 +125,7 @@ impl Failure {
             | Self::Texture { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,
             Self::Write(error) if error.is_not_finite() => FALLS_SHORT,
+            Self::Write(error) if error.is_of_input() => UNUSABLE_INPUT,
             Self::Write(_) | Self::StandardOutput(_) => INTERNAL,
             Self::Usage(_) => WRONG_USE,
             Self::Solve(error) | Self::Method { error, .. } => code_of_solve(error),

@@ -106,6 +106,7 @@ fn kind_of(failure: &Failure) -> &'static str {
         Failure::Texture { .. } => "texture-coordinates",
         Failure::NotADisk { .. } => "not-a-disk",
         Failure::Solve(error) | Failure::Method { error, .. } => error.name(),
+        Failure::Write(error) if error.is_of_input() => "unreadable",
         Failure::Write(_) | Failure::StandardOutput(_) => "not-written",
         Failure::Usage(_) => "wrong-use",
     }

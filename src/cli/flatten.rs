@@ -95,7 +95,7 @@ pub fn run_example() -> ExitCode {
 
 fn flatten_example() -> Result<Status, Failure> {
     let folder = Path::new(FOLDER);
-    std::fs::create_dir_all(folder).map_err(|error| WriteError { path: folder.to_owned(), source: error })?;
+    std::fs::create_dir_all(folder).map_err(|source| WriteError::writing(folder, source))?;
     let [mesh, picture, report] = ["face.obj", "face.png", "face.json"].map(|name| folder.join(name));
     let job = HeadlessJob {
         document: Document::of_example(Example::Face),

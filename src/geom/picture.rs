@@ -6,10 +6,12 @@
     reason = "pixel numbers and colours come from floats that were cut to their range before"
 )]
 
+use std::fmt;
+
 use glam::DVec2;
 
 /// A picture of 8-bit sRGB colours with opacity, row by row from the top.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels in a row.
     pub width: u32,
@@ -17,6 +19,13 @@ pub struct Picture {
     pub height: u32,
     /// Red, green, blue, opacity of each pixel: 4 × width × height bytes.
     pub pixels: Vec<u8>,
+}
+
+/// Its size alone: what fails says what it holds, and millions of numbers say nothing.
+impl fmt::Debug for Picture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Picture").field("width", &self.width).field("height", &self.height).finish_non_exhaustive()
+    }
 }
 
 impl Picture {

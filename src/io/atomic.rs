@@ -11,12 +11,30 @@ const BUFFER: usize = 256 << 10;
 
 /// Why a file was not written. Nothing of it is left behind.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be written: {source}", path.display())]
+#[error("{}: cannot be {}: {source}", path.display(), if *is_of_input { "read" } else { "written" })]
 pub struct WriteError {
-    /// The file that was to be written.
+    /// The file that was to be written, or the one to be copied that cannot be read.
     pub path: PathBuf,
     /// What the operating system says.
     pub source: io::Error,
+    is_of_input: bool,
+}
+
+impl WriteError {
+    /// A file cannot be written.
+    pub(crate) fn writing(path: impl Into<PathBuf>, source: impl Into<io::Error>) -> Self {
+        Self { path: path.into(), source: source.into(), is_of_input: false }
+    }
+
+    /// A file that is to be copied cannot be read.
+    pub(crate) fn reading(path: impl Into<PathBuf>, source: impl Into<io::Error>) -> Self {
+        Self { is_of_input: true, ..Self::writing(path, source) }
+    }
+
+    /// Whether the fault is with a file that is read, not with one that is written.
+    pub fn is_of_input(&self) -> bool {
+        self.is_of_input
+    }
 }
 
 /// Writes a file aside, in the same folder, and renames it when it is complete; on an error nothing is left behind and
@@ -32,7 +50,7 @@ pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    write_inner(path, write).map_err(|source| WriteError { path: path.to_owned(), source })
+    write_inner(path, write).map_err(|source| WriteError::writing(path, source))
 }
 
 /// As [`write_atomically`], and when it returns the file is on the disk: a loss of power leaves the old file or the new
@@ -69,7 +87,7 @@ pub fn write_to_standard_output(write: impl FnOnce(&mut BufWriter<File>) -> io::
     });
     match written {
         Err(source) if source.kind() != io::ErrorKind::BrokenPipe => {
-            Err(WriteError { path: PathBuf::from("standard output"), source })
+            Err(WriteError::writing("standard output", source))
         }
         _ => Ok(()),
     }

@@ -98,6 +98,21 @@ pub enum ConstraintFault {
     },
 }
 
+impl ConstraintsError {
+    /// The vertices that the line at fault is about.
+    pub fn vertices(&self) -> Vec<VertexId> {
+        let Self::Line { kind, .. } = self else { return Vec::new() };
+        match *kind {
+            ConstraintFault::Form(_) | ConstraintFault::BadNumber(_) | ConstraintFault::BadVertex(_) => Vec::new(),
+            ConstraintFault::NotFinite(vertex)
+            | ConstraintFault::WeightNotPositive { vertex, .. }
+            | ConstraintFault::Twice { vertex, .. }
+            | ConstraintFault::NoSuchVertex { vertex, .. } => vec![vertex],
+            ConstraintFault::OnePlace { vertex, other, .. } => vec![vertex, other],
+        }
+    }
+}
+
 impl Constraints {
     /// Reads a file for a mesh with so many vertices.
     ///

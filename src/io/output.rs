@@ -214,7 +214,7 @@ impl Output<'_> {
     ///
     /// Where the file cannot be written, or coordinates are infinite or not numbers; the error names the file.
     pub fn write(&self, kind: OutputKind, path: &Path) -> Result<Vec<PathBuf>, WriteError> {
-        self.check().map_err(|source| WriteError { path: path.to_owned(), source })?;
+        self.check().map_err(|source| WriteError::writing(path, source))?;
         match (kind, self.picture, self.materials) {
             (OutputKind::Obj, Some(picture), _) => {
                 let mesh = self.source_mesh();

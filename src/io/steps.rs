@@ -34,7 +34,7 @@ impl StepsFolder {
     ///
     /// Where `target` is something else than a folder, or nothing can be written there.
     pub fn begin(target: &Path) -> Result<Self, WriteError> {
-        let named = |source| WriteError { path: target.to_owned(), source };
+        let named = |source: io::Error| WriteError::writing(target, source);
         if fs::metadata(target).is_ok_and(|data| !data.is_dir()) {
             return Err(named(io::Error::from(io::ErrorKind::NotADirectory)));
         }
@@ -67,9 +67,9 @@ impl StepsFolder {
             write_step_svg(&mut out, mesh, step)?;
             out.flush()
         };
-        write().map_err(|source| WriteError { path: self.target.join(&name), source })?;
+        write().map_err(|source: io::Error| WriteError::writing(self.target.join(&name), source))?;
         let (heads, cells): (Vec<_>, Vec<_>) = StepReport::of(step).row().into_iter().unzip();
-        let of_table = |error: csv::Error| WriteError { path: self.target.join(TABLE), source: error.into() };
+        let of_table = |error: csv::Error| WriteError::writing(self.target.join(TABLE), error);
         if self.names.is_empty() {
             self.table.write_record(heads).map_err(of_table)?;
         }
@@ -100,7 +100,7 @@ impl StepsFolder {
             }
             Ok(())
         };
-        before_clean_up(put).map_err(|source| WriteError { path: self.target.clone(), source })
+        before_clean_up(put).map_err(|source: io::Error| WriteError::writing(&self.target, source))
     }
 }
 

@@ -197,6 +197,22 @@ impl Fault {
         }
     }
 
+    /// The vertices of one of its elements, of `mesh`'s; none where there is no such element.
+    pub fn vertices_of(&self, element: usize, mesh: &TriMesh) -> Vec<VertexId> {
+        let found = match self.elements() {
+            Elements::Nothing => None,
+            Elements::Vertices(vertices) => vertices.get(element).map(|&vertex| vec![vertex]),
+            Elements::Edges(edges) => edges.get(element).map(|edge| edge.to_vec()),
+            Elements::Faces(faces) => {
+                let polygon = faces.polygons.get(element);
+                let face = faces.triangles.iter().find(|&&face| Some(&mesh.polygon(face)) == polygon);
+                face.map(|face| mesh.triangles[face.index()].to_vec())
+            }
+            Elements::Loops(loops) => loops.get(element).cloned(),
+        };
+        found.unwrap_or_default()
+    }
+
     /// What is wrong, how often, and the first few elements, numbered from 0 as in the file.
     pub fn message(&self) -> String {
         match self {

@@ -1,6 +1,7 @@
 //! What lives on the device from frame to frame: pipelines, buffers, and a target per pane.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use eframe::wgpu;
 
@@ -9,6 +10,7 @@ use super::frame::{PaneId, PictureLayer, Sampling};
 use super::pipelines::{Pipelines, Target};
 use super::plan::{Draw, Faces, Kind, LAYER_LIMIT, Layer, Plan, Planner, Shape};
 use super::uniforms::{LineUniforms, PaneSize, PaneUniforms};
+use crate::geom::Picture;
 use crate::view::Revision;
 
 /// Distance of two lines' uniforms in their buffer: the largest alignment that a device may ask for.
@@ -68,7 +70,7 @@ impl Gpu {
             })
         };
         // Stands for the picture where there is none.
-        let clear = picture_view(device, queue, [1, 1], 1, &[0; 4]);
+        let clear = picture_view(device, queue, &[Arc::new(Picture::filled(1, 1, [0; 4]))]);
         Self {
             pipelines: Pipelines::new(device, window_format),
             cache: Cache::default(),
@@ -147,16 +149,10 @@ impl Gpu {
         if self.pictures.contains_key(&key) {
             return;
         }
-        // A picture that the card does not take is shown with less detail rather than not at all.
-        let small = picture.shrunk(io.device.limits().max_texture_dimension_2d);
-        let largest = small.as_ref().unwrap_or(picture);
-        let smaller = largest.smaller_ones();
-        let mut pixels = largest.pixels.clone();
-        pixels.extend(smaller.iter().flat_map(|picture| &picture.pixels));
+        let sizes = picture.sizes_up_to(io.device.limits().max_texture_dimension_2d);
         self.cache.stats.uploads += 1;
-        self.cache.stats.uploaded_bytes += pixels.len() as u64;
-        let levels = u32::try_from(1 + smaller.len()).unwrap_or(1);
-        self.pictures.insert(key, picture_view(io.device, io.queue, largest.size, levels, &pixels));
+        self.cache.stats.uploaded_bytes += sizes.iter().map(|picture| picture.pixels.len() as u64).sum::<u64>();
+        self.pictures.insert(key, picture_view(io.device, io.queue, sizes));
     }
 
     /// Drops what no pane shows any more.
@@ -301,25 +297,28 @@ fn uniform_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
     })
 }
 
-/// A picture in so many sizes, each half the one before; their pixels follow each other.
-fn picture_view(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    [width, height]: [u32; 2],
-    levels: u32,
-    pixels: &[u8],
-) -> wgpu::TextureView {
-    use wgpu::util::DeviceExt as _;
-    let descriptor = wgpu::TextureDescriptor {
+/// A picture in several sizes, each half the one before.
+fn picture_view(device: &wgpu::Device, queue: &wgpu::Queue, sizes: &[Arc<Picture>]) -> wgpu::TextureView {
+    let extent =
+        |picture: &Picture| wgpu::Extent3d { width: picture.width, height: picture.height, depth_or_array_layers: 1 };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: levels,
+        size: extent(&sizes[0]),
+        mip_level_count: u32::try_from(sizes.len()).unwrap_or(1),
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: wgpu::TextureFormat::Rgba8UnormSrgb,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
-    };
-    let texture = device.create_texture_with_data(queue, &descriptor, wgpu::util::TextureDataOrder::LayerMajor, pixels);
+    });
+    for (level, picture) in (0..).zip(sizes) {
+        let to = wgpu::TexelCopyTextureInfo { mip_level: level, ..texture.as_image_copy() };
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(4 * picture.width),
+            rows_per_image: Some(picture.height),
+        };
+        queue.write_texture(to, &picture.pixels, layout, extent(picture));
+    }
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }

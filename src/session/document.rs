@@ -25,7 +25,9 @@ pub struct Document {
     pub v_axis: VAxis,
     /// What is made of the mesh's faces.
     pub form: Form,
-    /// Rounds of relaxing that a person has asked for: they follow wherever a run comes to its end.
+    /// Rounds of relaxing that a person has asked for: they follow wherever a run comes to its end, whatever happens to
+    /// pins, picture and faces. Choosing method or weights in any way, a repair and solving again drop them; a pause leaves
+    /// those that were taken.
     pub relaxed: usize,
 }
 

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::errands::Errand;
-use super::{Command, Document, Session};
-use crate::geom::{Bounds, PictureFrame, Similarity, VAxis};
-use crate::io::{Constraints, PictureFile, Target, Targets};
+use super::{Command, Document, Message, Place, Session};
+use crate::geom::{Bounds, PictureFrame, Similarity};
+use crate::io::{Constraints, ConstraintsError, PictureFile, Target, Targets};
 use crate::mesh::{Form, VertexId};
 use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Ladder, Method, Pins, Settings, SolveError};
 
@@ -55,19 +55,8 @@ impl Session {
     /// Chooses method and weights as part of a drag of a slider.
     pub(super) fn slide_settings(&mut self, settings: Settings) {
         if settings != self.document.settings {
-            self.slide(Command::SetSettings(settings));
+            self.slide(Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]));
         }
-    }
-
-    /// Chooses where v = 0 is. The targets keep their places on the picture.
-    pub(super) fn set_v_axis(&mut self, v_axis: VAxis) {
-        if v_axis == self.document.v_axis {
-            return;
-        }
-        let mirrored = |target: &Target| Target { uv: DVec2::new(target.uv.x, 1.0 - target.uv.y), ..*target };
-        let targets = self.document.targets.iter().map(|(&vertex, target)| pin(vertex, mirrored(target)));
-        let commands = std::iter::once(Command::SetVAxis(v_axis)).chain(targets).collect();
-        self.edit(commands);
     }
 
     /// Turns the faces around.
@@ -215,7 +204,11 @@ impl Session {
     fn take_flat(&mut self, flat: &Flat) {
         let embedding = match &flat.embedding {
             Ok(embedding) => embedding,
-            Err(error) => return self.complain(format!("there is nothing to fit to: {error}"), None),
+            Err(error) => {
+                let message = Message::error(Place::Embedding, format!("there is nothing to fit to: {error}"));
+                self.messages.say(message.with_vertices(error.vertices()));
+                return;
+            }
         };
         if flat.frame != self.document.frame() || flat.form != self.document.form {
             let text = "picture or faces changed while the targets were being fitted";
@@ -271,7 +264,7 @@ impl Session {
                     self.files.remember_constraints(path);
                     self.take_constraints(constraints.targets);
                 }
-                Errand::Constraints { read: Err(error), .. } => self.complain(error.to_string(), None),
+                Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
                 Errand::Flat(flat) => self.take_flat(&flat),
                 Errand::Formed(model) => {
                     self.mesh.take_other(*model);
@@ -281,6 +274,14 @@ impl Session {
                 }
             }
         }
+    }
+
+    /// Says why a constraint file is not used, and shows the vertices that it is about.
+    fn tell_constraints(&mut self, error: &ConstraintsError) {
+        let count = self.vertex_count();
+        let vertices = error.vertices().into_iter().filter(|vertex| vertex.index() < count).collect();
+        let message = Message::error(Place::Embedding, error.to_string()).with_vertices(vertices);
+        self.messages.say(message.with_remedy("mend the file and import it again: nothing of it was taken"));
     }
 
     fn take_constraints(&mut self, targets: Targets) {

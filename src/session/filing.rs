@@ -8,7 +8,6 @@ use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
 use crate::io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
-use crate::mesh::{Elements, Fault, TriMesh, VertexId};
 
 impl Session {
     /// Puts something on the table. The document before it is gone, its history with it.
@@ -43,7 +42,7 @@ impl Session {
         let Surface::Faulty(_, diagnosis) = &model.surface else { return };
         for fault in &diagnosis.faults {
             let message = Message::error(Place::Mesh, fault.message()).with_remedy(fault.remedy());
-            self.messages.say(message.with_vertices(first_vertices(fault, model.mesh())));
+            self.messages.say(message.with_vertices(fault.vertices_of(0, model.mesh())));
         }
     }
 
@@ -111,16 +110,5 @@ impl Session {
     pub(super) fn refuse_name(&mut self, path: &Path) {
         let text = format!("{} does not say what to write", path.display());
         self.complain(text, Some(&format!("end the name in {EXTENSIONS}")));
-    }
-}
-
-/// Vertices of the first element of a fault.
-fn first_vertices(fault: &Fault, mesh: &TriMesh) -> Vec<VertexId> {
-    match fault.elements() {
-        Elements::Nothing => Vec::new(),
-        Elements::Vertices(vertices) => vertices[..1].to_vec(),
-        Elements::Edges(edges) => edges[0].to_vec(),
-        Elements::Faces(faces) => mesh.triangles[faces.triangles[0].index()].to_vec(),
-        Elements::Loops(loops) => loops[0].clone(),
     }
 }

@@ -5,6 +5,18 @@ use std::path::PathBuf;
 use super::{Failure, Session};
 use crate::mesh::VertexId;
 
+/// The most vertices that are named one by one.
+const MOST_NAMED: usize = 4;
+
+/// Vertices by their names: all of a few, the first of many.
+pub fn named(vertices: &[VertexId]) -> String {
+    let names: Vec<String> = vertices.iter().take(MOST_NAMED).map(VertexId::to_string).collect();
+    match vertices.len().saturating_sub(MOST_NAMED) {
+        0 => names.join(", "),
+        more => format!("{} and {more} more", names.join(", ")),
+    }
+}
+
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
@@ -149,6 +161,11 @@ impl Session {
     /// What has been said and not dismissed, oldest first.
     pub fn messages(&self) -> &[Message] {
         &self.messages.list
+    }
+
+    /// Says that work in the background gave no outcome. `work` is a noun, such as "drawing".
+    pub fn tell_failure(&mut self, place: Place, work: &str, failure: &Failure) {
+        self.messages.fail_background(place, work, failure);
     }
 
     /// Says beside the embedding that something did not work, and what to do about it.

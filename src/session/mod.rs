@@ -9,6 +9,7 @@
 //! | `action`        | what a person can ask for                                                  |
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
+//! | `v_axis`        | where v = 0 is on the picture                                              |
 //! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
 //! | `in_use`        | files that are open, which nothing else is written over                    |
@@ -60,13 +61,14 @@ mod status;
 mod stop;
 mod target_checks;
 mod timeline;
+mod v_axis;
 
 pub use action::{Action, SaveRequest};
 pub use background::{Background, Failure, Wake};
 pub use document::{Command, Document};
 pub use drag::Preview;
 pub use history::History;
-pub use messages::{Message, Place, Severity};
+pub use messages::{Message, Place, Severity, named};
 use messages::{Messages, Written};
 pub use model::{Model, Surface};
 pub use outcome::{Outcome, Problem};

@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::messages::named;
 use super::model::example_picture;
 use super::{Document, Message, Model, Place};
 use crate::examples::Example;
 use crate::io::{
     FileStamp, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError,
-    RecoveryNote, Targets, material_picture,
+    RecoveryNote, Target, Targets, material_picture,
 };
-use crate::mesh::Form;
+use crate::mesh::{Form, VertexId};
 
 /// Something that was opened, ready to be put on the table.
 #[derive(Debug)]
@@ -194,10 +195,15 @@ fn example_called(name: &str) -> Option<Example> {
 fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Message>) -> Targets {
     let count = model.mesh().vertex_count();
     let before = targets.len();
-    targets.retain(|vertex, target| vertex.index() < count && target.uv.is_finite());
-    let lost = before - targets.len();
-    if lost > 0 {
-        let text = format!("{lost} of the project's {before} pins are left out: the mesh has only {count} vertices");
+    let is_there = |vertex: &VertexId, target: &Target| vertex.index() < count && target.uv.is_finite();
+    let lost: Vec<VertexId> = targets.iter().filter(|(v, target)| !is_there(v, target)).map(|(&v, _)| v).collect();
+    targets.retain(|vertex, target| is_there(vertex, target));
+    if !lost.is_empty() {
+        let text = format!(
+            "{} of the project's {before} pins are left out ({}): the mesh has only {count} vertices",
+            lost.len(),
+            named(&lost)
+        );
         let remedy = "place them again, or put the mesh back as it was and open the project again";
         remarks.push(Message::error(Place::Embedding, text).with_remedy(remedy));
     }

@@ -1,6 +1,6 @@
 //! How the document is solved: a run takes its steps.
 
-use super::solving::{Next, Task};
+use super::solving::{Next, Rest, Task};
 use super::stop::Goal;
 use super::{Command, Session};
 use crate::solver::{Family, Method, Settings};
@@ -45,9 +45,14 @@ impl Session {
     }
 
     /// Takes one further step, whether or not the method has ended. A run that goes on by itself comes to rest after
-    /// the step that it is taking.
+    /// the step that it is taking. How far it was taken so is remembered for when the document is as it is again.
     pub(super) fn step(&mut self) {
         self.solving.follow_newest();
+        if !self.resume_relaxing(1)
+            && let Some(newest) = self.timeline().newest().filter(|_| self.is_current())
+        {
+            self.history.set_taken_to(self.history.taken_to().max(newest) + 1);
+        }
         let one_more = |goal| if let Goal::Steps(left) = goal { Goal::Steps(left + 1) } else { Goal::Steps(1) };
         if !self.solving.change_goal(one_more) {
             self.go_on(Goal::Steps(1));
@@ -61,7 +66,12 @@ impl Session {
         if self.solving.change_goal(|_| goal) {
             return;
         }
-        if self.can_run() { self.go_on(goal) } else { self.relax_on() }
+        if self.can_run() {
+            self.resume_relaxing(usize::MAX);
+            self.go_on(goal);
+        } else {
+            self.go_on_as_before();
+        }
     }
 
     /// Lowers the distortion of the newest step on a person's wish, one-to-one throughout, constraints exact. The wish is
@@ -74,12 +84,35 @@ impl Session {
         }
     }
 
-    /// Lets those rounds of relaxing follow that the document has and the run at rest was not asked for yet.
-    fn relax_on(&mut self) {
-        let left = self.document.relaxed.saturating_sub(self.solving.rounds_asked());
-        if left > 0 {
-            self.relax_by(left);
+    /// Takes up rounds of relaxing that a pause has cut short, so many at most: a wish like the first. Returns whether
+    /// there are any.
+    fn resume_relaxing(&mut self, most: usize) -> bool {
+        let rounds = if self.is_current() { self.solving.resume_rounds(most) } else { 0 };
+        if rounds == 0 {
+            return false;
         }
+        let relaxed = self.document.relaxed.saturating_add(rounds);
+        self.history.apply(Command::SetRelaxed(relaxed), &mut self.document)
+    }
+
+    /// Takes a run that has come to rest as far as a person had taken it: by rounds of relaxing that the document has and
+    /// it was not asked for yet, and by single steps.
+    fn go_on_as_before(&mut self) {
+        let rounds = self.document.relaxed.saturating_sub(self.solving.rounds_asked());
+        if rounds > 0 && self.solving.has_ended() && self.relax_by(rounds) {
+            return;
+        }
+        let newest = self.timeline().newest().filter(|_| self.is_current());
+        let left = newest.map_or(0, |newest| self.history.taken_to().saturating_sub(newest));
+        if left > 0 {
+            self.go_on(Goal::Steps(left));
+        }
+    }
+
+    /// The run rests where it was not taken as far as it was before: it is not to go there again.
+    fn stay_here(&mut self) {
+        let newest = self.timeline().newest().unwrap_or(0);
+        self.history.set_taken_to(self.history.taken_to().min(newest));
     }
 
     /// Takes all steps of the ladder, until the embedding is planar or nothing is left to try. Another method gives way
@@ -113,6 +146,7 @@ impl Session {
     /// Solves anew what is asked for, without the relaxing that was asked for afterwards.
     pub(super) fn solve_again(&mut self) {
         self.history.apply(Command::SetRelaxed(0), &mut self.document);
+        self.history.set_taken_to(0);
         self.solve();
     }
 
@@ -148,11 +182,16 @@ impl Session {
         if news.has_begun {
             self.drag.end_preview();
         }
-        match news.next {
-            Some(Next::Anew) => self.solve(),
-            Some(Next::On(goal)) => self.go_on(goal),
-            None if news.has_ended && !self.history.is_in_gesture() => self.relax_on(),
-            None => {}
+        if news.rounds_cut > 0 {
+            let relaxed = self.document.relaxed.saturating_sub(news.rounds_cut);
+            self.history.amend(Command::SetRelaxed(relaxed), &mut self.document);
+        }
+        match (news.next, news.rest) {
+            (Some(Next::Anew), _) => self.solve(),
+            (Some(Next::On(goal)), _) => self.go_on(goal),
+            (None, Some(Rest::ByItself)) if !self.history.is_in_gesture() => self.go_on_as_before(),
+            (None, Some(Rest::Elsewhere)) => self.stay_here(),
+            (None, _) => {}
         }
     }
 

@@ -8,6 +8,7 @@ use super::files::Files;
 use super::open_mesh::OpenMesh;
 use super::solving::Solving;
 use super::target_checks::TargetChecks;
+use super::v_axis::TurnedV;
 use super::{Action, Command, Document, History, Messages, RecentFiles, Wake};
 
 /// One open document and the work on it.
@@ -22,6 +23,7 @@ pub struct Session {
     pub(super) target_checks: TargetChecks,
     pub(super) files: Files,
     pub(super) messages: Messages,
+    pub(super) turned_v: TurnedV,
 }
 
 impl std::fmt::Debug for Session {
@@ -42,6 +44,7 @@ impl Session {
             target_checks: TargetChecks::new(&wake),
             files: Files::new(&wake, recent),
             messages: Messages::default(),
+            turned_v: TurnedV::default(),
             solving: Solving::new(wake),
         }
     }

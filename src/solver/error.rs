@@ -197,6 +197,33 @@ impl SolveError {
         }
     }
 
+    /// The vertices that it names, which a person may want to see.
+    pub fn vertices(&self) -> Vec<VertexId> {
+        match self {
+            Self::CoincidentPins { first, second } | Self::TargetsTooNear { first, second } => vec![*first, *second],
+            Self::UnusedVertex { vertex }
+            | Self::TargetNotFinite { vertex }
+            | Self::WeightNotPositive { vertex, .. }
+            | Self::OutOfRange { vertex }
+            | Self::Singular { vertex } => vec![*vertex],
+            // One that the mesh does not have cannot be shown.
+            Self::NoSuchVertex { .. }
+            | Self::NotFinite { .. }
+            | Self::FamilyNotApplicable { .. }
+            | Self::BoundaryTooShort { .. }
+            | Self::TooManyPins { .. }
+            | Self::Unmet
+            | Self::TooFine
+            | Self::TooManyNewVertices { .. }
+            | Self::NotPlanar
+            | Self::AllBent
+            | Self::LadderExhausted { .. }
+            | Self::ResidualTooLarge { .. }
+            | Self::Linear { .. }
+            | Self::Cancelled => Vec::new(),
+        }
+    }
+
     /// Whether a method came to nothing with pins and settings that may be: another method may give an embedding.
     pub const fn is_failure_of_method(&self) -> bool {
         matches!(

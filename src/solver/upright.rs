@@ -93,8 +93,10 @@ fn upright_turn(mesh: &DiskMesh, embedding: &Embedding) -> Option<DVec2> {
             }
         })
     };
-    let mean = |of: fn(&Part) -> DVec2| parts().map(|part| part.area * of(&part)).sum::<DVec2>() / area;
-    let (z_mean, w_mean) = (mean(|part| part.in_plane), mean(|part| part.in_view));
+    let (z_sum, w_sum) = parts().fold((DVec2::ZERO, DVec2::ZERO), |(z, w), Part { area, in_plane, in_view }| {
+        (z + area * in_plane, w + area * in_view)
+    });
+    let (z_mean, w_mean) = (z_sum / area, w_sum / area);
     let (mut sum, mut squares) = (DVec2::ZERO, DVec2::ZERO);
     for Part { area, in_plane, in_view } in parts() {
         let (z, w) = (in_plane - z_mean, in_view - w_mean);

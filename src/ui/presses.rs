@@ -3,8 +3,10 @@
 //! would be taken for one another. So the events are handed over in batches, each in a pass of its own:
 //!
 //! ```text
-//! moves, press │ moves │ release │ key, the same key again │ another key
+//! moves, press │ moves │ release │ │ key with its text, and as it repeats │ │ another key │ │ pasted, text, key
 //! ```
+//!
+//! A pass without events follows each click and each key: what it has opened is shown first, and has the keyboard then.
 //!
 //! All passes belong to one frame: only the last one is painted. Moves are never torn apart, so that what waits is
 //! bounded by the presses that a person makes.
@@ -27,8 +29,58 @@ pub(super) struct Presses {
     modifiers: Modifiers,
     /// The modifiers of the press that has not ended: they are those of the click.
     pressed_with: Option<Modifiers>,
-    /// Whether the next batch is empty: what a key has opened is shown first, and has the keyboard then.
+    /// Whether the next batch is empty, after a click or a key.
     pauses: bool,
+}
+
+/// The events of a pass.
+#[derive(Default)]
+struct Batch {
+    events: Vec<Event>,
+    has_moved: bool,
+    /// The key that is pressed in it.
+    chord: Option<Chord>,
+}
+
+/// A key that is pressed.
+struct Chord {
+    key: Key,
+    modifiers: Modifiers,
+    is_down: bool,
+    /// Whether its text may come.
+    types: bool,
+}
+
+impl Batch {
+    /// Whether an event can be handed over with those before it.
+    fn has_room_for(&self, event: &Event) -> bool {
+        let Some(chord) = &self.chord else {
+            return !self.has_moved || !matches!(event, Event::PointerButton { pressed: false, .. });
+        };
+        match event {
+            // A key that repeats is pressed again before it was let go.
+            &Event::Key { key, pressed: true, modifiers, .. } => {
+                chord.is_down && (key, modifiers) == (chord.key, chord.modifiers) && !is_for_focus(key)
+            }
+            Event::Key { pressed: false, .. } | Event::ModifiersChanged(_) => true,
+            Event::Text(_) => chord.types,
+            _ => false,
+        }
+    }
+
+    fn add(&mut self, event: Event) {
+        match (&event, &mut self.chord) {
+            (Event::PointerMoved(_), _) => self.has_moved = true,
+            (&Event::Key { key, pressed: true, modifiers, .. }, chord) => {
+                let types = !(modifiers.ctrl || modifiers.command);
+                *chord = Some(Chord { key, modifiers, is_down: true, types });
+            }
+            (&Event::Key { key, .. }, Some(chord)) if key == chord.key => (chord.is_down, chord.types) = (false, false),
+            (Event::Text(_), Some(chord)) => chord.types = false,
+            _ => {}
+        }
+        self.events.push(event);
+    }
 }
 
 /// A press that is longer is no click, seconds: a slow frame may lie between press and release.
@@ -57,57 +109,53 @@ impl Presses {
 
     /// The events of the next pass.
     fn next_batch(&mut self) -> Vec<Event> {
-        let mut batch = Vec::new();
+        let mut batch = Batch::default();
         if std::mem::take(&mut self.pauses) {
-            return batch;
+            return batch.events;
         }
-        let mut has_moved = false;
-        let mut chord: Option<(Key, Modifiers)> = None;
         while let Some(event) = self.waiting.pop_front() {
             match event {
-                Event::PointerButton { pos, pressed: false, .. } if !has_moved && self.pointer != Some(pos) => {
+                Event::PointerButton { pos, pressed: false, .. } if !batch.has_moved && self.pointer != Some(pos) => {
                     // The way to where it was let go, which may have no event of its own.
                     self.waiting.push_front(event);
                     self.waiting.push_front(Event::PointerMoved(pos));
                 }
-                Event::PointerButton { pressed, .. } if chord.is_some() || (has_moved && !pressed) => {
+                event if !batch.has_room_for(&event) => {
                     self.waiting.push_front(event);
-                    self.pauses = chord.is_some();
-                    return batch;
+                    break;
                 }
                 Event::PointerButton { pos, button, pressed, modifiers } => {
                     self.pointer = Some(pos);
                     let modifiers = self.pressed_with.filter(|_| !pressed).unwrap_or(modifiers);
                     self.pressed_with = pressed.then_some(modifiers);
                     let is_other = modifiers != self.modifiers;
-                    batch.extend(is_other.then_some(Event::ModifiersChanged(modifiers)));
-                    batch.push(Event::PointerButton { pos, button, pressed, modifiers });
+                    batch.events.extend(is_other.then_some(Event::ModifiersChanged(modifiers)));
+                    batch.events.push(Event::PointerButton { pos, button, pressed, modifiers });
                     if is_other {
                         self.waiting.push_front(Event::ModifiersChanged(self.modifiers));
                     }
-                    return batch;
-                }
-                Event::Key { key, pressed: true, modifiers, .. }
-                    if chord.is_some_and(|c| c != (key, modifiers) || is_for_focus(key)) =>
-                {
-                    self.waiting.push_front(event);
-                    self.pauses = true;
-                    return batch;
+                    self.pauses = !pressed;
+                    return batch.events;
                 }
                 event => {
-                    match &event {
-                        Event::PointerMoved(pos) => (self.pointer, has_moved) = (Some(*pos), true),
-                        Event::PointerGone => self.pointer = None,
-                        Event::Key { key, pressed: true, modifiers, .. } => chord = Some((*key, *modifiers)),
-                        Event::ModifiersChanged(modifiers) => self.modifiers = *modifiers,
-                        Event::WindowFocused(false) => (self.modifiers, self.pressed_with) = Default::default(),
-                        _ => {}
-                    }
-                    batch.push(event);
+                    self.note(&event);
+                    batch.add(event);
                 }
             }
         }
-        batch
+        self.pauses = batch.chord.is_some();
+        batch.events
+    }
+
+    /// Remembers pointer and modifiers as they are after an event.
+    fn note(&mut self, event: &Event) {
+        match event {
+            Event::PointerMoved(pos) => self.pointer = Some(*pos),
+            Event::PointerGone => self.pointer = None,
+            Event::ModifiersChanged(modifiers) => self.modifiers = *modifiers,
+            Event::WindowFocused(false) => (self.modifiers, self.pressed_with) = Default::default(),
+            _ => {}
+        }
     }
 }
 

@@ -67,7 +67,6 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     if editor.host.is_quitting() {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
-    editor.host.end_pass();
 }
 
 /// Adds something in the room that there is, however much it would like to have.

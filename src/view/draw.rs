@@ -21,7 +21,7 @@ pub struct Revision(u64);
 
 impl Revision {
     /// A revision that nothing else has.
-    fn fresh() -> Self {
+    pub(super) fn fresh() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(1);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
@@ -189,25 +189,6 @@ impl FaceList {
     /// Faces by their corners.
     pub fn new(triangles: Vec<[VertexId; 3]>) -> Self {
         Self { revision: Revision::fresh(), triangles }
-    }
-}
-
-/// A picture behind the embedding and on the faces.
-#[derive(Debug)]
-pub struct Picture {
-    /// Which picture this is.
-    pub revision: Revision,
-    /// Width and height, pixels.
-    pub size: [u32; 2],
-    /// Four bytes per pixel, the upper row first.
-    pub pixels: Vec<u8>,
-}
-
-impl Picture {
-    /// A picture from rows of sRGB pixels with straight alpha, the upper row first. `None` if the sizes do not agree.
-    pub fn new(size: [u32; 2], pixels: Vec<u8>) -> Option<Self> {
-        let expected = 4 * size[0] as usize * size[1] as usize;
-        (expected > 0 && pixels.len() == expected).then(|| Self { revision: Revision::fresh(), size, pixels })
     }
 }
 

@@ -7,7 +7,7 @@
 //! | `space.rs` | extents, and unit space |
 //! | `orbit.rs`, `plane.rs` | the cameras of the two panes |
 //! | `pick.rs`, `bvh.rs`, `kdtree.rs` | what lies under the pointer, and how it is found fast |
-//! | `draw.rs`, `shrink.rs` | arrays for the graphics card, and normals; pictures that are larger than it takes |
+//! | `draw.rs`, `picture.rs` | arrays for the graphics card, and normals; pictures with their smaller sizes |
 //! | `colour.rs` | scales of colours with their legends; the colours of the panes |
 //!
 //! Spaces, as they appear in names:
@@ -26,15 +26,16 @@ mod draw;
 mod kdtree;
 mod orbit;
 mod pick;
+mod picture;
 mod plane;
-mod shrink;
 mod space;
 
 pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
-pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, Picture, PlaneArrays, Revision, crease_normals};
+pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, PlaneArrays, Revision, crease_normals};
 pub use kdtree::PlanePicker;
 pub use orbit::{OrbitCamera, Ray, UpAxis};
 pub use pick::{PICK_RADIUS, SurfaceHit, SurfacePicker, VertexPick, Visibility, snapped};
+pub use picture::Picture;
 pub use plane::{Grid, PlaneCamera};
 #[cfg(feature = "gui")]
 pub(crate) use space::split_point;

@@ -46,7 +46,9 @@ fn a_chart_without_holes_gets_the_verdict_of_disks() {
             *z += disturb * DVec2::new(random.unit(), random.unit());
         }
         if random.below(4) == 0 {
-            places.iter_mut().for_each(|z| z.x = -z.x);
+            for z in &mut places {
+                z.x = -z.x;
+            }
         }
         let embedding = Embedding::from(places);
         let expected = verdict(&disk(mesh.clone()), &embedding);

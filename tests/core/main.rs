@@ -81,6 +81,7 @@ mod session_projects;
 mod session_recovery;
 mod session_run;
 mod session_timeline;
+mod session_wishes;
 mod shapes;
 mod signals;
 mod steps;

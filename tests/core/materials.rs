@@ -178,3 +178,19 @@ fn copying_materials_needs_a_place_and_does_not_go_with_a_picture() {
     }
     assert_eq!(listing(&program.path("out")), Vec::<String>::new());
 }
+
+/// On Linux a program's memory is a file that cannot be read from its beginning, whoever asks.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_to_be_copied_that_cannot_be_read_is_unusable_input() {
+    for file in ["in/looks/m.mtl", "in/looks/the skin.png"] {
+        let program = with_materials();
+        fs::remove_file(program.path(file)).unwrap();
+        std::os::unix::fs::symlink("/proc/self/mem", program.path(file)).unwrap();
+        let arguments = ["flatten", "in/mesh.obj", "--copy-materials", "-o", "out/flat.obj", "--report", "out/r.json"];
+        let run = program.run(&arguments).expect(3);
+        assert!(run.stderr.contains(&format!("{file}: cannot be read: ")), "{}", run.stderr);
+        assert_eq!(listing(&program.path("out")), ["r.json"]);
+        assert!(fs::read_to_string(program.path("out/r.json")).unwrap().contains("\"unreadable\""));
+    }
+}

@@ -138,8 +138,7 @@ fn surface_of_genus(genus: u32) -> TriMesh {
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     for part in 0..genus {
         for k in 0..around * along {
-            let (x, y) = (k % around, k / around);
-            let [a, b, c, d] = [at(part, x, y), at(part, x + 1, y), at(part, x + 1, y + 1), at(part, x, y + 1)];
+            let [[a, b], [d, c]] = [0, 1].map(|up| [0, 1].map(|along| at(part, k % around + along, k / around + up)));
             if k == 0 && part > 0 {
                 // The square faces the one taken out of the part before.
                 let other = [at(part - 1, 3, 4), at(part - 1, 4, 4), at(part - 1, 4, 5), at(part - 1, 3, 5)];
@@ -252,7 +251,7 @@ fn ball(cells: u32) -> PolygonMesh {
                     let mut at = [0; 3];
                     (at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3]) = (side, a, b);
                     let number = *numbers.entry(at).or_insert_with(|| {
-                        let out = DVec3::from(at.map(|x| f64::from(x) - middle)).normalize();
+                        let out = DVec3::from(at.map(|x| f64::from(x) - middle)).normalize_or_zero();
                         positions.push(DVec3::new(out.x, out.y, out.z.min(0.8)));
                         VertexId::from_index(positions.len() - 1)
                     });

@@ -14,12 +14,12 @@ use glam::DVec2;
 use crate::makers::{grid, write_obj};
 use crate::session::{session, settle, settled};
 
-fn id(number: u32) -> VertexId {
+pub(crate) fn id(number: u32) -> VertexId {
     VertexId::new(number)
 }
 
 /// A session with a flat grid of 8 × 8 squares.
-fn with_grid() -> Session {
+pub(crate) fn with_grid() -> Session {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("grid.obj");
     write_obj(&path, &grid(8, 8));
@@ -28,7 +28,7 @@ fn with_grid() -> Session {
     session
 }
 
-fn place(session: &mut Session, pins: &[(u32, DVec2)]) {
+pub(crate) fn place(session: &mut Session, pins: &[(u32, DVec2)]) {
     for &(vertex, target) in pins {
         session.handle(Action::Place { vertex: id(vertex), target: Target::hard(target) });
     }
@@ -109,78 +109,6 @@ fn relaxing_lowers_the_energy_and_keeps_the_constraints() {
         timeline.standings()[arrived..].iter().map(|standing| standing.progress.expect("numbers").energy).collect();
     assert!(energies.is_sorted_by(|a, b| a >= b) && energies.last() < energies.first(), "{energies:?}");
     assert_eq!(session.stopped(), Some(Stop::Ended(Ending::Planar)), "it comes to rest where it was");
-}
-
-/// The energy of the newest step, where rounds of relaxing were the last ones taken.
-fn relaxed_energy(session: &Session) -> Option<f64> {
-    let newest = session.timeline().newest().expect("solved");
-    let is_relaxed = session.timeline().records()[newest].rung == Method::Relax;
-    session.timeline().standings()[newest].progress.filter(|_| is_relaxed).map(|progress| progress.energy)
-}
-
-/// A grid that its corners stretch: planar by its first solve, and distorted.
-fn stretched() -> Session {
-    let mut session = with_grid();
-    let corners = [(0, [0.0, 0.0]), (8, [12.0, 1.0]), (72, [-1.0, 8.0]), (80, [9.0, 10.0])];
-    place(&mut session, &corners.map(|(vertex, at)| (vertex, DVec2::from(at))));
-    settle(&mut session);
-    assert!(session.can_relax() && relaxed_energy(&session).is_none());
-    session
-}
-
-#[test]
-fn a_relaxing_that_was_asked_for_comes_back_when_a_later_move_is_undone() {
-    let mut session = stretched();
-    settled(&mut session, Action::Relax);
-    let relaxed = relaxed_energy(&session).expect("relaxed");
-    session.handle(Action::MovePin { vertex: id(80), target: DVec2::new(9.5, 11.0) });
-    settled(&mut session, Action::EndGesture);
-    let moved = relaxed_energy(&session).expect("what was asked for holds for what follows");
-    settled(&mut session, Action::Undo);
-    let again = relaxed_energy(&session).expect("relaxed as before the move");
-    assert!((again - relaxed).abs() < 1e-6 * relaxed && (moved - relaxed).abs() > 1e-3 * relaxed, "{again} {relaxed}");
-    settled(&mut session, Action::Undo);
-    assert!(relaxed_energy(&session).is_none() && session.document().targets.len() == 4, "undone by itself");
-    settled(&mut session, Action::Redo);
-    settled(&mut session, Action::Redo);
-    let again = relaxed_energy(&session).expect("repeated with the move");
-    assert!((again - moved).abs() < 1e-6 * moved, "{again} {moved}");
-}
-
-#[test]
-fn a_relaxing_ends_with_another_method_a_new_solve_and_a_pause() {
-    let mut session = stretched();
-    settled(&mut session, Action::Relax);
-    settled(&mut session, Action::Solve);
-    assert!(relaxed_energy(&session).is_none(), "solved again, as it is solved");
-    settled(&mut session, Action::Relax);
-    settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
-    assert!(relaxed_energy(&session).is_none(), "another method shows its own result");
-    settled(&mut session, Action::Undo);
-    assert!(relaxed_energy(&session).is_some());
-    settled(&mut session, Action::Solve);
-    session.handle(Action::Relax);
-    session.handle(Action::Cancel);
-    settle(&mut session);
-    assert!(!session.is_running(), "a relaxing that was stopped does not begin again by itself");
-}
-
-#[test]
-fn a_relaxing_is_kept_in_the_project() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (mesh, project) = (folder.path().join("grid.obj"), folder.path().join("work.freebound"));
-    write_obj(&mesh, &grid(8, 8));
-    let mut saved = session();
-    settled(&mut saved, Action::Open(mesh));
-    place(&mut saved, &[(0, DVec2::ZERO), (8, DVec2::new(12.0, 1.0)), (72, DVec2::new(-1.0, 8.0))]);
-    settle(&mut saved);
-    settled(&mut saved, Action::Relax);
-    assert!(saved.has_unsaved_work());
-    settled(&mut saved, Action::SaveProject(project.clone()));
-    let mut opened = session();
-    settled(&mut opened, Action::Open(project));
-    let [before, after] = [&saved, &opened].map(|session| relaxed_energy(session).expect("relaxed"));
-    assert!((before - after).abs() < 1e-6 * before, "{before} {after}");
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! What views keep and show: cameras as numbers, parts of the whole, snapped targets, smaller pictures.
 
+use std::sync::Arc;
+
 use freebound::examples::Example;
-use freebound::geom::{Bounds, Similarity};
+use freebound::geom::{self, Bounds, Similarity};
 use freebound::mesh::DiskMesh;
 use freebound::solver::Embedding;
 use freebound::view::{OrbitCamera, Picture, PlaneCamera, Sphere, UpAxis, part_around, snapped};
@@ -112,29 +114,41 @@ fn an_embedding_at_one_point_stays_where_it_is() {
     assert!(Similarity::fitting(&pairs.iter().map(|_| [DVec2::ONE; 2]).collect::<Vec<_>>()).is_none());
 }
 
-fn picture(size: [u32; 2], pixels: Vec<u8>) -> Picture {
-    Picture::new(size, pixels).expect("sizes agree")
+fn picture([width, height]: [u32; 2], pixels: Vec<u8>) -> Arc<geom::Picture> {
+    Arc::new(geom::Picture { width, height, pixels })
+}
+
+fn sizes_of(picture: &Arc<geom::Picture>, limit: u32) -> Vec<Arc<geom::Picture>> {
+    Picture::new(Arc::clone(picture)).expect("as many pixels as it should").sizes_up_to(limit).to_vec()
 }
 
 #[test]
-fn a_picture_that_fits_is_left_alone() {
-    assert!(picture([2, 1], vec![7; 8]).shrunk(2).is_none());
+fn a_picture_that_fits_is_left_alone_and_one_without_its_pixels_is_none() {
+    let fits = picture([2, 1], vec![7; 8]);
+    assert!(Arc::ptr_eq(&sizes_of(&fits, 2)[0], &fits));
+    assert!(Picture::new(picture([2, 1], vec![7; 7])).is_none() && Picture::new(picture([0, 3], vec![])).is_none());
 }
 
 #[test]
-fn no_side_is_longer_than_the_limit_and_a_single_colour_stays() {
-    for (size, expected) in [([7, 3], [4, 2]), ([3, 9], [1, 3]), ([10, 1], [4, 1]), ([4, 5], [2, 3])] {
-        let colour = [10_u8, 20, 30, 255];
-        let pixels = colour.repeat(size[0] as usize * size[1] as usize);
-        let small = picture(size, pixels).shrunk(4).expect("too long");
-        assert_eq!(small.size, expected, "{size:?}");
-        assert_eq!(small.pixels, colour.repeat(expected[0] as usize * expected[1] as usize), "{size:?}");
+fn each_size_is_half_the_one_before_down_to_a_pixel_and_a_single_colour_stays() {
+    let colour = [10_u8, 20, 30, 255];
+    let of_size = |[width, height]: [u32; 2]| picture([width, height], colour.repeat((width * height) as usize));
+    for (size, limit, expected) in [
+        ([7, 3], 8, vec![[7, 3], [3, 1], [1, 1]]),
+        ([7, 3], 4, vec![[3, 1], [1, 1]]),
+        ([3, 9], 4, vec![[1, 4], [1, 2], [1, 1]]),
+        ([4, 5], 1, vec![[1, 1]]),
+        ([4, 5], 0, vec![[1, 1]]),
+    ] {
+        let expected: Vec<_> = expected.into_iter().map(of_size).collect();
+        assert_eq!(sizes_of(&of_size(size), limit), expected, "{size:?} up to {limit}");
     }
 }
 
 #[test]
 fn a_block_becomes_its_mean_and_what_is_clear_lends_no_colour() {
     let pixels = [[10_u8, 20, 30, 255], [20, 40, 50, 255], [200, 0, 0, 255], [0, 99, 0, 0]].concat();
-    let small = picture([4, 1], pixels).shrunk(2).expect("too long");
-    assert_eq!((small.size, small.pixels), ([2, 1], vec![15, 30, 40, 255, 200, 0, 0, 128]));
+    let sizes = sizes_of(&picture([4, 1], pixels), 2);
+    let pixels: Vec<&[u8]> = sizes.iter().map(|picture| picture.pixels.as_slice()).collect();
+    assert_eq!(pixels, [&[15_u8, 30, 40, 255, 200, 0, 0, 128][..], &[77, 20, 27, 192]]);
 }

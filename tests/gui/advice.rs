@@ -3,10 +3,12 @@
 use eframe::egui;
 use egui::{Key, Modifiers};
 use freebound::examples::Example;
+use freebound::io::Target;
 use freebound::mesh::{TriMesh, VertexId};
-use freebound::solver::Method;
+use freebound::session::Action;
+use freebound::solver::{Method, Settings};
 use freebound::ui::theme;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::defects::fold;
 use crate::harness::{Window, sheet};
@@ -76,4 +78,30 @@ fn a_planar_embedding_with_areas_that_differ_badly_offers_to_relax() {
 fn a_good_embedding_has_no_advice() {
     let window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     assert!(!window.shows("Areas differ") && !window.has_button("Repair"));
+}
+
+/// A square of one polygon, its corners pinned such that it is concave.
+fn concave() -> Window {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("square.obj");
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").expect("written");
+    let mut window = Window::with_file(&path);
+    window.editor_mut().session.handle(Action::SetSettings(Settings { new_vertices: false, ..Settings::default() }));
+    for (vertex, u, v) in [(0, 0.7, 0.7), (1, 1.0, 0.0), (2, 1.0, 1.0), (3, 0.0, 1.0)] {
+        let (vertex, target) = (VertexId::new(vertex), Target::hard(DVec2::new(u, v)));
+        window.editor_mut().session.handle(Action::Place { vertex, target });
+    }
+    window.settle();
+    window
+}
+
+#[test]
+fn where_the_ladder_has_no_step_left_it_is_said_what_can_still_be_changed() {
+    let mut window = concave();
+    assert!(!window.outcome().step.verdict.planar, "one cut of the square folds it");
+    assert!(!window.has_button("Repair"), "all steps were taken");
+    assert_eq!(accents(&window), 1);
+    window.click("Allow new vertices");
+    assert!(window.is_proved(), "{}", window.verdict());
+    assert_eq!((accents(&window), window.has_button("Repair")), (0, false));
 }

@@ -190,9 +190,9 @@ fn move_is_one_of_the_shadings() {
     let mut window = two_steps();
     window.choose("Shading of the mesh", "Move");
     assert_eq!(window.shadings(), [Shading::Move, Shading::Checker]);
-    window.menu(&["View", "Shading", "Checker"]);
-    window.menu(&["View", "Shading", "Move"]);
-    assert_eq!(window.shadings(), [Shading::Move; 2]);
+    window.menu(&["View", "Shading of the mesh", "Checker"]);
+    window.menu(&["View", "Shading of the embedding", "Move"]);
+    assert_eq!(window.shadings(), [Shading::Checker, Shading::Move]);
 }
 
 #[test]
@@ -222,4 +222,24 @@ fn the_panel_shows_the_numbers_of_both_steps_and_their_difference() {
     let is_it =
         |word: &String| word.parse::<f64>().is_ok_and(|number| (number - difference).abs() <= 5e-4 * difference.abs());
     assert!(words.iter().any(is_it), "{difference} in {words:?}");
+}
+
+#[test]
+fn the_numbers_of_a_comparison_are_those_of_the_sheet_that_is_drawn() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
+    for _ in 0..2 {
+        window.editor_mut().session.handle(Action::Step);
+        window.settle();
+    }
+    window.editor_mut().session.handle(Action::Compare(Some(0)));
+    window.settle();
+    window.key_now(Key::ArrowLeft);
+    assert!(step_until_easing(&mut window));
+    let heads = |window: &Window| window.words().iter().filter(|words| words.trim() == "step 2").count();
+    while window.editor().plane.is_easing() {
+        assert_eq!(heads(&window), 1, "{:?}", window.words());
+        window.step();
+    }
+    window.settle();
+    assert!(heads(&window) == 0 && window.words().iter().any(|words| words.trim() == "step 1"));
 }

@@ -296,3 +296,22 @@ fn delete_frees_all_selected_constraints() {
     window.key(Key::Delete);
     assert_eq!(pins(&window).keys().map(|v| v.number()).collect::<Vec<_>>(), [0, 72, 80]);
 }
+
+#[test]
+fn v_turned_around_and_back_is_the_same_document_to_the_last_bit() {
+    let mut window = window();
+    window.choose("Method", "Least-squares conformal");
+    let values = [0.1, 0.3, 1e-20, 1.0 / 3.0, -7.7, 0.0];
+    for (i, v) in values.into_iter().enumerate() {
+        place(&mut window, &[(8 * u32::try_from(i).expect("few"), Target::hard(DVec2::new(0.1 * i as f64, v)))]);
+    }
+    assert!(values.iter().any(|v| 1.0 - (1.0 - v) != *v), "rounding alone would change some");
+    let before = window.editor().session.document().clone();
+    window.click(&format!("Pins {}", values.len()));
+    for _ in 0..2 {
+        window.click("v down");
+        assert_ne!(pins(&window), before.targets);
+        window.click("v up");
+        assert_eq!(*window.editor().session.document(), before);
+    }
+}

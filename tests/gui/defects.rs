@@ -1,7 +1,9 @@
 //! The list of defects, and going to them and to other elements.
 
 use eframe::egui;
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
 use freebound::examples::Example;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
@@ -191,5 +193,33 @@ fn go_to_says_so_where_there_is_no_such_element() {
     assert!(window.editor().selection.vertices().is_empty());
     assert!(window.editor().layout.go_to.is_some(), "it stays for a better number");
     window.key(Key::Escape);
+    assert!(window.editor().layout.go_to.is_none());
+}
+
+#[test]
+fn the_counts_of_defects_say_what_they_are_and_go_to_the_next_of_their_kind() {
+    let mut window = folded();
+    let defects = window.editor().defects();
+    let flipped = defects.iter().filter(|defect| matches!(defect, Defect::Flipped(_))).count();
+    assert!(flipped >= 2, "{defects:?}");
+    window.click(&format!("Defects {}", defects.len()));
+    let name = format!("{flipped} flipped faces, go to the next");
+    for expected in (0..flipped).chain([0]) {
+        window.click(&name);
+        assert_eq!(window.editor().selection.defect(), Some(expected));
+    }
+    assert!(!window.has_button("0 overwound vertices, go to the next") && window.shows("0 overwound vertices"));
+}
+
+#[test]
+fn go_to_takes_the_keyboard_when_it_opens_and_not_again() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.key(Key::G);
+    window.type_text("24");
+    window.harness.get_by_role_and_label(Role::Button, "Go").focus();
+    window.harness.run_steps(5);
+    assert!(window.harness.get_by_role_and_label(Role::Button, "Go").is_focused(), "it is left to the button");
+    window.key(Key::Space);
+    assert!(window.editor().selection.vertices().contains(&VertexId::new(24)));
     assert!(window.editor().layout.go_to.is_none());
 }

@@ -314,3 +314,22 @@ fn a_drag_on_the_embedding_pans_and_the_wheel_zooms_to_the_pointer() {
     let framed = in_embedding(&window, from + Vec2::X).distance(in_embedding(&window, from));
     assert!((framed / scale - 1.0).abs() < 1e-6, "framed again");
 }
+
+#[test]
+fn the_menu_of_a_vertex_closes_with_its_mesh() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let vertex = window.vertex_in_the_middle();
+    window.harness.hover_at(window.place_on_mesh(vertex));
+    window.harness.run_steps(2);
+    let button = egui::PointerButton::Secondary;
+    for pressed in [true, false] {
+        let (pos, modifiers) = (window.place_on_mesh(vertex), Modifiers::NONE);
+        window.harness.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+    }
+    window.settle();
+    assert!(window.has_button("Fix where it lies") && window.shows(&vertex.to_string()));
+    let small = window.path("small.obj");
+    crate::harness::write_obj(&small, &sheet(2, 0.3));
+    window.open(&small);
+    assert!(!window.has_button("Fix where it lies"), "{:?}", window.words());
+}

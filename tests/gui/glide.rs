@@ -180,3 +180,46 @@ fn a_drag_that_is_given_up_goes_back_without_a_word_of_a_verdict_on_the_way() {
     });
     assert_eq!(drawn(&window), before);
 }
+
+/// Shows frames until none asks for the next one at once.
+fn rest(window: &mut Window) {
+    let asks =
+        |window: &Window| window.harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay.is_zero();
+    window.settle();
+    while asks(window) {
+        window.step();
+    }
+}
+
+#[test]
+fn a_rest_between_frames_is_no_slow_frame() {
+    let mut window = with_four_steps();
+    // Work that is not saved is copied every few seconds: each frame asks for one by then.
+    window.editor_mut().session.handle(Action::Fix([0, 40, 80].map(VertexId::new).to_vec()));
+    for _ in 0..2 {
+        window.editor_mut().session.handle(Action::Step);
+        window.settle();
+    }
+    let newest = shown(&window);
+    for woken in [false, true] {
+        rest(&mut window);
+        if woken {
+            // As the background does.
+            window.harness.ctx.request_repaint();
+        }
+        window.frame_after(3.0, []);
+        window.editor_mut().session.handle(Action::ShowStep(if woken { newest } else { newest - 1 }));
+        while !window.editor().plane.is_easing() {
+            assert!(window.editor().plane.is_moving(&window.editor().session), "no glide; news: {woken}");
+            std::thread::sleep(std::time::Duration::from_millis(1));
+            // No time goes by that could count as that of a frame.
+            window.frame_after(0.0, []);
+        }
+        let mut frames = 0;
+        while window.editor().plane.is_easing() {
+            window.step();
+            frames += 1;
+        }
+        assert!(frames >= 8, "{frames} frames of a glide; news: {woken}");
+    }
+}

@@ -149,6 +149,7 @@ impl Window {
             && plane_drawn == plane_wanted
             && editor.plane.hull_is_drawn()
             && !editor.plane.is_easing()
+            && !editor.look.is_making_picture()
             && !editor.host.has_presses_waiting();
         session.busy().is_none() && !session.is_following() && scenes_drawn
     }

@@ -202,3 +202,46 @@ fn its_cross_closes_it_and_the_menu_opens_it_again() {
     window.menu(&["View", "Magnifier"]);
     assert!(inset(&window).is_some());
 }
+
+#[test]
+fn a_drag_pans_it_until_another_defect_is_shown() {
+    let mut window = folded();
+    let Defect::Flipped(face) = window.editor().defects()[0] else { panic!("flipped faces come first") };
+    let corners = window.editor().session.model().expect("open").mesh().triangles[face.index()];
+    let place = |window: &Window, v: VertexId| window.place_in_plane(window.embedding()[v.index()]);
+    let around = |window: &Window| window.has_frame_around(Rect::from_points(&corners.map(|v| place(window, v))));
+    assert!(around(&window), "the frame on the layout lies around the defect");
+    let (camera, name) = (window.editor().plane.pane.camera(), inset(&window));
+    let middle = inset_rect(&window).center();
+    window.drag(middle, middle - egui::vec2(90.0, 0.0), egui::Modifiers::NONE);
+    assert_eq!((window.editor().plane.pane.camera(), inset(&window)), (camera, name), "what lies under it stays");
+    assert_eq!(window.editor().selection.defect(), None, "and a drag is no click");
+    assert!(!around(&window), "it looks at what lies beside the defect");
+    window.drag(middle, middle + egui::vec2(90.0, 0.0), egui::Modifiers::NONE);
+    assert!(around(&window), "and back");
+    window.drag(middle, middle - egui::vec2(90.0, 0.0), egui::Modifiers::NONE);
+    window.editor_mut().selection.set_defect(Some(1));
+    window.settle();
+    window.editor_mut().selection.set_defect(Some(0));
+    window.settle();
+    assert!(!around(&window), "it was not dragged for the other");
+}
+
+#[test]
+fn the_insets_of_a_pair_are_panned_each_by_itself() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let vertex = VertexId::new(24);
+    window.editor_mut().session.handle(Action::Fix(vec![VertexId::new(0), vertex, VertexId::new(48)]));
+    window.settle();
+    window.editor_mut().selection.select([vertex]);
+    window.settle();
+    let [on_mesh, in_plane] = ["v24 on the mesh", "the target of v24"].map(|what| format!("Magnifier: {what}"));
+    let rect = |window: &Window, name: &str| window.rect(Role::Image, name);
+    for (dragged, other) in [(&on_mesh, &in_plane), (&in_plane, &on_mesh)] {
+        let middle = rect(&window, dragged).center();
+        assert!(window.has_ring_at(middle), "{dragged}: the vertex lies in the middle");
+        window.drag(middle, middle + egui::vec2(0.0, 24.0), egui::Modifiers::NONE);
+        assert!(!window.has_ring_at(middle), "{dragged}: it went with the drag");
+        assert_eq!(window.has_ring_at(rect(&window, other).center()), *other == in_plane, "{other}");
+    }
+}

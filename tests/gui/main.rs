@@ -18,6 +18,7 @@ mod glide;
 mod glyphs;
 mod harness;
 mod hull;
+mod layout;
 mod magnifier;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;

@@ -8,11 +8,12 @@ use eframe::egui;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use freebound::examples::Example;
-use freebound::io::read_mesh;
+use freebound::io::{Target, read_mesh};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Surface};
 use freebound::solver::{Family, Method, Settings};
 use freebound::ui::sentence;
+use glam::DVec2;
 
 use crate::dialogs::{ask_where_to_save, name, window};
 use crate::harness::{Window, corpus, sheet, write_obj};
@@ -193,4 +194,71 @@ fn the_window_answers_while_a_solve_runs() {
         start.elapsed()
     });
     assert!(slowest.max().expect("ten frames") < Duration::from_millis(500));
+}
+
+/// Clicks the offer of a message to go to its vertices.
+fn go_to(window: &mut Window, name: &str, vertices: &[u32]) {
+    window.click(name);
+    let selected: Vec<u32> = window.editor().selection.vertices().iter().map(|vertex| vertex.number()).collect();
+    assert_eq!(selected, vertices);
+}
+
+#[test]
+fn pins_on_one_place_are_gone_to_from_the_message() {
+    let mut window = window();
+    for vertex in [3, 17] {
+        let target = Target::hard(DVec2::new(0.5, 0.25));
+        window.editor_mut().session.handle(Action::Place { vertex: VertexId::new(vertex), target });
+    }
+    window.settle();
+    assert!(window.editor().session.messages()[0].text.contains("vertices v3 and v17"));
+    go_to(&mut window, "Go to vertices v3, v17", &[3, 17]);
+}
+
+#[test]
+fn the_vertex_of_a_constraint_that_cannot_be_is_gone_to_from_the_message() {
+    let cases = [
+        ("3 0 0\n17 inf 0\n", "Go to vertex v17", &[17][..]),
+        ("3 0 0 -1\n", "Go to vertex v3", &[3]),
+        ("3 0 0\n3 1 1\n", "Go to vertex v3", &[3]),
+        ("3 0 0\n5 1 1\n17 0 0\n", "Go to vertices v17, v3", &[3, 17]),
+    ];
+    for (text, offer, vertices) in cases {
+        let mut window = window();
+        std::fs::write(window.path("pins.txt"), text).expect("written");
+        let file = window.path("pins.txt");
+        window.editor_mut().session.handle(Action::ImportConstraints(file));
+        window.settle();
+        let message = window.editor().session.messages()[0].clone();
+        assert!(message.text.contains("line ") && message.remedy.is_some(), "{message:?}");
+        go_to(&mut window, offer, vertices);
+    }
+}
+
+#[test]
+fn a_constraint_of_a_vertex_that_there_is_not_offers_no_way_to_it() {
+    let mut window = window();
+    std::fs::write(window.path("pins.txt"), "12345 0 0\n").expect("written");
+    let file = window.path("pins.txt");
+    window.editor_mut().session.handle(Action::ImportConstraints(file));
+    window.settle();
+    assert!(window.editor().session.messages()[0].text.contains("no vertex v12345"));
+    assert!(!window.has_button("Go to vertex v12345") && window.has_button("Dismiss"));
+}
+
+#[test]
+fn pins_of_a_project_that_the_mesh_has_no_vertices_for_are_named() {
+    let mut window = window();
+    window.editor_mut().session.handle(Action::Fix([0, 40, 41, 48].map(VertexId::new).to_vec()));
+    window.settle();
+    window.press(Modifiers::COMMAND, Key::S);
+    window.click("Save");
+    write_obj(&window.path("sheet.obj"), &sheet(2, 0.3));
+    let project = window.path("sheet.freebound");
+    window.open(&project);
+    let texts: Vec<String> = window.editor().session.messages().iter().map(|m| m.text.clone()).collect();
+    assert!(
+        texts.iter().any(|text| text.contains("3 of the project's 4 pins are left out (v40, v41, v48)")),
+        "{texts:?}"
+    );
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use freebound::geom::Bounds;
+use freebound::geom::{self, Bounds};
 use freebound::render::{PictureLayer, PlaneFrame, Sampling, Shading, plane_pane};
 use freebound::view::Picture;
 use glam::DVec2;
@@ -13,10 +13,15 @@ use crate::render::{PANE, RECT, Window, plane_frame};
 /// Side of the picture, pixels: seven to a pixel of the screen.
 const SIDE: u32 = 1024;
 
+/// A picture as the graphics card takes it.
+pub(crate) fn ready(width: u32, height: u32, pixels: Vec<u8>) -> Arc<Picture> {
+    Arc::new(Picture::new(Arc::new(geom::Picture { width, height, pixels })).expect("as many pixels"))
+}
+
 /// Black and white pixels in turn.
 fn finest_checker() -> Arc<Picture> {
     let colour = |i: u32| if (i % SIDE + i / SIDE).is_multiple_of(2) { [255; 4] } else { [0, 0, 0, 255] };
-    Arc::new(Picture::new([SIDE; 2], (0..SIDE * SIDE).flat_map(colour).collect()).expect("as many pixels"))
+    ready(SIDE, SIDE, (0..SIDE * SIDE).flat_map(colour).collect())
 }
 
 fn drawn(frame: &PlaneFrame) -> RgbaImage {
@@ -56,7 +61,7 @@ fn a_picture_far_smaller_on_the_screen_shows_its_mean() {
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn faces_beside_the_picture_are_hatched() {
     let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
-    let picture = Arc::new(Picture::new([1, 1], vec![0, 0, 255, 255]).expect("a pixel"));
+    let picture = ready(1, 1, vec![0, 0, 255, 255]);
     let spread = |frame: &PlaneFrame, point: DVec2| {
         let [least, most] = reds(&drawn(frame), frame, point);
         most - least

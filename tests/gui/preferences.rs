@@ -49,3 +49,25 @@ fn a_broken_file_is_the_first_start() {
     window.harness.state_mut().on_exit();
     assert!(std::fs::read_to_string(&path).expect("read").ends_with('}'), "written anew");
 }
+
+#[test]
+fn shadings_of_a_project_are_not_kept_as_the_person_s_own() {
+    let mesh = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    let [project, path] = ["sheet.freebound", "window.json"].map(|name| mesh.path(name));
+    let mut first = Window::with_file(&mesh.path("sheet.obj"));
+    first.shade(Shading::Stretch);
+    first.press(eframe::egui::Modifiers::COMMAND, eframe::egui::Key::S);
+    first.click("Save");
+    assert!(project.exists());
+    for own in [None, Some(Shading::Area)] {
+        let mut second = start(&mesh, &path);
+        if let Some(own) = own {
+            second.shade(own);
+        }
+        second.open(&project);
+        assert_eq!(second.shadings(), [Shading::Stretch; 2], "the project's show");
+        second.harness.state_mut().on_exit();
+        let third = start(&mesh, &path);
+        assert_eq!(third.shadings(), [own.unwrap_or_default(); 2], "and the person's come back");
+    }
+}

@@ -4,7 +4,7 @@ use eframe::egui;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::ui::{BINDINGS, Tool};
+use freebound::ui::{BINDINGS, Shading, Tool};
 use glam::DVec2;
 
 use crate::harness::{Window, sheet};
@@ -162,6 +162,71 @@ fn a_number_typed_in_the_frame_of_go_to_is_the_field_s() {
     window.settle();
     assert_eq!(selected(&window), [12]);
     assert_eq!(window.shadings(), shadings, "no letter was taken for a shortcut");
+}
+
+/// What is typed without keys of its own, as an input method or a paste does, and Enter.
+fn entered(text: Event) -> Vec<Event> {
+    [vec![text], key(Key::Enter, Modifiers::NONE).to_vec()].concat()
+}
+
+#[test]
+fn text_and_what_is_pasted_go_to_the_field_that_the_key_before_has_opened() {
+    for (text, expected) in [(Event::Text("17".to_owned()), 17), (Event::Paste("23".to_owned()), 23)] {
+        let mut window = window();
+        let shadings = window.shadings();
+        window.frame([key(Key::G, Modifiers::NONE).to_vec(), entered(text)].concat());
+        window.settle();
+        assert_eq!(selected(&window), [expected]);
+        assert_eq!(window.shadings(), shadings);
+    }
+}
+
+#[test]
+fn a_field_that_a_key_opened_in_a_slow_frame_gets_what_comes_in_the_next() {
+    let mut window = window();
+    window.frame(key(Key::G, Modifiers::NONE));
+    window.frame(entered(Event::Text("17".to_owned())));
+    window.settle();
+    assert_eq!(selected(&window), [17]);
+}
+
+#[test]
+fn a_click_on_a_field_and_a_number_behind_it_in_the_same_frame_set_it() {
+    let mut window = window();
+    pin(&mut window, &[0, 40, 80]);
+    window.click("Pins");
+    let before = target_of(&window, 40);
+    let field = window.rect(egui::accesskit::Role::SpinButton, "u of pin v40").center();
+    window.frame([click(field, Modifiers::NONE), entered(Event::Text("0.25".to_owned()))].concat());
+    window.settle();
+    assert_eq!(target_of(&window, 40), DVec2::new(0.25, before.y));
+}
+
+#[test]
+fn a_click_on_a_button_that_a_click_before_it_has_opened_counts() {
+    let mut window = window();
+    let place = |window: &Window, wanted: &str| {
+        let controls = window.controls();
+        let (_, _, rect) = controls.iter().find(|(_, name, _)| name.starts_with(wanted)).expect(wanted);
+        rect.center()
+    };
+    let menu = place(&window, "View");
+    window.click("View");
+    let entry = place(&window, "Wireframe");
+    window.key(Key::Escape);
+    assert!(!window.editor().look.wireframe && !window.controls().iter().any(|(_, name, _)| name == "Wireframe"));
+    window.frame([click(menu, Modifiers::NONE), click(entry, Modifiers::NONE)].concat());
+    window.settle();
+    assert!(window.editor().look.wireframe);
+}
+
+#[test]
+fn a_key_acts_on_the_pane_that_the_pointer_was_over_when_it_was_pressed() {
+    let mut window = window();
+    let [mesh, plane] = [window.mesh_view(), window.plane_view()].map(|view| view.center());
+    let shades = key(Key::Num4, Modifiers::NONE);
+    window.frame([vec![Event::PointerMoved(mesh)], shades.to_vec(), vec![Event::PointerMoved(plane)]].concat());
+    assert_eq!(window.shadings(), [Shading::Angle, Shading::default()], "that of the pane it was over, alone");
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Pictures of the panes, a few pixels of each.
 //!
-//! Both panes show a sheet of two by two squares in the z = 0 plane, cut into triangles. In its embedding one corner
-//! can be folded over.
+//! Both panes show a sheet of two by two squares in the z = 0 plane, cut into triangles; a corner of its embedding folds.
 
 use std::sync::Arc;
 
@@ -17,11 +16,12 @@ use freebound::render::{
 };
 use freebound::solver::Embedding;
 use freebound::view::{
-    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, Picture, PlaneArrays, PlaneCamera, Sphere, Srgb,
-    UpAxis,
+    EdgeList, FaceList, FacePaint, MeshArrays, OrbitCamera, Palette, PlaneArrays, PlaneCamera, Sphere, Srgb, UpAxis,
 };
 use glam::{DVec2, DVec3};
 use image::RgbaImage;
+
+use crate::picture_filter::ready;
 
 pub(crate) const PANE: PaneId = PaneId("test");
 /// Size of the window in points, and where the pane lies in it.
@@ -299,7 +299,7 @@ fn filled_faces_show_beside_the_mesh_and_under_it_mixed_with_what_is_behind() {
 #[ignore = "needs a Vulkan driver: apt install mesa-vulkan-drivers"]
 fn the_picture_lies_in_its_box_upper_row_up() {
     let pixels = [[255, 0, 0, 255], [0, 0, 255, 255]].concat();
-    let picture = Arc::new(Picture::new([1, 2], pixels).expect("two pixels"));
+    let picture = ready(1, 2, pixels);
     let bounds = Bounds { low: DVec2::NEG_ONE, high: DVec2::ONE };
     let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
     frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0, sampling: Sampling::Smooth });
@@ -321,7 +321,7 @@ fn a_picture_larger_than_the_card_takes_shows_all_the_same() {
     // Cards and drivers take 8192 to 32768 pixels a side.
     let rows = 40_000_usize;
     let pixels = [[255_u8, 0, 0, 255].repeat(rows / 2), [0, 0, 255, 255].repeat(rows / 2)].concat();
-    let picture = Arc::new(Picture::new([1, 40_000], pixels).expect("as many pixels"));
+    let picture = ready(1, 40_000, pixels);
     let bounds = Bounds { low: DVec2::NEG_ONE, high: DVec2::ONE };
     let mut frame = plane_frame(DVec2::new(1.0, -1.0), &[]);
     frame.picture = Some(PictureLayer { picture, bounds, opacity: 1.0, sampling: Sampling::Smooth });

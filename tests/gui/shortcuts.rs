@@ -96,7 +96,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::TogglePane => editor.layout.full() == Some(Pane::Plane),
             Request::Escape => editor.tools.tool() == Tool::Select,
             Request::OpenMenu(place) => {
-                let first = ["Open…", "Undo", "Shading", "Take one step", "All keys"][place];
+                let first = ["Open…", "Undo", "Shading of the mesh", "Take one step", "All keys"][place];
                 window.has_button(first)
             }
             Request::ToggleKeys => editor.layout.keys_shown,

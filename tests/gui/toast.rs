@@ -2,6 +2,7 @@
 
 use eframe::egui;
 use egui::Rect;
+use egui_kittest::kittest::Queryable as _;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Severity};
 
@@ -103,4 +104,17 @@ fn the_pointer_over_a_bar_picks_nothing_behind_it() {
     window.drag(bar, bar + egui::vec2(30.0, 4.0), egui::Modifiers::NONE);
     assert_eq!(window.editor().mesh.pane.camera(), camera, "nor does a drag reach what is behind");
     assert!(!window.editor().selection.vertices().contains(&corner));
+}
+
+#[test]
+fn news_stay_while_one_of_their_buttons_has_the_keyboard() {
+    let mut window = window();
+    ask_where_to_save(&mut window);
+    window.click("Save");
+    window.harness.get_by_label("Show in folder").focus();
+    pass(&mut window, 6);
+    assert!(window.has_button("Show in folder"));
+    window.harness.get_by_label("File").focus();
+    pass(&mut window, 5);
+    assert!(!window.has_button("Show in folder"));
 }

@@ -225,7 +225,7 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
     if let Some(outcome) = drawn.filter(|_| is_open && is_quiet) {
         let says = window.shows("Planar: proved one-to-one");
         check(says == outcome.step.verdict.planar, &|| "the Defects panel is of another sheet".to_owned());
-        let words = format!("{} flipped faces", outcome.step.verdict.flipped_faces.len());
+        let words = format!("{} flipped face", outcome.step.verdict.flipped_faces.len());
         check(says || window.shows(&words), &|| format!("the Defects panel does not say {words:?}"));
     }
     if is_quiet {

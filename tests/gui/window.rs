@@ -41,7 +41,7 @@ const STATES: [State; 30] = [
     ("the sizes in files", |window| window.menu(&["File", "Size in files"])),
     ("the Edit menu", |window| window.click("Edit")),
     ("the View menu", |window| window.click("View")),
-    ("the shadings", |window| window.menu(&["View", "Shading"])),
+    ("the shadings", |window| window.menu(&["View", "Shading of the mesh"])),
     ("the themes", |window| window.menu(&["View", "Theme"])),
     ("the Solve menu", |window| window.click("Solve")),
     ("the Help menu", |window| window.click("Help")),
@@ -145,7 +145,7 @@ fn no_two_controls_of_a_state_have_the_same_role_and_name() {
 
 #[test]
 fn each_menu_has_its_entries() {
-    let menus: [(&[&str], &[&str]); 9] = [
+    let menus: [(&[&str], &[&str]); 10] = [
         (
             &["File"],
             &["Open…", "Save project", "Save project as…", "Open picture…", "Import constraints…", "Export", "Quit"],
@@ -182,8 +182,12 @@ fn each_menu_has_its_entries() {
             ],
         ),
         (
-            &["View", "Shading"],
+            &["View", "Shading of the mesh"],
             &["Plain", "Checker", "Picture", "Angle distortion", "Area distortion", "Stretch", "Move"],
+        ),
+        (
+            &["View", "Shading of the embedding"],
+            &["Plain", "Checker", "Picture", "Angle distortion", "Area distortion", "Stretch", "Move", "See-through"],
         ),
         (&["View", "Theme"], &["As the system", "Light", "Dark"]),
         (&["Solve"], &["Take one step", "Run on", "Play all steps", "Solve again", "Cancel", "Method and weights"]),
@@ -224,7 +228,10 @@ fn each_example_opens_from_the_menu() {
 fn each_shading_of_the_view_menu_is_put_on() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.3));
     for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(Pane::Mesh)) {
-        window.menu(&["View", "Shading", shading.title()]);
+        let before = window.shadings();
+        window.menu(&["View", "Shading of the mesh", shading.title()]);
+        assert_eq!(window.shadings(), [shading, before[1]]);
+        window.menu(&["View", "Shading of the embedding", shading.title()]);
         assert_eq!(window.shadings(), [shading; 2]);
         let legend = window.editor().look.paint(Pane::Mesh).expect("painted").legend.is_some();
         // Nothing has moved at the first step.

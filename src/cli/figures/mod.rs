@@ -120,7 +120,7 @@ pub(super) fn run(folder: &Path) -> Result<Status, Failure> {
             files.extend(drawn(figure)?);
         }
         files.push((TABLE.to_owned(), table.clone()));
-        fs::create_dir_all(folder).map_err(|source| WriteError { path: folder.to_owned(), source })?;
+        fs::create_dir_all(folder).map_err(|source| WriteError::writing(folder, source))?;
         for (name, bytes) in &files {
             go_on()?;
             write_atomically(&folder.join(name), |out| out.write_all(bytes))?;
@@ -158,7 +158,7 @@ fn compute(progress: &Progress) -> Result<Vec<Figure>, SolveError> {
 fn drawn(figure: &Figure) -> Result<[(String, Vec<u8>); 2], WriteError> {
     let page = figure.sheet.page();
     let [svg, png] = ["svg", "png"].map(|kind| format!("figure-{}.{kind}", figure.number));
-    let failed = |source| WriteError { path: svg.clone().into(), source };
+    let failed = |source| WriteError::writing(&svg, source);
     let (mut drawing, mut picture) = (Vec::new(), Vec::new());
     page.write_svg(&mut drawing).map_err(failed)?;
     page.picture(PIXELS).write_png(&mut picture).map_err(failed)?;

@@ -130,5 +130,5 @@ fn is_beside(file: &Path, mesh: &Path) -> bool {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, WriteError> {
-    fs::read(path).map_err(|source| WriteError { path: path.to_owned(), source })
+    fs::read(path).map_err(|source| WriteError::reading(path, source))
 }

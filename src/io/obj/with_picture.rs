@@ -94,7 +94,7 @@ fn put_picture(picture: &PictureFile, beside: &mut Beside<'_>) -> Result<String,
     let Some(source) = &picture.path else {
         let name = format!("{}-{MATERIAL}.png", stem_of(mesh));
         let mut bytes = Vec::new();
-        let failed = |source| WriteError { path: mesh.with_file_name(&name), source };
+        let failed = |source| WriteError::writing(mesh.with_file_name(&name), source);
         picture.pixels.write_png(&mut bytes).map_err(failed)?;
         return beside.put_under(&[name], &bytes);
     };
@@ -102,6 +102,6 @@ fn put_picture(picture: &PictureFile, beside: &mut Beside<'_>) -> Result<String,
     if source.is_file() && is_same_file(source, &mesh.with_file_name(&name)) {
         return Ok(name);
     }
-    let bytes = fs::read(source).map_err(|error| WriteError { path: source.to_owned(), source: error })?;
+    let bytes = fs::read(source).map_err(|error| WriteError::reading(source, error))?;
     beside.put(&name, &bytes)
 }

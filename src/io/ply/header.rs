@@ -161,11 +161,8 @@ impl Header {
                 self.elements.push(Element { name, count, properties: Vec::new() });
                 Ok(())
             }
-            [b"property", b"list", count, item, name] => {
-                let count = Scalar::of(count).filter(|kind| kind.is_integer());
-                self.property(name, Some(count), Scalar::of(item))
-            }
-            [b"property", item, name] => self.property(name, None, Scalar::of(item)),
+            [b"property", b"list", count, item, name] => self.property(name, Some(count), item),
+            [b"property", item, name] => self.property(name, None, item),
             [] | [b"comment" | b"obj_info", ..] if self.lines > 1 => Ok(()),
             [first, ..] => {
                 let expected = if self.lines == 1 { "ply" } else { "a line of a PLY header" };
@@ -175,8 +172,11 @@ impl Header {
         }
     }
 
-    fn property(&mut self, name: &[u8], count: Option<Option<Scalar>>, item: Option<Scalar>) -> Result<(), ReadError> {
-        let (Some(item), Some(count)) = (item, count.map_or(Some(None), |count| count.map(Some))) else {
+    /// Takes a property in, by the words for the types of a list's count, where it is one, and of its items.
+    fn property(&mut self, name: &[u8], count: Option<&[u8]>, item: &[u8]) -> Result<(), ReadError> {
+        let is_list = count.is_some();
+        let count = count.and_then(Scalar::of).filter(|kind| kind.is_integer());
+        let Some(item) = Scalar::of(item).filter(|_| count.is_some() == is_list) else {
             return Err(self.unexpected(name, "a property of a type that PLY has"));
         };
         let name = String::from_utf8_lossy(name).into_owned();

@@ -233,7 +233,7 @@ impl ProjectFile {
     ///
     /// [`WriteError`] names the path and says what went wrong.
     pub fn write(&self, path: &Path, style: PathStyle) -> Result<(), WriteError> {
-        let failed = |source| WriteError { path: path.to_owned(), source };
+        let failed = |source| WriteError::writing(path, source);
         check_finite(self.targets.values().map(|target| &target.uv)).map_err(failed)?;
         let mut project = self.clone();
         let folder = whole_folder_of(path);

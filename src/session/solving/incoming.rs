@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Solving;
-use super::running::{Delivery, News, Next, Resting, Running};
+use super::running::{Delivery, News, Next, Rest, Resting, Running};
 use crate::session::stop::Goal;
 use crate::session::{Message, Messages, Place, Timeline};
 use crate::solver::{Ending, Ladder, SolveError};
@@ -34,8 +34,12 @@ impl Solving {
             }
             Some(((), Ok((run, result)))) => {
                 let went_on_by_itself = self.running.as_ref().is_some_and(Running::goes_on_by_itself);
-                news.has_ended = result.is_ok() && self.ending.is_some() && went_on_by_itself;
+                let rest = if result.is_ok() && went_on_by_itself { Rest::ByItself } else { Rest::Elsewhere };
                 news.next = self.take_back(run, result, messages);
+                if news.next.is_none() {
+                    news.rest = Some(rest);
+                    news.rounds_cut = self.cut_rounds();
+                }
             }
         }
         news
@@ -84,7 +88,10 @@ impl Solving {
     /// Says what went wrong; where constraints cannot be met, which.
     fn tell(&mut self, error: &SolveError, has_new_vertices: bool, messages: &mut Messages) {
         self.forget_message(messages);
-        let mut message = Message::error(Place::Embedding, error.to_string());
+        let mut message = Message::error(Place::Embedding, error.to_string()).with_vertices(error.vertices());
+        if matches!(error, SolveError::LadderExhausted { .. }) {
+            self.ending = Some(Ending::Done);
+        }
         if *error == SolveError::Unmet {
             self.ending = Some(Ending::Unmet);
             let remedy = if has_new_vertices { "move these pins" } else { "allow new vertices, or move these pins" };

@@ -16,14 +16,17 @@
 //! | `mod`      | the part: what is asked of it and done with it                            |
 //! | `running`  | what is to be solved; a run at rest and in the background, where it works |
 //! | `incoming` | takes in steps, and a run that has come to rest                           |
+//! | `rounds`   | rounds of relaxing that a person has asked for                            |
 
 mod incoming;
+mod rounds;
 mod running;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
 
-pub(super) use self::running::{Next, Task};
+use self::rounds::Rounds;
+pub(super) use self::running::{Next, Rest, Task};
 use self::running::{Resting, Running, Shared, take_steps};
 use super::stop::Goal;
 use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Timeline, Wake};
@@ -47,8 +50,8 @@ pub(super) struct Solving {
     running: Option<Running>,
     /// The run that waits to be taken on.
     resting: Option<Resting>,
-    /// Rounds of relaxing that the run was asked for after its end.
-    rounds_asked: usize,
+    /// Rounds of relaxing that it was asked for after its end.
+    rounds: Rounds,
     /// Whether the targets changed since the first step under way began.
     is_outdated: bool,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
@@ -67,7 +70,7 @@ impl Solving {
             kept: Kept::default(),
             running: None,
             resting: None,
-            rounds_asked: 0,
+            rounds: Rounds::default(),
             is_outdated: false,
             message: None,
         }
@@ -76,6 +79,10 @@ impl Solving {
     /// The newest step.
     fn newest(&self) -> Option<&Arc<Outcome>> {
         self.timeline.outcome(self.timeline.newest()?)
+    }
+
+    fn newest_index(&self) -> usize {
+        self.timeline.newest().unwrap_or(0)
     }
 
     /// Kept from solves that succeeded, for problems where only targets differ.
@@ -90,7 +97,12 @@ impl Solving {
 
     /// Rounds of relaxing that the run was asked for after its end.
     pub(super) fn rounds_asked(&self) -> usize {
-        self.rounds_asked
+        self.rounds.asked()
+    }
+
+    /// Whether the run has come to its own end.
+    pub(super) fn has_ended(&self) -> bool {
+        self.ending.is_some()
     }
 
     /// Whether another run is to begin where targets changed while a first step was under way.
@@ -135,7 +147,7 @@ impl Solving {
             return;
         }
         let run = task.problem.ladder().with_kept(&self.kept);
-        self.rounds_asked = 0;
+        self.rounds = Rounds::default();
         self.spawn(task, run, goal);
     }
 
@@ -176,9 +188,9 @@ impl Solving {
     /// Lowers the distortion of the newest step, until all rounds are used up or nothing is gained. Returns whether it can.
     pub(super) fn relax(&mut self, task: Task, rounds: usize, messages: &mut Messages) -> bool {
         let Some(mut resting) = self.resting.take() else { return false };
-        self.rounds_asked = self.rounds_asked.saturating_add(rounds);
         match resting.run.relax(rounds) {
             Ok(()) => {
+                self.rounds.begin(rounds, self.newest_index());
                 self.ending = None;
                 self.spawn(task, resting.run, Goal::End);
                 true
@@ -189,6 +201,19 @@ impl Solving {
                 false
             }
         }
+    }
+
+    /// The run is at rest: rounds of relaxing that it was asked for and has not come to are cut short. Returns how many.
+    fn cut_rounds(&mut self) -> usize {
+        if self.has_ended() {
+            self.rounds.end();
+        }
+        self.rounds.cut_short(self.newest_index())
+    }
+
+    /// Takes up rounds of relaxing that were cut short, so many at most. Returns how many.
+    pub(super) fn resume_rounds(&mut self, most: usize) -> usize {
+        if self.running.is_none() { self.rounds.resume(most, self.newest_index()) } else { 0 }
     }
 
     /// Chooses where a run that goes on by itself comes to rest.

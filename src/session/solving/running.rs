@@ -21,10 +21,21 @@ pub(in crate::session) struct Task {
 pub(in crate::session) struct News {
     /// Whether a run's first step has come in.
     pub(in crate::session) has_begun: bool,
-    /// Whether a run that went on by itself has come to rest, and not because of a person's wish.
-    pub(in crate::session) has_ended: bool,
+    /// How the run has come to rest, where it has and is to stay there.
+    pub(in crate::session) rest: Option<Rest>,
+    /// Rounds of relaxing that it was asked for and has not come to.
+    pub(in crate::session) rounds_cut: usize,
     /// What is to be done now, with the problem as it is by then.
     pub(in crate::session) next: Option<Next>,
+}
+
+/// How a run has come to rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::session) enum Rest {
+    /// It went on by itself until something held that stops it.
+    ByItself,
+    /// Where a person wanted it, or because of a fault.
+    Elsewhere,
 }
 
 /// How solving goes on by itself.

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
+use super::frames::Frames;
 use crate::session::Wake;
 use crate::ui::presses::Presses;
 
@@ -21,28 +22,13 @@ pub struct Host {
     /// Since when there is work in the background.
     busy_since: Option<Instant>,
     is_quitting: bool,
-    frames: FrameClock,
-}
-
-/// Measures how long frames take, where one follows the other without a rest.
-#[derive(Clone, Copy, Debug, Default)]
-struct FrameClock {
-    /// When the frame began that asked for another at once; seconds of the window's clock.
-    since: Option<f64>,
-    seconds: f64,
 }
 
 impl Host {
     pub(super) fn new(context: &egui::Context) -> Self {
         Presses::install(context);
-        Self {
-            context: context.clone(),
-            has_gpu: false,
-            title: String::new(),
-            busy_since: None,
-            is_quitting: false,
-            frames: FrameClock::default(),
-        }
+        Frames::install(context);
+        Self { context: context.clone(), has_gpu: false, title: String::new(), busy_since: None, is_quitting: false }
     }
 
     pub(in crate::ui) fn context(&self) -> &egui::Context {
@@ -61,22 +47,7 @@ impl Host {
 
     /// How long frames take, seconds, as far as was measured.
     pub(super) fn frame_seconds(&self) -> f64 {
-        self.frames.seconds
-    }
-
-    /// Takes in that a pass begins. The passes of a frame lie at one time.
-    pub(super) fn begin_pass(&mut self) {
-        let now = self.now();
-        if let Some(since) = self.frames.since.take_if(|since| now > *since) {
-            self.frames.seconds = now - since;
-        }
-    }
-
-    /// Takes in that a pass ends.
-    pub(in crate::ui) fn end_pass(&mut self) {
-        if self.context.has_requested_repaint() {
-            self.frames.since = self.frames.since.or(Some(self.now()));
-        }
+        Frames::seconds(&self.context)
     }
 
     /// What background work calls when it has news.

@@ -14,7 +14,7 @@ impl Editor {
             ThemePreference::Dark => Some(true),
             ThemePreference::Light => Some(false),
         };
-        let shading = |pane| Some(self.look.usual.shading(pane).title().to_owned());
+        let shading = |pane| self.look.own_shading(pane).map(|shading| shading.title().to_owned());
         let size = context.content_rect().size() * context.zoom_factor();
         Preferences {
             dark,
@@ -32,8 +32,9 @@ impl Editor {
             self.host.context().set_theme(if dark { Theme::Dark } else { Theme::Light });
         }
         self.look.wireframe = left.wireframe;
-        self.put_on_shadings([left.mesh_shading.as_deref(), left.plane_shading.as_deref()]);
-        self.look.usual.is_kept = left.mesh_shading.is_some() || left.plane_shading.is_some();
+        for (pane, name) in Pane::BOTH.into_iter().zip([&left.mesh_shading, &left.plane_shading]) {
+            self.look.keep_own_shading(pane, name.as_deref());
+        }
         if let Some(width) = left.panel_width {
             self.layout.set_panel_width(width);
         }

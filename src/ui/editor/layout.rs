@@ -2,7 +2,7 @@
 
 use super::{Pane, Tab};
 use crate::ui::panels::toast::Toast;
-use crate::ui::panes::inset::Zoom;
+use crate::ui::panes::inset::Sight;
 use crate::ui::theme::{PANEL_WIDTH, PANEL_WIDTHS};
 
 /// A window narrower than this shows no panels until they are asked for, points.
@@ -10,6 +10,15 @@ const PANELS_FROM: f32 = 820.0;
 
 /// Least share of the width that a pane has.
 const LEAST_SHARE: f32 = 0.15;
+
+/// The window that asks for an element to go to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GoTo {
+    /// What is typed into it.
+    pub(in crate::ui) text: String,
+    /// Whether its field is to take the keyboard in the next frame.
+    pub(in crate::ui) takes_keyboard: bool,
+}
 
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
@@ -24,12 +33,12 @@ pub struct Layout {
     panel_width: Option<f32>,
     pub keys_shown: bool,
     pub exports_shown: bool,
-    /// What is typed into "go to", where it shows.
-    pub go_to: Option<String>,
+    /// "Go to", where it shows.
+    pub go_to: Option<GoTo>,
     /// The good news that show.
     pub(in crate::ui) toast: Option<Toast>,
-    /// How near the insets over the panes show.
-    pub(in crate::ui) inset_zoom: Zoom,
+    /// What the insets over the panes show, and how near.
+    pub(in crate::ui) insets: Sight,
     /// The menu that is to open, by its place in the bar.
     pub(in crate::ui) menu_asked: Option<usize>,
 }
@@ -94,6 +103,12 @@ impl Layout {
 
     pub(in crate::ui) fn set_split(&mut self, share: f32) {
         self.split = Some(share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE));
+    }
+
+    /// Opens "go to", or gives its field the keyboard where it is open.
+    pub(super) fn ask_go_to(&mut self) {
+        let text = self.go_to.take().map(|open| open.text).unwrap_or_default();
+        self.go_to = Some(GoTo { text, takes_keyboard: true });
     }
 
     /// Closes one of the floating windows. Returns whether one was open.

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use super::making::Making;
 use super::scene::{Legend, MeshScene, Paint, PaintKey, PlaneScene};
 use super::{Editor, Pane, Shading, Tool};
 use crate::geom;
 use crate::geom::Bounds;
 use crate::render::{PictureLayer, Sampling};
-use crate::session::{Document, Outcome};
+use crate::session::{Document, Failure, Outcome, Wake};
 use crate::view::{self};
 
 /// How strongly the picture shows behind the embedding at the start.
@@ -55,37 +56,46 @@ pub struct Look {
     pub(super) usual: Appearance,
     /// As chosen for the constrain tool over a picture.
     over_picture: Appearance,
+    /// What a person has chosen for the two panes, now or in a run before; a project's shadings are not theirs.
+    own: [Option<Shading>; 2],
     pub wireframe: bool,
     /// Whether insets magnify a defect and a pair.
     pub magnifier: bool,
     /// Whether vertices glide from step to step; off for those whom motion bothers.
     pub glides: bool,
     pub sampling: Sampling,
-    /// The document's picture, and the same as the graphics card takes it.
-    picture: Option<(Arc<geom::Picture>, Arc<view::Picture>)>,
+    /// The document's picture.
+    pixels: Option<Arc<geom::Picture>>,
+    /// The same as the graphics card takes it, once that is made.
+    picture: Option<Arc<view::Picture>>,
+    /// By the count of pictures.
+    making: Making<u64, Option<view::Picture>>,
+    picture_count: u64,
     /// Of the mesh's pane and of the embedding's; one and the same where both are coloured alike.
     paints: [Option<Arc<Paint>>; 2],
     /// Side of a check in the plane, and the mesh by its revision that it was chosen for.
     check: Option<(u64, f64)>,
 }
 
-impl Default for Look {
-    fn default() -> Self {
+impl Look {
+    pub(super) fn new(wake: &Wake) -> Self {
         Self {
             usual: Appearance { mesh: Shading::default(), plane: Shading::default(), opacity: OPACITY, is_kept: false },
             over_picture: Appearance::OVER_PICTURE,
+            own: [None; 2],
             wireframe: false,
             magnifier: true,
             glides: true,
             sampling: Sampling::Smooth,
+            pixels: None,
             picture: None,
+            making: Making::new("picture", wake),
+            picture_count: 0,
             paints: [None, None],
             check: None,
         }
     }
-}
 
-impl Look {
     pub fn paint(&self, pane: Pane) -> Option<&Paint> {
         self.paints[pane as usize].as_deref()
     }
@@ -93,6 +103,19 @@ impl Look {
     /// The scale of a shading by numbers.
     pub(in crate::ui) fn legend(&self, pane: Pane) -> Option<&Legend> {
         self.paint(pane)?.legend.as_ref()
+    }
+
+    /// What a person has chosen for a pane.
+    pub(super) fn own_shading(&self, pane: Pane) -> Option<Shading> {
+        self.own[pane as usize]
+    }
+
+    /// Takes over what a person has chosen in a run before, by its name.
+    pub(super) fn keep_own_shading(&mut self, pane: Pane, name: Option<&str>) {
+        let Some(shading) = Shading::called(name).filter(|shading| shading.is_for(pane)) else { return };
+        self.own[pane as usize] = Some(shading);
+        self.usual.shade(pane, shading);
+        self.usual.is_kept = true;
     }
 
     /// Whether pixels show as squares.
@@ -122,21 +145,36 @@ impl Look {
 
     /// The picture as panes draw it, in its box in the plane, so strong behind the embedding.
     pub(in crate::ui) fn picture_layer(&self, bounds: Bounds, opacity: f32) -> Option<PictureLayer> {
-        let (_, picture) = self.picture.as_ref()?;
-        Some(PictureLayer { picture: Arc::clone(picture), bounds, opacity, sampling: self.sampling })
+        let picture = Arc::clone(self.picture.as_ref()?);
+        Some(PictureLayer { picture, bounds, opacity, sampling: self.sampling })
     }
 
-    /// Takes in another picture of the document's. A picture that comes in is put on the mesh. Call once per frame.
+    /// Whether the document's picture is not ready to be drawn yet.
+    pub fn is_making_picture(&self) -> bool {
+        self.making.is_busy()
+    }
+
+    /// Why the picture could not be made ready; each failure once.
+    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+        self.making.take_failure()
+    }
+
+    /// Takes in another picture of the document's. A picture that comes in is put on the mesh, as soon as its smaller sizes
+    /// are made in the background. Call once per frame.
     pub(super) fn refresh_picture(&mut self, document: &Document) {
+        if let Some((_, made)) = self.making.poll() {
+            self.picture = made.map(Arc::new);
+        }
         let wanted = document.picture.as_ref().map(|file| &file.pixels);
-        let shown = self.picture.as_ref().map(|(pixels, _)| pixels);
-        if wanted.map(Arc::as_ptr) == shown.map(Arc::as_ptr) {
+        if wanted.map(Arc::as_ptr) == self.pixels.as_ref().map(Arc::as_ptr) {
             return;
         }
-        self.picture = wanted.and_then(|pixels| {
-            let picture = view::Picture::new([pixels.width, pixels.height], pixels.pixels.clone())?;
-            Some((Arc::clone(pixels), Arc::new(picture)))
-        });
+        (self.pixels, self.picture) = (wanted.cloned(), None);
+        self.making.cancel();
+        if let Some(pixels) = wanted.cloned() {
+            self.picture_count += 1;
+            self.making.make(self.picture_count, move |_| view::Picture::new(pixels));
+        }
         let is_kept = wanted.is_some() && std::mem::take(&mut self.usual.is_kept);
         for shading in [&mut self.usual.mesh, &mut self.usual.plane] {
             *shading = match *shading {
@@ -206,8 +244,16 @@ impl Editor {
     /// Shades the pane under the pointer, or both where it is over neither.
     pub(super) fn shade(&mut self, shading: Shading) {
         match self.pointer.pane() {
-            Some(pane) => self.appearance_mut().shade(pane, shading),
-            None => Pane::BOTH.into_iter().for_each(|pane| self.appearance_mut().shade(pane, shading)),
+            Some(pane) => self.shade_pane(pane, shading),
+            None => Pane::BOTH.into_iter().for_each(|pane| self.shade_pane(pane, shading)),
+        }
+    }
+
+    /// Shades a pane as a person chose.
+    pub(super) fn shade_pane(&mut self, pane: Pane, shading: Shading) {
+        self.appearance_mut().shade(pane, shading);
+        if !self.is_placing_on_picture() && shading.is_for(pane) {
+            self.look.own[pane as usize] = Some(shading);
         }
     }
 

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use super::making::Making;
 use super::scene::MeshScene;
-use crate::session::{Background, Session, Wake};
+use crate::session::{Failure, Session, Wake};
 use crate::ui::panes::pane::PaneView;
 use crate::view::{OrbitCamera, Sphere, UpAxis};
 
@@ -13,12 +14,12 @@ pub struct MeshView {
     pub pane: PaneView<OrbitCamera>,
     scene: Option<Arc<MeshScene>>,
     /// The scene that is being made, by the mesh's revision.
-    job: Background<u64, MeshScene>,
+    job: Making<u64, MeshScene>,
 }
 
 impl MeshView {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { pane: PaneView::default(), scene: None, job: Background::new("mesh scene", wake) }
+        Self { pane: PaneView::default(), scene: None, job: Making::new("mesh scene", wake) }
     }
 
     /// The mesh as given.
@@ -28,6 +29,11 @@ impl MeshView {
 
     pub(super) fn is_making_scene(&self) -> bool {
         self.job.is_busy()
+    }
+
+    /// Why the scene could not be made; each failure once.
+    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+        self.job.take_failure()
     }
 
     /// Shows a ball in full size.
@@ -41,7 +47,7 @@ impl MeshView {
     /// Takes in a scene that was made, and has another one made where the session has another mesh. Returns whether
     /// there is a new scene.
     pub(super) fn poll(&mut self, session: &Session) -> bool {
-        let made = self.job.poll().and_then(|(_, scene)| scene.ok());
+        let made = self.job.poll().map(|(_, scene)| scene);
         let is_new = made.is_some();
         if let Some(scene) = made {
             // Another mesh, or the same one turned around, is seen from its outside.
@@ -51,9 +57,9 @@ impl MeshView {
         }
         let revision = session.model_revision();
         let is_shown = self.scene.as_ref().is_some_and(|scene| scene.model_revision == revision);
-        if let Some(model) = session.model().filter(|_| !is_shown && !self.job.is_busy()) {
+        if let Some(model) = session.model().filter(|_| !is_shown) {
             let model = Arc::clone(model);
-            self.job.start(revision, move |_| MeshScene::new(model, revision));
+            self.job.make(revision, move |_| MeshScene::new(model, revision));
         }
         is_new
     }

@@ -8,18 +8,22 @@
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
+//! | `making.rs` | scenes are made in the background |
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
 //! | `look.rs` | how faces show: shading of each pane, wireframe, picture, colours |
 //! | `layout.rs` | what of the window is open |
 //! | `kept.rs` | what of the window is kept between runs |
 //! | `opened.rs` | what the window keeps of the open document, and how it looks, for the project file |
 //! | `host.rs` | egui's context and the graphics card |
+//! | `frames.rs` | how long frames take |
 //! | `views.rs` | what the cameras look at; defects |
 
+mod frames;
 mod host;
 mod kept;
-mod layout;
+pub(super) mod layout;
 mod look;
+mod making;
 mod mesh_view;
 mod opened;
 mod plane;
@@ -42,7 +46,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
-use crate::session::{Busy, RecentFiles, Session};
+use crate::session::{Busy, Place, RecentFiles, Session};
 use crate::ui::TimelineView;
 use host::Host;
 use layout::Layout;
@@ -99,11 +103,11 @@ impl Editor {
         Self {
             mesh: MeshView::new(&wake),
             plane: PlaneView::new(&wake),
-            session: Session::new(wake, recent),
+            session: Session::new(Arc::clone(&wake), recent),
             selection: Selection::default(),
             pointer: Pointer::default(),
             tools: ToolState::default(),
-            look: Look::default(),
+            look: Look::new(&wake),
             layout: Layout::default(),
             opened: Opened::default(),
             host,
@@ -124,7 +128,6 @@ impl Editor {
 
     /// Takes in what the background has finished. Call at the start of each frame.
     pub fn poll(&mut self) {
-        self.host.begin_pass();
         if self.opened.view_is_due(&self.session) {
             // For copies for recovery.
             self.keep_view();
@@ -137,10 +140,13 @@ impl Editor {
         }
         let (plane, around) = self.plane_in_surroundings();
         if let Some(scene) = plane.refresh(around) {
-            self.selection.keep_below(scene.mesh.mesh().vertex_count());
+            let vertex_count = scene.mesh.mesh().vertex_count();
+            self.selection.keep_below(vertex_count);
+            self.pointer.keep_menu_below(vertex_count);
             let count = self.defect_count();
             self.selection.keep_defect_below(count);
         }
+        self.tell_failures();
         self.look.refresh_picture(self.session.document());
         self.poll_shot();
         if let Some(plane) = self.plane.scene() {
@@ -148,7 +154,8 @@ impl Editor {
         }
         self.refresh_paints();
         self.host.note_work(self.session.busy().is_some(), Instant::now());
-        let scenes_pending = self.mesh.is_making_scene() || self.plane.is_making_scene();
+        let scenes_pending =
+            self.mesh.is_making_scene() || self.plane.is_making_scene() || self.look.is_making_picture();
         if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
             self.host.context().request_repaint_after(Duration::from_millis(100));
         }
@@ -158,6 +165,15 @@ impl Editor {
         }
         if let Some(choice) = self.files.dialogs.poll() {
             self.take_choice(choice);
+        }
+    }
+
+    /// Says what could not be drawn.
+    fn tell_failures(&mut self) {
+        let [mesh, plane, picture] = [self.mesh.take_failure(), self.plane.take_failure(), self.look.take_failure()];
+        let failures = [(Place::Mesh, mesh), (Place::Embedding, plane), (Place::Embedding, picture)];
+        for (place, failure) in failures.into_iter().filter_map(|(place, failure)| Some((place, failure?))) {
+            self.session.tell_failure(place, "drawing", &failure);
         }
     }
 
@@ -188,7 +204,7 @@ impl Editor {
             self.selection.select([]);
             self.put_on_view();
         }
-        self.pointer.set_vertex(None);
+        self.pointer.forget_vertices();
         self.selection.set_defect(None);
         self.tools.end_drag();
         self.tools.set_pair(None);

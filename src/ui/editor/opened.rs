@@ -91,19 +91,14 @@ impl Editor {
         }
     }
 
-    /// Puts on the shadings of the two panes by their names, where these mean something.
-    pub(super) fn put_on_shadings(&mut self, names: [Option<&str>; 2]) {
-        for (pane, name) in Pane::BOTH.into_iter().zip(names) {
-            if let Some(shading) = Shading::ALL.into_iter().find(|shading| Some(shading.title()) == name) {
-                self.look.usual.shade(pane, shading);
-            }
-        }
-    }
-
     /// Puts on how the person looked at what was opened. Call once its mesh is drawn.
     pub(super) fn put_on_view(&mut self) {
         let view = self.session.view().clone();
-        self.put_on_shadings([view.mesh_shading.as_deref(), view.plane_shading.as_deref()]);
+        for (pane, name) in Pane::BOTH.into_iter().zip([&view.mesh_shading, &view.plane_shading]) {
+            if let Some(shading) = Shading::called(name.as_deref()) {
+                self.look.usual.shade(pane, shading);
+            }
+        }
         if let Some(tool) = Tool::ALL.into_iter().find(|tool| view.tool.as_deref() == Some(tool.words()[0])) {
             self.tools.take_up(tool);
         }

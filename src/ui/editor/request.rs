@@ -7,6 +7,7 @@ use crate::io::OutputFit;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::Hold;
+use crate::ui::panes::inset::InsetPan;
 use crate::ui::{Answer, Purpose, Stage};
 
 /// What the left mouse button does.
@@ -73,6 +74,11 @@ impl Shading {
     /// Whether a pane can be shaded so.
     pub fn is_for(self, pane: Pane) -> bool {
         self != Self::SeeThrough || pane == Pane::Plane
+    }
+
+    /// The shading of that name, where there is one.
+    pub(super) fn called(name: Option<&str>) -> Option<Self> {
+        Self::ALL.into_iter().find(|shading| Some(shading.title()) == name)
     }
 
     /// Whether faces are coloured by a number each.
@@ -191,6 +197,8 @@ pub enum Request {
     ToggleMagnifier,
     /// Brings what an inset shows nearer by a factor: that of a defect by its place in the list, or that of a pair.
     ZoomInset(Option<usize>, f64),
+    /// Pans what an inset shows.
+    PanInset(InsetPan),
     /// Lets vertices glide from step to step, or not.
     ToggleEase,
     /// Shows or hides hull and pockets of the virtual boundary.

@@ -88,6 +88,16 @@ impl Pointer {
         self.menu_vertex = vertex;
     }
 
+    /// Closes the menu of a vertex that a mesh with so many does not have.
+    pub(super) fn keep_menu_below(&mut self, vertex_count: usize) {
+        self.menu_vertex = self.menu_vertex.filter(|vertex| vertex.index() < vertex_count);
+    }
+
+    /// Forgets the vertices of a mesh that is gone.
+    pub(super) fn forget_vertices(&mut self) {
+        (self.vertex, self.menu_vertex) = (None, None);
+    }
+
     /// The pointer in the plane of the embedding.
     pub(in crate::ui) fn in_embedding(&self) -> Option<DVec2> {
         self.in_embedding

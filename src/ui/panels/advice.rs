@@ -1,10 +1,12 @@
-//! What to do next, beside the verdict: repair an embedding that is at fault, relax one that is planar but distorted.
+//! What to do next, beside the verdict: repair an embedding that is at fault, or change what it was asked for where the
+//! ladder has ended with a fault; relax one that is planar but distorted.
 
 use eframe::egui::{self, Button, RichText};
 
 use super::menu::grouped;
-use crate::session::{Action, Status};
-use crate::ui::{Control, Editor, Request, Theme, theme_of, tip_with_keys};
+use crate::session::{Action, Session, Status, Stop};
+use crate::solver::{Method, Settings};
+use crate::ui::{Control, Editor, Request, Tab, Theme, theme_of, tip_with_keys};
 
 /// Areas that differ by so much call for relaxing: a picture's pixel becomes a patch of ten by ten.
 const BADLY: f64 = 100.0;
@@ -16,6 +18,8 @@ const ROOMY: f32 = 1000.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Advice {
     Repair,
+    /// The ladder has ended with a fault: what can still be done.
+    Change(Change),
     /// With the greatest ratio of a face's area in the plane to that on the mesh, or the other way round.
     Relax(f64),
 }
@@ -26,9 +30,9 @@ impl Advice {
         let is_at_rest = matches!(session.status(), Status::Held | Status::Current) && !editor.plane.is_moving(session);
         let step = editor.step_on_screen().filter(|_| is_at_rest && editor.tools.dragged().is_none())?;
         let greatest = step.distortion.summary.area.max;
-        if session.can_repair() && !step.step.verdict.planar {
-            Some(Self::Repair)
-        } else if session.can_relax() && step.step.verdict.planar && greatest >= BADLY {
+        if !step.step.verdict.planar {
+            if session.can_repair() { Some(Self::Repair) } else { Change::of(session).map(Self::Change) }
+        } else if session.can_relax() && greatest >= BADLY {
             Some(Self::Relax(greatest))
         } else {
             None
@@ -38,8 +42,56 @@ impl Advice {
     fn words(self, is_roomy: bool) -> String {
         match self {
             Self::Repair => "Repair".to_owned(),
+            Self::Change(change) => change.words()[0].to_owned(),
             Self::Relax(ratio) if is_roomy => format!("Areas differ {} : 1, Relax (R)", ratio_words(ratio)),
             Self::Relax(_) => "Relax (R)".to_owned(),
+        }
+    }
+}
+
+/// What a person can change where the ladder has no step left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Change {
+    NewVertices,
+    Pins,
+    Method,
+}
+
+impl Change {
+    /// The change nearest at hand, once a ladder has come to its end.
+    fn of(session: &Session) -> Option<Self> {
+        let document = session.document();
+        let has_ended = matches!(session.stopped(), Some(Stop::Ended(_)));
+        if !has_ended || document.settings.method != Method::Auto {
+            return None;
+        }
+        Some(match (document.targets.is_empty(), document.settings.new_vertices) {
+            (false, false) => Self::NewVertices,
+            (false, true) => Self::Pins,
+            (true, _) => Self::Method,
+        })
+    }
+
+    /// The button, and what there is to say about it.
+    const fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::NewVertices => [
+                "Allow new vertices",
+                "The ladder has no step left, and may not cut edges. With new vertices on them it meets nearly all                  constraints",
+            ],
+            Self::Pins => [
+                "Free a pin",
+                "The ladder has no step left with these pins: free one of them, or move its target. The Pins tab has them",
+            ],
+            Self::Method => ["Other weights", "The ladder has no step left: choose other weights, or another method"],
+        }
+    }
+
+    fn request(self, settings: Settings) -> Request {
+        match self {
+            Self::NewVertices => Action::SetSettings(Settings { new_vertices: true, ..settings }).into(),
+            Self::Pins => Request::ShowTab(Tab::Pins),
+            Self::Method => Request::ShowTab(Tab::Method),
         }
     }
 }
@@ -49,11 +101,15 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
     let Some(advice) = Advice::of(editor) else { return };
     let words = advice.words(ui.ctx().content_rect().width() >= ROOMY);
     let theme = theme_of(ui);
-    let (button, tip, action) = match advice {
+    let (button, tip, request) = match advice {
         Advice::Repair => {
             let tip =
                 "Take all steps of the ladder, until the embedding is proved planar. Another method gives way to it";
-            (accented(words, theme), tip.to_owned(), Action::Repair)
+            (accented(words, theme), tip.to_owned(), Request::Do(Action::Repair))
+        }
+        Advice::Change(change) => {
+            let request = change.request(editor.session.document().settings);
+            (accented(words, theme), change.words()[1].to_owned(), request)
         }
         Advice::Relax(ratio) => {
             let tip = format!(
@@ -61,11 +117,11 @@ pub(super) fn advice(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Requ
                  one-to-one throughout, constraints exact",
                 ratio_words(ratio)
             );
-            (Button::new(words), tip, Action::Relax)
+            (Button::new(words), tip, Request::Do(Action::Relax))
         }
     };
-    let tip = tip_with_keys(ui, &tip, &action.clone().into());
-    ui.add(button).on_hover_text(tip).asks(action, requests);
+    let tip = tip_with_keys(ui, &tip, &request);
+    ui.add(button).on_hover_text(tip).asks(request, requests);
 }
 
 /// A button in the accent's colour. There is one at most.

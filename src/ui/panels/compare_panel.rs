@@ -3,8 +3,8 @@
 use eframe::egui;
 
 use super::status::short;
-use crate::session::{Outcome, Session, Standing};
-use crate::ui::{figures, heads};
+use crate::session::{Outcome, Standing, Timeline};
+use crate::ui::{Editor, figures, heads};
 
 /// Letters of a number.
 const FIGURE: usize = 8;
@@ -27,9 +27,10 @@ impl Row {
 }
 
 /// Shows the numbers of the compared step, of the one on the screen, and their differences.
-pub(super) fn comparison(ui: &mut egui::Ui, session: &Session) {
-    let timeline = session.timeline();
-    let Some([before, now]) = timeline.compared().zip(timeline.shown()).map(<[usize; 2]>::from) else { return };
+pub(super) fn comparison(ui: &mut egui::Ui, editor: &Editor) {
+    let timeline = editor.session.timeline();
+    let on_screen = editor.step_on_screen().and_then(|outcome| timeline.index_of(outcome));
+    let Some([before, now]) = timeline.compared().zip(on_screen).map(<[usize; 2]>::from) else { return };
     if before == now {
         return;
     }
@@ -38,7 +39,7 @@ pub(super) fn comparison(ui: &mut egui::Ui, session: &Session) {
         ui.label("");
         heads(ui, FIGURE, &[format!("step {before}"), format!("step {now}"), "change".to_owned()]);
         ui.end_row();
-        for row in rows(session, [before, now]) {
+        for row in rows(timeline, [before, now]) {
             ui.label(row.name);
             figures(ui, row.name, FIGURE, &row.words());
             ui.end_row();
@@ -47,8 +48,7 @@ pub(super) fn comparison(ui: &mut egui::Ui, session: &Session) {
     ui.add_space(8.0);
 }
 
-fn rows(session: &Session, steps: [usize; 2]) -> Vec<Row> {
-    let timeline = session.timeline();
+fn rows(timeline: &Timeline, steps: [usize; 2]) -> Vec<Row> {
     let count = |name, of: fn(&crate::io::StepReport) -> usize| {
         let values = steps.map(|step| timeline.records().get(step).map_or(f64::NAN, |record| of(record) as f64));
         Row { name, values, is_count: true }

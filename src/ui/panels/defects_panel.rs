@@ -1,22 +1,64 @@
 //! What is wrong with the embedding, as a list to jump from; or with the mesh.
 
-use eframe::egui::{self, RichText};
+use eframe::egui::{self, Color32, RichText, Role};
 
+use super::diagnosis;
 use crate::mesh::VertexId;
-use crate::session::Surface;
-use crate::ui::{Control, Defect, Editor, Request, counted, keys_of, sentence, theme_of};
+use crate::solver::Verdict;
+use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, theme_of};
 
 /// Height of a row, points.
 const ROW: f32 = 22.0;
 
+/// Kinds of defects, in the order of the list.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Flipped,
+    Concave,
+    Crossing,
+    Overwound,
+}
+
+impl Kind {
+    const ALL: [Self; 4] = [Self::Flipped, Self::Concave, Self::Crossing, Self::Overwound];
+
+    const fn of(defect: Defect) -> Self {
+        match defect {
+            Defect::Flipped(_) => Self::Flipped,
+            Defect::Concave(_) => Self::Concave,
+            Defect::Crossing(_) => Self::Crossing,
+            Defect::Overwound(_) => Self::Overwound,
+        }
+    }
+
+    const fn colour(self, theme: &Theme) -> Color32 {
+        match self {
+            Self::Flipped => theme.flipped,
+            Self::Concave => theme.concave,
+            Self::Crossing => theme.crossing,
+            Self::Overwound => theme.overwound,
+        }
+    }
+
+    /// How many there are, in words.
+    fn counted(self, verdict: &Verdict) -> String {
+        match self {
+            Self::Flipped => counted(verdict.flipped_faces.len(), "flipped face", "flipped faces"),
+            Self::Concave => counted(verdict.concave_polygons.len(), "concave polygon", "concave polygons"),
+            Self::Crossing if verdict.boundary_crossings.len() == 1 => "1 boundary crossing".to_owned(),
+            Self::Crossing => format!("{} boundary crossings", verdict.crossing_count_in_words()),
+            Self::Overwound => counted(verdict.overwound_vertices.len(), "overwound vertex", "overwound vertices"),
+        }
+    }
+}
+
 pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
-    if let Some(Surface::Faulty(_, diagnosis)) = editor.session.model().map(|model| &model.surface) {
-        ui.label("The mesh cannot be flattened as it is:");
-        for fault in &diagnosis.faults {
-            ui.colored_label(theme.flipped, sentence(&fault.message()));
+    if let Some(model) = editor.session.model() {
+        if diagnosis::faults(ui, model, requests) {
+            return;
         }
-        return;
+        diagnosis::notes(ui, model);
     }
     let Some(outcome) = editor.step_on_screen().cloned() else {
         ui.label("Nothing is solved yet.");
@@ -36,19 +78,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
         }
         return;
     }
-    let rows = [
-        (theme.flipped, "flipped faces", verdict.flipped_faces.len().to_string()),
-        (theme.concave, "concave polygons", verdict.concave_polygons.len().to_string()),
-        (theme.crossing, "boundary crossings", verdict.crossing_count_in_words()),
-        (theme.overwound, "overwound vertices", verdict.overwound_vertices.len().to_string()),
-    ];
-    for (colour, words, count) in rows {
-        ui.horizontal(|ui| {
-            let (square, _) = ui.allocate_exact_size(egui::Vec2::splat(10.0), egui::Sense::hover());
-            ui.painter().rect_filled(square, 1.0, colour);
-            ui.label(format!("{count} {words}"));
-        });
-    }
+    counts(ui, editor, verdict, requests);
     let turns = verdict.turning_number.map_or_else(|| "undefined".to_owned(), |turns| turns.to_string());
     ui.label(RichText::new(format!("Turning number of the boundary: {turns}")).color(theme.weak_text))
         .on_hover_text("1 for a boundary that goes around once; undefined where an edge has no length or turns back");
@@ -63,6 +93,27 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     });
     ui.separator();
     list(ui, editor, requests);
+}
+
+/// How many defects of each kind there are; a click goes to the next of its kind.
+fn counts(ui: &mut egui::Ui, editor: &Editor, verdict: &Verdict, requests: &mut Vec<Request>) {
+    let defects = editor.defects();
+    for kind in Kind::ALL {
+        let places = || (0..defects.len()).filter(|&place| Kind::of(defects[place]) == kind);
+        let shown = editor.selection.defect();
+        let next = places().find(|&place| shown.is_some_and(|shown| place > shown)).or(places().next());
+        let words = kind.counted(verdict);
+        ui.horizontal(|ui| {
+            let (square, _) = ui.allocate_exact_size(egui::Vec2::splat(10.0), egui::Sense::hover());
+            ui.painter().rect_filled(square, 1.0, kind.colour(theme_of(ui)));
+            let Some(next) = next else {
+                ui.label(words);
+                return;
+            };
+            let button = ui.add(egui::Button::new(&words).frame_when_inactive(false)).on_hover_text("Go to the next");
+            button.named(Role::Button, &format!("{words}, go to the next")).asks(Request::GoToDefect(next), requests);
+        });
+    }
 }
 
 /// The exact pins that are not on their targets, to jump from.
@@ -84,12 +135,7 @@ fn list(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let defects = editor.defects();
     egui::ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, defects.len(), |ui, range| {
         for place in range {
-            let colour = match defects[place] {
-                Defect::Flipped(_) => theme.flipped,
-                Defect::Concave(_) => theme.concave,
-                Defect::Crossing(_) => theme.crossing,
-                Defect::Overwound(_) => theme.overwound,
-            };
+            let colour = Kind::of(defects[place]).colour(theme);
             let words = RichText::new(defects[place].words()).color(colour);
             let row = ui.selectable_label(editor.selection.defect() == Some(place), words);
             row.context_menu(|ui| {

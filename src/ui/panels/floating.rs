@@ -9,6 +9,7 @@ use eframe::egui::{self, Align2, Key, Pos2, Rect};
 use crate::geom::Picture;
 use crate::io::{OutputFit, OutputKind};
 use crate::session::Action;
+use crate::ui::editor::layout::GoTo;
 use crate::ui::keys::{BINDINGS, Binding, MOUSE};
 use crate::ui::{Control, Editor, Element, Pane, Purpose, Request, pairs};
 
@@ -16,8 +17,8 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
     if editor.layout.keys_shown {
         keys_window(context, editor);
     }
-    if editor.layout.go_to.is_some() {
-        go_to_window(context, editor, requests);
+    if let Some(go_to) = editor.layout.go_to.take() {
+        editor.layout.go_to = go_to_window(context, editor, go_to, requests);
     }
     if editor.layout.exports_shown {
         exports_window(context, editor, requests);
@@ -96,29 +97,37 @@ fn keys_window(context: &egui::Context, editor: &mut Editor) {
         });
 }
 
-fn go_to_window(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
-    let mut text = editor.layout.go_to.clone().unwrap_or_default();
+/// Shows "go to". Returns it as it is left, none where it closes.
+fn go_to_window(
+    context: &egui::Context,
+    editor: &Editor,
+    mut go_to: GoTo,
+    requests: &mut Vec<Request>,
+) -> Option<GoTo> {
     let mut open = true;
     let mut gone = false;
     let window = egui::Window::new("Go to").open(&mut open).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(context, |ui| {
         let label = ui.label("Number of a vertex (12 or v12), an edge (e7) or a face (f3), from 0");
-        let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(160.0)).labelled_by(label.id);
-        let found = Element::parse(&text).zip(editor.mesh_scene()).map(|(element, scene)| scene.vertices_of(element));
+        let field = ui.add(egui::TextEdit::singleline(&mut go_to.text).desired_width(160.0)).labelled_by(label.id);
+        let wanted = Element::parse(&go_to.text);
+        let found = wanted.zip(editor.mesh_scene()).map(|(element, scene)| scene.vertices_of(element));
         let found = found.filter(|vertices| !vertices.is_empty());
-        if !text.trim().is_empty() && found.is_none() {
+        if !go_to.text.trim().is_empty() && found.is_none() {
             ui.colored_label(crate::ui::theme::theme_of(ui).flipped, "This mesh has no such element");
         }
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let clicked = ui.add_enabled(found.is_some(), egui::Button::new("Go")).clicked();
+        // Enter takes the keyboard from a field: this one keeps it for a better number.
+        if std::mem::take(&mut go_to.takes_keyboard) || (entered && found.is_none()) {
+            field.request_focus();
+        }
         if let (true, Some(vertices)) = (entered || clicked, found) {
             requests.push(Request::GoTo(vertices));
             gone = true;
-        } else if !field.has_focus() && !clicked {
-            field.request_focus();
         }
     });
-    editor.layout.go_to = (open && !gone).then_some(text);
+    (open && !gone).then_some(go_to)
 }
 
 /// Everything that can be exported: what it is, and what it is good for.

@@ -106,6 +106,10 @@ impl Menu<'_> {
     fn entry(&mut self, enabled: bool, button: Button<'_>, request: impl Into<Request>) {
         let request = request.into();
         let button = button.shortcut_text(keys_of(self.ui.ctx(), &request));
+        self.add(enabled, button, request);
+    }
+
+    fn add(&mut self, enabled: bool, button: Button<'_>, request: Request) {
         if self.ui.add_enabled(enabled, button).asks(request, self.requests) {
             self.ui.close();
         }
@@ -191,12 +195,16 @@ fn edit_menu(menu: &mut Menu<'_>) {
 
 fn view_menu(menu: &mut Menu<'_>) {
     let editor = menu.editor;
-    menu.part("Shading", |menu| {
-        for shading in Shading::ALL {
-            let is_on = Pane::BOTH.into_iter().any(|pane| editor.shading(pane) == shading);
-            menu.choice(is_on, shading.title(), Request::SetShading(shading));
-        }
-    });
+    for pane in Pane::BOTH {
+        menu.part(&format!("Shading of the {}", pane.title().to_lowercase()), |menu| {
+            for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
+                let button = Button::selectable(editor.shading(pane) == shading, shading.title());
+                // The keys shade the pane under the pointer, which a menu is not in.
+                let keys = keys_of(menu.ui.ctx(), &Request::SetShading(shading));
+                menu.add(true, button.shortcut_text(keys), Request::SetPaneShading(pane, shading));
+            }
+        });
+    }
     menu.switch(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
     menu.switch(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
     menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);

@@ -62,7 +62,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     solve_and_cancel(ui, editor, requests);
     if let Some(outcome) = editor.step_on_screen() {
         ui.add_space(8.0);
-        comparison(ui, &editor.session);
+        comparison(ui, editor);
         distortion(ui, outcome);
         ui.add_space(4.0);
         numbers(ui, outcome);

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `mod.rs` | the tool bar at the left, the panel at the right with its tabs |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
+//! | `diagnosis.rs` | what is wrong with the mesh, and what mends it: in the tab of defects |
 //! | `compare_panel.rs` | numbers of two steps that are compared |
 //! | `picture_panel.rs` | the picture's part of the pins' tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding's pane |
@@ -18,6 +19,7 @@
 mod advice;
 mod compare_panel;
 mod defects_panel;
+mod diagnosis;
 pub(super) mod dialogs;
 pub(super) mod equation_table;
 pub(super) mod floating;

@@ -8,7 +8,7 @@ use eframe::egui::{self, DragValue, RichText, Role, Sense, Vec2};
 use super::picture_panel;
 use crate::io::Target;
 use crate::mesh::VertexId;
-use crate::session::Action;
+use crate::session::{Action, named};
 use crate::solver::{Hold, Pin};
 use crate::ui::panes::pins::{Emphasis, PinKind};
 use crate::ui::panes::vertex_menu::{hold_entries, vertex_menu};
@@ -18,7 +18,10 @@ use crate::ui::{Control, Editor, Offer, Purpose, Request, Tool, Typed, counted, 
 const BELOW: f32 = 250.0;
 
 /// Widths of a coordinate's and a weight's field, points.
-const FIELDS: [f32; 2] = [56.0, 44.0];
+const FIELDS: [f32; 2] = [50.0, 44.0];
+
+/// Between two columns of the table and two of its rows, points.
+const GAPS: [f32; 2] = [7.0, 4.0];
 
 /// Weights that can be typed or dragged to.
 const WEIGHTS: RangeInclusive<f64> = 1e-9..=1e9;
@@ -72,9 +75,15 @@ fn table(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let speed = editor.plane.scene().map_or(0.01, |plane| plane.arrays.bounds.extent() / 500.0);
     let height = (ui.available_height() - BELOW).max(80.0);
     egui::ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
-        ui.spacing_mut().button_padding.x = 4.0;
-        egui::Grid::new("pins").num_columns(6).min_col_width(0.0).spacing([4.0, 4.0]).striped(true).show(ui, |ui| {
-            for words in ["", "Vertex", "u", "v", "Weight", ""] {
+        ui.spacing_mut().button_padding.x = 2.0;
+        egui::Grid::new("pins").num_columns(6).min_col_width(0.0).spacing(GAPS).striped(true).show(ui, |ui| {
+            for words in ["", "Vertex"] {
+                ui.weak(words);
+            }
+            for words in ["u", "v"] {
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.weak(words));
+            }
+            for words in ["Weight", ""] {
                 ui.weak(words);
             }
             ui.end_row();
@@ -131,7 +140,7 @@ fn exact(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Reques
 
 /// The pin's mark; a click makes a hard one weighted and a weighted one hard.
 fn hold_button(ui: &mut egui::Ui, Row { vertex, target, held, .. }: Row, requests: &mut Vec<Request>) {
-    let (rect, response) = ui.allocate_exact_size(Vec2::new(16.0, 20.0), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(14.0, 20.0), Sense::click());
     let emphasis = if response.hovered() || response.has_focus() { Emphasis::Strong } else { Emphasis::Plain };
     PinKind::User(held).mark(ui.painter(), rect.center(), theme_of(ui), emphasis);
     let words = match target.hold {
@@ -244,6 +253,7 @@ fn conflicts(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         0 => "Targets too near to each other".to_owned(),
         count => counted(count, "conflict needs new vertices", "conflicts need new vertices"),
     };
+    let words = format!("{words}: {}", named(&first.vertices()));
     let link = ui.link(RichText::new(words).color(theme_of(ui).stale));
     link.on_hover_text(sentence(&first.words())).asks(Request::GoTo(first.vertices()), requests);
 }
@@ -306,12 +316,21 @@ fn coordinate<'a>(value: &'a mut f64, speed: f64, typed: &'a Typed) -> DragValue
     })
 }
 
-/// A weight with a few digits that mean something.
+/// A weight with the five digits that mean something.
 fn weight_words(weight: f64) -> String {
-    if (1e-3..1e6).contains(&weight) { ((weight * 1e4).round() / 1e4).to_string() } else { format!("{weight:.3e}") }
+    if !(1e-3..1e5).contains(&weight) {
+        return format!("{weight:.1e}");
+    }
+    let unit = 10_f64.powf((4.0 - weight.log10().floor()).clamp(0.0, 4.0));
+    ((weight * unit).round() / unit).to_string()
 }
 
-/// Five digits behind the point, or as many that mean something.
+/// Four digits behind the point, of which a pixel of a large picture is one; fewer where more stand before it.
 fn digits(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e3).contains(&value.abs()) { format!("{value:.5}") } else { format!("{value:.3e}") }
+    match value.abs() {
+        0.0 => "0.0000".to_owned(),
+        size if (1e-3..10.0).contains(&size) => format!("{value:.4}"),
+        size if (10.0..1e3).contains(&size) => format!("{value:.2}"),
+        _ => format!("{value:.1e}"),
+    }
 }

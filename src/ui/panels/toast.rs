@@ -23,11 +23,12 @@ const WIDTH: f32 = 440.0;
 pub(in crate::ui) struct Toast {
     /// The message's number.
     id: u64,
-    /// When it came, or when the pointer left it; seconds of the window's clock.
+    /// When it came, or when pointer and keyboard left it; seconds of the window's clock.
     since: f64,
 }
 
-/// Shows the newest good news, and takes it away when its time is over. Under the pointer it stays.
+/// Shows the newest good news, and takes it away when its time is over. It stays under the pointer, and while one of its
+/// buttons has the keyboard.
 pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, requests: &mut Vec<Request>) {
     let newest = editor.session.messages().iter().rfind(|message| message.severity == Severity::Note).cloned();
     let Some(message) = newest else {
@@ -41,8 +42,8 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
     let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
     let area = egui::Area::new(egui::Id::unique("toast")).order(egui::Order::Foreground).movable(false);
     let area = area.anchor(Align2::CENTER_BOTTOM, [0.0, -(BOTTOM_HEIGHT + strip + GAP)]);
-    let response = area.show(context, |ui| contents(ui, &message, requests)).response;
-    let since = if response.contains_pointer() { now } else { shown.since };
+    let shows = area.show(context, |ui| contents(ui, &message, requests));
+    let since = if shows.response.contains_pointer() || shows.inner { now } else { shown.since };
     editor.layout.toast = Some(Toast { since, ..shown });
     let left = since + SECONDS - now;
     if left <= 0.0 {
@@ -52,24 +53,32 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
     }
 }
 
-fn contents(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
+/// What was written, and what can be done about it. Returns whether one of the buttons has the keyboard.
+fn contents(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) -> bool {
     let theme = theme_of(ui);
     let frame = egui::Frame::popup(ui.style()).fill(theme.panel.lerp_to_gamma(theme.planar, 0.14)).inner_margin(10);
-    frame.show(ui, |ui| {
+    let row = |ui: &mut egui::Ui| {
         ui.set_max_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
-        ui.horizontal_top(|ui| {
-            let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
-            icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), Sign::Good, theme);
-            ui.vertical(|ui| {
-                ui.add(egui::Label::new(sentence(&message.text)).wrap());
-                ui.horizontal(|ui| {
-                    if let Some(file) = message.files.first() {
-                        let button = ui.small_button("Show in folder");
-                        button.asks(Action::ShowFolder(file.clone()), requests);
-                    }
-                    ui.small_button("Close").asks(Action::Dismiss(message.id), requests);
-                });
-            });
-        });
-    });
+        let (square, _) = ui.allocate_exact_size(Vec2::splat(12.0), Sense::hover());
+        icons::sign(ui.painter(), square.translate(Vec2::new(0.0, 3.0)), Sign::Good, theme);
+        let words_and_buttons = |ui: &mut egui::Ui| {
+            ui.add(egui::Label::new(sentence(&message.text)).wrap());
+            ui.horizontal(|ui| buttons(ui, message, requests)).inner
+        };
+        ui.vertical(words_and_buttons).inner
+    };
+    frame.show(ui, |ui| ui.horizontal_top(row).inner).inner
+}
+
+fn buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) -> bool {
+    let mut has_keyboard = false;
+    if let Some(file) = message.files.first() {
+        let button = ui.small_button("Show in folder");
+        has_keyboard |= button.has_focus();
+        button.asks(Action::ShowFolder(file.clone()), requests);
+    }
+    let close = ui.small_button("Close");
+    has_keyboard |= close.has_focus();
+    close.asks(Action::Dismiss(message.id), requests);
+    has_keyboard
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, SystemTime};
 
 use eframe::egui::{self, Label, Rect, RichText, Sense, Vec2};
 
-use crate::session::{Action, Message, Place, Severity};
+use crate::session::{Action, Message, Place, Severity, named};
 use crate::ui::icons::{self, Sign};
 use crate::ui::{Control, Editor, Offer, Pane, Request, counted, sentence, theme_of};
 
@@ -129,7 +129,9 @@ fn bar(ui: &mut egui::Ui, sign: Sign, add: impl FnOnce(&mut egui::Ui)) {
 
 fn message_buttons(ui: &mut egui::Ui, message: &Message, requests: &mut Vec<Request>) {
     if !message.vertices.is_empty() {
-        Offer::new("Go to", "Show it in the mesh", Request::GoTo(message.vertices.clone())).show(ui, requests);
+        let kind = if message.vertices.len() == 1 { "vertex" } else { "vertices" };
+        let button = ui.small_button(format!("Go to {kind} {}", named(&message.vertices)));
+        button.on_hover_text("Show it in both panes").asks(Request::GoTo(message.vertices.clone()), requests);
     }
     if ui.small_button("Copy").on_hover_text("Copy the message").clicked() {
         ui.ctx().copy_text(message.text.clone());

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use eframe::egui::{self, Align2, CursorIcon, FontId, Pos2, Rect, Role, Stroke, StrokeKind, Vec2};
 use glam::DVec2;
 
-use super::inset::{Inset, Kind};
+use super::inset::{About, Inset, Kind};
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis};
 use super::{mesh_pane, plane_pane};
@@ -85,13 +85,17 @@ impl Magnifier {
         let pane = view.rect;
         let side = DEFECT.side_in(pane)?;
         let shown = neighbourhood(scene, defect)?;
-        let shown = nearer(shown, editor.layout.inset_zoom.factor(Some(place)));
-        let camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
+        let (insets, about) = (&editor.layout.insets, About::Defect(place));
+        let shown = nearer(shown, insets.factor(Some(place)));
+        let mut camera = PlaneCamera::framing(shown, DVec2::splat(side.into()));
+        camera.pan(insets.panned(Kind::Defect, about));
+        let by = camera.center() - shown.middle();
+        let shown = Bounds { low: shown.low + by, high: shown.high + by };
         let looks_at = Rect::from_two_pos(view.spot(shown.low), view.spot(shown.high));
         let magnification = camera.points_per_unit() / view.camera.points_per_unit();
         let rect = place_for(pane, Vec2::new(side, side + TITLE), looks_at.center(), GAP);
         // What a person has brought farther away stays: the wheel brings it back.
-        let is_wanted = magnification > 1.0 || editor.layout.inset_zoom.is_set(Some(place));
+        let is_wanted = magnification > 1.0 || insets.is_set(Kind::Defect, about);
         is_wanted.then_some(Self { place, defect, camera, pane, looks_at, rect, magnification })
     }
 
@@ -120,10 +124,11 @@ impl Magnifier {
     fn click(&self, ui: &egui::Ui, requests: &mut Vec<Request>) {
         let name = format!("Magnifier: {}, × {}", self.defect.words(), self.factor());
         let keys = keys_of(ui.ctx(), &Request::StepDefect(1));
-        let tip =
-            format!("A defect from near by: the wheel brings it nearer. Click to go there; {keys} goes to the next");
-        let inset =
-            Inset { kind: Kind::Defect, rect: self.rect, role: Role::Button, name: &name, of: Some(self.place) };
+        let tip = format!(
+            "A defect from near by: the wheel brings it nearer, a drag pans. Click to go there; {keys}: the next"
+        );
+        let about = About::Defect(self.place);
+        let inset = Inset { kind: Kind::Defect, rect: self.rect, role: Role::Button, name: &name, about };
         let response = inset.interact(ui, requests);
         let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(tip);
         response.asks(Request::GoToDefect(self.place), requests);
@@ -246,12 +251,14 @@ pub(super) fn over_mesh(
     let Some(vertex) = editor.vertex_in_hand().filter(|_| editor.look.magnifier) else { return };
     let Some(&position) = scene.mesh().positions.get(vertex.index()) else { return };
     let Some(inset) = view.spot(position).and_then(|at| pair_inset(view.rect, at)) else { return };
-    let zoom = editor.layout.inset_zoom.factor(None);
+    let (insets, kind, about) = (&editor.layout.insets, Kind::PairOnMesh, About::Pair(Some(vertex)));
     let mut camera = view.camera;
-    camera.frame(Sphere { center: position, radius: PART * scene.sphere.radius / zoom }, pane::size_of(inset));
+    let radius = PART * scene.sphere.radius / insets.factor(None);
+    camera.frame(Sphere { center: position, radius }, pane::size_of(inset));
+    camera.pan(insets.panned(kind, about), pane::size_of(inset));
     let reach = |camera: &OrbitCamera| camera.eye().distance(position);
     let enlarges = reach(&view.camera) / reach(&camera) * f64::from(inset.height() / view.rect.height());
-    if enlarges < LEAST_MAGNIFICATION && !editor.layout.inset_zoom.is_set(None) {
+    if enlarges < LEAST_MAGNIFICATION && !insets.is_set(kind, about) {
         return;
     }
     let theme = theme_of(ui);
@@ -260,9 +267,11 @@ pub(super) fn over_mesh(
         let frame = mesh_pane::frame(editor, scene, camera, theme);
         ui.painter().add(render::mesh_pane(PaneId("pair on mesh"), inset, frame));
     }
-    pane::halo(&ui.painter_at(inset), inset.center(), theme.selection, 7.0);
+    if let Some(at) = (Viewport { rect: inset, camera }).spot(position) {
+        pane::halo(&ui.painter_at(inset), at, theme.selection, 7.0);
+    }
     let name = format!("Magnifier: {vertex} on the mesh");
-    let shown = Inset { kind: Kind::PairOnMesh, rect: inset, role: Role::Image, name: &name, of: None };
+    let shown = Inset { kind, rect: inset, role: Role::Image, name: &name, about };
     close(ui, &shown, enlarges, requests);
 }
 
@@ -276,11 +285,12 @@ pub(super) fn over_plane(
 ) {
     let Some(target) = editor.target_in_hand().filter(|z| editor.look.magnifier && z.is_finite()) else { return };
     let Some(inset) = pair_inset(view.rect, view.spot(target)) else { return };
-    let zoom = editor.layout.inset_zoom.factor(None);
-    let half = DVec2::splat(PART / 2.0 / zoom * editor.with_picture(plane.arrays.bounds).extent());
-    let camera = PlaneCamera::framing(Bounds { low: target - half, high: target + half }, pane::size_of(inset));
+    let (insets, kind, about) = (&editor.layout.insets, Kind::PairInPlane, About::Pair(editor.vertex_in_hand()));
+    let half = PART / 2.0 / insets.factor(None) * editor.with_picture(plane.arrays.bounds).extent();
+    let mut camera = PlaneCamera::framing(Bounds { low: target - half, high: target + half }, pane::size_of(inset));
+    camera.pan(insets.panned(kind, about));
     let enlarges = camera.points_per_unit() / view.camera.points_per_unit();
-    if enlarges < LEAST_MAGNIFICATION && !editor.layout.inset_zoom.is_set(None) {
+    if enlarges < LEAST_MAGNIFICATION && !insets.is_set(kind, about) {
         return;
     }
     let theme = theme_of(ui);
@@ -300,10 +310,10 @@ pub(super) fn over_plane(
     if editor.tools.pair().is_some() {
         pins::ghost(&painter, near.spot(target), theme);
     }
-    painter.circle_stroke(inset.center(), 11.0, Stroke::new(1.0, theme.selection));
+    painter.circle_stroke(near.spot(target), 11.0, Stroke::new(1.0, theme.selection));
     let words = editor.vertex_in_hand().map_or_else(|| "the target".to_owned(), |v| format!("the target of {v}"));
     let name = format!("Magnifier: {words}");
-    let shown = Inset { kind: Kind::PairInPlane, rect: inset, role: Role::Image, name: &name, of: None };
+    let shown = Inset { kind, rect: inset, role: Role::Image, name: &name, about };
     close(ui, &shown, enlarges, requests);
 }
 

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis, PinKind};
-use super::{bars, legend, magnifier, vertex_menu};
+use super::{bars, header, legend, magnifier, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::ui::editor::scene::MeshScene;
@@ -25,7 +25,7 @@ const THIN_FILL: f32 = 0.3;
 const MARKS_SHOWN: usize = 2000;
 
 pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
-    pane::header(ui, editor, Pane::Mesh, requests);
+    header::header(ui, editor, Pane::Mesh, requests);
     let (rect, response) = pane::surface(ui, "3D view of the mesh");
     bars::over(ui, rect, editor, Pane::Mesh, requests);
     editor.mesh.pane.set_rect(rect);

@@ -2,20 +2,22 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `pane.rs` | what both panes share: places on the screen, header, clicks and boxes, the wheel, marks of defects |
+//! | `header.rs` | the bar over a pane: title, shading, switches |
+//! | `pane.rs` | what both panes share: places on the screen, clicks and boxes, the wheel, marks of defects |
 //! | `mesh_pane.rs` | the mesh in space |
 //! | `plane_pane.rs` | the embedding |
 //! | `bars.rs` | bars over a pane: messages and questions |
 //! | `legend.rs` | the legend of a shading, words about steps that are compared |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
 //! | `magnifier.rs` | the insets that magnify a defect, and the halves of a pair |
-//! | `inset.rs` | what both kinds of insets share: the wheel over them, the cross that closes them |
+//! | `inset.rs` | what both kinds of insets share: the wheel and drags over them, the cross that closes them |
 //! | `pin_drag.rs` | a pin dragged with the pointer |
 //! | `pins.rs` | kinds of pins and their marks |
 //! | `vertex_menu.rs` | what a secondary click on a vertex or a pin offers |
 
 mod bars;
 pub(super) mod constrain;
+mod header;
 pub(super) mod inset;
 mod legend;
 mod magnifier;

@@ -1,4 +1,4 @@
-//! What both panes share: places on the screen, header, clicks and boxes, the wheel, marks of defects: crossings orange,
+//! What both panes share: places on the screen, clicks and boxes, the wheel, marks of defects: crossings orange,
 //! overwound vertices magenta, concave polygons olive. Flipped faces are drawn with the faces.
 
 use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
-use crate::ui::{Control, Editor, Pane, Request, Shading, Theme, Tool, list, theme_of, tip_with_keys};
+use crate::ui::{Control, Editor, Pane, Request, Theme, Tool, theme_of};
 use crate::view::{OrbitCamera, PlaneCamera};
 
 /// A point of the screen as the camera takes it, relative to the pane.
@@ -108,55 +108,6 @@ impl<C: Copy> PaneView<C> {
     pub(in crate::ui) fn rect(&self) -> Option<Rect> {
         self.rect
     }
-}
-
-/// Title, shading and the button for full size.
-pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
-    let title = pane.title();
-    ui.horizontal(|ui| {
-        ui.set_min_height(26.0);
-        ui.add_space(8.0);
-        ui.strong(title);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.add_space(4.0);
-            let (glyph, words) = match editor.layout.full() {
-                Some(_) => ("Both", "Show both panes"),
-                None => ("Full", "Show this pane alone"),
-            };
-            let tip = tip_with_keys(ui, words, &Request::TogglePane);
-            let button = ui.add(egui::Button::new(glyph).frame(false)).on_hover_text(tip);
-            button.named(Role::Button, &format!("{words}: {title}")).asks(Request::ToggleFull(pane), requests);
-            if pane == Pane::Plane {
-                let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
-                let switch = ui.selectable_label(editor.plane.hull_shown(), "Hull").on_hover_text(tip);
-                switch.asks(Request::ToggleHull, requests);
-            }
-            if pane == Pane::Mesh || editor.layout.full() == Some(Pane::Plane) {
-                let tip = tip_with_keys(ui, "Wireframe", &Request::ToggleWireframe);
-                let wire = ui.selectable_label(editor.look.wireframe, "Wire").on_hover_text(tip);
-                wire.asks(Request::ToggleWireframe, requests);
-            }
-            shading_menu(ui, editor, pane, requests);
-        });
-    });
-}
-
-fn shading_menu(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
-    let width = ui.spacing().combo_width;
-    let now = editor.shading(pane);
-    let name = format!("Shading of the {}", pane.title().to_lowercase());
-    let menu = list(ui, &name, width, now.title(), |ui| {
-        for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
-            let [title, about] = shading.words();
-            let tip = tip_with_keys(ui, about, &Request::SetShading(shading));
-            let entry = ui.selectable_label(now == shading, title).on_hover_text(tip);
-            entry.asks(Request::SetPaneShading(pane, shading), requests);
-        }
-    });
-    menu.on_hover_text(
-        "How faces show in this pane. Number keys shade the pane under the pointer, or both where it is over neither. \
-         The Constrain tool over a picture has shadings of its own",
-    );
 }
 
 /// Words in the middle of a pane that has nothing to show.

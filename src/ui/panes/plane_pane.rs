@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::magnifier::Magnifier;
 use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, style};
 use super::pane::{self, Viewport};
-use super::{bars, constrain, inset, legend, magnifier, pin_drag, pins, vertex_menu};
+use super::{bars, constrain, header, inset, legend, magnifier, pin_drag, pins, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::Surface;
@@ -22,7 +22,7 @@ use crate::view::PlaneCamera;
 const MARKS_SHOWN: usize = 2000;
 
 pub(in crate::ui) fn plane_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
-    pane::header(ui, editor, Pane::Plane, requests);
+    header::header(ui, editor, Pane::Plane, requests);
     let (rect, response) = pane::surface(ui, "Embedding in the plane");
     bars::over(ui, rect, editor, Pane::Plane, requests);
     editor.lay_out_plane(rect);

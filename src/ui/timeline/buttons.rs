@@ -23,8 +23,8 @@ enum Drawing {
     FoldUp,
 }
 
-/// Through the steps that there are.
-pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+/// Through the steps that there are; one by one alone where there is little room.
+pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, room: Room, requests: &mut Vec<Request>) {
     ui.spacing_mut().item_spacing.x = 2.0;
     let [has_previous, has_next] = editor.steps_around();
     let is_playing = editor.timeline.playing_since.is_some();
@@ -38,7 +38,8 @@ pub(super) fn playback_buttons(ui: &mut egui::Ui, editor: &Editor, requests: &mu
         (Drawing::Next, "Next step", has_next, to(StepTarget::Next)),
         (Drawing::Last, "Last step", has_next, to(StepTarget::Last)),
     ];
-    for (drawing, name, enabled, request) in buttons {
+    let is_shown = |drawing: Drawing| room != Room::Tight || matches!(drawing, Drawing::Previous | Drawing::Next);
+    for (drawing, name, enabled, request) in buttons.into_iter().filter(|(drawing, ..)| is_shown(*drawing)) {
         ui.add_enabled_ui(enabled, |ui| drawn_button(ui, drawing, name, request, requests));
     }
 }

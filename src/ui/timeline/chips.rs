@@ -3,7 +3,7 @@
 use eframe::egui;
 use egui::{Align2, Color32, FontId, Modifiers, Rangef, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, WidgetInfo};
 
-use super::ROW_HEIGHT;
+use super::{ROW_HEIGHT, Room};
 use crate::io::StepReport;
 use crate::session::{Action, Standing, Timeline};
 use crate::solver::Progress;
@@ -31,7 +31,7 @@ struct Chip<'a> {
     index: usize,
     record: &'a StepReport,
     standing: &'a Standing,
-    /// Its number, and its rung where that is another one than before.
+    /// Its number, and its rung where that is another one than before and there is room.
     label: String,
     is_shown: bool,
     is_compared: bool,
@@ -40,10 +40,10 @@ struct Chip<'a> {
 }
 
 impl<'a> Chip<'a> {
-    fn new(timeline: &'a Timeline, index: usize) -> Self {
+    fn new(timeline: &'a Timeline, index: usize, room: Room) -> Self {
         let records = timeline.records();
         let rung = records[index].rung;
-        let is_new = index == 0 || records[index - 1].rung != rung;
+        let is_new = room != Room::Tight && (index == 0 || records[index - 1].rung != rung);
         Self {
             index,
             record: &records[index],
@@ -169,12 +169,12 @@ fn title_of(record: &StepReport) -> String {
     format!("Step {}: {}", record.index, record.rung.as_short_rung())
 }
 
-pub(in crate::ui) fn chips(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+pub(super) fn chips(ui: &mut egui::Ui, editor: &mut Editor, room: Room, requests: &mut Vec<Request>) {
     let timeline = editor.session.timeline();
-    let places = places(ui, timeline);
+    let places = places(ui, timeline, room);
     let width = places.last().map_or(0.0, |place| place.max);
     let before = editor.timeline.scrolled_to;
-    let mut room = 0.0;
+    let mut row = 0.0;
     ui.style_mut().always_scroll_the_only_direction = true;
     let area = ScrollArea::horizontal().id_salt("steps").auto_shrink([false, true]);
     area.show_viewport(ui, |ui, viewport| {
@@ -186,27 +186,29 @@ pub(in crate::ui) fn chips(ui: &mut egui::Ui, editor: &mut Editor, requests: &mu
                 middle - CHIP / 2.0..=middle + CHIP / 2.0,
             )
         };
-        room = viewport.width();
+        row = viewport.width();
         for (index, place) in places.iter().enumerate() {
             // Whole steps only: half a number is another number.
             let is_whole = place.min >= viewport.left() - 0.5 && place.max <= viewport.right() + 0.5;
-            let is_wide = place.span() > room && place.max >= viewport.left() && place.min <= viewport.right();
+            let is_wide = place.span() > row && place.max >= viewport.left() && place.min <= viewport.right();
             if is_whole || is_wide {
-                Chip::new(timeline, index).show(ui, rect_of(place), timeline, requests);
+                // What is wider than the row is cut by it: it must not lie under what comes after the row.
+                let rect = rect_of(place).intersect(ui.clip_rect());
+                Chip::new(timeline, index, room).show(ui, rect, timeline, requests);
             }
         }
-        let shown = timeline.shown().filter(|&shown| before != Some((shown, room)));
+        let shown = timeline.shown().filter(|&shown| before != Some((shown, row)));
         if let Some(place) = shown.and_then(|shown| places.get(shown)) {
-            let around = (0.5 * (room - place.span())).clamp(0.0, 40.0);
+            let around = (0.5 * (row - place.span())).clamp(0.0, 40.0);
             let rect = rect_of(place).expand2(egui::vec2(around, 0.0));
             ui.scroll_to_rect_animation(rect, None, egui::style::ScrollAnimation::none());
         }
     });
-    editor.timeline.scrolled_to = editor.session.timeline().shown().map(|shown| (shown, room));
+    editor.timeline.scrolled_to = editor.session.timeline().shown().map(|shown| (shown, row));
 }
 
 /// Where each step lies, from left to right.
-fn places(ui: &egui::Ui, timeline: &Timeline) -> Vec<Rangef> {
+fn places(ui: &egui::Ui, timeline: &Timeline, room: Room) -> Vec<Rangef> {
     let font = FontId::proportional(LETTERS);
     let width_of =
         |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
@@ -214,7 +216,7 @@ fn places(ui: &egui::Ui, timeline: &Timeline) -> Vec<Rangef> {
     let figure = width_of("0");
     let mut left = 0.0;
     let place = |index| {
-        let place = Rangef::new(left, left + Chip::new(timeline, index).width(width_of, figure));
+        let place = Rangef::new(left, left + Chip::new(timeline, index, room).width(width_of, figure));
         left = place.max + GAP;
         place
     };

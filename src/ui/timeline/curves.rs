@@ -1,10 +1,10 @@
 //! The numbers of the steps as curves, side by side. A click goes to the step under the pointer.
 
-use eframe::egui::{self, Align, Align2, Color32, FontId, Layout, Rect, RichText, Role, Sense};
+use eframe::egui::{self, Align, Color32, Layout, Rect, RichText, Role, Sense};
 use egui_plot::{HPlacement, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotResponse, Points, VLine};
 
-use super::TimelineView;
 use super::buttons::lasting_menu;
+use super::marks::Marks;
 use crate::io::StepReport;
 use crate::session::{Action, Standing, Timeline};
 use crate::ui::panels::status::short;
@@ -19,9 +19,6 @@ const LEAST_WIDTH: f32 = 118.0;
 /// Between two curves, points.
 const GAP: f32 = 12.0;
 
-/// Size of the letters of the marks, points.
-const MARKS: f32 = 9.0;
-
 /// With more steps than this single points are not drawn.
 const MOST_POINTS: usize = 80;
 
@@ -29,17 +26,17 @@ const MOST_POINTS: usize = 80;
 const LEAST_POWER: f64 = -17.0;
 
 /// One number of each step.
-struct Curve {
+pub(super) struct Curve {
     title: &'static str,
     about: &'static str,
-    scale: CurveScale,
+    pub(super) scale: CurveScale,
     value: ValueOf,
     colour: ColourOf,
 }
 
 /// How a number goes up.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum CurveScale {
+pub(super) enum CurveScale {
     /// A count, from 0.
     Count,
     /// By powers of ten.
@@ -112,7 +109,7 @@ const CURVES: [Curve; CURVE_COUNT] = [
 
 impl Curve {
     /// Where a value lies.
-    fn height_of(&self, value: f64) -> f64 {
+    pub(super) fn height_of(&self, value: f64) -> f64 {
         match self.scale {
             CurveScale::Count => value,
             CurveScale::Powers => value.log10().max(LEAST_POWER),
@@ -134,7 +131,7 @@ impl Curve {
     }
 
     /// A value in words.
-    fn words(&self, value: f64) -> String {
+    pub(super) fn words(&self, value: f64) -> String {
         match self.scale {
             CurveScale::Count => format!("{value:.0}"),
             CurveScale::Powers if value == 0.0 => "0".to_owned(),
@@ -144,25 +141,36 @@ impl Curve {
     }
 }
 
-/// Puts curves away, or shows them again.
-pub(super) fn curves_menu(ui: &mut egui::Ui, view: &mut TimelineView) {
+/// Puts curves away, or shows them again; says of which there is nothing to show.
+pub(super) fn curves_menu(ui: &mut egui::Ui, editor: &mut Editor) {
+    let (timeline, hidden) = (editor.session.timeline(), &mut editor.timeline.curves_hidden);
     let response = lasting_menu(ui, "Curves", |ui| {
-        for (curve, hidden) in CURVES.iter().zip(&mut view.curves_hidden) {
+        for (curve, hidden) in CURVES.iter().zip(hidden) {
             let mut shown = !*hidden;
-            ui.checkbox(&mut shown, curve.title).on_hover_text(curve.about);
+            let words = match curve.ends(timeline) {
+                None => format!("{}: no numbers", curve.title),
+                Some(ends) if says_nothing(ends) => format!("{}: 0 in every step", curve.title),
+                Some(_) => curve.title.to_owned(),
+            };
+            ui.checkbox(&mut shown, words).on_hover_text(curve.about);
             *hidden = !shown;
         }
     });
     response.named(Role::Button, "Which curves show").on_hover_text(
-        "Which curves show: those that the steps have numbers for, as many as there is room for, the first ones first.",
+        "Which curves show: those whose numbers are not all 0, as many as there is room for, the first ones first.",
     );
+}
+
+/// Whether all numbers between these ends are 0.
+fn says_nothing(ends: [f64; 2]) -> bool {
+    ends == [0.0; 2]
 }
 
 /// Shows as many of the curves as there is room for.
 pub(in crate::ui) fn curves(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let all = ui.available_rect_before_wrap().shrink2(egui::vec2(4.0, 0.0));
     let timeline = editor.session.timeline();
-    let has_numbers = |curve: &Curve| (0..timeline.records().len()).any(|i| curve.value_at(timeline, i).is_some());
+    let has_numbers = |curve: &Curve| curve.ends(timeline).is_some_and(|ends| !says_nothing(ends));
     let wanted = CURVES.iter().zip(editor.timeline.curves_hidden).filter(|(_, hidden)| !hidden).map(|(curve, _)| curve);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few curves have room")]
     let room = (((all.width() + GAP) / (LEAST_WIDTH + GAP)) as usize).max(1);
@@ -189,11 +197,15 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
             }
         });
     });
-    let PlotResponse { response, transform, .. } = plot(ui, curve, timeline);
+    let Some(ends) = curve.ends(timeline) else { return };
+    let marks = Marks::new(ui, curve, ends);
+    let room = ui.available_rect_before_wrap();
+    let inner = room.with_min_x(room.left() + marks.width());
+    let plot = |ui: &mut egui::Ui| plot(ui, curve, timeline);
+    let PlotResponse { response, transform, .. } = ui.scope_builder(egui::UiBuilder::new().max_rect(inner), plot).inner;
     let response = response.named(Role::Image, &format!("Curve: {}", curve.about));
-    if let Some(ends) = curve.ends(timeline) {
-        marks(ui, curve, ends, &|height| transform.position_from_point(&PlotPoint::new(0.0, height)).y, response.rect);
-    }
+    let at = |height: f64| transform.position_from_point(&PlotPoint::new(0.0, height)).y;
+    marks.paint(ui, room.left(), response.rect, &at);
     let Some(pointer) = response.hover_pos() else { return };
     let index = nearest(transform.value_from_position(pointer).x, records.len());
     ui.painter().with_clip_rect(response.rect).vline(
@@ -205,38 +217,6 @@ fn show_curve(ui: &mut egui::Ui, curve: &Curve, timeline: &Timeline, requests: &
     let value = curve.value_at(timeline, index);
     let words = value.map_or_else(|| "this step has no such number".to_owned(), |value| curve.words(value));
     response.on_hover_text_at_pointer(format!("Step {index}: {words}\n{}", curve.about));
-}
-
-/// The least and the greatest value at the left, and powers of ten as lines, their numbers at the right.
-fn marks(ui: &egui::Ui, curve: &Curve, ends: [f64; 2], height_on_screen: &dyn Fn(f64) -> f32, rect: Rect) {
-    let theme = theme_of(ui);
-    let painter = ui.painter().with_clip_rect(rect);
-    let font = FontId::proportional(MARKS);
-    let [least, greatest] = ends.map(|value| curve.height_of(value));
-    if curve.scale == CurveScale::Powers {
-        // What stands for 0 is no power.
-        for power in powers_within(least.max(LEAST_POWER + 1.0), greatest) {
-            let y = height_on_screen(f64::from(power));
-            painter.hline(rect.x_range(), y, egui::Stroke::new(1.0, theme.separator));
-            let at = egui::pos2(rect.right() - 2.0, y);
-            painter.text(at, Align2::RIGHT_BOTTOM, format!("1e{power}"), font.clone(), theme.weak_text);
-        }
-    }
-    let words = ends.map(|value| curve.words(value));
-    let at = |height: f64| height_on_screen(height).clamp(rect.top() + 1.3 * MARKS, rect.bottom());
-    let place = |height: f64| egui::pos2(rect.left(), at(height));
-    painter.text(place(greatest), Align2::LEFT_BOTTOM, &words[1], font.clone(), theme.weak_text);
-    if words[0] != words[1] {
-        painter.text(place(least), Align2::LEFT_BOTTOM, &words[0], font, theme.weak_text);
-    }
-}
-
-/// Whole powers of ten in a range, three at most, from one to the next by the same step.
-#[expect(clippy::cast_possible_truncation, reason = "powers of ten of f64 are below 400")]
-fn powers_within(least: f64, greatest: f64) -> Vec<i32> {
-    let (lowest, highest) = (least.ceil() as i32, greatest.floor() as i32);
-    let gap = ((highest - lowest) / 3 + 1).max(1);
-    (lowest..=highest).filter(|power| power.rem_euclid(gap) == 0).collect()
 }
 
 /// The step nearest to a place.
@@ -306,20 +286,4 @@ fn base<'a>(theme: &Theme, curve: &Curve, points: &[[f64; 2]], count: usize) -> 
         .include_x(count.saturating_sub(1).max(1) as f64)
         .include_y(low)
         .include_y(high)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn powers_are_few_and_lie_within_the_range() {
-        assert_eq!(powers_within(-2.5, 0.4), [-2, -1, 0]);
-        assert_eq!(powers_within(0.2, 0.7), [0_i32; 0]);
-        for greatest in 0..40 {
-            let powers = powers_within(-17.0, f64::from(greatest));
-            assert!((1..=4).contains(&powers.len()), "{powers:?}");
-            assert!(powers.iter().all(|&power| (-17..=greatest).contains(&power)));
-        }
-    }
 }

@@ -5,10 +5,12 @@
 //! | `buttons.rs` | through the steps that there are, on to new ones, and where a run comes to rest |
 //! | `chips.rs` | the steps in a row |
 //! | `curves.rs` | their numbers as curves |
+//! | `marks.rs` | the curves' ends and powers of ten |
 
 mod buttons;
 pub(super) mod chips;
 mod curves;
+mod marks;
 
 use eframe::egui::{self, Align, Layout, RichText};
 
@@ -31,11 +33,25 @@ pub(super) const CURVES_FROM: f32 = 560.0;
 /// Width of the strip below which it says less in words, points.
 const ROOMY: f32 = 720.0;
 
+/// Width of the strip below which it has fewer buttons, and steps by their numbers alone, points.
+const TIGHT: f32 = 440.0;
+
 /// How much there is to say in one row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Room {
     Ample,
     Scarce,
+    Tight,
+}
+
+impl Room {
+    fn of(width: f32) -> Self {
+        match width {
+            _ if width >= ROOMY => Self::Ample,
+            _ if width >= TIGHT => Self::Scarce,
+            _ => Self::Tight,
+        }
+    }
 }
 
 /// What the window knows of its timeline, beyond the steps themselves.
@@ -63,18 +79,18 @@ impl TimelineView {
 }
 
 pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
-    let room = if ui.available_width() >= ROOMY { Room::Ample } else { Room::Scarce };
+    let room = Room::of(ui.available_width());
     ui.spacing_mut().item_spacing.y = 0.0;
     let row = egui::vec2(ui.available_width(), ROW_HEIGHT);
     ui.allocate_ui_with_layout(row, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_height(ROW_HEIGHT);
-        playback_buttons(ui, editor, requests);
+        playback_buttons(ui, editor, room, requests);
         ui.separator();
         run_buttons(ui, editor, requests);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             fold_button(ui, editor, requests);
             if editor.timeline.curves_shown() && room == Room::Ample {
-                curves_menu(ui, &mut editor.timeline);
+                curves_menu(ui, editor);
             }
             stop_menu(ui, editor, room, requests);
             // Why the run is at rest, where the verdict does not say it.
@@ -84,7 +100,7 @@ pub(super) fn timeline_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut
                 remark(ui, stop.words());
             }
             ui.add_space(6.0);
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| chips(ui, editor, requests));
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| chips(ui, editor, room, requests));
         });
     });
     if editor.timeline.curves_shown() {

@@ -19,8 +19,9 @@ use super::PlaneView;
 use crate::geom::{Orientation, Similarity, convex_hull, orientation};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::render::{FillLayer, LineLayer};
-use crate::session::{Background, Wake};
+use crate::session::{Failure, Wake};
 use crate::solver::{Choice, Embedding, Method, Outline, Outside, VirtualBoundary};
+use crate::ui::editor::making::Making;
 use crate::ui::editor::scene::{Part, PlaneScene};
 use crate::ui::theme::Theme;
 use crate::view::{EdgeList, FaceList, FacePaint, PlaneCamera};
@@ -61,7 +62,7 @@ pub(super) struct HullView {
     /// With the outcome's revision and the stage.
     scene: Option<((u64, Stage), HullScene)>,
     /// The stage that is being made, with the outcome's revision.
-    job: Background<(u64, Stage), HullScene>,
+    job: Making<(u64, Stage), HullScene>,
     /// The camera from before they showed, and the one that frames them.
     cameras: Option<[PlaneCamera; 2]>,
 }
@@ -222,12 +223,16 @@ fn moved_along(embedding: &Embedding, disk: &DiskMesh, [before, after]: [&Embedd
 
 impl HullView {
     pub(super) fn new(wake: &Wake) -> Self {
-        let (stage, job) = (Stage::default(), Background::new("hull", wake));
+        let (stage, job) = (Stage::default(), Making::new("hull", wake));
         Self { shown: false, stage, scene: None, job, cameras: None }
     }
 
     pub(super) fn is_making_scene(&self) -> bool {
         self.job.is_busy()
+    }
+
+    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+        self.job.take_failure()
     }
 }
 
@@ -263,7 +268,7 @@ impl PlaneView {
 
     /// Makes the chosen stage in the background where it is not there yet.
     pub(super) fn poll_hull(&mut self) {
-        if let Some((key, Ok(scene))) = self.hull.job.poll() {
+        if let Some((key, scene)) = self.hull.job.poll() {
             self.hull.scene = Some((key, scene));
             self.frame_hull();
         }
@@ -277,7 +282,7 @@ impl PlaneView {
         let Some(plane) = self.scene.clone() else { return };
         let key = (plane.outcome_revision, self.hull.stage);
         if self.hull.scene.as_ref().is_none_or(|(made, _)| *made != key) {
-            self.hull.job.start(key, move |_| HullScene::new(&plane, key.1));
+            self.hull.job.make(key, move |_| HullScene::new(&plane, key.1));
         }
     }
 

@@ -19,10 +19,11 @@ use eframe::egui;
 use glam::DVec2;
 
 use super::host::Host;
+use super::making::Making;
 use super::scene::{MeshScene, PlaneScene};
 use super::views::picture_box;
 use crate::geom::Bounds;
-use crate::session::{Background, Session, Wake};
+use crate::session::{Failure, Session, Wake};
 use crate::solver::{Embedding, Verdict};
 use crate::ui::panes::pane::PaneView;
 use crate::view::{FacePaint, PlaneCamera};
@@ -39,7 +40,7 @@ pub struct PlaneView {
     saved: Option<Vec<f64>>,
     scene: Option<Arc<PlaneScene>>,
     /// The scene that is being made, by the step's revision.
-    job: Background<u64, PlaneScene>,
+    job: Making<u64, PlaneScene>,
     way: Option<Way>,
     preview: Option<PreviewScene>,
     hull: HullView,
@@ -86,7 +87,7 @@ impl PlaneView {
             framed: None,
             saved: None,
             scene: None,
-            job: Background::new("plane scene", wake),
+            job: Making::new("plane scene", wake),
             way: None,
             preview: None,
             hull: HullView::new(wake),
@@ -177,6 +178,11 @@ impl PlaneView {
         self.job.is_busy() || self.hull.is_making_scene()
     }
 
+    /// Why what is drawn could not be made; each failure once.
+    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+        self.job.take_failure().or_else(|| self.hull.take_failure())
+    }
+
     /// Takes in what was made in the background, and has made what is missing. Returns a scene that is new on the screen.
     /// Call once per frame.
     pub(super) fn refresh(&mut self, around: Surroundings) -> Option<Arc<PlaneScene>> {
@@ -196,7 +202,7 @@ impl PlaneView {
         if self.way.is_some() {
             return;
         }
-        if let Some(scene) = self.job.poll().and_then(|(_, scene)| scene.ok()) {
+        if let Some((_, scene)) = self.job.poll() {
             if self.pane.camera().is_none() {
                 self.look_at_first(&scene, around);
             }
@@ -212,7 +218,7 @@ impl PlaneView {
         if let Some((given, outcome)) = given.zip(session.outcome()) {
             let (given, outcome) = (Arc::clone(given), Arc::clone(outcome));
             let before = self.scene.as_ref().map(|scene| Arc::clone(&scene.mesh));
-            self.job.start(revision, move |_| {
+            self.job.make(revision, move |_| {
                 let mesh = MeshScene::of_step(&given, before, &outcome.step);
                 PlaneScene::new(mesh, outcome, revision)
             });
@@ -294,5 +300,45 @@ impl PlaneView {
         };
         let faces = same.map_or_else(anew, |before| before.faces);
         self.preview = Some(PreviewScene { key, scene, faces, verdict });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::examples::Example;
+    use crate::session::{Action, RecentFiles};
+    use crate::ui::Editor;
+
+    #[test]
+    fn a_sheet_that_cannot_be_drawn_is_said_once_and_not_waited_for() {
+        let mut editor = Editor::new(&egui::Context::default(), RecentFiles::default());
+        let rest = |editor: &mut Editor| {
+            let is_at_work = |editor: &Editor| {
+                let makes_scenes = editor.mesh.is_making_scene() || editor.plane.is_making_scene();
+                editor.session.busy().is_some() || makes_scenes || editor.plane.is_moving(&editor.session)
+            };
+            editor.poll();
+            while is_at_work(editor) {
+                std::thread::sleep(Duration::from_millis(1));
+                editor.poll();
+            }
+        };
+        editor.session.handle(Action::OpenExample(Example::Cube));
+        rest(&mut editor);
+        let before = editor.plane.scene().expect("drawn").outcome_revision;
+        editor.session.handle(Action::Step);
+        while editor.session.outcome_revision() == before {
+            std::thread::sleep(Duration::from_millis(1));
+            editor.session.poll();
+        }
+        editor.plane.job.make(editor.session.outcome_revision(), |_| panic!("on purpose"));
+        rest(&mut editor);
+        rest(&mut editor);
+        let texts: Vec<&str> = editor.session.messages().iter().map(|message| message.text.as_str()).collect();
+        assert_eq!(texts, ["drawing stopped unexpectedly"]);
+        assert_eq!(editor.plane.scene().map(|scene| scene.outcome_revision), Some(before), "what was drawn stays");
     }
 }

@@ -66,10 +66,11 @@ impl PlaneView {
         self.way.is_some() || self.is_behind(session) || (self.preview.is_some() && session.preview().is_none())
     }
 
-    /// Whether the session shows another step than this pane.
+    /// Whether the session shows another step than this pane, which is to come.
     pub(super) fn is_behind(&self, session: &Session) -> bool {
         let drawn = self.scene.as_ref().map(|scene| scene.outcome_revision);
-        session.outcome().is_some() && drawn != Some(session.outcome_revision())
+        let wanted = session.outcome_revision();
+        session.outcome().is_some() && drawn != Some(wanted) && !self.job.has_failed(&wanted)
     }
 
     /// Puts a step on the screen: from where vertices are drawn now, if it is one of the same run, or if they followed a

@@ -1,0 +1,75 @@
+//! What is wrong with the mesh: every fault with a way to each of its elements, and what mends it; and what was done with a
+//! mesh that flattens all the same.
+
+use eframe::egui::{self, Button, RichText};
+
+use super::menu::grouped;
+use crate::mesh::{Fault, TriMesh};
+use crate::session::{Action, Model, Surface};
+use crate::ui::{Control, Request, counted, sentence, theme_of};
+
+/// The faults of a mesh that cannot be flattened as it is. Returns whether it is one.
+pub(super) fn faults(ui: &mut egui::Ui, model: &Model, requests: &mut Vec<Request>) -> bool {
+    let Surface::Faulty(mesh, diagnosis) = &model.surface else { return false };
+    ui.label("The mesh cannot be flattened as it is:");
+    egui::ScrollArea::vertical().show(ui, |ui| {
+        if let Some(remedy) = &model.remedy {
+            let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
+            let tip = "Make a disk of it. The file's positions and faces stay; undo takes it back";
+            ui.button("Mend all faults").on_hover_text(tip).asks(Action::Mend, requests);
+            ui.weak(sentence(&done.join(", ")));
+        }
+        for fault in &diagnosis.faults {
+            ui.separator();
+            fault_card(ui, fault, mesh, requests);
+        }
+    });
+    true
+}
+
+/// One fault: what is wrong, what to do, and buttons that show its elements in turn.
+fn fault_card(ui: &mut egui::Ui, fault: &Fault, mesh: &TriMesh, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    let colour = if fault.is_harmless() { theme.weak_text } else { theme.flipped };
+    ui.colored_label(colour, sentence(&fault.message()));
+    let remedy = if fault.is_harmless() { "it does no harm" } else { fault.remedy() };
+    ui.label(RichText::new(sentence(remedy)).color(theme.weak_text));
+    let count = fault.elements().count();
+    if count == 0 {
+        return;
+    }
+    let place = ui.scope_id().with(("element", fault.name()));
+    let shown: Option<usize> = ui.data(|data| data.get_temp(place)).filter(|&at| at < count);
+    ui.horizontal(|ui| {
+        let name = fault.name().replace('-', " ");
+        for (words, by) in [("Previous", count - 1), ("Next", 1)] {
+            let to = shown.map_or(if by == 1 { 0 } else { count - 1 }, |at| (at + by) % count);
+            let button = ui.add(Button::new(words)).on_hover_text("Show it in the mesh");
+            let button = button.named(egui::Role::Button, &format!("{words} of {name}"));
+            if button.asks(Request::GoTo(fault.vertices_of(to, mesh)), requests) {
+                ui.data_mut(|data| data.insert_temp(place, to));
+            }
+        }
+        if let Some(at) = shown {
+            ui.weak(format!("{} of {}", grouped(at + 1), grouped(count)));
+        }
+    });
+}
+
+/// What was done with a mesh before it was flattened; nothing where it is as it should be.
+pub(super) fn notes(ui: &mut egui::Ui, model: &Model) {
+    let Some(disk) = model.disk() else { return };
+    let repairs = model.repaired.iter().flat_map(|repaired| repaired.done());
+    let mut notes: Vec<String> = repairs.map(ToString::to_string).collect();
+    let unused = disk.vertex_count() - disk.used_vertex_count();
+    if unused > 0 {
+        notes.push(counted(unused, "vertex of no face", "vertices of no face"));
+    }
+    if disk.mollification() > 0.0 {
+        let longer = disk.mollification() * disk.unit();
+        notes.push(format!("faces without area, measured by lengths longer by {longer:.1e}"));
+    }
+    for note in notes {
+        ui.weak(format!("Mesh: {note}"));
+    }
+}

@@ -1,0 +1,77 @@
+//! The bar over a pane: title, shading, switches, full size; in a narrow pane what there is room for.
+
+use eframe::egui::{self, Role};
+
+use crate::ui::{Control, Editor, Pane, Request, Shading, list, tip_with_keys};
+
+/// A pane narrower than this has no title in its bar, points.
+const ROOM_FOR_TITLE: f32 = 270.0;
+
+/// A pane narrower than this has no switches in its bar either, points: keys and the View menu have them.
+const ROOM_FOR_SWITCHES: f32 = 190.0;
+
+/// The menu of shadings is at least so wide, or is left to the View menu, points.
+const LEAST_MENU: f32 = 60.0;
+
+/// Title, shading and the button for full size, as far as there is room.
+pub(super) fn header(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
+    let title = pane.title();
+    let room = ui.available_width();
+    ui.horizontal(|ui| {
+        ui.set_min_height(26.0);
+        if room >= ROOM_FOR_TITLE {
+            ui.add_space(8.0);
+            ui.strong(title);
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add_space(4.0);
+            let (glyph, words) = match editor.layout.full() {
+                Some(_) => ("Both", "Show both panes"),
+                None => ("Full", "Show this pane alone"),
+            };
+            let tip = tip_with_keys(ui, words, &Request::TogglePane);
+            let button = ui.add(egui::Button::new(glyph).frame(false)).on_hover_text(tip);
+            button.named(Role::Button, &format!("{words}: {title}")).asks(Request::ToggleFull(pane), requests);
+            if room >= ROOM_FOR_SWITCHES {
+                switches(ui, editor, pane, requests);
+            }
+            if ui.available_width() >= LEAST_MENU {
+                shading_menu(ui, editor, pane, requests);
+            }
+        });
+    });
+}
+
+/// What can be on or off in a pane.
+fn switches(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
+    if pane == Pane::Plane {
+        let tip = tip_with_keys(ui, "Hull and pockets of the virtual boundary", &Request::ToggleHull);
+        let switch = ui.selectable_label(editor.plane.hull_shown(), "Hull").on_hover_text(tip);
+        switch.asks(Request::ToggleHull, requests);
+    }
+    if pane == Pane::Mesh || editor.layout.full() == Some(Pane::Plane) {
+        let tip = tip_with_keys(ui, "Wireframe", &Request::ToggleWireframe);
+        let wire = ui.selectable_label(editor.look.wireframe, "Wire").on_hover_text(tip);
+        wire.asks(Request::ToggleWireframe, requests);
+    }
+}
+
+fn shading_menu(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
+    let width = ui.spacing().combo_width.min(ui.available_width() - 4.0);
+    // A name that is too long for the room ends in dots.
+    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
+    let now = editor.shading(pane);
+    let name = format!("Shading of the {}", pane.title().to_lowercase());
+    let menu = list(ui, &name, width, now.title(), |ui| {
+        for shading in Shading::ALL.into_iter().filter(|shading| shading.is_for(pane)) {
+            let [title, about] = shading.words();
+            let tip = tip_with_keys(ui, about, &Request::SetShading(shading));
+            let entry = ui.selectable_label(now == shading, title).on_hover_text(tip);
+            entry.asks(Request::SetPaneShading(pane, shading), requests);
+        }
+    });
+    menu.on_hover_text(
+        "How faces show in this pane. Number keys shade the pane under the pointer, or both where it is over neither. \
+         The Constrain tool over a picture has shadings of its own",
+    );
+}

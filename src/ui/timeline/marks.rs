@@ -1,0 +1,90 @@
+//! The marks of a curve: its ends and powers of ten, beside the plot.
+
+use std::sync::Arc;
+
+use eframe::egui::{self, FontId, Galley, Rect};
+
+use super::curves::{Curve, CurveScale};
+use crate::ui::theme_of;
+
+/// Size of the letters of the marks, points.
+const MARKS: f32 = 9.0;
+
+/// What stands at the left of a curve: its greatest and its least value, and whole powers of ten between them, each
+/// with its height. Their lines go through the plot, their words stay out of it.
+pub(super) struct Marks {
+    /// Greatest and least value, the latter where it is another.
+    ends: Vec<(f64, Arc<Galley>)>,
+    powers: Vec<(f64, Arc<Galley>)>,
+}
+
+impl Marks {
+    pub(super) fn new(ui: &egui::Ui, curve: &Curve, [least, greatest]: [f64; 2]) -> Self {
+        let ink = theme_of(ui).weak_text;
+        let laid = |words: String| ui.painter().layout_no_wrap(words, FontId::proportional(MARKS), ink);
+        let [low, high] = [least, greatest].map(|value| curve.height_of(value));
+        let mut ends = vec![(high, curve.words(greatest))];
+        ends.extend(Some((low, curve.words(least))).filter(|(_, words)| *words != ends[0].1));
+        let powers = if curve.scale == CurveScale::Powers { powers_within(low, high) } else { Vec::new() };
+        Self {
+            ends: ends.into_iter().map(|(height, words)| (height, laid(words))).collect(),
+            powers: powers.into_iter().map(|power| (f64::from(power), laid(format!("1e{power}")))).collect(),
+        }
+    }
+
+    /// The room that the words take, points.
+    pub(super) fn width(&self) -> f32 {
+        let all = self.ends.iter().chain(&self.powers);
+        all.map(|(_, words)| words.size().x).fold(0.0, f32::max) + 4.0
+    }
+
+    /// Paints the words from `left` on, and the lines through the plot in `rect`.
+    pub(super) fn paint(&self, ui: &egui::Ui, left: f32, rect: Rect, height_on_screen: &dyn Fn(f64) -> f32) {
+        let (painter, theme) = (ui.painter(), theme_of(ui));
+        let write = |middle: f32, words: &Arc<Galley>| {
+            let at = egui::pos2(left, middle - words.size().y / 2.0);
+            painter.galley(at, Arc::clone(words), theme.weak_text);
+        };
+        let half = MARKS / 2.0 + 1.0;
+        let mut taken: Vec<f32> = Vec::new();
+        for (height, words) in &self.ends {
+            // The least value lies below the greatest, however near to it.
+            let highest = taken.last().map_or(rect.top() + half, |above| above + 2.0 * half);
+            let middle = height_on_screen(*height).min(rect.bottom() - half).max(highest);
+            write(middle, words);
+            taken.push(middle);
+        }
+        for (height, words) in &self.powers {
+            let y = height_on_screen(*height);
+            painter.hline(rect.x_range(), y, egui::Stroke::new(1.0, theme.separator));
+            if rect.shrink(half).y_range().contains(y) && taken.iter().all(|other| (other - y).abs() >= 2.0 * half) {
+                write(y, words);
+                taken.push(y);
+            }
+        }
+    }
+}
+
+/// Whole powers of ten in a range, three at most, from one to the next by the same step.
+#[expect(clippy::cast_possible_truncation, reason = "powers of ten of f64 are below 400")]
+fn powers_within(least: f64, greatest: f64) -> Vec<i32> {
+    let (lowest, highest) = (least.ceil() as i32, greatest.floor() as i32);
+    let gap = ((highest - lowest) / 3 + 1).max(1);
+    (lowest..=highest).filter(|power| power.rem_euclid(gap) == 0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_are_few_and_lie_within_the_range() {
+        assert_eq!(powers_within(-2.5, 0.4), [-2, -1, 0]);
+        assert_eq!(powers_within(0.2, 0.7), [0_i32; 0]);
+        for greatest in 0..40 {
+            let powers = powers_within(-17.0, f64::from(greatest));
+            assert!((1..=4).contains(&powers.len()), "{powers:?}");
+            assert!(powers.iter().all(|&power| (-17..=greatest).contains(&power)));
+        }
+    }
+}

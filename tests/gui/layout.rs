@@ -1,0 +1,224 @@
+//! How the window fits its least size: bars of the panes, the timeline's row, curves, and the table of pins.
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Rect, Vec2};
+use egui_kittest::Node;
+use egui_kittest::kittest::NodeT as _;
+use freebound::app::Start;
+use freebound::examples::Example;
+use freebound::io::{StepReport, Target};
+use freebound::mesh::{TriMesh, VertexId};
+use freebound::session::Action;
+use freebound::solver::{Family, Method, Settings};
+use freebound::ui::{Request, Shading, Tab};
+use glam::{DVec2, DVec3};
+
+use crate::harness::{SIZE, Window, sheet};
+
+const LEAST: Vec2 = Vec2::new(640.0, 420.0);
+
+/// Everything with words of its own in a part of the window, with its place: controls, and labels beside them.
+fn things_in(window: &Window, part: Rect) -> Vec<(String, Rect)> {
+    let has_words = |node: &Node<'_>| {
+        let role = node.accesskit_node().role();
+        matches!(role, Role::Button | Role::ComboBox | Role::Label | Role::SpinButton | Role::Slider)
+    };
+    let words = |node: &Node<'_>| {
+        let node = node.accesskit_node();
+        node.label().or_else(|| node.value()).unwrap_or_default()
+    };
+    let nodes = window.harness.root().children_recursive().into_iter().filter(has_words);
+    let things = nodes.map(|node| (words(&node), node.rect()));
+    things.filter(|(words, rect)| !words.is_empty() && part.contains(rect.center())).collect()
+}
+
+/// That nothing in a part of the window lies over another thing in it, nor reaches out of it.
+fn assert_apart(window: &Window, part: Rect, what: &str) {
+    let things = things_in(window, part);
+    assert!(!things.is_empty(), "{what}: nothing lies in {part:?}");
+    for (i, (words, rect)) in things.iter().enumerate() {
+        let is_inside = rect.left() >= part.left() - 0.5 && rect.right() <= part.right() + 0.5;
+        assert!(is_inside, "{what}: {words:?} at {rect:?} reaches out of {part:?}");
+        for (other, place) in &things[i + 1..] {
+            let common = rect.intersect(*place);
+            assert!(common.width() <= 0.5 || common.height() <= 0.5, "{what}: {words:?} over {other:?} at {common:?}");
+        }
+    }
+}
+
+/// The bars over the two panes, and the timeline's row.
+fn bars(window: &Window) -> [(Rect, &'static str); 3] {
+    let over = |pane: Rect| Rect::from_min_max(egui::pos2(pane.left(), 31.0), egui::pos2(pane.right(), pane.top()));
+    let row = window.rect(Role::Button, "Where a run stops").y_range().expand(4.0);
+    let row = Rect::from_x_y_ranges(0.0..=window.plane_view().right(), row);
+    [(over(window.mesh_view()), "mesh's bar"), (over(window.plane_view()), "embedding's bar"), (row, "timeline")]
+}
+
+/// A window of the least size, with its steps taken.
+fn small(start: Start, steps: usize) -> Window {
+    let mut window = Window::start(LEAST, start);
+    window.editor_mut().look.glides = false;
+    for _ in 0..steps {
+        window.editor_mut().session.handle(Action::Step);
+        window.settle();
+    }
+    window
+}
+
+#[test]
+fn nothing_in_the_bars_of_the_least_window_is_cut_or_lies_over_another() {
+    let mesh = Window::with_mesh("sheet.obj", &sheet(4, 0.5));
+    let cube = Window::with_example(Example::Cube);
+    let start = |file| Start { file: Some(file), dialogs_inside: true, ..Start::default() };
+    for (name, mut window) in [
+        ("face", small(Start::default(), 1)),
+        ("cube", small(start(cube.path("cube.obj")), 1)),
+        ("many steps", small(start(mesh.path("sheet.obj")), 12)),
+    ] {
+        for with_panels in [false, true] {
+            if window.editor().layout.panels_shown() != with_panels {
+                window.editor_mut().handle(Request::TogglePanels);
+                window.settle();
+            }
+            for shading in [Shading::Checker, Shading::Angle] {
+                window.shade(shading);
+                window.settle();
+                for (part, bar) in bars(&window) {
+                    assert_apart(&window, part, &format!("{name}, panels {with_panels}, {shading:?}, {bar}"));
+                }
+                let menus = ["Shading of the mesh", "Shading of the embedding"];
+                for menu in menus.map(|menu| window.rect(Role::ComboBox, menu)) {
+                    assert!(menu.width() >= 90.0, "{name}: {menu:?} says a shading's name");
+                }
+            }
+            let shown = window.editor().session.timeline().shown().expect("solved");
+            let chip = things_in(&window, bars(&window)[2].0).into_iter();
+            let chip = chip.filter(|(words, _)| words.starts_with(&format!("Step {shown}: "))).count();
+            assert_eq!(chip, 1, "{name}, panels {with_panels}: the step on the screen is in sight");
+        }
+    }
+}
+
+#[test]
+fn a_pane_that_a_person_made_narrow_keeps_its_bar_in_order() {
+    let mut window = small(Start::default(), 0);
+    window.editor_mut().handle(Request::ShowTab(Tab::Method));
+    window.settle();
+    let bar = window.rect(Role::Slider, "Width of the panes").center();
+    window.drag(bar, bar - Vec2::new(120.0, 0.0), egui::Modifiers::NONE);
+    assert!(window.mesh_view().width() < 60.0, "{:?}", window.mesh_view());
+    for (part, bar) in bars(&window) {
+        assert_apart(&window, part, bar);
+    }
+}
+
+/// The words painted in a part of the window, with their places.
+fn words_in(window: &Window, part: Rect) -> Vec<String> {
+    fn collect(shape: &egui::Shape, part: Rect, found: &mut Vec<String>) {
+        match shape {
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, part, found)),
+            egui::Shape::Text(text) if part.intersects(text.visual_bounding_rect()) => {
+                found.push(text.galley.text().to_owned());
+            }
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    window.harness.output().shapes.iter().for_each(|shape| collect(&shape.shape, part, &mut found));
+    found
+}
+
+/// The curves that show, by their names, each with the place of its plot.
+fn curves(window: &Window) -> Vec<(String, Rect)> {
+    let nodes = window.harness.root().children_recursive().into_iter();
+    let named = nodes.filter_map(|node| Some((node.accesskit_node().label()?, node.rect())));
+    named.filter(|(name, _)| name.starts_with("Curve: ")).collect()
+}
+
+/// A folded sheet and three steps more, which do not unfold it: its pins hold the fold.
+fn folded() -> Window {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    crate::defects::fold(&mut window);
+    for _ in 0..3 {
+        window.key(Key::Space);
+    }
+    window
+}
+
+#[test]
+fn the_values_at_the_ends_of_a_curve_lie_beside_it() {
+    let window = folded();
+    let curves = curves(&window);
+    assert!(curves.len() >= 3, "{curves:?}");
+    for (name, plot) in curves {
+        // Its title ends where the plot begins.
+        assert_eq!(words_in(&window, plot.shrink(3.0)), Vec::<String>::new(), "{name}");
+        let beside = plot.shrink(3.0).with_min_x(plot.left() - 40.0).with_max_x(plot.left());
+        assert!(!words_in(&window, beside).is_empty(), "{name} says its ends");
+    }
+}
+
+#[test]
+fn a_curve_whose_numbers_are_all_zero_is_named_in_the_menu_and_not_drawn() {
+    let mut window = folded();
+    let records = window.editor().session.timeline().records();
+    let is_zero = |count: fn(&StepReport) -> usize| records.iter().all(|record| count(record) == 0);
+    let counts = [
+        ("Flipped", "flipped faces", is_zero(|record| record.flipped_faces)),
+        ("Crossings", "pairs of boundary edges that cross", is_zero(|record| record.boundary_crossings)),
+        ("Concave", "concave polygons", is_zero(|record| record.concave_polygons)),
+        ("Overwound", "overwound vertices", is_zero(|record| record.overwound_vertices)),
+    ];
+    assert!(!counts[0].2 && counts[2].2, "a fold, but no polygons: {counts:?}");
+    let names: Vec<String> = curves(&window).into_iter().map(|(name, _)| name).collect();
+    window.click("Which curves show");
+    for (title, about, is_zero) in counts {
+        assert!(!(is_zero && names.contains(&format!("Curve: {about}"))), "{title}: {names:?}");
+        assert_eq!(window.shows(&format!("{title}: 0 in every step")), is_zero, "{:?}", window.words());
+    }
+    assert!(names.contains(&"Curve: flipped faces".to_owned()), "{names:?}");
+}
+
+/// A strip of two rows of so many vertices.
+fn strip(count: u32) -> TriMesh {
+    let positions = (0..2 * count).map(|i| DVec3::new(f64::from(i / 2), f64::from(i % 2), 0.0)).collect();
+    let square = |i: u32| [[2 * i, 2 * i + 2, 2 * i + 3], [2 * i, 2 * i + 3, 2 * i + 1]];
+    TriMesh::new(positions, &(0..count - 1).flat_map(square).collect::<Vec<_>>())
+}
+
+#[test]
+fn the_columns_of_the_pins_never_touch() {
+    let mesh = Window::with_mesh("strip.obj", &strip(1600));
+    for size in [LEAST, SIZE] {
+        let start = Start { file: Some(mesh.path("strip.obj")), dialogs_inside: true, ..Start::default() };
+        let mut window = Window::start(size, start);
+        let session = &mut window.editor_mut().session;
+        session.handle(Action::SetSettings(Settings::new(Method::Lscm, Family::Conformal)));
+        // Long numbers, negative ones, and targets that contradict each other.
+        for (vertex, target) in [
+            (3000, Target::hard(DVec2::new(-0.456_78, -12.345))),
+            (3001, Target::hard(DVec2::new(-0.456_78 - 1e-11, -12.345))),
+            (3003, Target::hard(DVec2::splat(100.0))),
+            (3002, Target::weighted(DVec2::new(-123.456, -0.000_123), 12345.678)),
+        ] {
+            session.handle(Action::Place { vertex: VertexId::new(vertex), target });
+        }
+        window.editor_mut().handle(Request::ShowTab(Tab::Pins));
+        window.settle();
+        assert!(window.shows("conflict"), "{:?}", window.words());
+        let panel = window.plane_view().right()..=size.x;
+        for vertex in ["v3000", "v3001"].into_iter().chain(["v3002"].into_iter().filter(|_| size == SIZE)) {
+            let row = window.rect(Role::Button, vertex).center().y;
+            let mut cells = things_in(&window, Rect::from_x_y_ranges(panel.clone(), row - 4.0..=row + 4.0));
+            cells.sort_by(|a, b| a.1.left().total_cmp(&b.1.left()));
+            assert_eq!(cells.len(), 6, "{cells:?}");
+            for pair in cells.windows(2) {
+                let gap = pair[1].1.left() - pair[0].1.right();
+                assert!(gap >= 6.0, "{size}: {gap} points between {:?} and {:?}", pair[0], pair[1]);
+            }
+            let last = cells.last().expect("cells").1.right();
+            assert!(last <= size.x - 10.0, "{size}: {cells:?}");
+        }
+    }
+}
