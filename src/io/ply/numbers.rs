@@ -73,9 +73,10 @@ impl<'a> Numbers<'a> {
         let (place, size) = if is_text { (self.place(), 1) } else { (before, item.size()) };
         let found =
             usize::try_from(count).ok().filter(|count| count.checked_mul(size).is_some_and(|all| all <= self.left()));
-        let element = "list item".to_owned();
-        let kind = ParseFaultKind::TooMany { element, count: count.unsigned_abs() };
-        found.ok_or_else(|| fault_at(place, kind))
+        found.ok_or_else(|| {
+            let element = "list item".to_owned();
+            fault_at(place, ParseFaultKind::TooMany { element, count: count.unsigned_abs() })
+        })
     }
 
     /// A number without a fraction.
