@@ -46,9 +46,9 @@ pub enum Command {
 pub struct FlattenArguments {
     /// The mesh, an OBJ, PLY, STL or OFF file; standard input with `-`.
     pub mesh: PathBuf,
-    /// Write the mesh with texture coordinates here (OBJ), or to standard output with `-`. The mesh that is read, or
+    /// Write the mesh with texture coordinates here (PLY where the name ends so, or else OBJ), or to standard output with `-`. The mesh that is read, or
     /// anything else that is, is never written over.
-    #[arg(short, long, value_name = "OBJ|-")]
+    #[arg(short, long, value_name = "MESH|-")]
     pub output: Option<PathBuf>,
     /// What may be repaired before the mesh is flattened: nothing, what changes no visible surface, or all that can be.
     #[arg(long, value_enum, default_value_t)]
@@ -160,8 +160,8 @@ impl FlattenArguments {
     /// The files to write, apart from the report.
     pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
         // The mesh comes last, so that what it names is there.
-        let paths =
-            [(OutputKind::Svg, &self.svg), (OutputKind::Png, &self.png), (OutputKind::Obj, &self.output)].into_iter();
+        let mesh = self.output.as_deref().map_or(OutputKind::Obj, OutputKind::of_mesh);
+        let paths = [(OutputKind::Svg, &self.svg), (OutputKind::Png, &self.png), (mesh, &self.output)].into_iter();
         paths.filter_map(|(kind, path)| Some((kind, path.as_deref()?))).collect()
     }
 

@@ -53,6 +53,7 @@ pub use obj::{Materials, copies_of_materials, material_files, material_picture, 
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};
 pub use paths::{is_same_file, is_standard_input, would_replace};
 pub use picture::{PictureError, PictureFile, decode_picture};
+pub use ply::write_ply;
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };

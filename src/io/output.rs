@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 
 use super::door::check_finite;
 use super::obj::{copy_materials, relocated, write_obj_with};
+use super::ply::write_ply;
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::{Report, write_report};
 use super::svg::write_svg;
@@ -34,6 +35,8 @@ const NAMELESS: &str = "-";
 pub enum OutputKind {
     /// The mesh with its embedding as texture coordinates.
     Obj,
+    /// The same as a PLY file.
+    Ply,
     /// A drawing of the layout.
     Svg,
     /// Mesh and layout side by side.
@@ -67,7 +70,7 @@ pub struct Format {
 }
 
 /// The formats, in the order of [`OutputKind`].
-static FORMATS: [Format; 4] = [
+static FORMATS: [Format; 5] = [
     Format {
         name: "OBJ mesh",
         extension: "obj",
@@ -76,6 +79,16 @@ static FORMATS: [Format; 4] = [
         write: |output, path, out| {
             let mesh = output.source_mesh();
             write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &output.texture_of(&mesh))
+        },
+    },
+    Format {
+        name: "PLY mesh",
+        extension: "ply",
+        ending: "-flat.ply",
+        title: "Save the mesh with texture coordinates as PLY",
+        write: |output, _, out| {
+            let mesh = output.source_mesh();
+            write_ply(out, &mesh, &output.texture_of(&mesh))
         },
     },
     Format {
@@ -102,9 +115,15 @@ static FORMATS: [Format; 4] = [
 ];
 
 /// The extensions of all formats, for a message.
-pub const EXTENSIONS: &str = ".svg, .png, .json or .obj";
+pub const EXTENSIONS: &str = ".svg, .png, .json, .ply or .obj";
 
 impl OutputKind {
+    /// The kind of a mesh's file, by the ending of its name; OBJ where that says nothing.
+    pub fn of_mesh(path: &Path) -> Self {
+        let is_ply = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ply"));
+        if is_ply { Self::Ply } else { Self::Obj }
+    }
+
     /// Its row in the table of formats.
     pub fn format(self) -> &'static Format {
         &FORMATS[self as usize]

@@ -58,6 +58,7 @@ mod pipes;
 mod places;
 mod placing;
 mod ply_text;
+mod ply_write;
 mod polygon;
 mod program;
 mod raster;

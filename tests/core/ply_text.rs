@@ -167,3 +167,104 @@ impl Put<'_> {
         }
     }
 }
+
+/// A list of things of a PLY file.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Element {
+    pub(crate) name: String,
+    /// Type and name of each property; of a list the types of its count and its items, and the name.
+    pub(crate) properties: Vec<Vec<String>>,
+    /// The numbers of each property of each thing.
+    pub(crate) rows: Vec<Vec<Vec<f64>>>,
+}
+
+impl Element {
+    /// The numbers of a property, thing by thing.
+    pub(crate) fn column(&self, name: &str) -> Option<Vec<Vec<f64>>> {
+        let at = self.properties.iter().position(|words| words.last().is_some_and(|last| last == name))?;
+        Some(self.rows.iter().map(|row| row[at].clone()).collect())
+    }
+
+    /// The same without properties of these names.
+    pub(crate) fn without(&self, names: &[&str]) -> Self {
+        let is_kept = |words: &Vec<String>| !words.last().is_some_and(|last| names.contains(&last.as_str()));
+        let kept: Vec<bool> = self.properties.iter().map(is_kept).collect();
+        let properties = self.properties.iter().filter(|words| is_kept(words)).cloned().collect();
+        let of_row =
+            |row: &Vec<Vec<f64>>| row.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(x, _)| x.clone()).collect();
+        Self { name: self.name.clone(), properties, rows: self.rows.iter().map(of_row).collect() }
+    }
+}
+
+/// All that a PLY file holds: the lines of its header that are no elements, and its elements.
+pub(crate) fn taken_apart(bytes: &[u8]) -> (Vec<String>, Vec<Element>) {
+    let end = bytes.windows(11).position(|eleven| eleven == b"end_header\n").expect("a header") + 11;
+    let (mut others, mut elements, mut counts) = (Vec::new(), Vec::<Element>::new(), Vec::new());
+    for line in String::from_utf8_lossy(&bytes[..end]).lines() {
+        let words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+        match words[0].as_str() {
+            "element" => {
+                counts.push(words[2].parse::<usize>().expect("a count"));
+                elements.push(Element { name: words[1].clone(), properties: Vec::new(), rows: Vec::new() });
+            }
+            "property" => elements.last_mut().expect("an element").properties.push(words[1..].to_vec()),
+            _ => others.push(line.to_owned()),
+        }
+    }
+    let mut take = Take {
+        rest: &bytes[end..],
+        encoding: Encoding::ALL.into_iter().find(|e| others[1].contains(e.name())).expect("one"),
+    };
+    for (element, count) in elements.iter_mut().zip(counts) {
+        for _ in 0..count {
+            let properties = element.properties.iter().map(|words| match words.as_slice() {
+                [_, count, item, _] => {
+                    let items = take.number(count);
+                    (0..).take_while(|&k| f64::from(k) < items).map(|_| take.number(item)).collect()
+                }
+                words => vec![take.number(&words[0])],
+            });
+            let row = properties.collect();
+            element.rows.push(row);
+        }
+    }
+    assert!(take.rest.trim_ascii().is_empty(), "nothing is left");
+    (others, elements)
+}
+
+struct Take<'a> {
+    rest: &'a [u8],
+    encoding: Encoding,
+}
+
+impl Take<'_> {
+    fn number(&mut self, kind: &str) -> f64 {
+        if self.encoding == Encoding::Text {
+            let rest = self.rest.trim_ascii_start();
+            let (word, rest) = rest.split_at(rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len()));
+            self.rest = rest;
+            return std::str::from_utf8(word).expect("text").parse().expect("a number");
+        }
+        let size = match kind {
+            "char" | "uchar" | "int8" | "uint8" => 1,
+            "short" | "ushort" | "int16" | "uint16" => 2,
+            "double" => 8,
+            _ => 4,
+        };
+        let (bytes, rest) = self.rest.split_at(size);
+        self.rest = rest;
+        let mut little = bytes.to_vec();
+        if self.encoding == Encoding::Big {
+            little.reverse();
+        }
+        if kind == "double" {
+            return f64::from_le_bytes(little.try_into().expect("eight"));
+        }
+        if kind == "float" {
+            return f64::from(f32::from_le_bytes(little.try_into().expect("four")));
+        }
+        let whole = little.iter().rev().fold(0_i64, |whole, &byte| 256 * whole + i64::from(byte));
+        let is_negative = !kind.starts_with('u') && little[size - 1] > 127;
+        (if is_negative { whole - (1 << (8 * size)) } else { whole }) as f64
+    }
+}

@@ -1,9 +1,12 @@
 //! The words of a text, with the lines that they stand on.
 
+use std::ops::Range;
+
 use super::{ParseFaultKind, Place, ReadError, fault_at};
 use crate::io::obj::{number, quoted};
 
 /// Goes through the words of a text, between blanks and line ends.
+#[derive(Clone)]
 pub(in crate::io) struct Words<'a> {
     text: &'a [u8],
     at: usize,
@@ -22,9 +25,31 @@ impl<'a> Words<'a> {
         Place::Line(self.line)
     }
 
+    /// How many bytes have been passed.
+    pub(in crate::io) fn passed(&self) -> usize {
+        self.at
+    }
+
     /// How many bytes are left.
     pub(in crate::io) fn left(&self) -> usize {
         self.text.len() - self.at
+    }
+
+    /// Where the next word stands.
+    pub(in crate::io) fn next_range(&mut self) -> Option<Range<usize>> {
+        loop {
+            match *self.text.get(self.at)? {
+                b'\n' => self.line += 1,
+                b'\r' if self.text.get(self.at + 1) != Some(&b'\n') => self.line += 1,
+                byte if is_blank(byte) => {}
+                _ => break,
+            }
+            self.at += 1;
+        }
+        let rest = &self.text[self.at..];
+        let length = rest.iter().position(|&byte| is_blank(byte)).unwrap_or(rest.len());
+        self.at += length;
+        Some(self.at - length..self.at)
     }
 
     /// The next word as a number; the end of the text is a fault, too.
@@ -38,19 +63,7 @@ impl<'a> Iterator for Words<'a> {
     type Item = &'a [u8];
 
     fn next(&mut self) -> Option<&'a [u8]> {
-        loop {
-            match *self.text.get(self.at)? {
-                b'\n' => self.line += 1,
-                b'\r' if self.text.get(self.at + 1) != Some(&b'\n') => self.line += 1,
-                byte if is_blank(byte) => {}
-                _ => break,
-            }
-            self.at += 1;
-        }
-        let rest = &self.text[self.at..];
-        let length = rest.iter().position(|&byte| is_blank(byte)).unwrap_or(rest.len());
-        self.at += length;
-        Some(&rest[..length])
+        self.next_range().map(|range| &self.text[range])
     }
 }
 

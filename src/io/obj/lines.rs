@@ -83,7 +83,7 @@ impl Line<'_> {
     }
 
     /// What ends it; empty in the last line of some files.
-    pub(super) fn end(&self) -> &[u8] {
+    pub(in crate::io) fn end(&self) -> &[u8] {
         &self.whole[self.length..]
     }
 }

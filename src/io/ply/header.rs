@@ -67,6 +67,33 @@ impl Scalar {
         })
     }
 
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::I8 => "char",
+            Self::U8 => "uchar",
+            Self::I16 => "short",
+            Self::U16 => "ushort",
+            Self::I32 => "int",
+            Self::U32 => "uint",
+            Self::F32 => "float",
+            Self::F64 => "double",
+        }
+    }
+
+    /// Whether it is a kind of integers that has numbers for so many elements.
+    pub(super) fn holds(self, count: usize) -> bool {
+        let bits = match self {
+            Self::I8 => 7,
+            Self::U8 => 8,
+            Self::I16 => 15,
+            Self::U16 => 16,
+            Self::I32 => 31,
+            Self::U32 => 32,
+            Self::F32 | Self::F64 => return false,
+        };
+        count as u64 <= 1 << bits
+    }
+
     /// Bytes in a binary file.
     pub(super) fn size(self) -> usize {
         match self {

@@ -5,16 +5,23 @@
 //! | `header`  | which elements a file has, and their properties                |
 //! | `numbers` | the numbers behind the header, in any encoding                 |
 //! | `read`    | a mesh of them                                                 |
+//! | `write`   | a file with other texture coordinates                          |
+//! | `plan`    | where these stand in it, and its header                        |
+//! | `row`     | a row of a file that is being written                          |
 //!
 //! Source: G. Turk, "The PLY polygon file format", 1994. Its own crates were looked at: they keep a map of names for each
 //! element, which is ten times the memory of the mesh.
 
 mod header;
 mod numbers;
+mod plan;
 mod read;
+mod row;
+mod write;
 
 pub(in crate::io) use header::Header;
 pub(in crate::io) use read::parse_ply;
+pub use write::write_ply;
 
 /// The names of texture coordinates of vertices: those of u beside those of v.
 const TEXTURE_NAMES: [[&str; 2]; 4] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];

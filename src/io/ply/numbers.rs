@@ -1,12 +1,14 @@
 //! The numbers of a PLY file behind its header, in any encoding.
 
-use super::header::{Element, Encoding, Header, Scalar};
+use std::ops::Range;
+
+use super::header::{Element, Encoding, Header, Property, Scalar};
 use crate::io::mesh_file::{ParseFaultKind, Place, ReadError, Words, fault_at};
 use crate::io::obj::quoted;
 
 /// Goes through the numbers of a file.
 pub(super) enum Numbers<'a> {
-    Text(Words<'a>),
+    Text { words: Words<'a>, begin: usize },
     Binary { bytes: &'a [u8], at: usize, is_big_endian: bool },
 }
 
@@ -14,7 +16,9 @@ impl<'a> Numbers<'a> {
     /// The numbers behind the header.
     pub(super) fn of(bytes: &'a [u8], header: &Header) -> Self {
         match header.encoding {
-            Encoding::Text => Self::Text(Words::of(&bytes[header.length..], header.lines + 1)),
+            Encoding::Text => {
+                Self::Text { words: Words::of(&bytes[header.length..], header.lines + 1), begin: header.length }
+            }
             Encoding::LittleEndian => Self::Binary { bytes, at: header.length, is_big_endian: false },
             Encoding::BigEndian => Self::Binary { bytes, at: header.length, is_big_endian: true },
         }
@@ -23,15 +27,15 @@ impl<'a> Numbers<'a> {
     /// Where the next number is, or, in text, the line of the last one.
     pub(super) fn place(&self) -> Place {
         match self {
-            Self::Text(words) => words.place(),
+            Self::Text { words, .. } => words.place(),
             Self::Binary { at, .. } => Place::Byte(*at as u64),
         }
     }
 
-    /// Where the file's next byte is, in binary files, and behind its header.
+    /// How many bytes are left.
     fn left(&self) -> usize {
         match self {
-            Self::Text(words) => words.left(),
+            Self::Text { words, .. } => words.left(),
             Self::Binary { bytes, at, .. } => bytes.len() - at,
         }
     }
@@ -49,7 +53,7 @@ impl<'a> Numbers<'a> {
 
     pub(super) fn next(&mut self, kind: Scalar) -> Result<f64, ReadError> {
         match self {
-            Self::Text(words) => words.number(),
+            Self::Text { words, .. } => words.number(),
             Self::Binary { bytes, at, is_big_endian } => {
                 let end = *at + kind.size();
                 let Some(found) = bytes.get(*at..end) else {
@@ -63,9 +67,10 @@ impl<'a> Numbers<'a> {
 
     /// The number of items of a list, which the rest of the file has room for.
     pub(super) fn count(&mut self, kind: Scalar, item: Scalar) -> Result<usize, ReadError> {
-        let place = self.place();
+        let before = self.place();
         let count = self.integer(kind)?;
-        let size = if matches!(self, Self::Text(_)) { 1 } else { item.size() };
+        let is_text = matches!(self, Self::Text { .. });
+        let (place, size) = if is_text { (self.place(), 1) } else { (before, item.size()) };
         let found =
             usize::try_from(count).ok().filter(|count| count.checked_mul(size).is_some_and(|all| all <= self.left()));
         let element = "list item".to_owned();
@@ -76,7 +81,7 @@ impl<'a> Numbers<'a> {
     /// A number without a fraction.
     pub(super) fn integer(&mut self, kind: Scalar) -> Result<i64, ReadError> {
         let place = self.place();
-        if let Self::Text(words) = self {
+        if let Self::Text { words, .. } = self {
             let word = words.next().ok_or_else(|| fault_at(place, ParseFaultKind::EndsEarly))?;
             let parsed = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
             return parsed.ok_or_else(|| fault_at(words.place(), ParseFaultKind::BadNumber(quoted(word))));
@@ -86,10 +91,40 @@ impl<'a> Numbers<'a> {
         self.next(kind).map(|number| number as i64)
     }
 
+    /// Where the bytes of the next property stand in the file.
+    pub(super) fn span(&mut self, property: &Property) -> Result<Range<usize>, ReadError> {
+        let begin = match self {
+            // The blanks before a word are none of it.
+            Self::Text { words, begin } => {
+                let mut ahead = words.clone();
+                ahead.next_range().map_or(*begin, |range| *begin + range.start)
+            }
+            Self::Binary { at, .. } => *at,
+        };
+        let count = match property.count {
+            Some(count) => self.count(count, property.item)?,
+            None => 1,
+        };
+        self.skip(property.item, count)?;
+        let end = match self {
+            Self::Text { words, begin } => *begin + words.passed(),
+            Self::Binary { at, .. } => *at,
+        };
+        Ok(begin..end)
+    }
+
+    /// The number that these bytes are, in the encoding of this file.
+    pub(super) fn at(&self, bytes: &[u8], kind: Scalar) -> Result<f64, ReadError> {
+        match self {
+            Self::Text { .. } => Words::of(bytes, 1).number(),
+            Self::Binary { is_big_endian, .. } => Ok(binary(bytes, kind, *is_big_endian)),
+        }
+    }
+
     /// Passes over numbers of one kind.
     pub(super) fn skip(&mut self, kind: Scalar, count: usize) -> Result<(), ReadError> {
         match self {
-            Self::Text(words) => {
+            Self::Text { words, .. } => {
                 for _ in 0..count {
                     words.next().ok_or_else(|| fault_at(words.place(), ParseFaultKind::EndsEarly))?;
                 }
