@@ -35,7 +35,7 @@ impl Plan {
         let at_vertices = one_per_vertex(mesh, texture);
         let has_texture = !texture.coordinates.is_empty();
         let most = (0..mesh.face_count()).map(|face| mesh.corner_range(face).len()).max().unwrap_or(0);
-        let count = if 2 * most <= usize::from(u8::MAX) { Scalar::U8 } else { Scalar::I32 };
+        let count = if u8::try_from(2 * most).is_ok() { Scalar::U8 } else { Scalar::I32 };
         let at_corners = (has_texture && (has_lists || at_vertices.is_none())).then_some(count);
         let own_index = face.and_then(|element| Some(element.properties[element.property(&CORNER_NAMES)?].item));
         let index = own_index.filter(|kind| kind.holds(mesh.positions.len())).unwrap_or(Scalar::U32);

@@ -45,7 +45,9 @@ impl Row {
     /// A list of vertices, in these kinds of count and index.
     pub(super) fn indices(&mut self, kinds: [Scalar; 2], vertices: &[VertexId]) {
         self.number(kinds[0], vertices.len() as f64);
-        vertices.iter().for_each(|vertex| self.number(kinds[1], f64::from(vertex.number())));
+        for vertex in vertices {
+            self.number(kinds[1], f64::from(vertex.number()));
+        }
     }
 
     /// Writes the row and begins the next.

@@ -17,7 +17,7 @@ use super::row::Row;
 use super::{CORNER_NAMES, FACE_TEXTURE};
 use crate::io::door::check_finite;
 use crate::io::mesh_file::{MeshFile, NO_TEXTURE, ReadError, Source, SourceFormat, Texture};
-use crate::mesh::{NewVertex, PolygonMesh, VertexId};
+use crate::mesh::{PolygonMesh, VertexId};
 
 /// Writes a mesh with these texture coordinates, or with none if they are empty, as a PLY file: in the encoding that it
 /// was read in, or a binary one.
@@ -37,7 +37,7 @@ pub fn write_ply(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io
 /// A file that holds positions and faces only.
 fn plain(mesh: &PolygonMesh) -> Result<Source, ReadError> {
     let most = (0..mesh.face_count()).map(|face| mesh.corner_range(face).len()).max().unwrap_or(0);
-    let count = if most <= usize::from(u8::MAX) { Scalar::U8 } else { Scalar::I32 };
+    let count = if u8::try_from(most).is_ok() { Scalar::U8 } else { Scalar::I32 };
     let head = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n\
          property double z\nelement face {}\nproperty list {} uint {}\nend_header\n",
@@ -134,8 +134,11 @@ impl<W: Write> Writer<'_, W> {
             for (at, property) in element.properties.iter().enumerate() {
                 if self.plan.is_texture(&property.name) {
                     self.own_texture(vertex, &property.name);
+                } else if let Some(axis) = ["x", "y", "z"].iter().position(|name| *name == property.name) {
+                    self.row.number(property.item, self.mesh.positions[vertex.index()][axis]);
                 } else {
-                    self.between(vertex, new, at, property, &ends)?;
+                    let spans = new.edge.map(|end| ends.get(&end).map(|spans| spans[at].clone()));
+                    self.between(property, spans, new.at)?;
                 }
             }
             self.end_vertex(vertex)?;
@@ -143,22 +146,9 @@ impl<W: Write> Writer<'_, W> {
         Ok(())
     }
 
-    /// A property of a new vertex: its place, or what lies between the numbers of its edge's ends.
-    fn between(
-        &mut self,
-        vertex: VertexId,
-        new: &NewVertex,
-        at: usize,
-        property: &Property,
-        ends: &BTreeMap<VertexId, Vec<Range<usize>>>,
-    ) -> io::Result<()> {
-        let place = ["x", "y", "z"].iter().position(|name| *name == property.name);
-        if let Some(axis) = place {
-            self.row.number(property.item, self.mesh.positions[vertex.index()][axis]);
-            return Ok(());
-        }
-        let [a, b] = new.edge.map(|end| ends.get(&end).map(|spans| spans[at].clone()));
-        let (Some(a), Some(b)) = (a, b) else {
+    /// A property of a new vertex: what lies at `share` between the numbers of its edge's ends, which stand in `spans`.
+    fn between(&mut self, property: &Property, spans: [Option<Range<usize>>; 2], share: f64) -> io::Result<()> {
+        let [Some(a), Some(b)] = spans else {
             self.row.number(property.count.unwrap_or(property.item), 0.0);
             return Ok(());
         };
@@ -168,7 +158,7 @@ impl<W: Write> Writer<'_, W> {
         }
         let value = |span: Range<usize>| self.numbers.at(&self.source.bytes[span], property.item).map_err(broken);
         let (a, b) = (value(a)?, value(b)?);
-        let between = a + new.at * (b - a);
+        let between = a + share * (b - a);
         self.row.number(property.item, if property.item.is_integer() { between.round() } else { between });
         Ok(())
     }
@@ -189,7 +179,9 @@ impl<W: Write> Writer<'_, W> {
     fn end_vertex(&mut self, vertex: VertexId) -> io::Result<()> {
         if self.plan.at_vertices.is_some() && !self.plan.has_names {
             let coordinate = self.coordinate(vertex);
-            coordinate.iter().for_each(|&x| self.row.number(Scalar::F64, x));
+            for x in coordinate {
+                self.row.number(Scalar::F64, x);
+            }
         }
         self.row.end(self.out)
     }

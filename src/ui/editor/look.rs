@@ -26,11 +26,14 @@ pub struct Appearance {
     pub opacity: f32,
     /// Whether it is as the window was left: then the first picture that comes in changes nothing.
     pub(super) is_kept: bool,
+    /// What a person has chosen for the two panes, now or in a run before; a project's shadings are not theirs.
+    own: [Option<Shading>; 2],
 }
 
 impl Appearance {
     /// While places on a picture are sought: clay to find vertices on, and all of the picture.
-    const OVER_PICTURE: Self = Self { mesh: Shading::Plain, plane: Shading::SeeThrough, opacity: 1.0, is_kept: false };
+    const OVER_PICTURE: Self =
+        Self { mesh: Shading::Plain, plane: Shading::SeeThrough, opacity: 1.0, is_kept: false, own: [None; 2] };
 
     /// The shading of a pane.
     pub fn shading(self, pane: Pane) -> Shading {
@@ -56,8 +59,6 @@ pub struct Look {
     pub(super) usual: Appearance,
     /// As chosen for the constrain tool over a picture.
     over_picture: Appearance,
-    /// What a person has chosen for the two panes, now or in a run before; a project's shadings are not theirs.
-    own: [Option<Shading>; 2],
     pub wireframe: bool,
     /// Whether insets magnify a defect and a pair.
     pub magnifier: bool,
@@ -80,9 +81,14 @@ pub struct Look {
 impl Look {
     pub(super) fn new(wake: &Wake) -> Self {
         Self {
-            usual: Appearance { mesh: Shading::default(), plane: Shading::default(), opacity: OPACITY, is_kept: false },
+            usual: Appearance {
+                mesh: Shading::default(),
+                plane: Shading::default(),
+                opacity: OPACITY,
+                is_kept: false,
+                own: [None; 2],
+            },
             over_picture: Appearance::OVER_PICTURE,
-            own: [None; 2],
             wireframe: false,
             magnifier: true,
             glides: true,
@@ -107,13 +113,13 @@ impl Look {
 
     /// What a person has chosen for a pane.
     pub(super) fn own_shading(&self, pane: Pane) -> Option<Shading> {
-        self.own[pane as usize]
+        self.usual.own[pane as usize]
     }
 
     /// Takes over what a person has chosen in a run before, by its name.
     pub(super) fn keep_own_shading(&mut self, pane: Pane, name: Option<&str>) {
         let Some(shading) = Shading::called(name).filter(|shading| shading.is_for(pane)) else { return };
-        self.own[pane as usize] = Some(shading);
+        self.usual.own[pane as usize] = Some(shading);
         self.usual.shade(pane, shading);
         self.usual.is_kept = true;
     }
@@ -251,9 +257,10 @@ impl Editor {
 
     /// Shades a pane as a person chose.
     pub(super) fn shade_pane(&mut self, pane: Pane, shading: Shading) {
-        self.appearance_mut().shade(pane, shading);
-        if !self.is_placing_on_picture() && shading.is_for(pane) {
-            self.look.own[pane as usize] = Some(shading);
+        let appearance = self.appearance_mut();
+        appearance.shade(pane, shading);
+        if shading.is_for(pane) {
+            appearance.own[pane as usize] = Some(shading);
         }
     }
 

@@ -42,8 +42,8 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
     let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
     let area = egui::Area::new(egui::Id::unique("toast")).order(egui::Order::Foreground).movable(false);
     let area = area.anchor(Align2::CENTER_BOTTOM, [0.0, -(BOTTOM_HEIGHT + strip + GAP)]);
-    let shows = area.show(context, |ui| contents(ui, &message, requests));
-    let since = if shows.response.contains_pointer() || shows.inner { now } else { shown.since };
+    let area = area.show(context, |ui| contents(ui, &message, requests));
+    let since = if area.response.contains_pointer() || area.inner { now } else { shown.since };
     editor.layout.toast = Some(Toast { since, ..shown });
     let left = since + SECONDS - now;
     if left <= 0.0 {
