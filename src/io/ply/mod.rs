@@ -9,8 +9,7 @@
 //! | `plan`    | where these stand in it, and its header                        |
 //! | `row`     | a row of a file that is being written                          |
 //!
-//! Source: G. Turk, "The PLY polygon file format", 1994. Its own crates were looked at: they keep a map of names for each
-//! element, which is ten times the memory of the mesh.
+//! Source: G. Turk, "The PLY polygon file format", 1994.
 
 mod header;
 mod numbers;
