@@ -21,7 +21,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let model = read_model(&arguments.mesh, Form::default())?;
     places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
-    let texture = match model.source.texture_mesh() {
+    let mut texture = match model.source.texture_mesh() {
         Ok(texture) => texture,
         Err(TextureError::None) => {
             let mesh = disk_of(&model)?;
@@ -38,6 +38,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         }
         Err(error) => return Err(Failure::Texture { path, error }),
     };
+    texture.mesh = texture.mesh.without_repeats();
     let Ok(mesh) = DiskMesh::try_from(texture.mesh.clone()) else {
         return check_charts(arguments, &texture, path, start);
     };
@@ -71,13 +72,13 @@ fn check_charts(
     })?;
     let read = start.elapsed().as_secs_f64();
     go_on()?;
-    let verdict = atlas_verdict(&charts, &texture.embedding);
+    let verdict = atlas_verdict(&charts, &texture.embedding).as_in_file(&texture.mesh);
     go_on()?;
     let in_f32 = if verdict.holds_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
     let in_f32 = if verdict.planar { in_f32 } else { "" };
     let words = format!("{path}: texture coordinates: {}{in_f32}", verdict.summary());
     let status = if verdict.planar { Status::Fine } else { Status::FallsShort };
-    let atlas = Some(verdict.as_in_file(&texture.mesh));
+    let atlas = Some(verdict);
     let report =
         Report { atlas, ..report(MeshReport::of_charts(path, texture.mesh.vertex_count(), &charts), start, read) };
     deliver(&report, arguments.report.as_deref(), || words)?;

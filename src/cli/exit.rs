@@ -101,6 +101,9 @@ pub enum Failure {
 /// How a mesh can be mended, for a message.
 fn remedy_words(remedy: Option<&[Done]>) -> String {
     let Some(remedy) = remedy else { return String::new() };
+    if remedy.is_empty() {
+        return "\nnone of this does harm: it can be flattened without --repair none".to_owned();
+    }
     let done: Vec<String> = remedy.iter().map(ToString::to_string).collect();
     format!("\nit can be mended with --repair all --cut auto: {}", done.join(", "))
 }

@@ -78,6 +78,27 @@ pub fn diagnose(mesh: &TriMesh) -> Diagnosis {
     examine(mesh).0
 }
 
+impl TriMesh {
+    /// The same mesh without faces that name a vertex twice or repeat an earlier face; faces keep their numbers in the file.
+    #[must_use]
+    pub fn without_repeats(self) -> Self {
+        let diagnosis = diagnose(&self);
+        let repeats = diagnosis.faults.iter().filter_map(|fault| match fault {
+            Fault::RepeatedVertices(faces) | Fault::DuplicateFaces(faces) => Some(&faces.triangles),
+            _ => None,
+        });
+        let mut stays = vec![true; self.face_count()];
+        repeats.flatten().for_each(|face| stays[face.index()] = false);
+        if stays.iter().all(|&stays| stays) {
+            return self;
+        }
+        let kept = || (0..self.face_count()).filter(|&face| stays[face]).map(FaceId::from_index);
+        let polygon_of = Some(kept().map(|face| self.polygon(face)).collect());
+        let triangles = kept().map(|face| self.triangles[face.index()]).collect();
+        Self { triangles, polygon_of, ..self }
+    }
+}
+
 impl TryFrom<TriMesh> for DiskMesh {
     type Error = Box<Diagnosis>;
 
@@ -110,6 +131,7 @@ impl DiskMesh {
         match examine(&mesh) {
             (diagnosis, Some(table)) if diagnosis.is_disk() => {
                 let has_no_area = diagnosis.faults.iter().any(|fault| matches!(fault, Fault::ZeroArea(_)));
+                gather_unused(&mut mesh, &diagnosis);
                 let unit = take_unit(&mut mesh);
                 let mollification = if mollifies && has_no_area { least_mollification(&mesh) } else { 0.0 };
                 let disk = Self::join(mesh, &table, diagnosis.dividing_edges, diagnosis.ears);
@@ -118,6 +140,16 @@ impl DiskMesh {
             (diagnosis, _) => Err(Box::new(diagnosis)),
         }
     }
+}
+
+/// Moves vertices of no face to one of a face: they have no part in the size of the mesh.
+fn gather_unused(mesh: &mut TriMesh, diagnosis: &Diagnosis) {
+    let first = mesh.positions[mesh.triangles[0][0].index()];
+    let lists = diagnosis.faults.iter().filter_map(|fault| match fault {
+        Fault::UnreferencedVertices(vertices) => Some(vertices),
+        _ => None,
+    });
+    lists.flatten().for_each(|vertex| mesh.positions[vertex.index()] = first);
 }
 
 /// The diagnosis, and the edge table of the whole mesh where no face had to be set aside.

@@ -128,6 +128,14 @@ impl Fault {
         matches!(self, Self::ZeroArea(_) | Self::UnreferencedVertices(_))
     }
 
+    /// Whether cutting the surface open mends it.
+    pub const fn is_cut_open(&self) -> bool {
+        matches!(
+            self,
+            Self::Closed { .. } | Self::SeveralBoundaryLoops(_) | Self::Handles { .. } | Self::NonOrientable(_)
+        )
+    }
+
     /// A fixed lower-case name, for reports and tests.
     pub const fn name(&self) -> &'static str {
         self.words()[0]
@@ -276,8 +284,13 @@ fn numbers(vertices: &[VertexId]) -> Vec<u32> {
 
 /// "3, 4 and 17 more".
 fn listed<T: Display>(items: &[T]) -> String {
+    listed_of(items, items.len())
+}
+
+/// The same of so many, of which the first are at hand.
+fn listed_of<T: Display>(items: &[T], count: usize) -> String {
     let shown: Vec<String> = items.iter().take(LISTED).map(T::to_string).collect();
-    let more = items.len() - shown.len();
+    let more = count - shown.len();
     if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
 }
 
@@ -296,6 +309,6 @@ fn vertices(what: &str, list: &[VertexId]) -> String {
 
 fn edges(what: &str, list: &[[VertexId; 2]]) -> String {
     let noun = if list.len() == 1 { "edge has" } else { "edges have" };
-    let ends: Vec<String> = list.iter().map(|[a, b]| format!("{}-{}", a.number(), b.number())).collect();
-    format!("{} {noun} {what}: {}", list.len(), listed(&ends))
+    let ends: Vec<String> = list.iter().take(LISTED).map(|[a, b]| format!("{}-{}", a.number(), b.number())).collect();
+    format!("{} {noun} {what}: {}", list.len(), listed_of(&ends, list.len()))
 }

@@ -35,6 +35,18 @@ impl PolygonMesh {
         &self.corners[self.corner_range(polygon)]
     }
 
+    /// The same mesh with every polygon run around the other way, from the same first corner.
+    #[must_use = "the mesh itself stays as it is"]
+    pub fn turned(&self) -> Self {
+        let mut turned = self.clone();
+        for face in 0..self.face_count() {
+            let mut range = self.corner_range(face);
+            range.start = (range.start + 1).min(range.end);
+            turned.corners[range].reverse();
+        }
+        turned
+    }
+
     /// Cuts every polygon into triangles, in file order; those with fewer than three corners vanish. A corner beyond
     /// the last vertex is kept for the diagnosis to name.
     pub fn triangulate(&self) -> TriMesh {

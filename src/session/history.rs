@@ -85,14 +85,25 @@ impl History {
     }
 
     /// Marks the end of a gesture: the next edit starts a new step. A gesture that ended where it began is none.
-    pub fn end_gesture(&mut self, document: &Document) {
-        if self.gesture.take().is_none() {
-            return;
+    pub fn end_gesture(&mut self, document: &mut Document) {
+        let Some(gesture) = self.gesture.take() else { return };
+        if gesture == Gesture::Settings {
+            self.take_back_relaxed(document);
         }
         if self.drop_idle_step(document) {
             self.redo = std::mem::take(&mut self.redo_before);
         }
         self.redo_before.clear();
+    }
+
+    /// Gives back the relaxing that a slider has dropped which came back to where it was.
+    fn take_back_relaxed(&self, document: &mut Document) {
+        let Some(edit) = self.undo.last() else { return };
+        let mut before = document.clone();
+        drop(edit.command.clone().apply(&mut before));
+        if before.settings == document.settings {
+            document.relaxed = before.relaxed;
+        }
     }
 
     /// Drops the last step where it leads to the document as it is. Returns whether it did.

@@ -7,7 +7,9 @@ use std::sync::Arc;
 
 use crate::examples::Example;
 use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
-use crate::mesh::{Diagnosis, DiskMesh, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, diagnose, relative_volume};
+use crate::mesh::{
+    Diagnosis, DiskMesh, Fault, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, diagnose, relative_volume,
+};
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
 /// it is high.
@@ -166,6 +168,9 @@ fn surface_of(polygons: &PolygonMesh, form: Form) -> (Surface, Option<Arc<Repair
     });
     match as_given {
         Ok(disk) => (Surface::Disk(Arc::new(disk)), None),
+        Err(diagnosis) if form.repair == RepairExtent::Nothing && !diagnosis.faults.iter().all(Fault::is_cut_open) => {
+            (Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(*diagnosis)), None)
+        }
         Err(diagnosis) => {
             let repaired = form.repaired(polygons);
             let disk = if repaired.done().is_empty() { None } else { DiskMesh::try_from(repaired.triangulate()).ok() };

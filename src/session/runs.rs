@@ -59,15 +59,22 @@ impl Session {
         }
     }
 
-    /// Goes on until something stops it.
+    /// Goes on until something stops it, and takes up relaxing that was paused.
     pub(super) fn run_on(&mut self) {
+        if !self.is_running() && self.can_run() {
+            self.resume_relaxing(usize::MAX);
+        }
+        self.run_further();
+    }
+
+    /// Goes on until something stops it.
+    fn run_further(&mut self) {
         self.solving.follow_newest();
         let goal = Goal::Until(self.stop_conditions());
         if self.solving.change_goal(|_| goal) {
             return;
         }
         if self.can_run() {
-            self.resume_relaxing(usize::MAX);
             self.go_on(goal);
         } else {
             self.go_on_as_before();
@@ -91,8 +98,13 @@ impl Session {
         if rounds == 0 {
             return false;
         }
-        let relaxed = self.document.relaxed.saturating_add(rounds);
-        self.history.apply(Command::SetRelaxed(relaxed), &mut self.document)
+        let relaxed = Command::SetRelaxed(self.document.relaxed.saturating_add(rounds));
+        if self.history.can_redo() {
+            // What can be repeated stays so: nothing new was asked for.
+            self.history.amend(relaxed, &mut self.document);
+            return true;
+        }
+        self.history.apply(relaxed, &mut self.document)
     }
 
     /// Takes a run that has come to rest as far as a person had taken it: by rounds of relaxing that the document has and
@@ -104,7 +116,7 @@ impl Session {
         }
         let newest = self.timeline().newest().filter(|_| self.is_current());
         let left = newest.map_or(0, |newest| self.history.taken_to().saturating_sub(newest));
-        if left > 0 {
+        if left > 0 && self.solving.is_resting() {
             self.go_on(Goal::Steps(left));
         }
     }
@@ -153,7 +165,7 @@ impl Session {
     /// The end of a gesture: where only the first step was taken, or none, the others follow.
     pub(super) fn end_gesture(&mut self) {
         let was_in_gesture = self.history.is_in_gesture();
-        self.history.end_gesture(&self.document);
+        self.history.end_gesture(&mut self.document);
         self.drag.stop_following();
         if !was_in_gesture {
             return;
@@ -165,7 +177,7 @@ impl Session {
         if !self.is_running() && !self.is_current() {
             self.run_document();
         } else if !self.solving.is_outdated() {
-            self.run_on();
+            self.run_further();
         }
     }
 
@@ -182,7 +194,8 @@ impl Session {
         if news.has_begun {
             self.drag.end_preview();
         }
-        if news.rounds_cut > 0 {
+        // What an opened project asks for stays: there is no step of the history that it could be a part of.
+        if news.rounds_cut > 0 && self.history.can_undo() {
             let relaxed = self.document.relaxed.saturating_sub(news.rounds_cut);
             self.history.amend(Command::SetRelaxed(relaxed), &mut self.document);
         }
@@ -197,7 +210,7 @@ impl Session {
 
     /// Drops all that was solved: it belongs to another mesh, or to other faces.
     pub(super) fn forget_steps(&mut self) {
-        self.solving.forget();
+        self.solving.forget(&mut self.messages);
         self.drag.end();
     }
 

@@ -222,6 +222,7 @@ impl AtlasVerdict {
         };
         let mut overlapping_faces: Vec<[FaceId; 2]> =
             self.overlapping_faces.iter().map(|pair| pair.map(number)).collect();
+        overlapping_faces.sort_unstable();
         overlapping_faces.dedup();
         Self { charts: self.charts.iter().map(chart).collect(), overlapping_faces, ..self.clone() }
     }
@@ -247,6 +248,9 @@ impl AtlasVerdict {
         let of_faces = self.overlapping_faces.first().map(|[a, b]| {
             let more = if self.more_overlaps { "more than " } else { "" };
             let count = self.overlapping_faces.len();
+            if count == 1 {
+                return format!("1 pair of faces of different charts overlaps ({} and {})", a.number(), b.number());
+            }
             format!(
                 "{more}{count} pairs of faces of different charts overlap (the first are {} and {})",
                 a.number(),

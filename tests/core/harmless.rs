@@ -24,7 +24,7 @@ fn method(method: Method) -> Settings {
 
 /// A mesh with a vertex of no face, far away, in place of the one of this number; that and all behind it move up by one.
 fn with_stray(mut mesh: TriMesh, number: u32) -> TriMesh {
-    mesh.positions.insert(number as usize, DVec3::new(1e3, -2e3, 5e2));
+    mesh.positions.insert(number as usize, DVec3::new(1e3, -2e200, 5e2));
     for corner in mesh.triangles.iter_mut().flatten() {
         *corner = VertexId::new(moved_up(corner.number(), number));
     }

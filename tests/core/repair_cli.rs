@@ -32,16 +32,17 @@ fn harmless_faults_are_no_reason_to_refuse_a_mesh_unless_none_may_be_mended() {
     ]);
     assert_eq!(repairs(&report), &expected);
     assert_eq!(report["mesh"]["unused_vertices"], json!(1));
-    // The file is what it was: its text, with coordinates at all corners but those of the face that is there twice.
+    // The file is what it was: its text, with coordinates at all corners, those of faces that were left out, too.
     let (before, after) =
         ["odd.obj", "out.obj"].map(|name| std::fs::read_to_string(program.path(name)).expect("text")).into();
     let without: Vec<&str> = after.lines().filter(|line| !line.starts_with("vt ")).collect();
     for (before, after) in before.lines().zip(&without) {
         let bare: Vec<&str> = after.split(' ').map(|word| word.split('/').next().unwrap_or(word)).collect();
         assert_eq!(bare.join(" "), before);
-        assert_eq!(after.starts_with('f') && !after.contains('/'), before == "f 4 2 3", "{after}");
+        assert!(!after.starts_with('f') || after.split(' ').skip(1).all(|corner| corner.contains('/')), "{after}");
     }
     assert_eq!(without.len(), before.lines().count());
+    program.run(&["check", "out.obj"]).expect(0);
     let refused = program.run(&["flatten", "odd.obj", "--repair", "none"]).expect(3);
     for name in ["duplicate-faces", "unreferenced-vertices", "repeated-vertices"] {
         assert!(refused.stderr.contains(name), "{name}: {}", refused.stderr);
@@ -87,4 +88,37 @@ fn every_bad_file_of_one_part_is_mended_cut_and_proved() {
         assert_eq!(report["verdict"]["planar"], json!(true), "{}", entry.file);
         assert_eq!(report["verdict"]["f32"], json!(true), "{}", entry.file);
     }
+}
+
+#[test]
+fn a_soup_with_a_pole_is_written_with_coordinates_at_every_corner_and_proves_again() {
+    // Quads around a pole, each with corners of its own: two of them lie in the pole.
+    let program = Program::new();
+    let (mut text, mut count) = (String::new(), 0);
+    let at = |ring: u32, k: u32| {
+        let (tilt, turn) = (f64::from(ring) * 0.3, f64::from(k % 8) * std::f64::consts::FRAC_PI_4);
+        format!("v {} {} {}\n", tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos())
+    };
+    for (ring, k) in (0..4).flat_map(|ring| (0..8).map(move |k| (ring, k))) {
+        text += &[at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1)].concat();
+        text += &format!("f {} {} {} {}\n", count + 1, count + 2, count + 3, count + 4);
+        count += 4;
+    }
+    program.write("soup.obj", &text);
+    program.run(&["flatten", "soup.obj", "--repair", "all", "-o", "out.obj"]).expect(0);
+    let written = std::fs::read_to_string(program.path("out.obj")).expect("written");
+    let faces = || written.lines().filter(|line| line.starts_with("f "));
+    assert!(faces().count() == 32 && faces().all(|face| face.matches('/').count() == 4), "{written}");
+    program.run(&["check", "out.obj"]).expect(0);
+}
+
+#[test]
+fn check_names_faces_as_the_file_counts_them() {
+    let program = Program::new();
+    // Two quads, one over the other.
+    let quad = |z: u32| format!("v 0 0 {z}\nv 1 0 {z}\nv 1 1 {z}\nv 0 1 {z}\n");
+    let text = [quad(0), quad(1), "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n".to_owned()].concat();
+    program.write("in.obj", &(text + "f 1/1 2/2 3/3 4/4\nf 5/1 6/2 7/3 8/4\n"));
+    let run = program.run(&["check", "in.obj"]).expect(4);
+    assert!(run.stdout.contains("1 pair of faces of different charts overlaps (0 and 1)"), "{}", run.stdout);
 }

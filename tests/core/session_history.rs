@@ -16,7 +16,7 @@ fn a_drag_is_one_undo_step() {
     for x in [0.0, 0.5, 1.0] {
         history.apply_in_gesture(pin(7, x), &mut document);
     }
-    history.end_gesture(&document);
+    history.end_gesture(&mut document);
 
     assert!(history.undo(&mut document));
     assert_eq!(document, Document::default());
@@ -65,7 +65,7 @@ fn a_drag_that_comes_to_nothing_leaves_what_could_be_redone() {
         if gives_up {
             history.give_up_gesture(&mut document);
         } else {
-            history.end_gesture(&document);
+            history.end_gesture(&mut document);
         }
         assert!(history.redo(&mut document));
         assert_eq!(document.targets[&VertexId::new(3)].uv.x.to_bits(), 2.0_f64.to_bits());
@@ -102,7 +102,7 @@ fn what_changes_nothing_is_no_undo_step() {
     for x in [1.0, 0.5] {
         history.apply_in_gesture(pin(7, x), &mut document);
     }
-    history.end_gesture(&document);
+    history.end_gesture(&mut document);
     assert!(history.undo(&mut document));
     assert!(!history.can_undo() && document == Document::default());
 }
@@ -111,7 +111,7 @@ fn what_changes_nothing_is_no_undo_step() {
 fn two_drags_are_two_undo_steps() {
     let (mut history, mut document) = (History::default(), Document::default());
     history.apply_in_gesture(pin(7, 0.5), &mut document);
-    history.end_gesture(&document);
+    history.end_gesture(&mut document);
     history.apply_in_gesture(pin(7, 1.0), &mut document);
     history.undo(&mut document);
     assert_eq!(document.targets[&VertexId::new(7)].uv, DVec2::new(0.5, 0.0));
@@ -134,4 +134,21 @@ fn settings_come_back_too() {
     assert_eq!(document.settings, chosen);
     history.undo(&mut document);
     assert_eq!(document.settings, Settings::default());
+}
+
+#[test]
+fn a_slider_that_comes_back_to_where_it_was_drops_no_relaxing_and_nothing_that_can_be_repeated() {
+    let (mut history, mut document) = (History::default(), Document::default());
+    history.apply(pin(7, 0.5), &mut document);
+    history.undo(&mut document);
+    document.relaxed = 20;
+    let before = document.clone();
+    for family in [Family::Power(0.4), Family::Power(0.2), before.settings.family] {
+        let settings = Settings { family, ..before.settings };
+        let slid = Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
+        history.apply_in_gesture(slid, &mut document);
+    }
+    history.end_gesture(&mut document);
+    assert_eq!(document, before);
+    assert!(history.can_redo() && !history.can_undo());
 }

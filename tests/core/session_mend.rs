@@ -78,9 +78,21 @@ fn a_project_of_a_mended_mesh_opens_as_it_was_pins_of_new_vertices_too() {
 }
 
 #[test]
-fn turning_a_mended_mesh_keeps_it_mended() {
+fn turning_a_mended_mesh_keeps_it_mended_and_every_vertex_its_number() {
     let (_folder, mut session) = with_ring();
     settled(&mut session, Action::Mend);
+    let places = |session: &Session| {
+        let model = session.model().expect("open").clone();
+        (model.repaired.clone().expect("mended").done().to_vec(), model.mesh().positions.clone())
+    };
+    let before = places(&session);
+    let unturned = session.model().expect("open").mesh().triangles.clone();
+    settled(&mut session, Action::TurnFaces);
+    assert_eq!(places(&session), before);
+    let turned = &session.model().expect("open").mesh().triangles;
+    let backwards = |[a, b, c]: [freebound::mesh::VertexId; 3]| [a, c, b];
+    assert!(unturned.iter().map(|face| backwards(*face)).eq(turned.iter().copied()));
+    settled(&mut session, Action::Undo);
     settled(&mut session, Action::TurnFaces);
     assert!(!is_faulty(&session) && session.is_current());
     assert_eq!(session.document().form, Form { faces_turned: true, ..Form::default().mended() });

@@ -105,3 +105,15 @@ fn where_the_ladder_has_no_step_left_it_is_said_what_can_still_be_changed() {
     assert!(window.is_proved(), "{}", window.verdict());
     assert_eq!((accents(&window), window.has_button("Repair")), (0, false));
 }
+
+#[test]
+fn an_older_step_at_fault_gets_no_advice_once_the_run_has_ended_planar() {
+    let mut window = Window::with_example(Example::Face);
+    assert!(window.is_proved(), "{}", window.verdict());
+    window.key(Key::Home);
+    assert!(!window.is_proved(), "the first step folds");
+    assert_eq!(accents(&window), 0, "{:?}", window.words());
+    for words in ["Free a pin", "Other weights", "Allow new vertices"] {
+        assert!(!window.has_button(words), "{words}");
+    }
+}

@@ -116,11 +116,10 @@ impl MeshFile {
     /// The same mesh with every polygon run around the other way, from the same first corner.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
-        let mut turned = self.clone();
+        let mut turned = Self { polygons: self.polygons.turned(), ..self.clone() };
         for face in 0..self.polygons.face_count() {
             let mut range = self.polygons.corner_range(face);
             range.start += 1;
-            turned.polygons.corners[range.clone()].reverse();
             if let Some(texture) = &mut turned.texture {
                 texture.corners[range].reverse();
             }

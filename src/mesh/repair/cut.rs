@@ -29,7 +29,8 @@ const MOST_POINTS: usize = 8;
 /// The mesh cut open. One that is a disk already, or has no faces, stays as it is.
 pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     let mut cut = whole.clone();
-    if whole.polygons.face_count() == 0 {
+    let is_face = |face: usize| whole.polygons.corner_range(face).len() >= 3;
+    if whole.polygons.face_count() == 0 || !whole.is_sound() || !(0..whole.polygons.face_count()).all(is_face) {
         return cut;
     }
     let sides = Sides::new(&whole.polygons);
@@ -71,7 +72,7 @@ impl Surface<'_> {
         for edge in left {
             seam[edge as usize] = true;
             for end in self.ways.edges()[edge as usize].ends {
-                open(&mut seam, &tree.way_to(end, self.ways));
+                open(&mut seam, tree.way_to(end, self.ways));
             }
         }
         if !seam.contains(&true) && !boundary.contains(&true) {
@@ -124,7 +125,7 @@ impl Surface<'_> {
         let reach = from(first, Measure::Length);
         let second = reach.farthest(self.ways);
         let size = reach.far[second.index()];
-        open(seam, &from(first, Measure::Cost).way_to(second, self.ways));
+        open(seam, from(first, Measure::Cost).way_to(second, self.ways));
         for _ in 2..MOST_POINTS {
             let on_seam = || self.vertices_of(seam).into_iter();
             let reach = self.ways.reach(on_seam(), Measure::Length);
@@ -134,8 +135,8 @@ impl Surface<'_> {
             if is_cut && reach.far[next.index()] <= FAR * size {
                 break;
             }
-            let way = self.ways.reach(on_seam(), Measure::Cost).way_to(next, self.ways);
-            open(seam, &way);
+            let reach = self.ways.reach(on_seam(), Measure::Cost);
+            open(seam, reach.way_to(next, self.ways));
         }
     }
 
@@ -171,8 +172,11 @@ impl Surface<'_> {
     }
 }
 
-fn open(seam: &mut [bool], way: &[u32]) {
-    for &edge in way {
-        seam[edge as usize] = true;
+/// Opens a way towards where a tree begins, up to where it is open already: so is all behind that.
+fn open(seam: &mut [bool], way: impl Iterator<Item = u32>) {
+    for edge in way {
+        if std::mem::replace(&mut seam[edge as usize], true) {
+            return;
+        }
     }
 }

@@ -1,52 +1,91 @@
 //! Corners and faces that add nothing to the surface are left out.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use super::{Repair, Repaired};
 use crate::mesh::VertexId;
+
+/// What becomes of the corners of a face.
+enum Fate {
+    /// Those at these places stay.
+    Keep(Vec<usize>),
+    /// It goes. At each corner the corner of another face that stands for it, where there is one.
+    Go(Vec<u32>),
+}
 
 impl Repaired {
     /// Leaves out repeated corners, then duplicate faces.
     pub(super) fn leave_out(&mut self) {
         let mut mended = 0;
-        self.keep_corners(|corners| {
+        self.decide(|corners, _| {
             let kept = Some(without_repeats(corners)).filter(|kept| kept.len() >= 3 && !has_repeats(corners, kept));
             mended += usize::from(kept.as_ref().is_none_or(|kept| kept.len() < corners.len()));
-            kept.unwrap_or_default()
+            kept.map_or(Fate::Go(Vec::new()), Fate::Keep)
         });
         self.note(Repair::DropRepeatedCorners, mended);
 
-        let mut seen = HashSet::with_capacity(self.polygons.face_count());
+        // By its vertices, ascending, the corners of the first such face, in the order of its vertices.
+        let mut seen: HashMap<Vec<VertexId>, Vec<u32>> = HashMap::with_capacity(self.polygons.face_count());
         let mut duplicates = 0;
-        self.keep_corners(|corners| {
-            let mut sorted = corners.to_vec();
-            sorted.sort_unstable();
-            let is_new = seen.insert(sorted);
-            duplicates += usize::from(!is_new);
-            if is_new { (0..corners.len()).collect() } else { Vec::new() }
+        self.decide(|corners, corner_of| {
+            let mut order: Vec<usize> = (0..corners.len()).collect();
+            order.sort_unstable_by_key(|&k| corners[k]);
+            let vertices: Vec<VertexId> = order.iter().map(|&k| corners[k]).collect();
+            let Some(twins) = seen.get(&vertices) else {
+                seen.insert(vertices, order.iter().map(|&k| corner_of[k]).collect());
+                return Fate::Keep((0..corners.len()).collect());
+            };
+            duplicates += 1;
+            let mut stand_ins = vec![0; corners.len()];
+            for (&k, &twin) in order.iter().zip(twins) {
+                stand_ins[k] = twin;
+            }
+            Fate::Go(stand_ins)
         });
         self.note(Repair::DropDuplicateFaces, duplicates);
     }
 
-    /// Keeps those corners of each face that are chosen; a face with none goes.
-    fn keep_corners(&mut self, mut chosen: impl FnMut(&[VertexId]) -> Vec<usize>) {
+    /// Decides on each face, by its vertices and by the corners of the mesh as given that they are.
+    fn decide(&mut self, mut fate: impl FnMut(&[VertexId], &[u32]) -> Fate) {
         let (mut corners, mut corner_of, mut face_of) = (Vec::new(), Vec::new(), Vec::new());
         let mut starts = vec![0];
         for (face, &of) in self.face_of.iter().enumerate() {
-            let range = self.polygons.corner_range(face);
-            let kept = chosen(self.polygons.face(face));
-            if kept.is_empty() {
-                continue;
+            let own = &self.corner_of[self.polygons.corner_range(face)];
+            let vertices = self.polygons.face(face);
+            match fate(vertices, own) {
+                Fate::Go(stand_ins) => {
+                    self.stand_ins.extend(own.iter().zip(stand_ins).map(|(&own, other)| [own, other]))
+                }
+                Fate::Keep(kept) => {
+                    self.stand_ins.extend(left_out(&kept, own));
+                    corners.extend(kept.iter().map(|&k| vertices[k]));
+                    corner_of.extend(kept.iter().map(|&k| own[k]));
+                    face_of.push(of);
+                    starts.push(u32::try_from(corners.len()).expect("no more corners than before"));
+                }
             }
-            corners.extend(kept.iter().map(|&k| self.polygons.corners[range.start + k]));
-            corner_of.extend(kept.iter().map(|&k| self.corner_of[range.start + k]));
-            face_of.push(of);
-            starts.push(u32::try_from(corners.len()).expect("fewer corners than before"));
         }
         let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
         self.polygons.starts = (!are_triangles).then_some(starts);
         (self.polygons.corners, self.corner_of, self.face_of) = (corners, corner_of, face_of);
     }
+}
+
+/// The corners of a face that are not kept, each with the kept one before it, whose vertex it repeats.
+fn left_out(kept: &[usize], own: &[u32]) -> Vec<[u32; 2]> {
+    if kept.len() == own.len() {
+        return Vec::new();
+    }
+    let mut before = kept[kept.len() - 1];
+    let mut next = kept.iter().peekable();
+    let mut found = Vec::new();
+    for k in 0..own.len() {
+        match next.next_if(|&&kept| kept == k) {
+            Some(_) => before = k,
+            None => found.push([own[k], own[before]]),
+        }
+    }
+    found
 }
 
 /// The places of corners that differ from the one before, around the face.

@@ -43,8 +43,13 @@ impl Form {
         Self { repair: RepairExtent::All, cut: true, ..self }
     }
 
-    /// The repairs of a mesh, whose faces are turned already.
+    /// The repairs of a mesh, whose faces are turned already: the same as before they were, so that every vertex keeps its
+    /// number when they are turned.
     pub fn repaired(self, source: &PolygonMesh) -> Repaired {
+        if self.faces_turned {
+            let before = source.turned();
+            return Self { faces_turned: false, ..self }.repaired(&before).turned(&before);
+        }
         let repaired = Repaired::new(source, self.repair);
         if self.cut { repaired.cut_to_disk() } else { repaired }
     }
@@ -143,6 +148,8 @@ pub struct Repaired {
     corner_of: Vec<u32>,
     /// For each face the face of the mesh as given that it is.
     face_of: Vec<u32>,
+    /// Corners of the mesh as given that were left out, each with one that stands for it; that may be left out later.
+    stand_ins: Vec<[u32; 2]>,
     done: Vec<Done>,
 }
 
@@ -170,6 +177,7 @@ impl Repaired {
             polygons: source.clone(),
             corner_of: (0..count(source.corners.len())).collect(),
             face_of: (0..count(source.face_count())).collect(),
+            stand_ins: Vec::new(),
             done: Vec::new(),
         }
     }
@@ -188,6 +196,23 @@ impl Repaired {
         if DiskMesh::try_from(cut.triangulate()).is_ok() { cut } else { self }
     }
 
+    /// The same repairs of the mesh as given, `source`, with every face turned around.
+    fn turned(mut self, source: &PolygonMesh) -> Self {
+        let mut place: Vec<u32> = (0..).take(source.corners.len()).collect();
+        for face in 0..source.face_count() {
+            let range = source.corner_range(face);
+            place[range.start + 1..range.end].reverse();
+        }
+        self.polygons = self.polygons.turned();
+        for face in 0..self.polygons.face_count() {
+            let range = self.polygons.corner_range(face);
+            self.corner_of[range.start + 1..range.end].reverse();
+        }
+        self.corner_of.iter_mut().for_each(|corner| *corner = place[*corner as usize]);
+        self.stand_ins.iter_mut().flatten().for_each(|corner| *corner = place[*corner as usize]);
+        self
+    }
+
     /// What was done, in order.
     pub fn done(&self) -> &[Done] {
         &self.done
@@ -203,20 +228,20 @@ impl Repaired {
         self.corner_of[corner] as usize
     }
 
-    /// The vertex at each corner of the mesh as given; none at those of faces that went.
+    /// The vertex at each corner of the mesh as given; at corners that were left out that of the corner that stands for
+    /// them, or any in their place. None where there is none in their place.
     pub fn vertices_at_corners(&self, source: &PolygonMesh) -> Vec<Option<VertexId>> {
         let mut vertices = vec![None; source.corners.len()];
+        let mut in_place = vec![None; source.positions.len()];
         for (&corner, &of) in self.polygons.corners.iter().zip(&self.corner_of) {
             vertices[of as usize] = Some(corner);
+            in_place[source.corners[of as usize].index()].get_or_insert(corner);
         }
-        for &face in &self.face_of {
-            // A repeated corner has the vertex that the face kept.
-            let range = source.corner_range(face as usize);
-            for corner in range.clone().filter(|&corner| vertices[corner].is_none()).collect::<Vec<_>>() {
-                let same =
-                    |&other: &usize| source.corners[other] == source.corners[corner] && vertices[other].is_some();
-                vertices[corner] = range.clone().find(same).and_then(|other| vertices[other]);
-            }
+        for &[left_out, stand_in] in self.stand_ins.iter().rev() {
+            vertices[left_out as usize] = vertices[stand_in as usize];
+        }
+        for (vertex, of) in vertices.iter_mut().zip(&source.corners).filter(|(vertex, _)| vertex.is_none()) {
+            *vertex = in_place.get(of.index()).copied().flatten();
         }
         vertices
     }

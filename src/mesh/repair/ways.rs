@@ -147,14 +147,13 @@ impl Ways {
 
 impl Reach {
     /// The edges of the way to a vertex, from there back.
-    pub(super) fn way_to(&self, vertex: VertexId, ways: &Ways) -> Vec<u32> {
+    pub(super) fn way_to<'a>(&'a self, vertex: VertexId, ways: &'a Ways) -> impl Iterator<Item = u32> + 'a {
         let mut at = vertex;
-        let mut way = Vec::new();
-        while let Some(edge) = self.back[at.index()] {
-            way.push(edge);
+        std::iter::from_fn(move || {
+            let edge = self.back[at.index()]?;
             at = ways.other_end(edge, at);
-        }
-        way
+            Some(edge)
+        })
     }
 
     /// The farthest vertex that a way leads to, the first of several. One that looks straight to the front counts as half

@@ -102,7 +102,7 @@ impl Solving {
     }
 
     /// Takes away what a solve before said.
-    fn forget_message(&mut self, messages: &mut Messages) {
+    pub(super) fn forget_message(&mut self, messages: &mut Messages) {
         if let Some(stale) = self.message.take() {
             messages.dismiss(stale);
         }

@@ -211,6 +211,11 @@ impl Solving {
         self.rounds.cut_short(self.newest_index())
     }
 
+    /// Whether a run has come to rest that can be taken on.
+    pub(super) fn is_resting(&self) -> bool {
+        self.resting.is_some()
+    }
+
     /// Takes up rounds of relaxing that were cut short, so many at most. Returns how many.
     pub(super) fn resume_rounds(&mut self, most: usize) -> usize {
         if self.running.is_none() { self.rounds.resume(most, self.newest_index()) } else { 0 }
@@ -243,8 +248,9 @@ impl Solving {
     }
 
     /// Drops all that was solved: it belongs to another mesh, or to other faces.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn forget(&mut self, messages: &mut Messages) {
         self.give_up_all();
+        self.forget_message(messages);
         (self.timeline, self.ending, self.kept) = (Timeline::default(), None, Kept::default());
         self.outcome_revision += 1;
     }

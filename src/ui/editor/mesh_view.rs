@@ -47,7 +47,8 @@ impl MeshView {
     /// Takes in a scene that was made, and has another one made where the session has another mesh. Returns whether
     /// there is a new scene.
     pub(super) fn poll(&mut self, session: &Session) -> bool {
-        let made = self.job.poll().map(|(_, scene)| scene);
+        // One of a mesh that was open before comes too late.
+        let made = self.job.poll().filter(|(key, _)| *key == session.model_revision()).map(|(_, scene)| scene);
         let is_new = made.is_some();
         if let Some(scene) = made {
             // Another mesh, or the same one turned around, is seen from its outside.

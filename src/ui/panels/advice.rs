@@ -61,7 +61,8 @@ impl Change {
     /// The change nearest at hand, once a ladder has come to its end.
     fn of(session: &Session) -> Option<Self> {
         let document = session.document();
-        let has_ended = matches!(session.stopped(), Some(Stop::Ended(_)));
+        let is_newest = session.timeline().shown() == session.timeline().newest();
+        let has_ended = is_newest && matches!(session.stopped(), Some(Stop::Ended(_)));
         if !has_ended || document.settings.method != Method::Auto {
             return None;
         }
@@ -77,7 +78,8 @@ impl Change {
         match self {
             Self::NewVertices => [
                 "Allow new vertices",
-                "The ladder has no step left, and may not cut edges. With new vertices on them it meets nearly all                  constraints",
+                "The ladder has no step left, and may not cut edges. With new vertices on them it meets nearly all \
+                 constraints",
             ],
             Self::Pins => [
                 "Free a pin",

@@ -46,7 +46,8 @@ fn fault_card(ui: &mut egui::Ui, fault: &Fault, mesh: &TriMesh, requests: &mut V
             let to = shown.map_or(if by == 1 { 0 } else { count - 1 }, |at| (at + by) % count);
             let button = ui.add(Button::new(words)).on_hover_text("Show it in the mesh");
             let button = button.named(egui::Role::Button, &format!("{words} of {name}"));
-            if button.asks(Request::GoTo(fault.vertices_of(to, mesh)), requests) {
+            if button.clicked() {
+                requests.push(Request::GoTo(fault.vertices_of(to, mesh)));
                 ui.data_mut(|data| data.insert_temp(place, to));
             }
         }

@@ -45,7 +45,10 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
     }
     if let Some(remedy) = session.model().and_then(|model| model.remedy.as_ref()).filter(|_| pane == Pane::Mesh) {
         let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
-        let words = format!("The mesh can be mended: {}", done.join(", "));
+        let words = match &done[..] {
+            [] => "The mesh can be flattened as it is: none of its faults does harm".to_owned(),
+            _ => format!("The mesh can be mended: {}", done.join(", ")),
+        };
         let tip = "Make a disk of it. The file's positions and faces stay; undo takes it back";
         warning(ui, &words, [Offer::new("Mend all", tip, Action::Mend)], requests);
     }

@@ -236,6 +236,7 @@ impl<W: Write> Writer<'_, W> {
         let at_vertex = self.at_vertex.get_or_init(|| {
             let mut found = vec![NO_TEXTURE; self.mesh.polygons.positions.len()];
             let corners = self.mesh.polygons.corners.iter().zip(&self.written.texture.corners);
+            let corners = corners.filter(|(_, texture)| **texture != NO_TEXTURE);
             corners.rev().for_each(|(corner, &texture)| found[corner.index()] = texture);
             found
         });
