@@ -275,7 +275,10 @@ fn what_a_ply_header_says_is_not_believed_without_the_bytes() {
             head("ascii", &format!("{vertex}{face}")) + &triangle.replace("1 0 0", "1 x 0") + "3 0 1 2",
             "line 11: \"x\" is not a number",
         ),
-        (head("ascii", &vertex.replace("float z", "float w")), "line 7: \"element vertex\" where x, y and z"),
+        (
+            head("ascii", &vertex.replace("float z", "float w")) + triangle,
+            "line 7: \"element vertex\" where x, y and z",
+        ),
         (
             head("ascii", &format!("{vertex}{}", face.replace("int v", "float v"))) + triangle,
             "line 9: \"element face\" where a list",

@@ -262,3 +262,12 @@ fn a_name_never_swallows_the_face_behind_it() {
         assert!(out.contains(&format!("\ng {name}\n")), "{out}");
     }
 }
+
+#[test]
+fn a_texture_coordinate_behind_a_carriage_return_leaves_its_line_end() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nf 1 2 3\ng x\rvt 0 0\nf 2 4 3\n";
+    let mesh = read_stream(text.as_bytes()).unwrap();
+    let out = written(&mesh);
+    assert!(out.ends_with("g x\r\nf 2/2 4/4 3/3\n"), "{out:?}");
+    assert_same_corners(text, &mesh).unwrap();
+}

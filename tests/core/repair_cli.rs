@@ -105,10 +105,11 @@ fn a_soup_with_a_pole_is_written_with_coordinates_at_every_corner_and_proves_aga
         count += 4;
     }
     program.write("soup.obj", &text);
-    program.run(&["flatten", "soup.obj", "--repair", "all", "-o", "out.obj"]).expect(0);
+    program.run(&["flatten", "soup.obj", "--repair", "all", "--cut", "auto", "-o", "out.obj"]).expect(0);
     let written = std::fs::read_to_string(program.path("out.obj")).expect("written");
     let faces = || written.lines().filter(|line| line.starts_with("f "));
-    assert!(faces().count() == 32 && faces().all(|face| face.matches('/').count() == 4), "{written}");
+    let is_mapped = |face: &str| face.split(' ').skip(1).all(|corner| corner.contains('/'));
+    assert!(faces().count() >= 32 && faces().all(is_mapped), "{written}");
     program.run(&["check", "out.obj"]).expect(0);
 }
 
