@@ -54,7 +54,7 @@ impl Repaired {
             let vertices = self.polygons.face(face);
             match fate(vertices, own) {
                 Fate::Go(stand_ins) => {
-                    self.stand_ins.extend(own.iter().zip(stand_ins).map(|(&own, other)| [own, other]))
+                    self.stand_ins.extend(own.iter().zip(stand_ins).map(|(&own, other)| [own, other]));
                 }
                 Fate::Keep(kept) => {
                     self.stand_ins.extend(left_out(&kept, own));
