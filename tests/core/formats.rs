@@ -43,7 +43,9 @@ fn off_text(mesh: &PolygonMesh, head: &str, behind_vertex: &str, behind_face: &s
     for face in 0..mesh.face_count() {
         let corners = mesh.face(face);
         write!(text, "{} ", corners.len()).expect("memory");
-        corners.iter().for_each(|v| write!(text, " {}", v.number()).expect("memory"));
+        for v in corners {
+            write!(text, " {}", v.number()).expect("memory");
+        }
         writeln!(text, "{behind_face}").expect("memory");
     }
     text

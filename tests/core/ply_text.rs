@@ -62,7 +62,9 @@ impl<'a> PlyMaker<'a> {
             }
             p.to_array().iter().for_each(|&x| put.number(self.number, x));
             if self.at_vertices.is_some() {
-                [p.x, p.y].iter().for_each(|&x| put.number(self.number, x));
+                for x in [p.x, p.y] {
+                    put.number(self.number, x);
+                }
             }
             if self.is_rich {
                 put.list("uchar", "short", &vec![-3.0; k % 3]);
@@ -71,7 +73,9 @@ impl<'a> PlyMaker<'a> {
             put.end();
         }
         if self.is_rich {
-            [7.0, 8.0].iter().for_each(|&x| put.number("double", x));
+            for x in [7.0, 8.0] {
+                put.number("double", x);
+            }
             put.end();
         }
         for face in 0..self.mesh.face_count() {
@@ -104,7 +108,9 @@ impl<'a> PlyMaker<'a> {
         if self.is_rich {
             line("property uchar red".into());
         }
-        ["x", "y", "z"].iter().for_each(|name| line(format!("property {} {name}", self.number)));
+        for name in ["x", "y", "z"] {
+            line(format!("property {} {name}", self.number));
+        }
         self.at_vertices.iter().flatten().for_each(|name| line(format!("property {} {name}", self.number)));
         if self.is_rich {
             line("property list uchar short weights".into());
@@ -138,7 +144,9 @@ struct Put<'a> {
 impl Put<'_> {
     fn list(&mut self, count: &str, item: &str, items: &[f64]) {
         self.number(count, items.len() as f64);
-        items.iter().for_each(|&x| self.number(item, x));
+        for &x in items {
+            self.number(item, x);
+        }
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "tests give numbers of the type")]
@@ -220,7 +228,7 @@ pub(crate) fn taken_apart(bytes: &[u8]) -> (Vec<String>, Vec<Element>) {
             let properties = element.properties.iter().map(|words| match words.as_slice() {
                 [_, count, item, _] => {
                     let items = take.number(count);
-                    (0..).take_while(|&k| f64::from(k) < items).map(|_| take.number(item)).collect()
+                    (0..=u16::MAX).take_while(|&k| f64::from(k) < items).map(|_| take.number(item)).collect()
                 }
                 words => vec![take.number(&words[0])],
             });

@@ -1,5 +1,7 @@
 //! `freebound flatten` on meshes that are no disks: what is done to them by itself, and on request.
 
+use std::fmt::Write as _;
+
 use freebound::io::read_mesh;
 use freebound::mesh::DiskMesh;
 use serde_json::{Value, json};
@@ -101,7 +103,7 @@ fn a_soup_with_a_pole_is_written_with_coordinates_at_every_corner_and_proves_aga
     };
     for (ring, k) in (0..4).flat_map(|ring| (0..8).map(move |k| (ring, k))) {
         text += &[at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1)].concat();
-        text += &format!("f {} {} {} {}\n", count + 1, count + 2, count + 3, count + 4);
+        writeln!(text, "f {} {} {} {}", count + 1, count + 2, count + 3, count + 4).expect("memory");
         count += 4;
     }
     program.write("soup.obj", &text);

@@ -28,7 +28,7 @@ fn things_in(window: &Window, part: Rect) -> Vec<(String, Rect)> {
         let node = node.accesskit_node();
         node.label().or_else(|| node.value()).unwrap_or_default()
     };
-    let nodes = window.harness.root().children_recursive().into_iter().filter(has_words);
+    let nodes = window.harness.root().children_recursive().filter(has_words);
     let things = nodes.map(|node| (words(&node), node.rect()));
     things.filter(|(words, rect)| !words.is_empty() && part.contains(rect.center())).collect()
 }
@@ -71,11 +71,12 @@ fn nothing_in_the_bars_of_the_least_window_is_cut_or_lies_over_another() {
     let mesh = Window::with_mesh("sheet.obj", &sheet(4, 0.5));
     let cube = Window::with_example(Example::Cube);
     let start = |file| Start { file: Some(file), dialogs_inside: true, ..Start::default() };
-    for (name, mut window) in [
-        ("face", small(Start::default(), 1)),
-        ("cube", small(start(cube.path("cube.obj")), 1)),
-        ("many steps", small(start(mesh.path("sheet.obj")), 12)),
+    for (name, start, steps) in [
+        ("face", Start::default(), 1),
+        ("cube", start(cube.path("cube.obj")), 1),
+        ("many steps", start(mesh.path("sheet.obj")), 12),
     ] {
+        let mut window = small(start, steps);
         for with_panels in [false, true] {
             if window.editor().layout.panels_shown() != with_panels {
                 window.editor_mut().handle(Request::TogglePanels);
@@ -131,7 +132,7 @@ fn words_in(window: &Window, part: Rect) -> Vec<String> {
 
 /// The curves that show, by their names, each with the place of its plot.
 fn curves(window: &Window) -> Vec<(String, Rect)> {
-    let nodes = window.harness.root().children_recursive().into_iter();
+    let nodes = window.harness.root().children_recursive();
     let named = nodes.filter_map(|node| Some((node.accesskit_node().label()?, node.rect())));
     named.filter(|(name, _)| name.starts_with("Curve: ")).collect()
 }
