@@ -96,8 +96,6 @@ struct Writer<'a, W> {
 /// What has been passed so far.
 #[derive(Default)]
 struct Seen {
-    /// Whether the line before ended in a carriage return alone.
-    ends_in_return: bool,
     vertices: usize,
     normals: usize,
     statements: usize,
@@ -126,7 +124,6 @@ struct Buffers {
 
 impl<W: Write> Writer<'_, W> {
     fn line(&mut self, line: &Line<'_>, joined: &mut Vec<u8>) -> io::Result<()> {
-        let follows_return = std::mem::replace(&mut self.seen.ends_in_return, line.whole.ends_with(b"\r"));
         let one = line.as_one(joined);
         let Some(keyword) = words(one).next() else { return self.out.write_all(line.whole) };
         if !std::mem::replace(&mut self.seen.has_begun, true) {
@@ -135,13 +132,7 @@ impl<W: Write> Writer<'_, W> {
         match keyword {
             b"v" => self.vertex(line),
             b"vn" => self.normal(line),
-            b"vt" => {
-                if follows_return && line.whole.ends_with(b"\n") {
-                    // Readers that see no line end in a carriage return see one here still.
-                    self.out.write_all(b"\n")?;
-                }
-                self.texture()
-            }
+            b"vt" => self.texture(),
             b"f" => {
                 self.texture()?;
                 if self.seen.faces == 0 {
