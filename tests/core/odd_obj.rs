@@ -12,7 +12,7 @@ use freebound::mesh::{PolygonMesh, VertexId};
 use freebound::solver::Embedding;
 use glam::DVec2;
 use proptest::prelude::*;
-use proptest::test_runner::TestRunner;
+use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};
 
 use crate::makers::grid;
 
@@ -186,13 +186,6 @@ fn plain(text: &str) -> String {
     lines.iter().filter_map(element).map(|line| line + "\n").collect()
 }
 
-/// Whether another reader sees a texture coordinate and something else where we see one line. That line is replaced, and
-/// what it hides with it.
-fn has_broken_coordinate(text: &str) -> bool {
-    let is_broken = |line: &str| line.ends_with('\\') || line.contains(BREAKS);
-    text.split(['\n', '\r']).any(|line| line.trim_start().starts_with("vt") && is_broken(line))
-}
-
 /// What some readers take for the end of a line.
 const BREAKS: [char; 8] = ['\u{b}', '\u{c}', '\u{1c}', '\u{1d}', '\u{1e}', '\u{85}', '\u{2028}', '\u{2029}'];
 
@@ -220,11 +213,10 @@ fn assert_same_corners(text: &str, mesh: &MeshFile) -> Result<(), TestCaseError>
     let out = written(mesh);
     let again = read_stream(out.as_bytes()).expect("what was written is read");
     prop_assert_eq!(&again.polygons.corners, &mesh.polygons.corners, "{}", out);
-    if let Ok(elsewhere) = read_stream(as_read_elsewhere(text).as_bytes())
-        && !has_broken_coordinate(text)
-    {
+    // Who reads the text as we do reads what is written as we do.
+    if read_stream(as_read_elsewhere(text).as_bytes()).is_ok_and(|elsewhere| elsewhere.polygons == mesh.polygons) {
         let again = read_stream(as_read_elsewhere(&out).as_bytes()).map(|again| again.polygons.corners);
-        prop_assert_eq!(again.ok(), Some(elsewhere.polygons.corners), "{}", out);
+        prop_assert_eq!(again.ok().as_ref(), Some(&mesh.polygons.corners), "{}", out);
     }
     let theirs = corners_by_tobj(plain(&out).as_bytes());
     let theirs = theirs.map_err(|error| TestCaseError::fail(format!("{error}: {out}")))?;
@@ -239,7 +231,8 @@ fn what_is_written_of_an_odd_file_has_the_same_corners_for_every_reader() {
     const CASES: u32 = 400;
     let config = ProptestConfig { cases: CASES, source_file: Some(file!()), ..ProptestConfig::default() };
     let accepted = Cell::new(0);
-    let tried = TestRunner::new(config).run(&oddities(), |odd| {
+    let same_each_time = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let tried = TestRunner::new_with_rng(config, same_each_time).run(&oddities(), |odd| {
         // Pieces that other readers take for lines of their own may be faults: then the file is refused, not misread.
         let text = odd_text(&polygons(), &odd);
         let Ok(mesh) = read_stream(text.as_bytes()) else { return Ok(()) };
