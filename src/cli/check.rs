@@ -38,8 +38,12 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
         }
         Err(error) => return Err(Failure::Texture { path, error }),
     };
-    texture.mesh = texture.mesh.without_repeats();
-    let Ok(mesh) = DiskMesh::try_from(texture.mesh.clone()) else {
+    let disk = DiskMesh::try_from(texture.mesh.clone()).or_else(|_| {
+        // Looked at again without faces that add nothing, which a repair leaves in the file.
+        texture.mesh = std::mem::take(&mut texture.mesh).without_repeats();
+        DiskMesh::try_from(texture.mesh.clone())
+    });
+    let Ok(mesh) = disk else {
         return check_charts(arguments, &texture, path, start);
     };
     let read = start.elapsed().as_secs_f64();
