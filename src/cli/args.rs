@@ -48,7 +48,7 @@ pub enum Command {
 /// Arguments of `flatten`.
 #[derive(Debug, Args)]
 pub struct FlattenArguments {
-    /// The mesh, an OBJ, PLY, STL or OFF file; standard input with `-`.
+    /// The mesh, an OBJ, PLY, STL, OFF, GLB or glTF file; standard input with `-`.
     pub mesh: PathBuf,
     /// Write the mesh with texture coordinates here (PLY where the name ends so, or else OBJ), or to standard output with `-`. The mesh that is read, or
     /// anything else that is, is never written over.
@@ -237,7 +237,7 @@ pub struct FiguresArguments {
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// The mesh, an OBJ, PLY, STL or OFF file; standard input with `-`.
+    /// The mesh, an OBJ, PLY, STL, OFF, GLB or glTF file; standard input with `-`.
     pub mesh: PathBuf,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]

@@ -5,6 +5,7 @@
 //! | `mesh_file`   | meshes of any format: what is kept of a file, and the way in               |
 //! | `obj`         | OBJ files with their materials, in and out                                 |
 //! | `ply`         | PLY files                                                                  |
+//! | `gltf`        | glTF files, as text and binary (GLB)                                       |
 //! | `targets`     | the user's pins in texture coordinates                                     |
 //! | `constraints` | constraint files: a pinned vertex a line                                   |
 //! | `project`     | project files: what a person has made of a mesh (JSON)                     |
@@ -30,6 +31,7 @@ mod constraints;
 mod door;
 mod error_report;
 pub mod figure;
+mod gltf;
 mod mesh_file;
 mod obj;
 mod output;

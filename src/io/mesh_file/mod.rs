@@ -34,7 +34,7 @@ use crate::mesh::{PolygonMesh, Repaired, TriMesh, VertexId};
 use crate::solver::Embedding;
 
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
-pub(in crate::io) use error::{Place, fault_at};
+pub(in crate::io) use error::{Place, fault_at, fault_in};
 pub use read::{Progress, read_mesh, read_mesh_with, read_stream, read_stream_with};
 pub use refined::refined_obj;
 pub use source::Source;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::io::gltf::Scene;
 use crate::io::ply::Header;
 use crate::mesh::NewVertex;
 
@@ -23,6 +24,8 @@ pub struct Source {
 pub(in crate::io) enum SourceFormat {
     Obj,
     Ply(Arc<Header>),
+    /// The bytes are those of its buffers, one behind another.
+    Gltf(Arc<Scene>),
 }
 
 impl Source {
