@@ -247,7 +247,7 @@ impl Session {
         if self.model().is_none() {
             return self.complain("constraints need a mesh: open one first", None);
         }
-        let count = self.vertex_count();
+        let count = self.model().map_or(0, |model| model.vertex_count_in_file());
         self.errands.send("reading the constraints", move |_| {
             let read = Constraints::read(&path, count);
             Errand::Constraints { path, read }
@@ -267,7 +267,7 @@ impl Session {
                 Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
                 Errand::Flat(flat) => self.take_flat(&flat),
                 Errand::Formed(model) => {
-                    self.mesh.take_other(*model);
+                    self.mesh.take_other(Arc::from(model));
                     if !self.has_form_as_wanted() {
                         self.solve();
                     }
@@ -288,32 +288,58 @@ impl Session {
         if targets.is_empty() {
             return self.complain("the file has no constraints", None);
         }
+        let Some(model) = self.model().cloned() else { return };
         if self.takes_pins() {
+            let mut by_chart = model.by_chart(targets);
+            let here = by_chart.remove(&self.chart_on_screen().unwrap_or(0)).unwrap_or_default();
             let known = &self.document.targets;
-            let fresh = targets.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
-            self.edit(fresh.map(|(vertex, target)| pin(vertex, target)).collect());
+            let fresh = here.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
+            let elsewhere = by_chart.into_iter().map(|(chart, targets)| {
+                let mut edits = self.document.elsewhere.get(&chart).cloned().unwrap_or_default();
+                edits.targets.extend(targets);
+                Command::SetElsewhere { chart, edits }
+            });
+            self.edit(fresh.map(|(vertex, target)| pin(vertex, target)).chain(elsewhere).collect());
         }
     }
 
-    /// Brings the mesh into the form that the document wants. Where that takes time, a solve follows by itself. Returns
-    /// whether it has it now.
+    /// Brings the mesh into the form, and to the chart, that the document wants. Where that takes time, a solve follows by
+    /// itself. Returns whether it is there now.
     pub(super) fn bring_form(&mut self) -> bool {
         if self.has_form_as_wanted() {
             return true;
         }
-        // What goes on is of no use any more.
-        self.solving.give_up_all();
-        let form = self.document.form;
-        if self.mesh.change_form(form) {
-            self.forget_steps();
+        let Some(model) = self.model().cloned() else { return true };
+        let (form, chart) = (self.document.form, self.document.chart);
+        let wanted = model.chart.as_ref().filter(|_| model.form == form).map(|of| of.charts.pick(chart));
+        if let Some(other) = wanted.and_then(|number| self.charts.model(number)) {
+            self.mesh.take_other(Arc::clone(other));
+        }
+        if wanted.is_none() {
+            // What goes on is of no use any more.
+            self.solving.give_up_all();
+        }
+        if let Some(before) = self.mesh.change(form, chart) {
+            match wanted {
+                Some(number) => {
+                    self.charts.exchange(&before, &mut self.solving, number);
+                    self.drag.end();
+                }
+                None => {
+                    self.charts.forget();
+                    self.forget_steps();
+                }
+            }
             self.messages.forget_mesh();
             self.tell_faults();
             return true;
         }
-        if let Some(model) = self.model().cloned()
-            && !self.errands.is_under_way(FORMING)
-        {
-            self.errands.send(FORMING, move |_| Errand::Formed(Box::new(model.in_form(form))));
+        if !self.errands.is_under_way(FORMING) {
+            let formed = move |number: Option<usize>| match number {
+                Some(number) => model.of_chart(number),
+                None => model.in_form(form).with_chart(chart),
+            };
+            self.errands.send(FORMING, move |_| Errand::Formed(Box::new(formed(wanted))));
         }
         false
     }

@@ -21,6 +21,9 @@
 //! | `stop`          | where a run comes to rest                                                  |
 //! | `atlas`         | solved charts, laid beside each other and proved together                  |
 //! | `outcome`       | a step with its proof, ready to be written; the problem that it solves     |
+//! | `atlas_view`    | part: that layout for files, and for the screen                            |
+//! | `chart_targets` | pins of a mesh with several charts, in files and in the document           |
+//! | `charts`        | part: charts that are not on the screen, solved in the background          |
 //! | `drag`          | part: what follows the pointer                                             |
 //! | `errands`       | part: small work for the document that takes time                          |
 //! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
@@ -37,7 +40,10 @@
 
 mod action;
 mod atlas;
+mod atlas_view;
 mod background;
+mod chart_targets;
+mod charts;
 mod document;
 mod drag;
 mod edits;
@@ -67,8 +73,10 @@ mod v_axis;
 
 pub use action::{Action, SaveRequest};
 pub use atlas::{SolvedChart, atlas};
+pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
-pub use document::{Command, Document};
+pub use charts::ChartState;
+pub use document::{ChartEdits, Command, Document};
 pub use drag::Preview;
 pub use history::History;
 pub use messages::{Message, Place, Severity, named};

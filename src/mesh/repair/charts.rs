@@ -62,6 +62,11 @@ impl Charts {
         (0..self.count()).max_by_key(|&chart| (self.face_count(chart), std::cmp::Reverse(chart))).unwrap_or_default()
     }
 
+    /// The chart that is wanted, where there is such a one; the largest where there is not, or none is wanted.
+    pub fn pick(&self, wanted: Option<usize>) -> usize {
+        wanted.filter(|&wanted| wanted < self.count()).unwrap_or_else(|| self.largest())
+    }
+
     /// One chart by itself.
     pub fn chart(&self, chart: usize) -> Chart {
         let part = compact(&self.whole.polygons, &self.faces[chart]);
