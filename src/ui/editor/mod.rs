@@ -201,8 +201,14 @@ impl Editor {
         self.plane.forget();
         self.look.forget_paint();
         if self.opened.put_on_screen(&self.session) {
+            if self.session.charts().is_some() {
+                self.layout.offer_tab(Tab::Charts);
+            }
             self.selection.select([]);
             self.put_on_view();
+        } else if self.session.charts().is_some() {
+            // Vertices have the numbers of their chart.
+            self.selection.select([]);
         }
         self.pointer.forget_vertices();
         self.selection.set_defect(None);

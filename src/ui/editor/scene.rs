@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
+use crate::render::Surroundings;
 use crate::session::{Model, Outcome};
 use crate::solver::{Embedding, FaceDistortion, GaugeSize, Step};
 use crate::ui::Shading;
-use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
+use crate::view::{
+    EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Ray, Scale, Sphere, SurfacePicker,
+};
 
 /// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
 #[derive(Debug)]
@@ -23,13 +26,50 @@ pub struct MeshScene {
     /// The boundary, where it is a disk.
     pub boundary: Arc<EdgeList>,
     pub picker: SurfacePicker,
-    /// A ball around it.
+    /// A ball around it, and around what stands around it.
     pub sphere: Sphere,
+    /// The other charts, where the mesh has several.
+    pub around: Option<Around>,
+}
+
+/// The charts that are not on the screen, around the one that is.
+#[derive(Debug)]
+pub struct Around {
+    /// How they are drawn.
+    pub surroundings: Surroundings,
+    picker: SurfacePicker,
+    /// The chart of each of their faces.
+    chart_of: Vec<u32>,
+}
+
+impl Around {
+    fn of(model: &Model, positions: &[DVec3], sphere: Sphere) -> Option<Self> {
+        let of = model.chart.as_ref()?;
+        let polygons = of.charts.whole().polygons();
+        let mut chart_of_polygon = vec![None; polygons.face_count()];
+        for (number, chart) in (0..).zip(0..of.charts.count()).filter(|(_, chart)| *chart != of.number) {
+            of.charts.faces(chart).iter().for_each(|&face| chart_of_polygon[face as usize] = Some(number));
+        }
+        let whole = polygons.triangulate();
+        let chart_of_face = |face: usize| chart_of_polygon[whole.polygon(FaceId::from_index(face)) as usize];
+        let others = (0..whole.face_count()).filter_map(|face| Some((whole.triangles[face], chart_of_face(face)?)));
+        let (triangles, chart_of): (Vec<_>, Vec<u32>) = others.unzip();
+        let mesh = MeshArrays::in_frame(positions, &triangles, sphere);
+        let paint = FacePaint::faint(triangles.len());
+        let surroundings = Surroundings { mesh: Arc::new(mesh), paint: Arc::new(paint) };
+        Some(Self { surroundings, picker: SurfacePicker::new(positions, &triangles), chart_of })
+    }
 }
 
 impl MeshScene {
     pub fn new(model: Arc<Model>, model_revision: u64) -> Self {
         Self::of(model, model_revision, None)
+    }
+
+    /// Whether another chart of the same mesh is on the screen of both.
+    pub(super) fn is_of_same_mesh(&self, other: &Self) -> bool {
+        let charts = |scene: &Self| scene.model.chart.as_ref().map(|of| Arc::clone(&of.charts));
+        charts(self).zip(charts(other)).is_some_and(|(own, other)| Arc::ptr_eq(&own, &other))
     }
 
     /// The vertices of an element; none where the mesh does not have it.
@@ -60,12 +100,18 @@ impl MeshScene {
         let disk = refinement.as_ref().map(|refinement| refinement.disk()).or(model.disk().map(AsRef::as_ref));
         let boundary = EdgeList::closed_loop(disk.map_or(&[], |disk| disk.boundary_loop()));
         let TriMesh { positions, triangles, .. } = disk.map_or(model.mesh(), |disk| disk.mesh());
+        // In the unit of the chart's positions.
+        let unit = disk.map_or(1.0, DiskMesh::unit);
+        let whole = model.chart.as_ref().map(|of| &of.charts.whole().polygons().positions);
+        let whole: Option<Vec<DVec3>> = whole.map(|positions| positions.iter().map(|&at| at / unit).collect());
+        let sphere = Sphere::around(whole.as_ref().unwrap_or(positions));
         Self {
             model_revision,
-            arrays: Arc::new(MeshArrays::new(positions, triangles)),
+            arrays: Arc::new(MeshArrays::in_frame(positions, triangles, sphere)),
             boundary: Arc::new(boundary),
             picker: SurfacePicker::new(positions, triangles),
-            sphere: Sphere::around(positions),
+            sphere,
+            around: whole.and_then(|whole| Around::of(&model, &whole, sphere)),
             refinement,
             model,
         }
@@ -78,6 +124,14 @@ impl MeshScene {
     pub fn disk(&self) -> Option<&DiskMesh> {
         let given = self.model.disk().map(AsRef::as_ref);
         self.refinement.as_ref().map(|refinement| refinement.disk()).or(given)
+    }
+
+    /// The chart that is not on the screen and that a ray meets first, if no face of the chart on the screen is nearer.
+    pub(in crate::ui) fn other_chart_at(&self, ray: Ray) -> Option<usize> {
+        let around = self.around.as_ref()?;
+        let hit = around.picker.hit(ray)?;
+        let is_hidden = self.picker.hit(ray).is_some_and(|own| own.distance <= hit.distance);
+        (!is_hidden).then(|| around.chart_of[hit.face.index()] as usize)
     }
 
     /// What there is to say about a vertex that the mesh as given does not have.

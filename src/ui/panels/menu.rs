@@ -218,6 +218,10 @@ fn view_menu(menu: &mut Menu<'_>) {
     let has_defects = editor.defect_count() > 0;
     menu.item(has_defects, "Next defect", Request::StepDefect(1));
     menu.item(has_defects, "Previous defect", Request::StepDefect(-1));
+    if editor.session.charts().is_some() {
+        menu.item(true, "Next chart", Request::StepChart(1));
+        menu.item(true, "Previous chart", Request::StepChart(-1));
+    }
     menu.ui.separator();
     menu.part("Theme", |menu| {
         use ThemePreference::{Dark, Light, System};
