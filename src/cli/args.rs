@@ -5,11 +5,15 @@ use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use glam::DVec2;
+use glam::{DVec2, UVec2};
 
-use crate::io::{ConstraintFault, OutputFit, OutputKind, Target};
+use crate::geom::PackingOptions;
+use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Target};
 use crate::mesh::{Form, RepairExtent, VertexId};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
+
+/// The longest side of a picture that charts are packed into, pixels.
+const LONGEST_SIDE: u32 = 1 << 16;
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -102,6 +106,12 @@ pub struct FlattenArguments {
     /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface.
     #[arg(long, value_enum, default_value_t = OutputFit::Unit)]
     pub fit: OutputFit,
+    /// The picture that several charts are packed into, in pixels: the size of the picture given, or 1024x1024 without it.
+    #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with = "aspect")]
+    pub pack: Option<UVec2>,
+    /// The least distance between packed charts, in pixels of that picture.
+    #[arg(long, value_name = "PIXELS", default_value_t = PackingOptions::default().gap, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub gap: u32,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
@@ -155,6 +165,17 @@ impl FlattenArguments {
             Extent::None => RepairExtent::Nothing,
         };
         Form { repair, cut: self.cut == Cut::Auto, ..Form::default() }
+    }
+
+    /// How several charts are packed, into this picture where there is one.
+    pub fn packing(&self, picture: Option<&PictureFile>) -> PackingOptions {
+        let options = PackingOptions { gap: self.gap, ..PackingOptions::default() };
+        let of_picture = picture.map(|picture| UVec2::new(picture.pixels.width, picture.pixels.height));
+        let of_aspect =
+            self.aspect.map(|aspect| options.picture.as_dvec2() * DVec2::new(aspect, 1.0) / aspect.max(1.0));
+        let of_aspect = of_aspect.map(|size| size.round().max(DVec2::ONE).as_u64vec2().as_uvec2());
+        let picture = self.pack.or(of_picture).or(of_aspect).unwrap_or(options.picture);
+        PackingOptions { picture, ..options }
     }
 
     /// The files to write, apart from the report.
@@ -246,6 +267,16 @@ fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
         Some(weight) => Err(ConstraintFault::WeightNotPositive { vertex, weight }.to_string()),
         None => Ok((vertex, target)),
     }
+}
+
+/// Width and height of "widthxheight", in pixels.
+fn parse_pixels(text: &str) -> Result<UVec2, String> {
+    let parsed = || {
+        let (width, height) = text.split_once(['x', 'X', '×'])?;
+        let size = UVec2::new(width.trim().parse().ok()?, height.trim().parse().ok()?);
+        (size.cmpgt(UVec2::ZERO).all() && size.cmple(UVec2::splat(LONGEST_SIDE)).all()).then_some(size)
+    };
+    parsed().ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {LONGEST_SIDE}"))
 }
 
 /// Width over height of "width:height".

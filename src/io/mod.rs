@@ -11,7 +11,9 @@
 //! | `project`     | project files: what a person has made of a mesh (JSON)                     |
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
 //! | `output`      | the table of formats; a finished flattening written in any of them         |
-//! | `report`      | report of a run (JSON), and a step as a row of a table                     |
+//! | `charts`      | the charts of a result, each by itself and as one mesh                     |
+//! | `report`      | report of a run (JSON)                                                     |
+//! | `step_report` | a step in the report, and as a row of a table                              |
 //! | `error_report`| report of a run that came to nothing (JSON)                                |
 //! | `svg`         | an embedding or a step as a drawing                                        |
 //! | `steps`       | the steps of a run as a folder of drawings and a table                     |
@@ -24,6 +26,7 @@
 //! | `stamp`       | what tells one state of a file from another                                |
 
 mod atomic;
+mod charts;
 mod constraints;
 mod door;
 mod error_report;
@@ -39,12 +42,14 @@ mod project;
 pub mod raster;
 mod report;
 mod stamp;
+mod step_report;
 mod steps;
 mod svg;
 mod targets;
 mod unfinished;
 
 pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
+pub use charts::{OutputChart, Together, together};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use gltf::write_glb;
@@ -61,10 +66,11 @@ pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
 pub use report::{
-    MeshReport, PinsReport, Placement, REPORT_SCHEMA, Report, Seconds, StepReport, WeightedPinReport,
+    ChartReport, MeshReport, PackingReport, PinsReport, Placement, REPORT_SCHEMA, Report, Seconds, WeightedPinReport,
     peak_memory_bytes, verdict_as_in_file, write_report,
 };
 pub use stamp::FileStamp;
+pub use step_report::StepReport;
 pub use steps::StepsFolder;
 pub use targets::{Target, Targets, hard_targets, pins_in_plane};
 pub use unfinished::discard_unfinished;

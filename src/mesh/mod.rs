@@ -48,6 +48,6 @@ pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
-pub use repair::{Done, Form, Repair, RepairExtent, Repaired};
+pub use repair::{Chart, Charts, Done, Form, Repair, RepairExtent, Repaired};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

@@ -64,7 +64,7 @@ impl Session {
             let mut output = outcome.finished(&model, records, request.fit);
             output.picture = picture.as_deref();
             let files = output.write(request.kind, &request.path)?;
-            Ok(Written { files, about: Some(output.verdict.summary()) })
+            Ok(Written { files, about: Some(output.summary()) })
         });
     }
 

@@ -19,6 +19,7 @@
 //! | `solving/`      | part: a run, its timeline, and where it comes to rest                      |
 //! | `timeline`      | the steps of a run                                                         |
 //! | `stop`          | where a run comes to rest                                                  |
+//! | `atlas`         | solved charts, laid beside each other and proved together                  |
 //! | `outcome`       | a step with its proof, ready to be written; the problem that it solves     |
 //! | `drag`          | part: what follows the pointer                                             |
 //! | `errands`       | part: small work for the document that takes time                          |
@@ -35,6 +36,7 @@
 //! | `background`    | slots for work on background threads                                       |
 
 mod action;
+mod atlas;
 mod background;
 mod document;
 mod drag;
@@ -64,13 +66,14 @@ mod timeline;
 mod v_axis;
 
 pub use action::{Action, SaveRequest};
+pub use atlas::{SolvedChart, atlas};
 pub use background::{Background, Failure, Wake};
 pub use document::{Command, Document};
 pub use drag::Preview;
 pub use history::History;
 pub use messages::{Message, Place, Severity, named};
 use messages::{Messages, Written};
-pub use model::{Model, Surface};
+pub use model::{ChartOf, Model, Surface};
 pub use outcome::{Outcome, Problem};
 pub use preferences::Preferences;
 pub use recent::RecentFiles;

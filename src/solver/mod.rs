@@ -82,7 +82,7 @@ pub use pins::{
     Hold, Pin, PinPositions, Pins, TakenTargets, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins,
     hard_pins,
 };
-pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
+pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor};
 pub use prepared::{Prepared, solve_once};
 pub use schnyder::schnyder;
 pub use settings::{GaugeSize, Growth, Settings, Treatment};

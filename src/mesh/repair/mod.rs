@@ -6,13 +6,15 @@
 //! | `sides.rs` | sides of polygons, and which lie on one edge |
 //! | `leave_out.rs` | repeated corners and duplicate faces left out |
 //! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
-//! | `cut.rs` | a surface cut open until it is a disk |
+//! | `cut.rs` | a surface cut open until it is a disk, or several |
+//! | `charts.rs` | the parts of a mesh, each a disk by itself |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
 //!
 //! A repair changes connectivity alone: every position stays, and old vertices keep their numbers; new ones, which lie where
 //! an old one does, follow. The file that the mesh came from is never changed but for its texture coordinates, which
 //! [`Repaired::corner_of`] carries back.
 
+mod charts;
 mod cut;
 mod join;
 mod leave_out;
@@ -23,7 +25,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{DiskMesh, PolygonMesh, TriMesh, VertexId, diagnose};
+use super::{PolygonMesh, TriMesh, VertexId, diagnose};
+
+pub use charts::{Chart, Charts};
 
 /// What is made of a file's faces before they are flattened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,12 +36,12 @@ pub struct Form {
     pub faces_turned: bool,
     /// What may be repaired.
     pub repair: RepairExtent,
-    /// Whether what is no disk is cut open.
+    /// Whether parts that are no disks are cut open.
     pub cut: bool,
 }
 
 impl Form {
-    /// All that can be done to make a disk.
+    /// All that can be done to make disks.
     #[must_use]
     pub const fn mended(self) -> Self {
         Self { repair: RepairExtent::All, cut: true, ..self }
@@ -51,7 +55,7 @@ impl Form {
             return Self { faces_turned: false, ..self }.repaired(&before).turned(&before);
         }
         let repaired = Repaired::new(source, self.repair);
-        if self.cut { repaired.cut_to_disk() } else { repaired }
+        if self.cut { repaired.cut_to_disks() } else { repaired }
     }
 }
 
@@ -85,7 +89,7 @@ pub enum Repair {
     TurnFaces,
     /// Fans of faces that meet in nothing but a vertex get one each.
     SplitVertices,
-    /// The surface is cut along edges until it is a disk.
+    /// The surface is cut along edges until each part is a disk.
     Cut,
 }
 
@@ -188,12 +192,12 @@ impl Repaired {
         self.polygons.corners.iter().all(|corner| corner.index() < count)
     }
 
-    /// Cuts the surface open until it is a disk: for one connected part without crowded edges. Nothing where it is a disk
-    /// already, or cutting makes none of it.
+    /// Cuts each part of the surface open until it is a disk: for parts without crowded edges. Nothing where all are disks
+    /// already, or cutting makes none of one.
     #[must_use]
-    pub fn cut_to_disk(self) -> Self {
+    pub fn cut_to_disks(self) -> Self {
         let cut = cut::cut_open(&self);
-        if DiskMesh::try_from(cut.triangulate()).is_ok() { cut } else { self }
+        if cut.flattens() { cut } else { self }
     }
 
     /// The same repairs of the mesh as given, `source`, with every face turned around.
@@ -291,8 +295,8 @@ impl Repaired {
         }
     }
 
-    /// Whether nothing keeps it from being a disk.
-    pub fn is_disk(&self) -> bool {
-        diagnose(&self.triangulate()).is_disk()
+    /// Whether nothing keeps it from being a disk, or several.
+    pub fn flattens(&self) -> bool {
+        diagnose(&self.triangulate()).is_disk() || charts::disks_of(&self.polygons).is_some()
     }
 }

@@ -1,0 +1,106 @@
+//! The charts of a result: each as it is written, and all of them as one mesh with its texture coordinates.
+
+use std::borrow::Cow;
+
+use super::{MeshFile, NO_TEXTURE, ProvedEmbedding, Texture, refined_obj};
+use crate::mesh::{DiskMesh, FaceId, Refinement, Repaired, TriMesh, VertexId};
+use crate::solver::{Embedding, Verdict};
+
+/// A chart as it is written; the only one, as a rule.
+#[derive(Debug)]
+pub struct OutputChart<'a> {
+    /// The mesh that the coordinates are of: its triangles, or the refinement's.
+    pub mesh: &'a DiskMesh,
+    /// The mesh with its new vertices, where there are any.
+    pub refinement: Option<&'a Refinement>,
+    /// The vertex of the repaired mesh that each of its own is, where the mesh has several charts.
+    pub vertex_of: Option<&'a [VertexId]>,
+    /// One texture coordinate per vertex, v up.
+    pub coordinates: Embedding,
+    /// The verdict on these coordinates.
+    pub verdict: Verdict,
+}
+
+impl OutputChart<'_> {
+    /// The chart with its verdict, laid elsewhere.
+    pub(super) fn laid<'b>(&'b self, embedding: &'b Embedding) -> ProvedEmbedding<'b> {
+        ProvedEmbedding { mesh: self.mesh, embedding, verdict: &self.verdict }
+    }
+}
+
+/// Charts as one mesh: the vertices of each follow those of the one before, and so do the faces.
+#[derive(Debug)]
+pub struct Together {
+    /// Positions and triangles; faces keep their numbers in the file.
+    pub mesh: TriMesh,
+    /// One texture coordinate per vertex.
+    pub coordinates: Embedding,
+    /// Faces that their charts' verdicts call flipped.
+    pub flipped: Vec<FaceId>,
+}
+
+/// Charts as one mesh.
+pub fn together(charts: &[OutputChart<'_>]) -> Together {
+    let (mut mesh, mut polygon_of) = (TriMesh::default(), Vec::new());
+    let (mut coordinates, mut flipped) = (Vec::new(), Vec::new());
+    for chart in charts {
+        let (own, vertices, faces) = (chart.mesh.mesh(), mesh.positions.len(), mesh.triangles.len());
+        let moved = |vertex: VertexId| VertexId::from_index(vertices + vertex.index());
+        mesh.positions.extend_from_slice(&own.positions);
+        mesh.triangles.extend(own.triangles.iter().map(|corners| corners.map(moved)));
+        polygon_of.extend((0..own.face_count()).map(|face| own.polygon(FaceId::from_index(face))));
+        coordinates.extend_from_slice(&chart.coordinates);
+        flipped.extend(chart.verdict.flipped_faces.iter().map(|face| FaceId::from_index(faces + face.index())));
+    }
+    mesh.polygon_of = Some(polygon_of);
+    Together { mesh, coordinates: coordinates.into(), flipped }
+}
+
+/// The coordinates of charts as those of the corners of `mesh`, which [`source_mesh`] has given.
+pub(super) fn texture_of(
+    charts: &[OutputChart<'_>],
+    source: &MeshFile,
+    repaired: Option<&Repaired>,
+    mesh: &MeshFile,
+) -> Texture {
+    let is_refined = charts.iter().any(|chart| chart.refinement.is_some());
+    let Some(repaired) = repaired.filter(|_| !is_refined) else {
+        let coordinates: Embedding = charts.iter().flat_map(|chart| chart.coordinates.iter().copied()).collect();
+        return Texture::per_vertex(&mesh.polygons, &coordinates);
+    };
+    if let [OutputChart { vertex_of: None, coordinates, .. }] = charts {
+        return Texture::of_repaired(repaired, &source.polygons, coordinates);
+    }
+    let mut numbers = vec![NO_TEXTURE; repaired.polygons().positions.len()];
+    let mut coordinates = Vec::new();
+    for chart in charts {
+        for (vertex, uv) in chart.vertex_of.unwrap_or_default().iter().zip(&chart.coordinates) {
+            numbers[vertex.index()] = VertexId::from_index(coordinates.len()).number();
+            coordinates.push(*uv);
+        }
+    }
+    let number = |vertex: Option<VertexId>| vertex.map_or(NO_TEXTURE, |vertex| numbers[vertex.index()]);
+    let corners = repaired.vertices_at_corners(&source.polygons).into_iter().map(number).collect();
+    Texture { coordinates, corners }
+}
+
+/// The file's mesh, with the new vertices where there are any. A mesh that was repaired, or has several charts, and has new
+/// vertices is written without its text: both its faces and its vertices are others.
+pub(super) fn source_mesh<'a>(
+    charts: &[OutputChart<'_>],
+    source: &'a MeshFile,
+    repaired: Option<&Repaired>,
+) -> Cow<'a, MeshFile> {
+    if charts.iter().all(|chart| chart.refinement.is_none()) {
+        return Cow::Borrowed(source);
+    }
+    let [OutputChart { refinement: Some(refinement), .. }] = charts else {
+        return Cow::Owned(MeshFile::from(&together(charts).mesh));
+    };
+    let repaired = repaired.map(|repaired| MeshFile {
+        polygons: repaired.all_faces(&source.polygons),
+        statements: source.statements.clone(),
+        ..MeshFile::default()
+    });
+    Cow::Owned(refined_obj(repaired.as_ref().unwrap_or(source), refinement))
+}
