@@ -368,6 +368,8 @@ fn the_program_reads_and_writes_glb_files_and_takes_pictures_and_buffers_along()
     let view = &json["bufferViews"][usize::try_from(json["images"][0]["bufferView"].as_u64().unwrap()).unwrap()];
     let begin = usize::try_from(view["byteOffset"].as_u64().unwrap()).unwrap();
     assert!(blob[begin..].starts_with(b"\x89PNG\r\n\x1a\n"));
+    let refused = program.run(&["flatten", "out.glb", "-o", "out.gltf"]).expect(2);
+    assert!(refused.stderr.contains("end the name in .obj, .ply or .glb"), "{}", refused.stderr);
     program.run(&["flatten", "out.glb", "-o", "out.obj"]).expect(0);
     program.run(&["flatten", "out.obj", "-o", "again.GLB"]).expect(0);
     program.run(&["check", "again.GLB"]).expect(0);

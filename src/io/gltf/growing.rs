@@ -84,11 +84,9 @@ impl<'a> Growing<'a> {
     /// Writes it.
     pub(super) fn write(mut self, out: &mut impl Write) -> io::Result<()> {
         let binary = self.old.len() + self.added.len();
-        let mut buffer = self.json["buffers"][0].take();
-        if !buffer.is_object() {
-            buffer = json!({});
-        }
-        buffer.as_object_mut().expect("made above").remove("uri");
+        let before = self.json.pointer_mut("/buffers/0").map(Value::take).filter(Value::is_object);
+        let mut buffer = before.unwrap_or_else(|| json!({}));
+        buffer.as_object_mut().map(|fields| fields.remove("uri"));
         buffer["byteLength"] = json!(binary);
         self.json["buffers"] = json!([buffer]);
         let mut text = serde_json::to_vec(&self.json)?;
