@@ -50,7 +50,7 @@ pub enum Command {
 pub struct FlattenArguments {
     /// The mesh, an OBJ, PLY, STL, OFF, GLB or glTF file; standard input with `-`.
     pub mesh: PathBuf,
-    /// Write the mesh with texture coordinates here (PLY where the name ends so, or else OBJ), or to standard output with `-`. The mesh that is read, or
+    /// Write the mesh with texture coordinates here (PLY or GLB where the name ends so, or else OBJ), or to standard output with `-`. The mesh that is read, or
     /// anything else that is, is never written over.
     #[arg(short, long, value_name = "MESH|-")]
     pub output: Option<PathBuf>,

@@ -35,6 +35,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
             "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
         ));
     }
+    refuse_unwritten_formats(arguments.output.as_deref())?;
     let places = Places::of_flatten(arguments);
     refuse_clashes(arguments, &places)?;
     await_report(arguments.report.as_deref());
@@ -70,6 +71,16 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         };
         job.run(&model, start, &progress)
     })
+}
+
+/// Refuses names that belong to formats which are read and not written.
+fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
+    let extension = output.and_then(Path::extension).unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    if matches!(extension.as_str(), "gltf" | "off" | "stl") {
+        let text = format!("-o: .{extension} files are not written: end the name in .obj, .ply or .glb");
+        return Err(Failure::Usage(text));
+    }
+    Ok(())
 }
 
 /// Refuses files that would be written over, by the run itself or as results of one another.

@@ -52,6 +52,7 @@ pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_
 pub use charts::{OutputChart, Together, together};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
+pub use gltf::write_glb;
 pub use mesh_file::{
     MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError, Source, Statement,
     Texture, TextureError, TextureMesh, read_mesh, read_mesh_with, read_stream, read_stream_with, refined_obj,

@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 
 use super::charts::{Together, source_mesh, texture_of, together};
 use super::door::check_finite;
+use super::gltf::write_glb;
 use super::obj::{copy_materials, relocated, write_obj_with};
 use super::ply::write_ply;
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
@@ -38,6 +39,8 @@ pub enum OutputKind {
     Obj,
     /// The same as a PLY file.
     Ply,
+    /// The same as a binary glTF file.
+    Glb,
     /// A drawing of the layout.
     Svg,
     /// Mesh and layout side by side.
@@ -71,7 +74,7 @@ pub struct Format {
 }
 
 /// The formats, in the order of [`OutputKind`].
-static FORMATS: [Format; 5] = [
+static FORMATS: [Format; 6] = [
     Format {
         name: "OBJ mesh",
         extension: "obj",
@@ -90,6 +93,16 @@ static FORMATS: [Format; 5] = [
         write: |output, _, out| {
             let mesh = output.source_mesh();
             write_ply(out, &mesh, &output.texture_of(&mesh))
+        },
+    },
+    Format {
+        name: "GLB mesh",
+        extension: "glb",
+        ending: "-flat.glb",
+        title: "Save the mesh with texture coordinates as GLB",
+        write: |output, _, out| {
+            let mesh = output.source_mesh();
+            write_glb(out, &mesh, &output.texture_of(&mesh))
         },
     },
     Format {
@@ -116,13 +129,17 @@ static FORMATS: [Format; 5] = [
 ];
 
 /// The extensions of all formats, for a message.
-pub const EXTENSIONS: &str = ".svg, .png, .json, .ply or .obj";
+pub const EXTENSIONS: &str = ".svg, .png, .json, .ply, .glb or .obj";
 
 impl OutputKind {
     /// The kind of a mesh's file, by the ending of its name; OBJ where that says nothing.
     pub fn of_mesh(path: &Path) -> Self {
-        let is_ply = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ply"));
-        if is_ply { Self::Ply } else { Self::Obj }
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match extension.as_str() {
+            "ply" => Self::Ply,
+            "glb" => Self::Glb,
+            _ => Self::Obj,
+        }
     }
 
     /// Its row in the table of formats.

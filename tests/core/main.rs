@@ -32,6 +32,7 @@ mod geom;
 mod glb_maker;
 mod gltf_hostile;
 mod gltf_read;
+mod gltf_write;
 mod harmless;
 mod house;
 mod iterate;

@@ -16,16 +16,22 @@ pub(super) enum Component {
 }
 
 impl Component {
+    const ALL: [Self; 6] = [Self::I8, Self::U8, Self::I16, Self::U16, Self::U32, Self::F32];
+
     fn of(code: u32) -> Option<Self> {
-        Some(match code {
-            5120 => Self::I8,
-            5121 => Self::U8,
-            5122 => Self::I16,
-            5123 => Self::U16,
-            5125 => Self::U32,
-            5126 => Self::F32,
-            _ => return None,
-        })
+        Self::ALL.into_iter().find(|kind| kind.code() == code)
+    }
+
+    /// Its code in the JSON.
+    pub(super) const fn code(self) -> u32 {
+        match self {
+            Self::I8 => 5120,
+            Self::U8 => 5121,
+            Self::I16 => 5122,
+            Self::U16 => 5123,
+            Self::U32 => 5125,
+            Self::F32 => 5126,
+        }
     }
 
     pub(super) const fn size(self) -> usize {
@@ -60,6 +66,20 @@ impl Component {
             Self::U32 => f64::from(u32::from_le_bytes(four)),
             Self::F32 => f64::from(f32::from_le_bytes(four)),
         }
+    }
+}
+
+/// Writes a number, rounded to what the kind can hold.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "to be rounded, and cut off at the ends")]
+pub(super) fn push_number(bytes: &mut Vec<u8>, kind: Component, number: f64) {
+    let whole = number.round();
+    match kind {
+        Component::I8 => bytes.extend((whole as i8).to_le_bytes()),
+        Component::U8 => bytes.push(whole as u8),
+        Component::I16 => bytes.extend((whole as i16).to_le_bytes()),
+        Component::U16 => bytes.extend((whole as u16).to_le_bytes()),
+        Component::U32 => bytes.extend((whole as u32).to_le_bytes()),
+        Component::F32 => bytes.extend((number as f32).to_le_bytes()),
     }
 }
 

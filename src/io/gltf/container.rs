@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
@@ -90,14 +91,14 @@ fn number(bytes: &[u8], at: usize) -> Result<usize, ReadError> {
 /// The bytes of all buffers, and where each begins.
 #[derive(Debug)]
 pub(super) struct Buffers {
-    pub(super) bytes: Vec<u8>,
+    pub(super) bytes: Arc<Vec<u8>>,
     pub(super) starts: Vec<usize>,
 }
 
 impl Buffers {
     /// Gathers them: from the binary chunk, from the JSON, from files in the folder.
     pub(super) fn of(document: &Document, binary: Vec<u8>, folder: Option<&Path>) -> Result<Self, ReadError> {
-        let mut own = Self { bytes: Vec::new(), starts: Vec::new() };
+        let (mut bytes, mut starts) = (Vec::new(), Vec::new());
         let mut binary = Some(binary);
         for (index, buffer) in document.buffers.iter().enumerate() {
             let found = match &buffer.uri {
@@ -119,16 +120,15 @@ impl Buffers {
                     ParseFaultKind::TooMany { element: "byte".to_owned(), count: buffer.byte_length },
                 )
             })?);
-            if own.bytes.is_empty() {
-                own.bytes = found;
-                own.starts.push(0);
+            bytes.resize(bytes.len().next_multiple_of(ALIGNMENT), 0);
+            starts.push(bytes.len());
+            if bytes.is_empty() {
+                bytes = found;
             } else {
-                own.bytes.resize(own.bytes.len().next_multiple_of(ALIGNMENT), 0);
-                own.starts.push(own.bytes.len());
-                own.bytes.extend(found);
+                bytes.extend(found);
             }
         }
-        Ok(own)
+        Ok(Self { bytes: Arc::new(bytes), starts })
     }
 }
 

@@ -7,6 +7,11 @@
 //! | `accessor`  | arrays of elements in these bytes                                                |
 //! | `scene`     | which meshes a file shows, where, and the corners of their triangles             |
 //! | `read`      | a mesh of them                                                                   |
+//! | `write`     | a mesh written as a binary file: the one that it was read from, or a new one     |
+//! | `carried`   | the file that a mesh was read from, with other texture coordinates               |
+//! | `placed`    | which vertices of the file its corners get, and which of them twice              |
+//! | `grown`     | accessors with more elements                                                     |
+//! | `growing`   | a binary file that is being made                                                 |
 //!
 //! What is shown are the meshes of all nodes of the file's scene, or of all nodes where it names none, with their
 //! transforms, from the first root down, a node before its children, and its primitives in order. Within a node's mesh,
@@ -21,13 +26,19 @@
 //! Source: "glTF 2.0 Specification", Khronos Group, 2021.
 
 mod accessor;
+mod carried;
 mod container;
 mod document;
+mod growing;
+mod grown;
+mod placed;
 mod read;
 mod scene;
+mod write;
 
 pub(in crate::io) use read::parse_gltf;
 pub(in crate::io) use scene::Scene;
+pub use write::write_glb;
 
 /// The names of attributes.
 const POSITION: &str = "POSITION";

@@ -146,7 +146,7 @@ pub(super) fn upright(uv: [f64; 2]) -> DVec2 {
 }
 
 /// An attribute of a set, of so many numbers for each vertex.
-fn elements<'a>(
+pub(super) fn elements<'a>(
     document: &Document,
     buffers: &'a Buffers,
     set: &VertexSet,

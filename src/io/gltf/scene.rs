@@ -113,6 +113,11 @@ impl Shown {
         }
         Ok(own)
     }
+
+    /// The part that has a face.
+    pub(super) fn part_of(&self, face: usize) -> usize {
+        self.parts.partition_point(|part| part.first_face <= face) - 1
+    }
 }
 
 /// Meshes of the nodes of the scene, or of all nodes; all meshes, where there are no nodes.
