@@ -200,10 +200,10 @@ impl Editor {
     fn begin_with_mesh(&mut self) {
         self.plane.forget();
         self.look.forget_paint();
+        if self.opened.note_charts(&self.session) {
+            self.layout.offer_tab(Tab::Charts);
+        }
         if self.opened.put_on_screen(&self.session) {
-            if self.session.charts().is_some() {
-                self.layout.offer_tab(Tab::Charts);
-            }
             self.selection.select([]);
             self.put_on_view();
         } else if self.session.charts().is_some() {

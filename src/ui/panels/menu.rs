@@ -259,7 +259,8 @@ fn title(editor: &Editor) -> String {
     let Some(model) = editor.session.model() else { return "Freebound".to_owned() };
     let mesh = model.mesh();
     let counts = [mesh.vertex_count(), mesh.face_count()].map(grouped);
-    format!("{} · {} v · {} f", editor.marked_name(), counts[0], counts[1])
+    let chart = editor.session.chart_on_screen().map(|chart| format!(" · chart {chart}")).unwrap_or_default();
+    format!("{}{chart} · {} v · {} f", editor.marked_name(), counts[0], counts[1])
 }
 
 /// A count with its thousands set apart by spaces.

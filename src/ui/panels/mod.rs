@@ -73,8 +73,12 @@ pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut 
     if charts.is_none() && editor.layout.tab() == Tab::Charts {
         editor.layout.offer_tab(Tab::Method);
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
+        if charts.is_some() {
+            // One tab more has to stand in the same row.
+            ui.spacing_mut().button_padding.x = 4.0;
+        }
         for tab in Tab::ALL.into_iter().filter(|tab| *tab != Tab::Charts || charts.is_some()) {
             let count = match tab {
                 Tab::Charts => charts.unwrap_or_default(),
