@@ -78,6 +78,7 @@ mod reproduction;
 mod schnyder;
 mod session;
 mod session_background;
+mod session_charts;
 mod session_constraints;
 mod session_documents;
 mod session_drag;
