@@ -9,6 +9,7 @@
 //! | `action`        | what a person can ask for                                                  |
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
+//! | `forming`       | the form that the mesh is to have, and its chart on the screen             |
 //! | `v_axis`        | where v = 0 is on the picture                                              |
 //! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
@@ -51,6 +52,7 @@ mod errands;
 mod files;
 mod filing;
 mod folder;
+mod forming;
 mod history;
 mod in_use;
 mod messages;

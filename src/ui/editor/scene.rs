@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+use super::around::Around;
 use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
-use crate::render::Surroundings;
 use crate::session::{Model, Outcome};
 use crate::solver::{Embedding, FaceDistortion, GaugeSize, Step};
 use crate::ui::Shading;
@@ -30,35 +30,6 @@ pub struct MeshScene {
     pub sphere: Sphere,
     /// The other charts, where the mesh has several.
     pub around: Option<Around>,
-}
-
-/// The charts that are not on the screen, around the one that is.
-#[derive(Debug)]
-pub struct Around {
-    /// How they are drawn.
-    pub surroundings: Surroundings,
-    picker: SurfacePicker,
-    /// The chart of each of their faces.
-    chart_of: Vec<u32>,
-}
-
-impl Around {
-    fn of(model: &Model, positions: &[DVec3], sphere: Sphere) -> Option<Self> {
-        let of = model.chart.as_ref()?;
-        let polygons = of.charts.whole().polygons();
-        let mut chart_of_polygon = vec![None; polygons.face_count()];
-        for (number, chart) in (0..).zip(0..of.charts.count()).filter(|(_, chart)| *chart != of.number) {
-            of.charts.faces(chart).iter().for_each(|&face| chart_of_polygon[face as usize] = Some(number));
-        }
-        let whole = polygons.triangulate();
-        let chart_of_face = |face: usize| chart_of_polygon[whole.polygon(FaceId::from_index(face)) as usize];
-        let others = (0..whole.face_count()).filter_map(|face| Some((whole.triangles[face], chart_of_face(face)?)));
-        let (triangles, chart_of): (Vec<_>, Vec<u32>) = others.unzip();
-        let mesh = MeshArrays::in_frame(positions, &triangles, sphere);
-        let paint = FacePaint::faint(triangles.len());
-        let surroundings = Surroundings { mesh: Arc::new(mesh), paint: Arc::new(paint) };
-        Some(Self { surroundings, picker: SurfacePicker::new(positions, &triangles), chart_of })
-    }
 }
 
 impl MeshScene {
@@ -128,10 +99,9 @@ impl MeshScene {
 
     /// The chart that is not on the screen and that a ray meets first, if no face of the chart on the screen is nearer.
     pub(in crate::ui) fn other_chart_at(&self, ray: Ray) -> Option<usize> {
-        let around = self.around.as_ref()?;
-        let hit = around.picker.hit(ray)?;
-        let is_hidden = self.picker.hit(ray).is_some_and(|own| own.distance <= hit.distance);
-        (!is_hidden).then(|| around.chart_of[hit.face.index()] as usize)
+        let (chart, distance) = self.around.as_ref()?.chart_at(ray)?;
+        let is_hidden = self.picker.hit(ray).is_some_and(|own| own.distance <= distance);
+        (!is_hidden).then_some(chart)
     }
 
     /// What there is to say about a vertex that the mesh as given does not have.
