@@ -9,6 +9,9 @@ use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
 use crate::io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
 
+/// The most faults with a bar each, where all can be mended.
+const FAULTS_TOLD: usize = 2;
+
 impl Session {
     /// Puts something on the table. The document before it is gone, its history with it.
     pub(super) fn take_opened(&mut self, mut opened: Opened) {
@@ -41,6 +44,10 @@ impl Session {
     pub(super) fn tell_faults(&mut self) {
         let Some(model) = self.model().cloned() else { return };
         let Surface::Faulty(_, diagnosis) = &model.surface else { return };
+        // More of them would hide the mesh behind bars; the tab of defects lists them all, and one click mends them.
+        if model.remedy.is_some() && diagnosis.faults.len() > FAULTS_TOLD {
+            return;
+        }
         for fault in &diagnosis.faults {
             let message = Message::error(Place::Mesh, fault.message()).with_remedy(fault.remedy());
             self.messages.say(message.with_vertices(fault.vertices_of(0, model.mesh())));
