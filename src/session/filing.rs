@@ -7,7 +7,7 @@ use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
-use crate::io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
+use crate::io::{EXTENSIONS, OutputFit, OutputKind, write_atomically, write_constraints, write_durably};
 
 /// The most faults with a bar each, where all can be mended.
 const FAULTS_TOLD: usize = 2;
@@ -80,7 +80,11 @@ impl Session {
     }
 
     /// Writes the layout of all charts.
-    fn save_atlas(&mut self, SaveRequest { path, kind, .. }: SaveRequest) {
+    fn save_atlas(&mut self, SaveRequest { path, kind, fit }: SaveRequest) {
+        if kind == OutputKind::Svg && fit == OutputFit::True {
+            let text = "several charts are drawn as they are packed: none at true scale";
+            return self.complain(text, Some("export the layout in the unit square"));
+        }
         let solved = match self.solved_atlas() {
             Ok(solved) => solved,
             Err(missing) => {

@@ -93,7 +93,7 @@ fn waiting_words(editor: &Editor) -> Vec<&'static str> {
         Some(Surface::Faulty(..)) => {
             vec![
                 "This mesh cannot be flattened as it is",
-                "The bars over the mesh and the tab of defects say what is wrong and what to do",
+                "The bars over the mesh and the tab Defects say what is wrong",
             ]
         }
         Some(Surface::Disk(_)) if editor.session.busy().is_some() => vec!["Solving…"],
