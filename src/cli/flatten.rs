@@ -17,7 +17,7 @@ use super::standard::{is_standard, name_of_input, read_model};
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
-use crate::io::{Constraints, Materials, OutputFit, OutputKind, PictureFile, Target, Targets, WriteError};
+use crate::io::{Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, WriteError};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Surface};
 use crate::solver::{Choice as _, SolveError};
@@ -65,6 +65,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
             svg_fit: arguments.svg_scale.unwrap_or(arguments.fit),
             packing,
             outputs: arguments.outputs(),
+            precision: arguments.precision,
             materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
@@ -117,6 +118,7 @@ fn flatten_example() -> Result<Status, Failure> {
         svg_fit: OutputFit::Unit,
         packing: PackingOptions::default(),
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
+        precision: Precision::default(),
         materials: Materials::Stay,
         report: Some(&report),
         steps: None,

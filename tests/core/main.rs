@@ -71,6 +71,7 @@ mod repair;
 mod repair_cli;
 mod report_schema;
 mod reproduction;
+mod rounding;
 mod schnyder;
 mod session;
 mod session_background;
