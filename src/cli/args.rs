@@ -106,8 +106,8 @@ pub struct FlattenArguments {
     /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface.
     #[arg(long, value_enum, default_value_t = OutputFit::Unit)]
     pub fit: OutputFit,
-    /// The picture that several charts are packed into, in pixels: the size of the picture given, or 1024x1024 without it.
-    #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with = "aspect")]
+    /// Size of the picture that several charts are packed into, in pixels; without it that of `--picture`, or 1024x1024.
+    #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with_all = ["aspect", "picture"])]
     pub pack: Option<UVec2>,
     /// The least distance between packed charts, in pixels of that picture.
     #[arg(long, value_name = "PIXELS", default_value_t = PackingOptions::default().gap, value_parser = clap::value_parser!(u32).range(0..=1024))]

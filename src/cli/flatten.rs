@@ -161,10 +161,12 @@ fn gather(arguments: &FlattenArguments, vertex_count: usize) -> Result<Targets, 
     Ok(targets)
 }
 
-/// Refuses pins of vertices that belong to no chart.
+/// Refuses pins of vertices that belong to no chart, where the mesh has several.
 fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failure> {
     let Some(of) = &model.chart else { return Ok(()) };
+    let count = vertex_count(model);
     match targets.keys().find(|&&vertex| of.charts.chart_of_vertex(vertex).is_none()) {
+        Some(&vertex) if vertex.index() >= count => Err(SolveError::NoSuchVertex { vertex, count }.into()),
         Some(&vertex) => Err(SolveError::UnusedVertex { vertex }.into()),
         None => Ok(()),
     }

@@ -11,9 +11,9 @@ use super::standard::is_standard;
 use super::summary::{atlas_summary, deliver, ending_words, put_report, step_words, summary, warn_of};
 use super::{Failure, Status};
 use crate::geom::PackingOptions;
-use crate::io::{Materials, Output, OutputFit, OutputKind, Precision, StepReport, StepsFolder};
-use crate::session::{Document, Model, Outcome, SolvedChart, atlas};
-use crate::solver::{Control, Ending, Phase, SolveError, Step, conflicts};
+use crate::io::{Materials, Output, OutputFit, OutputKind, Precision, StepReport, StepsFolder, Targets};
+use crate::session::{Document, Model, Outcome, Problem, SolvedChart, atlas};
+use crate::solver::{Conflict, Control, Ending, Phase, SolveError, Step, conflicts};
 
 /// A flattening without a screen, the mesh already read.
 pub(super) struct HeadlessJob<'a> {
@@ -40,7 +40,9 @@ impl HeadlessJob<'_> {
             return self.run_atlas(model, start, progress);
         }
         let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
-        let mut solved = self.solve(model, folder.as_mut(), progress)?;
+        let problem = self.document.problem();
+        warn_of_conflicts(model, &problem)?;
+        let mut solved = solve(model, problem, folder.as_mut(), progress)?;
         let records = std::mem::take(&mut solved.records);
         let mut output = solved.outcome.finished(model, records, self.fit);
         output.report.seconds.read = read;
@@ -52,17 +54,17 @@ impl HeadlessJob<'_> {
     fn run_atlas(&self, model: &Model, start: Instant, progress: &Progress) -> Result<Status, Failure> {
         let read = start.elapsed().as_secs_f64();
         self.refuse_idle_options()?;
-        let solve = |number: usize| {
-            let chart = model.of_chart(number);
-            let solved = self.solve(&chart, None, progress)?;
-            Ok((chart, solved))
-        };
-        let solved: Result<Vec<(Model, Solved)>, Failure> =
-            (0..model.chart_count()).into_par_iter().map(solve).collect();
+        let models: Vec<Model> = (0..model.chart_count()).into_par_iter().map(|chart| model.of_chart(chart)).collect();
+        let problems = self.problems(&models);
+        models.iter().zip(&problems).try_for_each(|(model, problem)| warn_of_conflicts(model, problem))?;
+        let work = models.par_iter().zip(problems);
+        let solved: Result<Vec<Solved>, Failure> =
+            work.map(|(model, problem)| solve(model, problem, None, progress)).collect();
         let solved = solved?;
         progress.enter("packing");
-        let charts: Vec<SolvedChart<'_>> = solved
+        let charts: Vec<SolvedChart<'_>> = models
             .iter()
+            .zip(&solved)
             .map(|(model, solved)| SolvedChart { model, outcome: &solved.outcome, steps: &solved.records })
             .collect();
         let before = Instant::now();
@@ -137,49 +139,73 @@ impl HeadlessJob<'_> {
         Ok(if output.is_planar() && are_met { Status::Fine } else { Status::FallsShort })
     }
 
-    /// Takes all steps of the method.
-    fn solve(
-        &self,
-        model: &Model,
-        mut folder: Option<&mut StepsFolder>,
-        progress: &Progress,
-    ) -> Result<Solved, Failure> {
-        let mesh = disk_of(model)?;
-        let report_phase = |phase: Phase| progress.enter(phase.words());
-        let control = Control::new(&INTERRUPTED, &report_phase);
-        let targets = self.document.targets.iter();
-        let of_chart = targets.filter_map(|(&vertex, target)| Some((model.vertex_of_file(vertex)?, *target)));
-        let problem = Document { targets: of_chart.collect(), ..self.document.clone() }.problem();
-        let (settings, pins) = (problem.settings, problem.pins());
-        if settings.method.uses_pins() {
-            warn_of(&model.path_words(), &conflicts(mesh, &settings.held(&pins)));
+    /// The problem of each chart of a mesh, with the targets of its own vertices.
+    fn problems(&self, charts: &[Model]) -> Vec<Problem> {
+        let Problem { settings, frame, targets } = self.document.problem();
+        let mut of_chart = vec![Targets::new(); charts.len()];
+        let all = charts.first().and_then(|model| model.chart.as_ref()).map(|of| &of.charts);
+        for (vertex, target) in targets {
+            if let Some(number) = all.and_then(|all| all.chart_of_vertex(vertex))
+                && let Some(own) = charts[number].vertex_of_file(vertex)
+            {
+                of_chart[number].insert(own, target);
+            }
         }
-        let mut run = problem.ladder();
-        let placed = |step: Step| Outcome::new(mesh, problem, step);
-        let mut records: Vec<StepReport> = Vec::new();
-        let mut last: Option<Step> = None;
-        loop {
-            let step = match run.step(mesh, control) {
-                Ok(step) => step,
-                Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
-                // Where a rung fails, the steps before it are written.
-                Err(error) => match last {
-                    Some(before) => return Ok(Solved { outcome: placed(before), records, ending: Err(error) }),
-                    None => return Err(Failure::of_method(settings.method, error)),
-                },
-            };
-            progress.reach(step_words(&step));
-            records.push(StepReport::of(&step));
-            if let Some(folder) = folder.as_deref_mut() {
-                progress.enter("drawing the step");
-                folder.add(mesh, &step)?;
-            }
-            if let Some(ending) = run.ending() {
-                return Ok(Solved { outcome: placed(step), records, ending: Ok(ending) });
-            }
-            if !step.is_of_planar_start() {
-                last = Some(step);
-            }
+        of_chart.into_iter().map(|targets| Problem { settings, frame, targets }).collect()
+    }
+}
+
+/// Says which constraints on a mesh or chart contradict each other.
+fn warn_of_conflicts(model: &Model, problem: &Problem) -> Result<(), Failure> {
+    let Problem { settings, .. } = problem;
+    if settings.method.uses_pins() && !problem.targets.is_empty() {
+        let found = conflicts(disk_of(model)?, &settings.held(&problem.pins()));
+        let in_file: Vec<Conflict> =
+            found.into_iter().map(|conflict| conflict.renumbered(|vertex| model.vertex_in_file(vertex))).collect();
+        warn_of(&model.path_words(), &in_file);
+    }
+    Ok(())
+}
+
+/// Takes all steps of the method.
+fn solve(
+    model: &Model,
+    problem: Problem,
+    mut folder: Option<&mut StepsFolder>,
+    progress: &Progress,
+) -> Result<Solved, Failure> {
+    let mesh = disk_of(model)?;
+    let report_phase = |phase: Phase| progress.enter(phase.words());
+    let control = Control::new(&INTERRUPTED, &report_phase);
+    let method = problem.settings.method;
+    let mut run = problem.ladder();
+    let placed = |step: Step| Outcome::new(mesh, problem, step);
+    let mut records: Vec<StepReport> = Vec::new();
+    let mut last: Option<Step> = None;
+    loop {
+        let step = match run.step(mesh, control) {
+            Ok(step) => step,
+            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
+            // Where a rung fails, the steps before it are written.
+            Err(error) => match last {
+                Some(before) => return Ok(Solved { outcome: placed(before), records, ending: Err(error) }),
+                None => {
+                    let in_file = error.renumbered(|vertex| model.vertex_in_file(vertex));
+                    return Err(Failure::of_method(method, in_file));
+                }
+            },
+        };
+        progress.reach(step_words(&step));
+        records.push(StepReport::of(&step));
+        if let Some(folder) = folder.as_deref_mut() {
+            progress.enter("drawing the step");
+            folder.add(mesh, &step)?;
+        }
+        if let Some(ending) = run.ending() {
+            return Ok(Solved { outcome: placed(step), records, ending: Ok(ending) });
+        }
+        if !step.is_of_planar_start() {
+            last = Some(step);
         }
     }
 }

@@ -176,9 +176,10 @@ fn chart_words(chart: &ChartReport) -> String {
     let face = chart.first_face.number();
     let steps = if chart.steps.len() == 1 { "1 step".to_owned() } else { format!("{} steps", chart.steps.len()) };
     let rung = chart.steps.last().map(|step| format!(" ({})", step.rung.as_rung())).unwrap_or_default();
+    let faces = if chart.faces == 1 { "1 face".to_owned() } else { format!("{} faces", chart.faces) };
     let energy = chart.distortion.symmetric_dirichlet.mean;
     let pins = pins_words(&chart.pins).map(|words| format!("; {words}")).unwrap_or_default();
-    format!("chart of face {face}: {} faces, {steps}{rung}; symmetric Dirichlet energy {energy:.3}{pins}", chart.faces)
+    format!("chart of face {face}: {faces}, {steps}{rung}; symmetric Dirichlet energy {energy:.3}{pins}")
 }
 
 fn seconds_words(seconds: &Seconds) -> String {

@@ -119,11 +119,13 @@ impl SolvedChart<'_> {
         upright(&coordinates, self.outcome.problem.frame.v_axis).unwrap_or(coordinates)
     }
 
-    fn report(&self, coordinates: &Embedding) -> ChartReport {
+    /// What is reported of it where it is written for a picture of this aspect, width over height.
+    fn report(&self, coordinates: &Embedding, aspect: f64) -> ChartReport {
         let step = &self.outcome.step;
         let mesh = step.mesh(self.disk());
         let is_held = self.outcome.targets_in_use().next().is_some();
-        let summary = if is_held { self.outcome.distortion.summary } else { distortion(mesh, coordinates).summary };
+        let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(aspect, 1.0)).collect();
+        let summary = if is_held { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
         let pins = pins_report(self.outcome, coordinates).renumbered(|vertex| self.model.vertex_in_file(vertex));
         ChartReport {
             first_face: FaceId::new(mesh.mesh().polygon(FaceId::new(0))),
@@ -142,7 +144,10 @@ fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: 
     let model = charts[0].model;
     let of = |model: &'a Model| model.chart.as_ref().expect("one chart of several");
     let whole = of(model).charts.whole();
-    let reports = charts.par_iter().zip(&coordinates).map(|(chart, laid)| chart.report(laid)).collect();
+    let of_frame = charts[0].outcome.problem.frame.aspect;
+    let aspect =
+        packing.map_or(of_frame, |PackingReport { picture: [width, height], .. }| f64::from(width) / f64::from(height));
+    let reports = charts.par_iter().zip(&coordinates).map(|(chart, laid)| chart.report(laid, aspect)).collect();
     let written = |(chart, coordinates): (&SolvedChart<'a>, Embedding)| {
         let step = &chart.outcome.step;
         let mesh = step.mesh(chart.model.disk().expect("only a disk has an outcome"));
@@ -180,7 +185,7 @@ fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: 
         charts: written,
         report,
         picture: None,
-        aspect: 1.0,
+        aspect,
         svg_fit: OutputFit::Unit,
     }
 }
