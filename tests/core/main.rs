@@ -79,6 +79,7 @@ mod rounding;
 mod schnyder;
 mod session;
 mod session_background;
+mod session_charts;
 mod session_constraints;
 mod session_documents;
 mod session_drag;
