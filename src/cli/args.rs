@@ -8,12 +8,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::{DVec2, UVec2};
 
 use crate::geom::PackingOptions;
-use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Target};
+use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Precision, Target};
 use crate::mesh::{Form, RepairExtent, VertexId};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
-
-/// The longest side of a picture that charts are packed into, pixels.
-const LONGEST_SIDE: u32 = 1 << 16;
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -115,6 +112,9 @@ pub struct FlattenArguments {
     /// The least distance between packed charts, in pixels of that picture.
     #[arg(long, value_name = "PIXELS", default_value_t = PackingOptions::default().gap, value_parser = clap::value_parser!(u32).range(0..=1024))]
     pub gap: u32,
+    /// How many bits the numbers of texture coordinates have, as they are proved and written. GLB files always hold 32.
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: Precision,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
@@ -184,10 +184,11 @@ impl FlattenArguments {
     pub fn packing(&self, picture: Option<&PictureFile>) -> PackingOptions {
         let options = PackingOptions { gap: self.gap, ..PackingOptions::default() };
         let of_picture = picture.map(|picture| UVec2::new(picture.pixels.width, picture.pixels.height));
-        let of_aspect =
-            self.aspect.map(|aspect| options.picture.as_dvec2() * DVec2::new(aspect, 1.0) / aspect.max(1.0));
+        let of_aspect = self
+            .aspect
+            .map(|aspect| UVec2::from_array(options.picture).as_dvec2() * DVec2::new(aspect, 1.0) / aspect.max(1.0));
         let of_aspect = of_aspect.map(|size| size.round().max(DVec2::ONE).as_u64vec2().as_uvec2());
-        let picture = self.pack.or(of_picture).or(of_aspect).unwrap_or(options.picture);
+        let picture = self.pack.or(of_picture).or(of_aspect).map_or(options.picture, |size| size.to_array());
         PackingOptions { picture, ..options }
     }
 
@@ -287,9 +288,9 @@ fn parse_pixels(text: &str) -> Result<UVec2, String> {
     let parsed = || {
         let (width, height) = text.split_once(['x', 'X', '×'])?;
         let size = UVec2::new(width.trim().parse().ok()?, height.trim().parse().ok()?);
-        (size.cmpgt(UVec2::ZERO).all() && size.cmple(UVec2::splat(LONGEST_SIDE)).all()).then_some(size)
+        (size.cmpgt(UVec2::ZERO).all() && size.cmple(UVec2::splat(PackingOptions::LONGEST_SIDE)).all()).then_some(size)
     };
-    parsed().ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {LONGEST_SIDE}"))
+    parsed().ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {}", PackingOptions::LONGEST_SIDE))
 }
 
 /// Width over height of "width:height".

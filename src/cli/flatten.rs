@@ -18,7 +18,7 @@ use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
 use crate::io::{
-    Constraints, Materials, OutputFit, OutputKind, PictureFile, Target, Targets, TextureError, WriteError,
+    Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError, WriteError,
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Surface};
@@ -67,6 +67,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
             svg_fit: arguments.svg_scale.unwrap_or(arguments.fit),
             packing,
             outputs: arguments.outputs(),
+            precision: arguments.precision,
             materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
@@ -131,6 +132,7 @@ fn flatten_example() -> Result<Status, Failure> {
         svg_fit: OutputFit::Unit,
         packing: PackingOptions::default(),
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
+        precision: Precision::default(),
         materials: Materials::Stay,
         report: Some(&report),
         steps: None,

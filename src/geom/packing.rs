@@ -8,6 +8,7 @@
 use crunch::{Item, Rect, Rotation};
 use glam::{DVec2, UVec2, Vec2Swizzles as _};
 use guillotiere::{SimpleAtlasAllocator, size2};
+use serde::{Deserialize, Serialize};
 
 /// Above so many boxes the faster packer is asked.
 const MANY: usize = 100;
@@ -16,20 +17,38 @@ const MANY: usize = 100;
 const HALVINGS: usize = 24;
 
 /// What boxes are packed into.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct PackingOptions {
-    /// Width and height of the picture, pixels.
-    pub picture: UVec2,
-    /// The least distance between boxes, pixels; half of it between a box and the picture's edge.
+    /// Width and height of the picture, pixels; from 1 to [`LONGEST_SIDE`](Self::LONGEST_SIDE), as what lies beyond is taken.
+    pub picture: [u32; 2],
+    /// The least distance between boxes, pixels; half of it between a box and the picture's edge. At most
+    /// [`WIDEST_GAP`](Self::WIDEST_GAP), as what is wider is taken.
     pub gap: u32,
     /// Whether boxes may be turned by a quarter.
     pub turns: bool,
 }
 
+impl PackingOptions {
+    /// The longest side of a picture, pixels.
+    pub const LONGEST_SIDE: u32 = 1 << 16;
+
+    /// The widest gap, pixels.
+    pub const WIDEST_GAP: u32 = 1 << 10;
+}
+
 impl Default for PackingOptions {
     fn default() -> Self {
-        Self { picture: UVec2::splat(1024), gap: 4, turns: true }
+        Self { picture: [1024; 2], gap: 4, turns: true }
     }
+}
+
+/// A picture to pack into.
+#[derive(Clone, Copy)]
+struct Room {
+    picture: UVec2,
+    gap: u32,
+    turns: bool,
 }
 
 /// Boxes that are packed.
@@ -56,31 +75,31 @@ pub struct Packed {
 ///
 /// # Panics
 ///
-/// If a box has an infinite or negative size, or none that is a number; or the picture no area.
-pub fn pack(sizes: &[DVec2], sheet: PackingOptions) -> Packing {
+/// If a box has an infinite or negative size, or none that is a number.
+pub fn pack(sizes: &[DVec2], options: PackingOptions) -> Packing {
     assert!(sizes.iter().all(|size| size.is_finite() && size.cmpge(DVec2::ZERO).all()), "boxes have sizes");
-    assert!(sheet.picture.cmpgt(UVec2::ZERO).all(), "a picture has an area");
     let longest = sizes.iter().fold(0.0, |longest: f64, size| longest.max(size.max_element()));
     // In units of the longest side nothing overflows.
     let unit = if longest > 0.0 { longest } else { 1.0 };
     let sizes: Vec<DVec2> = sizes.iter().map(|&size| size / unit).collect();
-    let mut picture = sheet.picture;
+    let side = |pixels: u32| pixels.clamp(1, PackingOptions::LONGEST_SIDE);
+    let picture = UVec2::from_array(options.picture.map(side));
+    let mut room = Room { picture, gap: options.gap.min(PackingOptions::WIDEST_GAP), turns: options.turns };
     loop {
-        let found = largest(&sizes, PackingOptions { picture, ..sheet });
-        if let Some((scale, places)) = found {
-            return Packing { picture, scale: scale / unit, places };
+        if let Some((scale, places)) = largest(&sizes, room) {
+            return Packing { picture: room.picture, scale: scale / unit, places };
         }
-        picture *= 2;
+        room.picture *= 2;
     }
 }
 
 /// The largest factor by which boxes fit, and how; none where not even their gaps do.
-fn largest(sizes: &[DVec2], sheet: PackingOptions) -> Option<(f64, Vec<Packed>)> {
-    let (mut low, mut high) = (0.0, f64::from(sheet.picture.max_element()));
-    let mut best = places(sizes, low, sheet).map(|places| (low, places))?;
+fn largest(sizes: &[DVec2], room: Room) -> Option<(f64, Vec<Packed>)> {
+    let (mut low, mut high) = (0.0, f64::from(room.picture.max_element()));
+    let mut best = places(sizes, low, room).map(|places| (low, places))?;
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(low, high);
-        match places(sizes, middle, sheet) {
+        match places(sizes, middle, room) {
             Some(places) => {
                 low = middle;
                 best = (middle, places);
@@ -93,27 +112,27 @@ fn largest(sizes: &[DVec2], sheet: PackingOptions) -> Option<(f64, Vec<Packed>)>
 }
 
 /// Where boxes lie that are larger by a factor; none where they do not fit.
-fn places(sizes: &[DVec2], scale: f64, sheet: PackingOptions) -> Option<Vec<Packed>> {
-    let with_gap = |size: &DVec2| (*size * scale).ceil().max(DVec2::ONE).as_u64vec2().as_uvec2() + sheet.gap;
+fn places(sizes: &[DVec2], scale: f64, room: Room) -> Option<Vec<Packed>> {
+    let with_gap = |size: &DVec2| (*size * scale).ceil().max(DVec2::ONE).as_u64vec2().as_uvec2() + room.gap;
     let boxes: Vec<UVec2> = sizes.iter().map(with_gap).collect();
     let whole = boxes.iter().map(|size| u64::from(size.x) * u64::from(size.y)).sum::<u64>();
-    if whole > u64::from(sheet.picture.x) * u64::from(sheet.picture.y) {
+    if whole > u64::from(room.picture.x) * u64::from(room.picture.y) {
         return None;
     }
-    let mut places = if boxes.len() > MANY { by_guillotines(&boxes, sheet) } else { by_maximal(&boxes, sheet) }?;
-    let margin = DVec2::splat(f64::from(sheet.gap) / 2.0);
+    let mut places = if boxes.len() > MANY { by_guillotines(&boxes, room) } else { by_maximal(&boxes, room) }?;
+    let margin = DVec2::splat(f64::from(room.gap) / 2.0);
     places.iter_mut().for_each(|place| place.low += margin);
     Some(places)
 }
 
-fn by_maximal(boxes: &[UVec2], sheet: PackingOptions) -> Option<Vec<Packed>> {
-    let rotation = if sheet.turns { Rotation::Allowed } else { Rotation::None };
+fn by_maximal(boxes: &[UVec2], room: Room) -> Option<Vec<Packed>> {
+    let rotation = if room.turns { Rotation::Allowed } else { Rotation::None };
     let sides = |size: UVec2| [size.x as usize, size.y as usize];
     let item = |(number, &size): (usize, &UVec2)| {
         let [width, height] = sides(size);
         Item::new(number, width, height, rotation)
     };
-    let [width, height] = sides(sheet.picture);
+    let [width, height] = sides(room.picture);
     let packed = crunch::pack(Rect::of_size(width, height), boxes.iter().enumerate().map(item)).ok()?;
     let mut places = vec![Packed { low: DVec2::ZERO, turned: false }; boxes.len()];
     for item in packed {
@@ -124,13 +143,13 @@ fn by_maximal(boxes: &[UVec2], sheet: PackingOptions) -> Option<Vec<Packed>> {
 }
 
 /// Boxes lie on their longer side where they may be turned, the highest come first.
-fn by_guillotines(boxes: &[UVec2], sheet: PackingOptions) -> Option<Vec<Packed>> {
+fn by_guillotines(boxes: &[UVec2], room: Room) -> Option<Vec<Packed>> {
     let size = |size: UVec2| Some(size2(i32::try_from(size.x).ok()?, i32::try_from(size.y).ok()?));
-    let is_turned = |number: usize| sheet.turns && boxes[number].x < boxes[number].y;
+    let is_turned = |number: usize| room.turns && boxes[number].x < boxes[number].y;
     let laid = |number: usize| if is_turned(number) { boxes[number].yx() } else { boxes[number] };
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by_key(|&number| (std::cmp::Reverse((laid(number).y, laid(number).x)), number));
-    let mut allocator = SimpleAtlasAllocator::new(size(sheet.picture)?);
+    let mut allocator = SimpleAtlasAllocator::new(size(room.picture)?);
     let mut places = vec![Packed { low: DVec2::ZERO, turned: false }; boxes.len()];
     for number in order {
         let found = allocator.allocate(size(laid(number))?)?;

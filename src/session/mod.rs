@@ -9,6 +9,7 @@
 //! | `action`        | what a person can ask for                                                  |
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
+//! | `forming`       | the form that the mesh is to have, and its chart on the screen             |
 //! | `v_axis`        | where v = 0 is on the picture                                              |
 //! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
@@ -21,6 +22,9 @@
 //! | `stop`          | where a run comes to rest                                                  |
 //! | `atlas`         | solved charts, laid beside each other and proved together                  |
 //! | `outcome`       | a step with its proof, ready to be written; the problem that it solves     |
+//! | `atlas_view`    | part: that layout for files, and for the screen                            |
+//! | `chart_targets` | pins of a mesh with several charts, in files and in the document           |
+//! | `charts`        | part: charts that are not on the screen, solved in the background          |
 //! | `drag`          | part: what follows the pointer                                             |
 //! | `errands`       | part: small work for the document that takes time                          |
 //! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
@@ -37,7 +41,10 @@
 
 mod action;
 mod atlas;
+mod atlas_view;
 mod background;
+mod chart_targets;
+mod charts;
 mod document;
 mod drag;
 mod edits;
@@ -45,6 +52,7 @@ mod errands;
 mod files;
 mod filing;
 mod folder;
+mod forming;
 mod history;
 mod in_use;
 mod messages;
@@ -67,8 +75,10 @@ mod v_axis;
 
 pub use action::{Action, SaveRequest};
 pub use atlas::{SolvedChart, atlas};
+pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
-pub use document::{Command, Document};
+pub use charts::ChartState;
+pub use document::{ChartEdits, Command, Document};
 pub use drag::Preview;
 pub use history::History;
 pub use messages::{Message, Place, Severity, named};

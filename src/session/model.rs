@@ -155,6 +155,14 @@ impl Model {
         Ok(Self { remedy, ..self.clone() }.with(found))
     }
 
+    /// The chart that is wanted, where the mesh has several.
+    pub(super) fn with_chart(self, wanted: Option<usize>) -> Self {
+        match self.chart.as_ref().map(|of| of.charts.pick(wanted)) {
+            Some(number) => self.of_chart(number),
+            None => self,
+        }
+    }
+
     /// Another chart of the same mesh, where it has several.
     #[must_use = "the mesh itself stays as it is"]
     pub fn of_chart(&self, number: usize) -> Self {
@@ -167,6 +175,11 @@ impl Model {
     fn with(self, Found { surface, repaired, chart }: Found) -> Self {
         let faces_point_inward = matches!(&surface, Surface::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME);
         Self { surface, repaired, chart, faces_point_inward, ..self }
+    }
+
+    /// Whether it is the chart that is wanted, where the mesh has several.
+    pub(super) fn is_chart(&self, wanted: Option<usize>) -> bool {
+        self.chart.as_ref().is_none_or(|of| of.number == of.charts.pick(wanted))
     }
 
     /// How many charts the mesh has.

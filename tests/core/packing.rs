@@ -50,7 +50,7 @@ fn packed(sizes: &[DVec2], options: PackingOptions) -> Packing {
 /// The largest factor by which boxes fit on shelves: the highest first, side by side, a new shelf above where one is full.
 fn scale_on_shelves(sizes: &[DVec2], options: PackingOptions) -> f64 {
     let gap = f64::from(options.gap);
-    let picture = options.picture.as_dvec2();
+    let picture = UVec2::from_array(options.picture).as_dvec2();
     let mut highest_first = sizes.to_vec();
     highest_first.sort_by(|a, b| b.y.total_cmp(&a.y));
     let fits = |scale: f64| {
@@ -80,9 +80,9 @@ fn boxes_keep_their_gap_and_lie_inside_and_are_no_smaller_than_on_shelves() {
         for (gap, picture) in [(0, [512, 512]), (4, [1024, 1024]), (7, [300, 900]), (5, [2048, 256])] {
             let sizes = random_boxes(count, &mut random);
             for turns in [true, false] {
-                let options = PackingOptions { picture: picture.into(), gap, turns };
+                let options = PackingOptions { picture, gap, turns };
                 let packing = packed(&sizes, options);
-                assert_eq!(packing.picture, options.picture, "the gaps fit");
+                assert_eq!(packing.picture.to_array(), options.picture, "the gaps fit");
                 let shelves = scale_on_shelves(&sizes, options);
                 assert!(packing.scale >= 0.9 * shelves, "{count} in {options:?}: {} {shelves}", packing.scale);
             }
@@ -94,7 +94,7 @@ fn boxes_keep_their_gap_and_lie_inside_and_are_no_smaller_than_on_shelves() {
 fn thousands_of_boxes_are_packed_as_dense_as_half_the_picture() {
     let mut random = Random(11);
     let sizes = random_boxes(5000, &mut random);
-    let options = PackingOptions { picture: UVec2::splat(4096), gap: 2, turns: true };
+    let options = PackingOptions { picture: [4096; 2], gap: 2, turns: true };
     let packing = packed(&sizes, options);
     let with_gaps: f64 = sizes.iter().map(|size| (*size * packing.scale + 2.0).element_product()).sum();
     assert!(with_gaps > 0.5 * 4096.0 * 4096.0, "{with_gaps}");
@@ -103,7 +103,7 @@ fn thousands_of_boxes_are_packed_as_dense_as_half_the_picture() {
 
 #[test]
 fn a_box_fills_the_picture_and_is_turned_where_that_is_larger() {
-    let options = PackingOptions { picture: UVec2::new(400, 100), gap: 0, turns: true };
+    let options = PackingOptions { picture: [400, 100], gap: 0, turns: true };
     let upright = packed(&[DVec2::new(1.0, 4.0)], options);
     assert!(upright.places[0].turned && (upright.scale - 100.0).abs() < 1e-3, "{upright:?}");
     let lying = packed(&[DVec2::new(1.0, 4.0)], PackingOptions { turns: false, ..options });
@@ -113,7 +113,7 @@ fn a_box_fills_the_picture_and_is_turned_where_that_is_larger() {
 #[test]
 fn there_may_be_no_box_and_boxes_without_size() {
     let options = PackingOptions::default();
-    assert_eq!(packed(&[], options).picture, options.picture);
+    assert_eq!(packed(&[], options).picture.to_array(), options.picture);
     let packing = packed(&[DVec2::ZERO, DVec2::ONE, DVec2::new(0.0, 1.0)], options);
     assert!(packing.scale > 400.0, "boxes without area take next to no room: {packing:?}");
     assert!(packed(&[DVec2::ZERO; 3], options).scale > 0.0);
@@ -137,7 +137,7 @@ fn boxes_of_any_unit_are_packed_alike() {
 
 #[test]
 fn the_picture_grows_where_gaps_alone_do_not_fit() {
-    let options = PackingOptions { picture: UVec2::new(20, 10), gap: 16, turns: true };
+    let options = PackingOptions { picture: [20, 10], gap: 16, turns: true };
     let packing = packed(&[DVec2::ONE; 9], options);
     assert_eq!(packing.picture.x, 2 * packing.picture.y, "it keeps its form");
     assert!(packing.picture.x > 20 && packing.picture.x.is_multiple_of(20), "{}", packing.picture);

@@ -47,9 +47,9 @@ impl Charts {
         self.faces.len()
     }
 
-    /// How many faces a chart has.
-    pub fn face_count(&self, chart: usize) -> usize {
-        self.faces[chart].len()
+    /// The faces of a chart, of the whole, ascending.
+    pub fn faces(&self, chart: usize) -> &[u32] {
+        &self.faces[chart]
     }
 
     /// The chart of a vertex of the whole.
@@ -59,7 +59,12 @@ impl Charts {
 
     /// The chart with the most faces, the first of these.
     pub fn largest(&self) -> usize {
-        (0..self.count()).max_by_key(|&chart| (self.face_count(chart), std::cmp::Reverse(chart))).unwrap_or_default()
+        (0..self.count()).max_by_key(|&chart| (self.faces[chart].len(), std::cmp::Reverse(chart))).unwrap_or_default()
+    }
+
+    /// The chart that is wanted, where there is such a one; the largest where there is not, or none is wanted.
+    pub fn pick(&self, wanted: Option<usize>) -> usize {
+        wanted.filter(|&wanted| wanted < self.count()).unwrap_or_else(|| self.largest())
     }
 
     /// One chart by itself.

@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
+use super::around::Around;
 use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
 use crate::solver::{Embedding, FaceDistortion, GaugeSize, Step};
 use crate::ui::Shading;
-use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
+use crate::view::{
+    EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Ray, Scale, Sphere, SurfacePicker,
+};
 
 /// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
 #[derive(Debug)]
@@ -23,13 +26,21 @@ pub struct MeshScene {
     /// The boundary, where it is a disk.
     pub boundary: Arc<EdgeList>,
     pub picker: SurfacePicker,
-    /// A ball around it.
+    /// A ball around it, and around what stands around it.
     pub sphere: Sphere,
+    /// The other charts, where the mesh has several.
+    pub around: Option<Around>,
 }
 
 impl MeshScene {
     pub fn new(model: Arc<Model>, model_revision: u64) -> Self {
         Self::of(model, model_revision, None)
+    }
+
+    /// Whether another chart of the same mesh is on the screen of both.
+    pub(super) fn is_of_same_mesh(&self, other: &Self) -> bool {
+        let charts = |scene: &Self| scene.model.chart.as_ref().map(|of| Arc::clone(&of.charts));
+        charts(self).zip(charts(other)).is_some_and(|(own, other)| Arc::ptr_eq(&own, &other))
     }
 
     /// The vertices of an element; none where the mesh does not have it.
@@ -60,12 +71,18 @@ impl MeshScene {
         let disk = refinement.as_ref().map(|refinement| refinement.disk()).or(model.disk().map(AsRef::as_ref));
         let boundary = EdgeList::closed_loop(disk.map_or(&[], |disk| disk.boundary_loop()));
         let TriMesh { positions, triangles, .. } = disk.map_or(model.mesh(), |disk| disk.mesh());
+        // In the unit of the chart's positions.
+        let unit = disk.map_or(1.0, DiskMesh::unit);
+        let whole = model.chart.as_ref().map(|of| &of.charts.whole().polygons().positions);
+        let whole: Option<Vec<DVec3>> = whole.map(|positions| positions.iter().map(|&at| at / unit).collect());
+        let sphere = Sphere::around(whole.as_ref().unwrap_or(positions));
         Self {
             model_revision,
-            arrays: Arc::new(MeshArrays::new(positions, triangles)),
+            arrays: Arc::new(MeshArrays::in_frame(positions, triangles, sphere)),
             boundary: Arc::new(boundary),
             picker: SurfacePicker::new(positions, triangles),
-            sphere: Sphere::around(positions),
+            sphere,
+            around: whole.and_then(|whole| Around::of(&model, &whole, sphere)),
             refinement,
             model,
         }
@@ -78,6 +95,13 @@ impl MeshScene {
     pub fn disk(&self) -> Option<&DiskMesh> {
         let given = self.model.disk().map(AsRef::as_ref);
         self.refinement.as_ref().map(|refinement| refinement.disk()).or(given)
+    }
+
+    /// The chart that is not on the screen and that a ray meets first, if no face of the chart on the screen is nearer.
+    pub(in crate::ui) fn other_chart_at(&self, ray: Ray) -> Option<usize> {
+        let (chart, distance) = self.around.as_ref()?.chart_at(ray)?;
+        let is_hidden = self.picker.hit(ray).is_some_and(|own| own.distance <= distance);
+        (!is_hidden).then_some(chart)
     }
 
     /// What there is to say about a vertex that the mesh as given does not have.

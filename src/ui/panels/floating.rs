@@ -53,7 +53,11 @@ impl Group {
             | Request::UnpinSelected
             | Request::Escape
             | Request::Do(Action::Undo | Action::Redo) => Self::Pin,
-            Request::Do(_) | Request::RunOrPause | Request::GoToStep(_) | Request::StepDefect(_) => Self::Step,
+            Request::Do(_)
+            | Request::RunOrPause
+            | Request::GoToStep(_)
+            | Request::StepDefect(_)
+            | Request::StepChart(_) => Self::Step,
             Request::Ask(_)
             | Request::SaveProject
             | Request::ToggleExports
