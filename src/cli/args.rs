@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::{DVec2, UVec2};
 
 use crate::geom::PackingOptions;
-use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Target};
+use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Precision, Target};
 use crate::mesh::{Form, RepairExtent, VertexId};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
@@ -57,6 +57,9 @@ pub struct FlattenArguments {
     /// Whether a surface that is no disk is cut open until it is one.
     #[arg(long, value_enum, default_value_t)]
     pub cut: Cut,
+    /// What the charts of the mesh are, which are flattened each by itself.
+    #[arg(long, value_enum, default_value_t)]
+    pub charts: ChartsOf,
     /// How to flatten.
     #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
     pub method: Method,
@@ -109,6 +112,9 @@ pub struct FlattenArguments {
     /// The least distance between packed charts, in pixels of that picture.
     #[arg(long, value_name = "PIXELS", default_value_t = PackingOptions::default().gap, value_parser = clap::value_parser!(u32).range(0..=1024))]
     pub gap: u32,
+    /// How many bits the numbers of texture coordinates have, as they are proved and written. GLB files always hold 32.
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: Precision,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
@@ -151,6 +157,16 @@ pub enum Cut {
     None,
     /// Where it is closed, has handles, holes, or one side only: along short ways, creases first
     Auto,
+}
+
+/// What the charts of a mesh are, as it is typed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ChartsOf {
+    /// Its parts
+    #[default]
+    Parts,
+    /// The charts of the file's texture coordinates: it is cut along their seams
+    Uv,
 }
 
 impl FlattenArguments {

@@ -11,7 +11,7 @@ use super::standard::is_standard;
 use super::summary::{atlas_summary, deliver, ending_words, put_report, step_words, summary, warn_of};
 use super::{Failure, Status};
 use crate::geom::PackingOptions;
-use crate::io::{Materials, Output, OutputFit, OutputKind, StepReport, StepsFolder, Targets};
+use crate::io::{Materials, Output, OutputFit, OutputKind, Precision, StepReport, StepsFolder, Targets};
 use crate::session::{Document, Model, Outcome, Problem, SolvedChart, atlas};
 use crate::solver::{Conflict, Control, Ending, Phase, SolveError, Step, conflicts};
 
@@ -26,6 +26,7 @@ pub(super) struct HeadlessJob<'a> {
     /// How several charts are packed.
     pub(super) packing: PackingOptions,
     pub(super) outputs: Vec<(OutputKind, &'a Path)>,
+    pub(super) precision: Precision,
     pub(super) materials: Materials,
     pub(super) report: Option<&'a Path>,
     pub(super) steps: Option<&'a Path>,
@@ -104,6 +105,8 @@ impl HeadlessJob<'_> {
         output.picture = self.document.picture.as_deref();
         output.svg_fit = self.svg_fit;
         output.materials = self.materials;
+        let mesh = self.outputs.iter().map(|&(kind, _)| kind).find(|kind| kind.is_mesh());
+        output.round_to(self.precision, mesh.unwrap_or(OutputKind::Obj));
         progress.enter("writing");
         let before_writing = Instant::now();
         go_on()?;

@@ -66,10 +66,27 @@ pub(super) fn ending_words(solved: &Solved, output: &Output) -> String {
     }
     if output.report.placement == Some(Placement::Unmoved) {
         words += "; not moved into the unit square, whose numbers would fold it";
-    } else if step.verdict.planar && !output.is_planar() {
+    } else if step.verdict.planar && !output.is_planar() && !is_folded(&output.report) {
         words += "; it was planar before it was brought to this size: try --fit true";
     }
     words
+}
+
+/// Whether rounding to 32 bits folds what was planar.
+fn is_folded(report: &Report) -> bool {
+    report.rounding.is_some_and(|rounding| rounding.folded)
+}
+
+/// What rounding to 32 bits did.
+fn rounding_words(report: &Report) -> Option<String> {
+    if is_folded(report) {
+        let text =
+            "32 bits are too few: it is planar in 64; write OBJ or PLY with --precision f64, or split it into charts";
+        return Some(text.to_owned());
+    }
+    let moved = report.rounding.map(|rounding| rounding.moved).filter(|&moved| moved > 0)?;
+    let vertices = if moved == 1 { "vertex" } else { "vertices" };
+    Some(format!("32 bits: {moved} {vertices} moved by a few units of the last place, where rounding folds faces"))
 }
 
 /// What became of the user's pins.
@@ -138,6 +155,7 @@ pub(super) fn atlas_summary(report: &Report) -> String {
         let holds = if atlas.planar { holds } else { "" };
         lines.push(format!("{}{family}: {}{holds}", report.method.map_or("check", Method::name), atlas.summary()));
     }
+    lines.extend(rounding_words(report));
     let mut charts: Vec<&ChartReport> = report.charts.iter().collect();
     charts.sort_by(|a, b| b.distortion.symmetric_dirichlet.mean.total_cmp(&a.distortion.symmetric_dirichlet.mean));
     lines.extend(charts.iter().take(NAMED).map(|chart| chart_words(chart)));
@@ -182,6 +200,7 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
     let in_f32 = report.verdict.as_ref().and_then(Verdict::summary_in_f32);
     let in_f32 = in_f32.map(|words| format!("; {words}")).unwrap_or_default();
     lines.push(format!("{}{family}: {verdict}{residual}{in_f32}", report.method.map_or("check", Method::name)));
+    lines.extend(rounding_words(report));
     if report.new_vertices > 0 {
         lines.push(format!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len()));
     }

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use super::{MeshFile, NO_TEXTURE, ProvedEmbedding, Texture, refined_obj};
-use crate::mesh::{DiskMesh, FaceId, Refinement, Repaired, TriMesh, VertexId};
-use crate::solver::{Embedding, Verdict};
+use crate::mesh::{DiskMesh, FaceId, Refinement, Repaired, TriMesh, VertexId, parts};
+use crate::solver::{AtlasVerdict, Embedding, Verdict, atlas_verdict};
 
 /// A chart as it is written; the only one, as a rule.
 #[derive(Debug)]
@@ -19,6 +19,8 @@ pub struct OutputChart<'a> {
     pub coordinates: Embedding,
     /// The verdict on these coordinates.
     pub verdict: Verdict,
+    /// Vertices that pins hold exactly.
+    pub held: Vec<VertexId>,
 }
 
 impl OutputChart<'_> {
@@ -54,6 +56,17 @@ pub fn together(charts: &[OutputChart<'_>]) -> Together {
     }
     mesh.polygon_of = Some(polygon_of);
     Together { mesh, coordinates: coordinates.into(), flipped }
+}
+
+/// The verdict on charts as they are written, faces as the file numbers them.
+///
+/// # Panics
+///
+/// If a chart is no disk, which none is.
+pub fn proved_together(charts: &[OutputChart<'_>]) -> AtlasVerdict {
+    let Together { mesh, coordinates, .. } = together(charts);
+    let parts = parts(&mesh).expect("charts are disks");
+    atlas_verdict(&parts, &coordinates).as_in_file(&mesh)
 }
 
 /// The coordinates of charts as those of the corners of `mesh`, which [`source_mesh`] has given.

@@ -12,6 +12,7 @@
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
 //! | `output`      | the table of formats; a finished flattening written in any of them         |
 //! | `charts`      | the charts of a result, each by itself and as one mesh                     |
+//! | `precision`   | the bits of the numbers that are written, and the proof of these              |
 //! | `report`      | report of a run (JSON)                                                     |
 //! | `step_report` | a step in the report, and as a row of a table                              |
 //! | `error_report`| report of a run that came to nothing (JSON)                                |
@@ -38,6 +39,7 @@ mod output;
 mod paths;
 mod picture;
 mod ply;
+mod precision;
 mod project;
 pub mod raster;
 mod report;
@@ -49,7 +51,7 @@ mod targets;
 mod unfinished;
 
 pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
-pub use charts::{OutputChart, Together, together};
+pub use charts::{OutputChart, Together, proved_together, together};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use gltf::write_glb;
@@ -62,6 +64,7 @@ pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedd
 pub use paths::{is_same_file, is_standard_input, would_replace};
 pub use picture::{PictureError, PictureFile, decode_picture};
 pub use ply::write_ply;
+pub use precision::{Precision, RoundingReport};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };

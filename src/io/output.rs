@@ -142,6 +142,11 @@ impl OutputKind {
         }
     }
 
+    /// Whether it holds a mesh with its texture coordinates.
+    pub const fn is_mesh(self) -> bool {
+        matches!(self, Self::Obj | Self::Ply | Self::Glb)
+    }
+
     /// Its row in the table of formats.
     pub fn format(self) -> &'static Format {
         &FORMATS[self as usize]

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::StepReport;
+use super::{Precision, RoundingReport, StepReport};
 use crate::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
 use crate::solver::{AtlasVerdict, DistortionSummary, Family, Method, Treatment, Verdict};
 
@@ -36,6 +36,12 @@ pub struct Report {
     /// Where the coordinates lie.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub placement: Option<Placement>,
+    /// How many bits the coordinates have as written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub precision: Option<Precision>,
+    /// What rounding to 32 bits did; absent where there are 64.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rounding: Option<RoundingReport>,
     /// Each step of each rung.
     pub steps: Vec<StepReport>,
     /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.

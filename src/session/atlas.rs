@@ -12,10 +12,10 @@ use super::{Model, Outcome};
 use crate::geom::{Bounds, Packing, PackingOptions, least_box_turn, pack};
 use crate::io::{
     ChartReport, Materials, MeshReport, Output, OutputChart, OutputFit, PackingReport, Placement, Report, Seconds,
-    StepReport, Together, together,
+    StepReport, proved_together,
 };
-use crate::mesh::{FaceId, parts};
-use crate::solver::{AtlasVerdict, Embedding, atlas_verdict, distortion, true_area_factor, verdict};
+use crate::mesh::FaceId;
+use crate::solver::{Embedding, distortion, true_area_factor, verdict};
 
 /// A chart that is solved.
 #[derive(Clone, Copy, Debug)]
@@ -140,13 +140,6 @@ impl SolvedChart<'_> {
     }
 }
 
-/// The verdict on charts as they are written, faces as the file numbers them.
-fn proved(charts: &[OutputChart<'_>]) -> AtlasVerdict {
-    let Together { mesh, coordinates, .. } = together(charts);
-    let parts = parts(&mesh).expect("charts are disks");
-    atlas_verdict(&parts, &coordinates).as_in_file(&mesh)
-}
-
 fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: Option<PackingReport>) -> Output<'a> {
     let model = charts[0].model;
     let of = |model: &'a Model| model.chart.as_ref().expect("one chart of several");
@@ -160,7 +153,14 @@ fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: 
         let mesh = step.mesh(chart.model.disk().expect("only a disk has an outcome"));
         let verdict = verdict(mesh, &coordinates);
         let vertex_of = Some(&of(chart.model).chart.vertex_of[..]);
-        OutputChart { mesh, refinement: step.refinement.as_deref(), vertex_of, coordinates, verdict }
+        OutputChart {
+            mesh,
+            refinement: step.refinement.as_deref(),
+            vertex_of,
+            coordinates,
+            verdict,
+            held: chart.outcome.held(),
+        }
     };
     let written: Vec<OutputChart<'a>> = charts.par_iter().zip(coordinates).map(written).collect();
     let disks = charts.iter().map(SolvedChart::disk);
@@ -170,7 +170,7 @@ fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: 
     let report = Report {
         method: Some(settings.method),
         family: settings.method.uses_family().then_some(settings.family),
-        atlas: Some(proved(&written)),
+        atlas: Some(proved_together(&written)),
         charts: reports,
         packing,
         new_vertices: charts.iter().map(|chart| chart.outcome.new_vertex_count()).sum(),

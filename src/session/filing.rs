@@ -7,7 +7,7 @@ use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
-use crate::io::{EXTENSIONS, OutputFit, OutputKind, write_atomically, write_constraints, write_durably};
+use crate::io::{EXTENSIONS, OutputFit, OutputKind, Precision, write_atomically, write_constraints, write_durably};
 
 /// The most faults with a bar each, where all can be mended.
 const FAULTS_TOLD: usize = 2;
@@ -74,6 +74,7 @@ impl Session {
         self.files.write(move || {
             let mut output = outcome.finished(&model, records, request.fit);
             output.picture = picture.as_deref();
+            output.round_to(Precision::default(), request.kind);
             let files = output.write(request.kind, &request.path)?;
             Ok(Written { files, about: Some(output.summary()) })
         });

@@ -190,6 +190,12 @@ impl Outcome {
         self.problem.targets.iter().filter(|_| self.problem.settings.method.uses_pins())
     }
 
+    /// Vertices that pins hold exactly.
+    pub(super) fn held(&self) -> Vec<VertexId> {
+        let settings = &self.problem.settings;
+        self.targets_in_use().filter(|(_, target)| settings.is_exact(target.hold)).map(|(&vertex, _)| vertex).collect()
+    }
+
     /// Takes the embedding to its final size, and proves and measures it there. `model` is the mesh as it was opened.
     ///
     /// # Panics
@@ -241,6 +247,7 @@ impl Outcome {
                 vertex_of: None,
                 coordinates,
                 verdict,
+                held: self.held(),
             }],
             report,
             picture: None,

@@ -195,7 +195,7 @@ const RUNS: [(&[&str], i32); 19] = [
         ],
         4,
     ),
-    (&["flatten", "tent.obj", "--method", "convex", "--fit", "true"], 0),
+    (&["flatten", "tent.obj", "--method", "convex", "--fit", "true", "--precision", "f32"], 0),
     (&["check", "tent.obj"], 0),
     (&["check", "folded.obj"], 4),
     (&["check", "half.obj"], 3),

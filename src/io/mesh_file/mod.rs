@@ -113,16 +113,17 @@ impl Statement {
 }
 
 impl MeshFile {
+    /// Whether the numbers in its file have 32 bits, of 1 − v in place of v.
+    pub fn is_turned_over(&self) -> bool {
+        self.source.as_ref().is_some_and(|source| matches!(source.format, SourceFormat::Gltf(_)))
+    }
+
     /// The same mesh with every polygon run around the other way, from the same first corner.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
         let mut turned = Self { polygons: self.polygons.turned(), ..self.clone() };
-        for face in 0..self.polygons.face_count() {
-            let mut range = self.polygons.corner_range(face);
-            range.start += 1;
-            if let Some(texture) = &mut turned.texture {
-                texture.corners[range].reverse();
-            }
+        if let Some(texture) = &mut turned.texture {
+            texture.corners = self.polygons.turned_at_corners(&texture.corners);
         }
         turned
     }
