@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::{MeshFile, NO_TEXTURE, ProvedEmbedding, Texture, refined_obj};
-use crate::mesh::{DiskMesh, FaceId, Refinement, Repaired, TriMesh, VertexId, parts};
+use super::{MeshFile, NO_TEXTURE, ProvedEmbedding, Refined, RefinedChart, Texture};
+use crate::mesh::{DiskMesh, FaceId, PolygonMesh, Refinement, Repaired, TriMesh, VertexId, parts};
 use crate::solver::{AtlasVerdict, Embedding, Verdict, atlas_verdict};
 
 /// A chart as it is written; the only one, as a rule.
@@ -27,6 +27,10 @@ impl OutputChart<'_> {
     /// The chart with its verdict, laid elsewhere.
     pub(super) fn laid<'b>(&'b self, embedding: &'b Embedding) -> ProvedEmbedding<'b> {
         ProvedEmbedding { mesh: self.mesh, embedding, verdict: &self.verdict }
+    }
+
+    fn refined(&self) -> RefinedChart<'_> {
+        RefinedChart { mesh: self.mesh, refinement: self.refinement, vertex_of: self.vertex_of }
     }
 }
 
@@ -69,20 +73,28 @@ pub fn proved_together(charts: &[OutputChart<'_>]) -> AtlasVerdict {
     atlas_verdict(&parts, &coordinates).as_in_file(&mesh)
 }
 
-/// The coordinates of charts as those of the corners of `mesh`, which [`source_mesh`] has given.
-pub(super) fn texture_of(
+/// The file's mesh, with the new vertices where there are any, and the coordinates of charts as those of its corners.
+pub(super) fn textured<'a>(
     charts: &[OutputChart<'_>],
-    source: &MeshFile,
+    source: &'a MeshFile,
     repaired: Option<&Repaired>,
-    mesh: &MeshFile,
-) -> Texture {
-    let is_refined = charts.iter().any(|chart| chart.refinement.is_some());
-    let Some(repaired) = repaired.filter(|_| !is_refined) else {
-        let coordinates: Embedding = charts.iter().flat_map(|chart| chart.coordinates.iter().copied()).collect();
-        return Texture::per_vertex(&mesh.polygons, &coordinates);
-    };
+) -> (Cow<'a, MeshFile>, Texture) {
+    if let ([OutputChart { refinement: None, coordinates, .. }], None) = (charts, repaired) {
+        return (Cow::Borrowed(source), Texture::per_vertex(&source.polygons, coordinates));
+    }
+    if let Some(repaired) = repaired.filter(|_| charts.iter().all(|chart| chart.refinement.is_none())) {
+        return (Cow::Borrowed(source), texture_of_repaired(charts, &source.polygons, repaired));
+    }
+    let parts: Vec<RefinedChart<'_>> = charts.iter().map(OutputChart::refined).collect();
+    let refined = Refined::of_charts(source, repaired, &parts);
+    let coordinates: Embedding = charts.iter().flat_map(|chart| chart.coordinates.iter().copied()).collect();
+    let texture = refined.texture(&coordinates);
+    (Cow::Owned(refined.mesh), texture)
+}
+
+fn texture_of_repaired(charts: &[OutputChart<'_>], source: &PolygonMesh, repaired: &Repaired) -> Texture {
     if let [OutputChart { vertex_of: None, coordinates, .. }] = charts {
-        return Texture::of_repaired(repaired, &source.polygons, coordinates);
+        return Texture::of_repaired(repaired, source, coordinates);
     }
     let mut numbers = vec![NO_TEXTURE; repaired.polygons().positions.len()];
     let mut coordinates = Vec::new();
@@ -93,27 +105,6 @@ pub(super) fn texture_of(
         }
     }
     let number = |vertex: Option<VertexId>| vertex.map_or(NO_TEXTURE, |vertex| numbers[vertex.index()]);
-    let corners = repaired.vertices_at_corners(&source.polygons).into_iter().map(number).collect();
+    let corners = repaired.vertices_at_corners(source).into_iter().map(number).collect();
     Texture { coordinates, corners }
-}
-
-/// The file's mesh, with the new vertices where there are any. A mesh that was repaired, or has several charts, and has new
-/// vertices is written without its text: both its faces and its vertices are others.
-pub(super) fn source_mesh<'a>(
-    charts: &[OutputChart<'_>],
-    source: &'a MeshFile,
-    repaired: Option<&Repaired>,
-) -> Cow<'a, MeshFile> {
-    if charts.iter().all(|chart| chart.refinement.is_none()) {
-        return Cow::Borrowed(source);
-    }
-    let [OutputChart { refinement: Some(refinement), .. }] = charts else {
-        return Cow::Owned(MeshFile::from(&together(charts).mesh));
-    };
-    let repaired = repaired.map(|repaired| MeshFile {
-        polygons: repaired.all_faces(&source.polygons),
-        statements: source.statements.clone(),
-        ..MeshFile::default()
-    });
-    Cow::Owned(refined_obj(repaired.as_ref().unwrap_or(source), refinement))
 }

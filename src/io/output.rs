@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use glam::{DVec2, DVec3};
 
-use super::charts::{Together, source_mesh, texture_of, together};
+use super::charts::{Together, textured, together};
 use super::door::check_finite;
 use super::gltf::write_glb;
 use super::obj::{copy_materials, relocated, write_obj_with};
@@ -81,8 +81,8 @@ static FORMATS: [Format; 6] = [
         ending: "-flat.obj",
         title: "Save the mesh with texture coordinates",
         write: |output, path, out| {
-            let mesh = output.source_mesh();
-            write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &output.texture_of(&mesh))
+            let (mesh, texture) = output.textured();
+            write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &texture)
         },
     },
     Format {
@@ -91,8 +91,8 @@ static FORMATS: [Format; 6] = [
         ending: "-flat.ply",
         title: "Save the mesh with texture coordinates as PLY",
         write: |output, _, out| {
-            let mesh = output.source_mesh();
-            write_ply(out, &mesh, &output.texture_of(&mesh))
+            let (mesh, texture) = output.textured();
+            write_ply(out, &mesh, &texture)
         },
     },
     Format {
@@ -101,8 +101,8 @@ static FORMATS: [Format; 6] = [
         ending: "-flat.glb",
         title: "Save the mesh with texture coordinates as GLB",
         write: |output, _, out| {
-            let mesh = output.source_mesh();
-            write_glb(out, &mesh, &output.texture_of(&mesh))
+            let (mesh, texture) = output.textured();
+            write_glb(out, &mesh, &texture)
         },
     },
     Format {
@@ -250,13 +250,13 @@ impl Output<'_> {
         self.check().map_err(|source| WriteError::writing(path, source))?;
         match (kind, self.picture, self.materials) {
             (OutputKind::Obj, Some(picture), _) => {
-                let mesh = self.source_mesh();
-                picture.write_beside(path, &mesh, &self.texture_of(&mesh))
+                let (mesh, texture) = self.textured();
+                picture.write_beside(path, &mesh, &texture)
             }
             (OutputKind::Obj, None, Materials::Copied) => {
-                let mesh = self.source_mesh();
+                let (mesh, texture) = self.textured();
                 let (edits, copies) = copy_materials(&mesh, self.source_place(), path)?;
-                write_atomically(path, |out| write_obj_with(out, &mesh, &edits, &self.texture_of(&mesh)))?;
+                write_atomically(path, |out| write_obj_with(out, &mesh, &edits, &texture))?;
                 Ok(std::iter::once(path.to_owned()).chain(copies).collect())
             }
             _ => {
@@ -289,14 +289,8 @@ impl Output<'_> {
         self.source_path.unwrap_or(Path::new(NAMELESS))
     }
 
-    /// The coordinates as those of the corners of the file's mesh.
-    fn texture_of(&self, mesh: &MeshFile) -> Texture {
-        texture_of(&self.charts, self.source, self.repaired, mesh)
-    }
-
-    /// The file's mesh, with the new vertices where there are any. A mesh that was repaired and has new vertices is written
-    /// without its text: both its faces and its vertices are others.
-    fn source_mesh(&self) -> Cow<'_, MeshFile> {
-        source_mesh(&self.charts, self.source, self.repaired)
+    /// The file's mesh, with the new vertices where there are any, and the coordinates as those of its corners.
+    fn textured(&self) -> (Cow<'_, MeshFile>, Texture) {
+        textured(&self.charts, self.source, self.repaired)
     }
 }

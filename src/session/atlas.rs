@@ -14,7 +14,7 @@ use crate::io::{
     ChartReport, Materials, MeshReport, Output, OutputChart, OutputFit, PackingReport, Placement, Report, Seconds,
     StepReport, proved_together,
 };
-use crate::mesh::FaceId;
+use crate::mesh::{FaceId, VertexId};
 use crate::solver::{Embedding, distortion, true_area_factor, verdict};
 
 /// A chart that is solved.
@@ -119,6 +119,23 @@ impl SolvedChart<'_> {
         upright(&coordinates, self.outcome.problem.frame.v_axis).unwrap_or(coordinates)
     }
 
+    /// The edges that new vertices lie on, as the file numbers their ends.
+    fn split_edges(&self) -> Vec<[VertexId; 2]> {
+        let edges = self.outcome.step.refinement.as_ref().map(|refinement| refinement.split_edges());
+        let in_file = |edge: [VertexId; 2]| {
+            let mut ends = edge.map(|vertex| self.model.vertex_in_file(vertex));
+            ends.sort_unstable();
+            ends
+        };
+        edges.into_iter().flatten().map(in_file).collect()
+    }
+
+    /// Its polygons that are written as triangles.
+    fn cut_polygons(&self) -> Vec<FaceId> {
+        let refinement = self.outcome.step.refinement.as_ref();
+        refinement.map(|refinement| refinement.cut_polygons(self.disk())).unwrap_or_default()
+    }
+
     /// What is reported of it where it is written for a picture of this aspect, width over height.
     fn report(&self, coordinates: &Embedding, aspect: f64) -> ChartReport {
         let step = &self.outcome.step;
@@ -138,6 +155,12 @@ impl SolvedChart<'_> {
             new_vertices: self.outcome.new_vertex_count(),
         }
     }
+}
+
+fn in_order<T: Ord>(list: impl Iterator<Item = T>) -> Vec<T> {
+    let mut all: Vec<T> = list.collect();
+    all.sort_unstable();
+    all
 }
 
 fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: Option<PackingReport>) -> Output<'a> {
@@ -174,6 +197,8 @@ fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: 
         charts: reports,
         packing,
         new_vertices: charts.iter().map(|chart| chart.outcome.new_vertex_count()).sum(),
+        split_edges: in_order(charts.iter().flat_map(SolvedChart::split_edges)),
+        cut_polygons: in_order(charts.iter().flat_map(SolvedChart::cut_polygons)),
         seconds: Seconds { solve, ..Seconds::default() },
         ..Report::of_mesh(MeshReport { repairs: whole.done().to_vec(), ..mesh })
     };

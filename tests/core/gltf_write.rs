@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use freebound::io::{MeshFile, NO_TEXTURE, Texture, read_mesh, read_stream, refined_obj, write_glb};
+use freebound::io::{MeshFile, NO_TEXTURE, Refined, Texture, read_mesh, read_stream, write_glb};
 use freebound::mesh::{DiskMesh, NewVertex, PolygonMesh, Refinement, VertexId};
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -298,7 +298,7 @@ fn new_vertices_lie_between_the_ends_of_their_edge_in_all_numbers() {
     }
     assert_eq!(parts.len(), 2);
     let refinement = Refinement::new(&disk, vec![NewVertex { edge, at: 0.25 }], &parts).expect("a disk");
-    let refined = refined_obj(&file, &refinement);
+    let refined = Refined::new(&file, None, &refinement).mesh;
     let flat = refined.polygons.positions.iter().map(|p| p.truncate()).collect();
     let texture = Texture::per_vertex(&refined.polygons, &flat);
     let after = written(&refined, &texture);

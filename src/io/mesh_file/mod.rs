@@ -36,7 +36,7 @@ use crate::solver::Embedding;
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
 pub(in crate::io) use error::{Place, fault_at, fault_in};
 pub use read::{Progress, read_mesh, read_mesh_with, read_stream, read_stream_with};
-pub use refined::refined_obj;
+pub use refined::{Refined, RefinedChart};
 pub use source::Source;
 pub(in crate::io) use source::SourceFormat;
 pub use texture::TextureMesh;

@@ -263,23 +263,6 @@ impl Repaired {
         vertices
     }
 
-    /// The faces of the mesh as given, each with the corners that it has now. Faces that went stay as they were.
-    ///
-    /// # Panics
-    ///
-    /// If `source` is another mesh, with more corners.
-    pub fn all_faces(&self, source: &PolygonMesh) -> PolygonMesh {
-        let mut kept = self.face_of.iter().enumerate().peekable();
-        let (mut corners, mut starts) = (Vec::new(), vec![0]);
-        for face in 0..source.face_count() {
-            let here = kept.next_if(|(_, of)| **of as usize == face);
-            corners.extend_from_slice(here.map_or(source.face(face), |(place, _)| self.polygons.face(place)));
-            starts.push(u32::try_from(corners.len()).expect("no more corners than before"));
-        }
-        let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
-        PolygonMesh { positions: self.polygons.positions.clone(), corners, starts: (!are_triangles).then_some(starts) }
-    }
-
     /// The vertex of the mesh as given in whose place each vertex lies.
     pub fn vertices_of(&self, source: &PolygonMesh) -> Vec<VertexId> {
         let mut vertices: Vec<VertexId> = (0..self.polygons.positions.len()).map(VertexId::from_index).collect();
