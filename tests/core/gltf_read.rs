@@ -274,3 +274,20 @@ fn buffers_beside_a_file_are_read_from_there() {
     let cut_short = read_mesh(&path).expect_err("a byte lacks").to_string();
     assert!(cut_short.ends_with(&format!("it has {} bytes, not {}", maker.binary.len() - 1, maker.binary.len())));
 }
+
+/// `FREEBOUND_MESH=file cargo test … time_of_reading -- --ignored --nocapture`
+#[test]
+#[ignore = "a measurement"]
+fn time_of_reading() {
+    let path = std::env::var("FREEBOUND_MESH").expect("a file");
+    for _ in 0..3 {
+        let start = std::time::Instant::now();
+        let file = read_mesh(path.as_ref()).expect("it is right");
+        println!("{} faces read in {:?}", file.polygons.face_count(), start.elapsed());
+        let start = std::time::Instant::now();
+        let mut bytes = Vec::new();
+        freebound::io::write_glb(&mut bytes, &file, file.texture.as_ref().expect("texture coordinates"))
+            .expect("memory");
+        println!("{} bytes written in {:?}", bytes.len(), start.elapsed());
+    }
+}
