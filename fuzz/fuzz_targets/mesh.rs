@@ -10,10 +10,12 @@ const MOST_CORNERS: usize = 3_000;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(file) = read_stream(bytes) else { return };
-    if file.polygons.corners.len() > MOST_CORNERS {
+    // What is not finite is read, to be named, and refused where it is written.
+    let are_finite = file.polygons.positions.iter().all(|at| at.is_finite());
+    let texture = file.texture.clone().unwrap_or_default();
+    if file.polygons.corners.len() > MOST_CORNERS || !are_finite || !texture.coordinates.iter().all(|uv| uv.is_finite()) {
         return;
     }
-    let texture = file.texture.clone().unwrap_or_default();
     write_obj(&mut Vec::new(), &file, &texture).expect("memory takes all");
     drop(file.texture_mesh());
     let repaired = Form::default().mended().repaired(&file.polygons);

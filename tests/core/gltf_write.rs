@@ -321,6 +321,7 @@ fn new_vertices_lie_between_the_ends_of_their_edge_in_all_numbers() {
         others.iter().find(|corner| at("POSITION", &corner["POSITION"]) == place).cloned().expect("it is there")
     };
     let ends = edge.map(end);
+    #[expect(clippy::cast_possible_truncation, reason = "that is what the format holds")]
     let mix = |name: &str| -> Vec<f32> {
         let [a, b] = [0, 1].map(|k| at(name, &ends[k][name]));
         a.iter().zip(b).map(|(&a, b)| (f64::from(a) + 0.25 * (f64::from(b) - f64::from(a))) as f32).collect()
