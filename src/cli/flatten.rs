@@ -48,7 +48,8 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
-        let targets = gather(arguments, disk_of(&model)?.vertex_count())?;
+        disk_of(&model)?;
+        let targets = gather(arguments, model.vertex_count())?;
         let document = Document {
             targets,
             settings: arguments.settings(),

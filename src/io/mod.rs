@@ -46,8 +46,8 @@ pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use mesh_file::{
-    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError, Source, Statement,
-    Texture, TextureError, TextureMesh, read_mesh, read_mesh_with, read_stream, read_stream_with, refined_obj,
+    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError, Refined, Source,
+    Statement, Texture, TextureError, TextureMesh, read_mesh, read_mesh_with, read_stream, read_stream_with,
 };
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};

@@ -15,7 +15,7 @@ use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_pi
 use super::report::{Report, write_report};
 use super::svg::write_svg;
 use super::{
-    Materials, MeshFile, PictureFile, Texture, WriteError, refined_obj, write_atomically, write_to_standard_output,
+    Materials, MeshFile, PictureFile, Refined, Texture, WriteError, write_atomically, write_to_standard_output,
 };
 use crate::geom::Picture;
 use crate::mesh::{DiskMesh, Refinement, Repaired};
@@ -77,8 +77,8 @@ static FORMATS: [Format; 5] = [
         ending: "-flat.obj",
         title: "Save the mesh with texture coordinates",
         write: |output, path, out| {
-            let mesh = output.source_mesh();
-            write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &output.texture_of(&mesh))
+            let (mesh, texture) = output.textured();
+            write_obj_with(out, &mesh, &relocated(&mesh, output.source_place(), path), &texture)
         },
     },
     Format {
@@ -87,8 +87,8 @@ static FORMATS: [Format; 5] = [
         ending: "-flat.ply",
         title: "Save the mesh with texture coordinates as PLY",
         write: |output, _, out| {
-            let mesh = output.source_mesh();
-            write_ply(out, &mesh, &output.texture_of(&mesh))
+            let (mesh, texture) = output.textured();
+            write_ply(out, &mesh, &texture)
         },
     },
     Format {
@@ -144,11 +144,12 @@ pub struct ProvedEmbedding<'a> {
 impl ProvedEmbedding<'_> {
     /// Its picture, with the faces red that the verdict calls flipped.
     pub fn picture(&self, canvas: &Canvas) -> Picture {
-        let mut paint: Vec<Colour> = vec![colours::CLAY; self.mesh.face_count()];
+        let triangles = self.mesh.mesh().real_triangles();
+        let mut paint: Vec<Colour> = vec![colours::CLAY; triangles.len()];
         for face in &self.verdict.flipped_faces {
             paint[face.index()] = colours::FLIPPED;
         }
-        plane_picture(self.embedding, &self.mesh.mesh().triangles, canvas, Paint::Faces(&paint))
+        plane_picture(self.embedding, triangles, canvas, Paint::Faces(&paint))
     }
 }
 
@@ -187,7 +188,7 @@ impl Output<'_> {
     /// not square are not square either.
     fn picture(&self) -> Picture {
         let mesh = self.mesh.mesh();
-        let eye = self.mesh.faces().map(|face| mesh.double_area_vector(face)).sum();
+        let eye = self.mesh.real_faces().map(|face| mesh.double_area_vector(face)).sum();
         let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
         let scale = DVec2::new(self.aspect, 1.0);
         let layout: Embedding = self.coordinates.iter().map(|uv| *uv * scale).collect();
@@ -197,7 +198,7 @@ impl Output<'_> {
             None => Paint::Checker { coordinates: &layout, size: extent / CHECKER_FIELDS },
         };
         let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
-        let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, paint);
+        let before = mesh_picture(&mesh.positions, mesh.real_triangles(), &view, &clay, paint);
         let drawing = Canvas::drawing(PICTURE_SIZE, PICTURE_SIZE);
         before.beside(&self.proved(&layout).picture(&drawing))
     }
@@ -217,13 +218,13 @@ impl Output<'_> {
         self.check().map_err(|source| WriteError::writing(path, source))?;
         match (kind, self.picture, self.materials) {
             (OutputKind::Obj, Some(picture), _) => {
-                let mesh = self.source_mesh();
-                picture.write_beside(path, &mesh, &self.texture_of(&mesh))
+                let (mesh, texture) = self.textured();
+                picture.write_beside(path, &mesh, &texture)
             }
             (OutputKind::Obj, None, Materials::Copied) => {
-                let mesh = self.source_mesh();
+                let (mesh, texture) = self.textured();
                 let (edits, copies) = copy_materials(&mesh, self.source_place(), path)?;
-                write_atomically(path, |out| write_obj_with(out, &mesh, &edits, &self.texture_of(&mesh)))?;
+                write_atomically(path, |out| write_obj_with(out, &mesh, &edits, &texture))?;
                 Ok(std::iter::once(path.to_owned()).chain(copies).collect())
             }
             _ => {
@@ -256,23 +257,19 @@ impl Output<'_> {
         self.source_path.unwrap_or(Path::new(NAMELESS))
     }
 
-    /// The coordinates as those of the corners of the file's mesh.
-    fn texture_of(&self, mesh: &MeshFile) -> Texture {
-        match self.repaired.filter(|_| self.refinement.is_none()) {
-            Some(repaired) => Texture::of_repaired(repaired, &self.source.polygons, &self.coordinates),
-            None => Texture::per_vertex(&mesh.polygons, &self.coordinates),
+    /// The file's mesh, with the new vertices where there are any, and the coordinates as those of its corners.
+    fn textured(&self) -> (Cow<'_, MeshFile>, Texture) {
+        match (self.refinement, self.repaired) {
+            (None, None) => (Cow::Borrowed(self.source), Texture::per_vertex(&self.source.polygons, &self.coordinates)),
+            (None, Some(repaired)) => {
+                let texture = Texture::of_repaired(repaired, &self.source.polygons, &self.coordinates);
+                (Cow::Borrowed(self.source), texture)
+            }
+            (Some(refinement), repaired) => {
+                let refined = Refined::new(self.source, repaired, refinement);
+                let texture = refined.texture(&self.coordinates);
+                (Cow::Owned(refined.mesh), texture)
+            }
         }
-    }
-
-    /// The file's mesh, with the new vertices where there are any. A mesh that was repaired and has new vertices is written
-    /// without its text: both its faces and its vertices are others.
-    fn source_mesh(&self) -> Cow<'_, MeshFile> {
-        let Some(refinement) = self.refinement else { return Cow::Borrowed(self.source) };
-        let repaired = self.repaired.map(|repaired| MeshFile {
-            polygons: repaired.all_faces(&self.source.polygons),
-            statements: self.source.statements.clone(),
-            ..MeshFile::default()
-        });
-        Cow::Owned(refined_obj(repaired.as_ref().unwrap_or(self.source), refinement))
     }
 }

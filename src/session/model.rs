@@ -134,12 +134,18 @@ impl Model {
         }
     }
 
-    /// The triangles.
+    /// The triangles, with those that fill its holes.
     pub fn mesh(&self) -> &TriMesh {
         match &self.surface {
             Surface::Disk(disk) => disk.mesh(),
             Surface::Faulty(mesh, _) => mesh,
         }
+    }
+
+    /// How many vertices it has, those of no face included. What fills its holes has none of its own here.
+    pub fn vertex_count(&self) -> usize {
+        let polygons = self.repaired.as_ref().map_or(&self.source.polygons, |repaired| repaired.polygons());
+        polygons.positions.len()
     }
 
     /// The disk, where it is one.

@@ -107,7 +107,7 @@ impl Opened {
 
     fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
-        let form = Form { faces_turned: project.faces_turned, repair: project.repair, cut: project.cut };
+        let form = project.form();
         let model = project_mesh(&project.mesh, form, &mut remarks)?;
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.targets.len());
@@ -125,7 +125,7 @@ impl Opened {
         // Saving must not take out of the file what only was not to be had this time.
         let missing_picture = project.picture.filter(|_| document.picture.is_none());
         let mut view = project.view;
-        view.selection.retain(|&vertex| (vertex as usize) < model.mesh().vertex_count());
+        view.selection.retain(|&vertex| (vertex as usize) < model.vertex_count());
         Ok(Self { model, document, view, origin, remarks, missing_picture, lost_pins })
     }
 }
@@ -193,7 +193,7 @@ fn example_called(name: &str) -> Option<Example> {
 
 /// The targets of vertices that the mesh has, with a remark about the others.
 fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Message>) -> Targets {
-    let count = model.mesh().vertex_count();
+    let count = model.vertex_count();
     let before = targets.len();
     let is_there = |vertex: &VertexId, target: &Target| vertex.index() < count && target.uv.is_finite();
     let lost: Vec<VertexId> = targets.iter().filter(|(v, target)| !is_there(v, target)).map(|(&v, _)| v).collect();

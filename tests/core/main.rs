@@ -28,6 +28,8 @@ mod foldover_energy;
 mod formats;
 mod geom;
 mod harmless;
+mod holes;
+mod holes_cli;
 mod house;
 mod iterate;
 mod ladder;

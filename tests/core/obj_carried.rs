@@ -179,7 +179,7 @@ fn refined(file: &MeshFile) -> MeshFile {
     }
     assert_eq!(parts.len(), 2, "an edge between two faces");
     let refinement = Refinement::new(&disk, vec![NewVertex { edge: [a, b], at: 0.25 }], &parts).expect("a disk");
-    freebound::io::refined_obj(file, &refinement)
+    freebound::io::Refined::new(file, None, &refinement).mesh
 }
 
 /// Every corner of a file as tobj reads it: position and normal.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use freebound::io::{MeshFile, Texture, read_mesh, read_stream, refined_obj, write_obj};
+use freebound::io::{MeshFile, Refined, Texture, read_mesh, read_stream, write_obj};
 use freebound::mesh::{DiskMesh, FaceId, NewVertex, Refinement, VertexId};
 use freebound::solver::{Embedding, verdict};
 
@@ -44,8 +44,10 @@ fn text_of(mesh: &MeshFile, texture: &Embedding) -> String {
 #[test]
 fn old_vertices_whole_polygons_and_statements_stay_and_split_polygons_become_triangles() {
     let (file, _, refinement) = refined();
-    let [before, after] =
-        [text_of(&file, &Embedding::default()), text_of(&refined_obj(&file, &refinement), &Embedding::default())];
+    let [before, after] = [
+        text_of(&file, &Embedding::default()),
+        text_of(&Refined::new(&file, None, &refinement).mesh, &Embedding::default()),
+    ];
     let lines = |text: &str, word: &str| -> Vec<String> {
         text.lines().filter(|line| line.starts_with(word)).map(str::to_owned).collect()
     };
@@ -66,7 +68,7 @@ fn the_refined_file_is_the_refined_mesh() {
     let (file, _, refinement) = refined();
     let disk = refinement.disk();
     let embedding: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
-    let back = read_stream(text_of(&refined_obj(&file, &refinement), &embedding).as_bytes()).unwrap();
+    let back = read_stream(text_of(&Refined::new(&file, None, &refinement).mesh, &embedding).as_bytes()).unwrap();
     let texture = back.texture_mesh().unwrap();
     assert_eq!(texture.mesh.positions, disk.mesh().positions);
     assert_eq!(texture.mesh.triangles, disk.mesh().triangles, "in the same order");
@@ -82,7 +84,7 @@ fn other_programs_read_it_and_check_proves_it() {
     let disk = refinement.disk();
     let embedding: Embedding = disk.vertices().map(|v| disk.position(v).truncate()).collect();
     let program = Program::new();
-    let path = program.write("out.obj", &text_of(&refined_obj(&file, &refinement), &embedding));
+    let path = program.write("out.obj", &text_of(&Refined::new(&file, None, &refinement).mesh, &embedding));
     program.run(&["check", "out.obj"]).expect(0);
     let (models, _) = tobj::load_obj(&path, &tobj::GPU_LOAD_OPTIONS).unwrap();
     let corners: usize = models.iter().map(|model| model.mesh.indices.len()).sum();
@@ -94,7 +96,7 @@ fn other_programs_read_it_and_check_proves_it() {
 fn a_refinement_without_new_vertices_changes_nothing() {
     let (file, disk, _) = refined();
     let whole = Refinement::new(&disk, Vec::new(), &BTreeMap::<FaceId, _>::new()).unwrap();
-    let same = refined_obj(&file, &whole);
+    let same = Refined::new(&file, None, &whole).mesh;
     assert_eq!(same.polygons, file.polygons);
     assert_eq!(same.statements, file.statements);
     let program = Program::new();

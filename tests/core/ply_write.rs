@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use freebound::io::{MeshFile, NO_TEXTURE, Texture, read_stream, refined_obj, write_ply};
+use freebound::io::{MeshFile, NO_TEXTURE, Refined, Texture, read_stream, write_ply};
 use freebound::mesh::{DiskMesh, NewVertex, PolygonMesh, Refinement, VertexId};
 use glam::DVec2;
 
@@ -127,7 +127,7 @@ fn new_vertices_lie_between_the_ends_of_their_edge_in_all_numbers_and_only_their
         }
         assert_eq!(parts.len(), 2);
         let refinement = Refinement::new(&disk, vec![NewVertex { edge, at: 0.25 }], &parts).expect("a disk");
-        let refined = refined_obj(&file, &refinement);
+        let refined = Refined::new(&file, None, &refinement).mesh;
         let after = written(&refined, &by_vertex(&refined.polygons));
         let ((_, old), (_, elements)) = (taken_apart(&before), taken_apart(&after));
         assert_eq!(elements[0].without(&TEXTURE).rows[..12], old[0].rows);

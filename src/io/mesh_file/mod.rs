@@ -36,7 +36,7 @@ use crate::solver::Embedding;
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
 pub(in crate::io) use error::{Place, fault_at};
 pub use read::{Progress, read_mesh, read_mesh_with, read_stream, read_stream_with};
-pub use refined::refined_obj;
+pub use refined::Refined;
 pub use source::Source;
 pub(in crate::io) use source::SourceFormat;
 pub use texture::TextureMesh;
@@ -83,7 +83,8 @@ impl Texture {
     pub fn of_repaired(repaired: &Repaired, source: &PolygonMesh, coordinates: &Embedding) -> Self {
         let number = |vertex: Option<VertexId>| vertex.map_or(NO_TEXTURE, VertexId::number);
         let corners = repaired.vertices_at_corners(source).into_iter().map(number).collect();
-        Self { coordinates: coordinates.to_vec(), corners }
+        // What fills holes stands behind.
+        Self { coordinates: coordinates[..repaired.polygons().positions.len()].to_vec(), corners }
     }
 }
 

@@ -6,6 +6,7 @@
 //! | `sides.rs` | sides of polygons, and which lie on one edge |
 //! | `leave_out.rs` | repeated corners and duplicate faces left out |
 //! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
+//! | `fill.rs` | holes filled with virtual faces |
 //! | `cut.rs` | a surface cut open until it is a disk |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
 //!
@@ -14,6 +15,7 @@
 //! [`Repaired::corner_of`] carries back.
 
 mod cut;
+mod fill;
 mod join;
 mod leave_out;
 mod sides;
@@ -22,6 +24,8 @@ mod ways;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+
+use fill::Filling;
 
 use super::{DiskMesh, PolygonMesh, TriMesh, VertexId, diagnose};
 
@@ -32,8 +36,21 @@ pub struct Form {
     pub faces_turned: bool,
     /// What may be repaired.
     pub repair: RepairExtent,
+    /// What becomes of holes.
+    pub holes: HoleTreatment,
     /// Whether what is no disk is cut open.
     pub cut: bool,
+}
+
+/// What becomes of inner boundary loops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HoleTreatment {
+    /// They are filled with virtual faces, unless nothing may be repaired.
+    #[default]
+    Fill,
+    /// They are cut open to the outside, where a surface is cut at all.
+    Cut,
 }
 
 impl Form {
@@ -51,6 +68,8 @@ impl Form {
             return Self { faces_turned: false, ..self }.repaired(&before).turned(&before);
         }
         let repaired = Repaired::new(source, self.repair);
+        let fills = self.holes == HoleTreatment::Fill && self.repair != RepairExtent::Nothing;
+        let repaired = if fills { repaired.fill_holes() } else { repaired };
         if self.cut { repaired.cut_to_disk() } else { repaired }
     }
 }
@@ -85,6 +104,8 @@ pub enum Repair {
     TurnFaces,
     /// Fans of faces that meet in nothing but a vertex get one each.
     SplitVertices,
+    /// Inner boundary loops are filled with virtual faces, which are of no file.
+    FillHoles,
     /// The surface is cut along edges until it is a disk.
     Cut,
 }
@@ -99,6 +120,7 @@ impl Repair {
             Self::SplitEdges => "split-edges",
             Self::TurnFaces => "turn-faces",
             Self::SplitVertices => "split-vertices",
+            Self::FillHoles => "fill-holes",
             Self::Cut => "cut",
         }
     }
@@ -119,6 +141,7 @@ impl Repair {
             Self::SplitVertices => {
                 ["vertex split, one for each fan of faces", "vertices split, one for each fan of faces"]
             }
+            Self::FillHoles => ["hole filled while it is flattened", "holes filled while it is flattened"],
             Self::Cut => ["edge cut open", "edges cut open"],
         }
     }
@@ -150,6 +173,8 @@ pub struct Repaired {
     face_of: Vec<u32>,
     /// Corners of the mesh as given that were left out, each with one that stands for it; that may be left out later.
     stand_ins: Vec<[u32; 2]>,
+    /// What fills its holes. Positions beyond those of the polygons are the filling's.
+    filling: Filling,
     done: Vec<Done>,
 }
 
@@ -178,6 +203,7 @@ impl Repaired {
             corner_of: (0..count(source.corners.len())).collect(),
             face_of: (0..count(source.face_count())).collect(),
             stand_ins: Vec::new(),
+            filling: Filling::default(),
             done: Vec::new(),
         }
     }
@@ -192,6 +218,9 @@ impl Repaired {
     /// already, or cutting makes none of it.
     #[must_use]
     pub fn cut_to_disk(self) -> Self {
+        if !self.filling.is_empty() {
+            return self;
+        }
         let cut = cut::cut_open(&self);
         if DiskMesh::try_from(cut.triangulate()).is_ok() { cut } else { self }
     }
@@ -210,6 +239,7 @@ impl Repaired {
         }
         self.corner_of.iter_mut().for_each(|corner| *corner = place[*corner as usize]);
         self.stand_ins.iter_mut().flatten().for_each(|corner| *corner = place[*corner as usize]);
+        self.filling.turn();
         self
     }
 
@@ -218,7 +248,7 @@ impl Repaired {
         &self.done
     }
 
-    /// Positions and faces.
+    /// Positions and faces; of holes nothing but that they are there.
     pub fn polygons(&self) -> &PolygonMesh {
         &self.polygons
     }
@@ -272,12 +302,13 @@ impl Repaired {
         vertices
     }
 
-    /// Its faces as triangles, numbered as in the file.
+    /// Its faces as triangles, numbered as in the file. Those that fill holes follow, numbered from [`FIRST_HOLE`](super::FIRST_HOLE) on, and
+    /// so do the vertices that only these have.
     pub fn triangulate(&self) -> TriMesh {
         let TriMesh { positions, triangles, polygon_of } = self.polygons.triangulate();
         let of_triangle = |face: usize| self.face_of[polygon_of.as_ref().map_or(face, |of| of[face] as usize)];
         let polygon_of = Some((0..triangles.len()).map(of_triangle).collect());
-        TriMesh { positions, triangles, polygon_of }
+        self.filling.appended_to(TriMesh { positions, triangles, polygon_of })
     }
 
     /// Notes what was done, where it was.

@@ -20,8 +20,10 @@ pub struct MeshScene {
     /// The mesh with new vertices that it is of; none where it is of the mesh as given.
     pub refinement: Option<Arc<Refinement>>,
     pub arrays: Arc<MeshArrays>,
-    /// The boundary, where it is a disk.
+    /// The boundary, where it is a disk: of holes, too.
     pub boundary: Arc<EdgeList>,
+    /// Vertices that only fill holes: they are not shown.
+    hidden: Vec<VertexId>,
     pub picker: SurfacePicker,
     /// A ball around it.
     pub sphere: Sphere,
@@ -38,7 +40,7 @@ impl MeshScene {
         match element {
             Element::Vertex(vertex) if vertex.index() < mesh.vertex_count() => vec![vertex],
             Element::Vertex(_) => Vec::new(),
-            Element::Face(face) => mesh.triangles.get(face.index()).map(|t| t.to_vec()).unwrap_or_default(),
+            Element::Face(face) => mesh.real_triangles().get(face.index()).map(|t| t.to_vec()).unwrap_or_default(),
             Element::Edge(edge) => match self.disk() {
                 Some(disk) if edge.index() < disk.edge_count() => disk.ends(edge).to_vec(),
                 _ => Vec::new(),
@@ -58,12 +60,16 @@ impl MeshScene {
 
     fn of(model: Arc<Model>, model_revision: u64, refinement: Option<Arc<Refinement>>) -> Self {
         let disk = refinement.as_ref().map(|refinement| refinement.disk()).or(model.disk().map(AsRef::as_ref));
-        let boundary = EdgeList::closed_loop(disk.map_or(&[], |disk| disk.boundary_loop()));
-        let TriMesh { positions, triangles, .. } = disk.map_or(model.mesh(), |disk| disk.mesh());
+        let mesh = disk.map_or(model.mesh(), |disk| disk.mesh());
+        let outer = disk.map(|disk| disk.boundary_loop());
+        let holes = mesh.holes();
+        let boundary = EdgeList::closed_loops(outer.into_iter().chain(holes.iter().map(|hole| &hole.rim[..])));
+        let (positions, triangles) = (&mesh.positions, mesh.real_triangles());
         Self {
             model_revision,
             arrays: Arc::new(MeshArrays::new(positions, triangles)),
             boundary: Arc::new(boundary),
+            hidden: disk.map(DiskMesh::virtual_vertices).unwrap_or_default(),
             picker: SurfacePicker::new(positions, triangles),
             sphere: Sphere::around(positions),
             refinement,
@@ -73,6 +79,26 @@ impl MeshScene {
 
     pub fn mesh(&self) -> &TriMesh {
         self.refinement.as_ref().map_or(self.model.mesh(), |refinement| refinement.disk().mesh())
+    }
+
+    /// The vertices around the hole whose lowest one this is.
+    pub(in crate::ui) fn hole_rim(&self, lowest: VertexId) -> Vec<VertexId> {
+        let hole = self.mesh().holes().into_iter().find(|hole| hole.rim[0] == lowest);
+        hole.map(|hole| hole.rim).unwrap_or_default()
+    }
+
+    /// The vertices that are shown.
+    pub(in crate::ui) fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        let all = (0..self.mesh().vertex_count()).map(VertexId::from_index);
+        all.filter(|vertex| self.hidden.binary_search(vertex).is_err())
+    }
+
+    /// Picks among the shown vertices in the plane, where they have these places.
+    fn plane_picker(&self, places: &[DVec2]) -> PlanePicker {
+        let mut places = places[..self.mesh().vertex_count()].to_vec();
+        // What is nowhere is not picked.
+        self.hidden.iter().for_each(|vertex| places[vertex.index()] = DVec2::NAN);
+        PlanePicker::new(&places)
     }
 
     pub fn disk(&self) -> Option<&DiskMesh> {
@@ -119,9 +145,9 @@ impl PlaneScene {
         let embedding = &outcome.step.solution.embedding;
         Self {
             outcome_revision,
-            arrays: Arc::new(PlaneArrays::new(embedding, &mesh.mesh().triangles)),
-            picker: Arc::new(PlanePicker::new(embedding)),
-            faces_outside: faces_outside(&outcome, &mesh.mesh().triangles),
+            arrays: Arc::new(PlaneArrays::new(embedding, mesh.mesh().real_triangles())),
+            picker: Arc::new(mesh.plane_picker(embedding)),
+            faces_outside: faces_outside(&outcome, mesh.mesh().real_triangles()),
             positions: None,
             part: Part::Result,
             outcome,
@@ -132,9 +158,8 @@ impl PlaneScene {
     /// The same mesh with other points than the outcome's embedding: at a stage on the way to it, or with its outside.
     /// Points beyond the mesh's are drawn with, and not picked.
     pub(in crate::ui) fn of_part(&self, part: Part, positions: Embedding) -> Self {
-        let mesh = self.mesh.mesh();
-        let arrays = PlaneArrays::new(&positions, &mesh.triangles);
-        let picker = PlanePicker::new(&positions[..mesh.vertex_count()]);
+        let arrays = PlaneArrays::new(&positions, self.mesh.mesh().real_triangles());
+        let picker = self.mesh.plane_picker(&positions);
         Self { part, ..self.moved(&self.mesh, positions, arrays, Arc::new(picker)) }
     }
 
@@ -144,9 +169,9 @@ impl PlaneScene {
         let picker = if Arc::ptr_eq(mesh, &self.mesh) {
             Arc::clone(&self.picker)
         } else {
-            Arc::new(PlanePicker::new(&self.positions()[..mesh.mesh().vertex_count()]))
+            Arc::new(mesh.plane_picker(self.positions()))
         };
-        let arrays = PlaneArrays::in_frame(&positions, &mesh.mesh().triangles, self.arrays.frame);
+        let arrays = PlaneArrays::in_frame(&positions, mesh.mesh().real_triangles(), self.arrays.frame);
         self.moved(mesh, positions, arrays, picker)
     }
 
@@ -235,7 +260,7 @@ impl Paint {
     pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
         let plain = |flipped: &[FaceId]| Self {
             key,
-            faces: Arc::new(FacePaint::plain(mesh.face_count(), flipped)),
+            faces: Arc::new(FacePaint::plain(mesh.real_face_count(), flipped)),
             legend: None,
         };
         let Some(outcome) = outcome else { return plain(&[]) };
@@ -292,7 +317,7 @@ fn embedding_on(base: &Step, step: &Step) -> Embedding {
 fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64> {
     let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
     let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
-    mesh.triangles.iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
+    mesh.real_triangles().iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
 }
 
 /// A part of the mesh that a defect or a person names.
