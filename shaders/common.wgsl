@@ -51,6 +51,7 @@ const SHADING_PICTURE: u32 = 3u;
 
 // Bit of a face, as in `FacePaint` of src/view/draw.rs.
 const FLIPPED: u32 = 1u;
+const FAINT: u32 = 2u;
 
 fn linear_from_srgb(c: vec3<f32>) -> vec3<f32> {
     let low = c / 12.92;

@@ -66,7 +66,11 @@ fn fs_shaded(in: Corner, @builtin(front_facing) front: bool) -> @location(0) vec
     // The back is told from the front in every shading.
     albedo = select(albedo * 0.72, albedo, front || pane.choice.x == SHADING_PLAIN);
     albedo = marked(albedo, flags);
+    // What is not worked on stands back, plain in every shading.
+    let is_faint = (flags & FAINT) != 0u;
+    albedo = select(albedo, mix(plain, pane.background.rgb, 0.6), is_faint);
     let relief = select(0.6, 1.0, pane.choice.x == SHADING_PLAIN || pane.choice.x == SHADING_CHECKER);
     let shaded = lit(albedo, normal, to_eye, relief);
-    return vec4<f32>(mix(shaded, pane.wire.rgb, wire * pane.wire.a), 1.0);
+    let wire_opacity = select(pane.wire.a, 0.3 * pane.wire.a, is_faint);
+    return vec4<f32>(mix(shaded, pane.wire.rgb, wire * wire_opacity), 1.0);
 }

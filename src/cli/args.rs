@@ -5,9 +5,10 @@ use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use glam::DVec2;
+use glam::{DVec2, UVec2};
 
-use crate::io::{ConstraintFault, OutputFit, OutputKind, Target};
+use crate::geom::PackingOptions;
+use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Precision, Target};
 use crate::mesh::{Form, HoleTreatment, RepairExtent, VertexId};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
@@ -44,9 +45,9 @@ pub enum Command {
 /// Arguments of `flatten`.
 #[derive(Debug, Args)]
 pub struct FlattenArguments {
-    /// The mesh, an OBJ, PLY, STL or OFF file; standard input with `-`.
+    /// The mesh, an OBJ, PLY, STL, OFF, GLB or glTF file; standard input with `-`.
     pub mesh: PathBuf,
-    /// Write the mesh with texture coordinates here (PLY where the name ends so, or else OBJ), or to standard output with `-`. The mesh that is read, or
+    /// Write the mesh with texture coordinates here (PLY or GLB where the name ends so, or else OBJ), or to standard output with `-`. The mesh that is read, or
     /// anything else that is, is never written over.
     #[arg(short, long, value_name = "MESH|-")]
     pub output: Option<PathBuf>,
@@ -105,6 +106,15 @@ pub struct FlattenArguments {
     /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface.
     #[arg(long, value_enum, default_value_t = OutputFit::Unit)]
     pub fit: OutputFit,
+    /// Size of the picture that several charts are packed into, in pixels; without it that of `--picture`, or 1024x1024.
+    #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with_all = ["aspect", "picture"])]
+    pub pack: Option<UVec2>,
+    /// The least distance between packed charts, in pixels of that picture.
+    #[arg(long, value_name = "PIXELS", default_value_t = PackingOptions::default().gap, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub gap: u32,
+    /// How many bits the numbers of texture coordinates have, as they are proved and written. GLB files always hold 32.
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: Precision,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
@@ -174,6 +184,18 @@ impl FlattenArguments {
         Form { repair, holes, cut: self.cut == Cut::Auto, ..Form::default() }
     }
 
+    /// How several charts are packed, into this picture where there is one.
+    pub fn packing(&self, picture: Option<&PictureFile>) -> PackingOptions {
+        let options = PackingOptions { gap: self.gap, ..PackingOptions::default() };
+        let of_picture = picture.map(|picture| UVec2::new(picture.pixels.width, picture.pixels.height));
+        let of_aspect = self
+            .aspect
+            .map(|aspect| UVec2::from_array(options.picture).as_dvec2() * DVec2::new(aspect, 1.0) / aspect.max(1.0));
+        let of_aspect = of_aspect.map(|size| size.round().max(DVec2::ONE).as_u64vec2().as_uvec2());
+        let picture = self.pack.or(of_picture).or(of_aspect).map_or(options.picture, |size| size.to_array());
+        PackingOptions { picture, ..options }
+    }
+
     /// The files to write, apart from the report.
     pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
         // The mesh comes last, so that what it names is there.
@@ -233,7 +255,7 @@ pub struct FiguresArguments {
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// The mesh, an OBJ, PLY, STL or OFF file; standard input with `-`.
+    /// The mesh, an OBJ, PLY, STL, OFF, GLB or glTF file; standard input with `-`.
     pub mesh: PathBuf,
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
@@ -263,6 +285,16 @@ fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
         Some(weight) => Err(ConstraintFault::WeightNotPositive { vertex, weight }.to_string()),
         None => Ok((vertex, target)),
     }
+}
+
+/// Width and height of "widthxheight", in pixels.
+fn parse_pixels(text: &str) -> Result<UVec2, String> {
+    let parsed = || {
+        let (width, height) = text.split_once(['x', 'X', '×'])?;
+        let size = UVec2::new(width.trim().parse().ok()?, height.trim().parse().ok()?);
+        (size.cmpgt(UVec2::ZERO).all() && size.cmple(UVec2::splat(PackingOptions::LONGEST_SIDE)).all()).then_some(size)
+    };
+    parsed().ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {}", PackingOptions::LONGEST_SIDE))
 }
 
 /// Width over height of "width:height".

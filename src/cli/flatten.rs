@@ -9,19 +9,18 @@ use std::time::Instant;
 use super::args::FlattenArguments;
 use super::exit::conclude;
 use super::failed::await_report;
+use super::job::HeadlessJob;
 use super::places::Places;
-use super::progress::{INTERRUPTED, Progress, is_interrupted, stop_on_interrupt};
+use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
 use super::standard::{is_standard, name_of_input, read_model};
-use super::summary::{deliver, ending_words, put_report, step_words, summary, warn_of};
 use super::{Failure, Status};
 use crate::examples::Example;
-use crate::io::{
-    Constraints, Materials, OutputFit, OutputKind, PictureFile, StepReport, StepsFolder, Target, Targets, WriteError,
-};
+use crate::geom::PackingOptions;
+use crate::io::{Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, WriteError};
 use crate::mesh::{DiskMesh, VertexId};
-use crate::session::{Document, Model, Outcome, Surface};
-use crate::solver::{Choice as _, Control, Ending, Phase, SolveError, Step, conflicts};
+use crate::session::{Document, Model, Surface};
+use crate::solver::{Choice as _, SolveError};
 
 /// Folder that the example is written into, in the current one.
 const FOLDER: &str = "freebound-example";
@@ -36,6 +35,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
             "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
         ));
     }
+    refuse_unwritten_formats(arguments.output.as_deref())?;
     let places = Places::of_flatten(arguments);
     refuse_clashes(arguments, &places)?;
     await_report(arguments.report.as_deref());
@@ -49,7 +49,9 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
         disk_of(&model)?;
-        let targets = gather(arguments, model.vertex_count())?;
+        let targets = gather(arguments, vertex_count(&model))?;
+        refuse_pins_of_no_face(&model, &targets)?;
+        let packing = arguments.packing(picture.as_ref());
         let document = Document {
             targets,
             settings: arguments.settings(),
@@ -61,13 +63,25 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
             document,
             fit: arguments.fit,
             svg_fit: arguments.svg_scale.unwrap_or(arguments.fit),
+            packing,
             outputs: arguments.outputs(),
+            precision: arguments.precision,
             materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
             report: arguments.report.as_deref(),
             steps: arguments.steps.as_deref(),
         };
         job.run(&model, start, &progress)
     })
+}
+
+/// Refuses names that belong to formats which are read and not written.
+fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
+    let extension = output.and_then(Path::extension).unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    if matches!(extension.as_str(), "gltf" | "off" | "stl") {
+        let text = format!("-o: .{extension} files are not written: end the name in .obj, .ply or .glb");
+        return Err(Failure::Usage(text));
+    }
+    Ok(())
 }
 
 /// Refuses files that would be written over, by the run itself or as results of one another.
@@ -102,7 +116,9 @@ fn flatten_example() -> Result<Status, Failure> {
         document: Document::of_example(Example::Face),
         fit: OutputFit::Unit,
         svg_fit: OutputFit::Unit,
+        packing: PackingOptions::default(),
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
+        precision: Precision::default(),
         materials: Materials::Stay,
         report: Some(&report),
         steps: None,
@@ -145,115 +161,27 @@ fn gather(arguments: &FlattenArguments, vertex_count: usize) -> Result<Targets, 
     Ok(targets)
 }
 
+/// Refuses pins of vertices that belong to no chart, where the mesh has several.
+fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failure> {
+    let Some(of) = &model.chart else { return Ok(()) };
+    let count = vertex_count(model);
+    match targets.keys().find(|&&vertex| of.charts.chart_of_vertex(vertex).is_none()) {
+        Some(&vertex) if vertex.index() >= count => Err(SolveError::NoSuchVertex { vertex, count }.into()),
+        Some(&vertex) => Err(SolveError::UnusedVertex { vertex }.into()),
+        None => Ok(()),
+    }
+}
+
+/// How many vertices pins can name: those of the whole mesh, where it has several charts.
+fn vertex_count(model: &Model) -> usize {
+    let whole = model.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
+    whole.unwrap_or_else(|| model.vertex_count())
+}
+
 /// The exact pin that has the target of another exact one.
 fn in_the_way(targets: &Targets, target: &Target) -> Option<VertexId> {
     let clashes = |other: &Target| target.hold.is_exact() && other.hold.is_exact() && other.uv == target.uv;
     targets.iter().find(|(_, other)| clashes(other)).map(|(&vertex, _)| vertex)
-}
-
-/// A flattening without a screen, the mesh already read.
-struct HeadlessJob<'a> {
-    document: Document,
-    /// Size of the texture coordinates.
-    fit: OutputFit,
-    /// Size of the drawing.
-    svg_fit: OutputFit,
-    outputs: Vec<(OutputKind, &'a Path)>,
-    materials: Materials,
-    report: Option<&'a Path>,
-    steps: Option<&'a Path>,
-}
-
-impl HeadlessJob<'_> {
-    /// Flattens, proves, writes, and prints the summary. `start` is when reading began.
-    fn run(&self, model: &Model, start: Instant, progress: &Progress) -> Result<Status, Failure> {
-        let read_seconds = start.elapsed().as_secs_f64();
-        let mut folder = self.steps.map(StepsFolder::begin).transpose()?;
-        let mut solved = self.solve(model, folder.as_mut(), progress)?;
-        let records = std::mem::take(&mut solved.records);
-        let mut output = solved.outcome.finished(model, records, self.fit);
-        output.coordinates.check_finite().map_err(|error| Failure::of_method(self.document.settings.method, error))?;
-        output.report.seconds.read = read_seconds;
-        output.picture = self.document.picture.as_deref();
-        output.svg_fit = self.svg_fit;
-        output.materials = self.materials;
-        progress.enter("writing");
-        let before_writing = Instant::now();
-        go_on()?;
-        if let Some(folder) = folder {
-            folder.finish()?;
-        }
-        for (kind, path) in &self.outputs {
-            go_on()?;
-            if is_standard(path) {
-                output.write_to_standard_output(*kind)?;
-            } else {
-                output.write(*kind, path)?;
-            }
-        }
-        output.report.seconds.write = before_writing.elapsed().as_secs_f64();
-        output.report.seconds.total = start.elapsed().as_secs_f64();
-        let report = &output.report;
-        if self.outputs.iter().any(|(_, path)| is_standard(path)) {
-            self.report.map_or(Ok(()), |path| put_report(report, path))?;
-        } else {
-            deliver(report, self.report, || summary(report, &ending_words(&solved, &output)))?;
-        }
-        let are_met = output.report.pins.as_ref().is_none_or(|pins| pins.unmet.is_empty());
-        Ok(if output.verdict.planar && are_met { Status::Fine } else { Status::FallsShort })
-    }
-
-    /// Takes all steps of the method.
-    fn solve(
-        &self,
-        model: &Model,
-        mut folder: Option<&mut StepsFolder>,
-        progress: &Progress,
-    ) -> Result<Solved, Failure> {
-        let mesh = disk_of(model)?;
-        let report_phase = |phase: Phase| progress.enter(phase.words());
-        let control = Control::new(&INTERRUPTED, &report_phase);
-        let problem = self.document.problem();
-        let (settings, pins) = (problem.settings, problem.pins());
-        if settings.method.uses_pins() {
-            warn_of(&model.path_words(), &conflicts(mesh, &settings.held(&pins)));
-        }
-        let mut run = problem.ladder();
-        let placed = |step: Step| Outcome::new(mesh, problem, step);
-        let mut records: Vec<StepReport> = Vec::new();
-        let mut last: Option<Step> = None;
-        loop {
-            let step = match run.step(mesh, control) {
-                Ok(step) => step,
-                Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
-                // Where a rung fails, the steps before it are written.
-                Err(error) => match last {
-                    Some(before) => return Ok(Solved { outcome: placed(before), records, ending: Err(error) }),
-                    None => return Err(Failure::of_method(settings.method, error)),
-                },
-            };
-            progress.reach(step_words(&step));
-            records.push(StepReport::of(&step));
-            if let Some(folder) = folder.as_deref_mut() {
-                progress.enter("drawing the step");
-                folder.add(mesh, &step)?;
-            }
-            if let Some(ending) = run.ending() {
-                return Ok(Solved { outcome: placed(step), records, ending: Ok(ending) });
-            }
-            if !step.is_of_planar_start() {
-                last = Some(step);
-            }
-        }
-    }
-}
-
-/// A run at its end.
-pub(super) struct Solved {
-    pub(super) outcome: Outcome,
-    records: Vec<StepReport>,
-    /// Why it ended; the error, where a rung failed.
-    pub(super) ending: Result<Ending, SolveError>,
 }
 
 /// An error where the user asked to stop.

@@ -5,6 +5,7 @@
 //! | `mod`         | runs a command; list of methods and families                           |
 //! | `args`        | what can be typed                                                      |
 //! | `flatten`     | reads, solves, proves and writes; the example where no window opens    |
+//! | `job`         | a flattening of one chart or several, written and summed up            |
 //! | `check`       | diagnosis of a mesh, verdict on its texture coordinates                |
 //! | `figures`     | the paper's figures, computed again                                    |
 //! | `progress`    | the line that follows the work, and Ctrl-C                             |
@@ -21,6 +22,7 @@ mod exit;
 mod failed;
 mod figures;
 mod flatten;
+mod job;
 mod places;
 mod progress;
 mod say;

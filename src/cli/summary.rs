@@ -5,12 +5,12 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::Failure;
-use super::flatten::Solved;
+use super::job::Solved;
 use super::say::{say, warn};
 use super::standard::is_standard;
 use crate::io::{
-    MeshReport, Output, PinsReport, Placement, Report, WriteError, write_atomically, write_report,
-    write_to_standard_output,
+    ChartReport, MeshReport, Output, PackingReport, PinsReport, Placement, Report, Seconds, WriteError,
+    write_atomically, write_report, write_to_standard_output,
 };
 use crate::mesh::VertexId;
 use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step, Verdict};
@@ -47,7 +47,7 @@ pub(super) fn step_words(step: &Step) -> String {
 
 /// The verdict, and after how many steps and on which rung a run of several came to it.
 pub(super) fn ending_words(solved: &Solved, output: &Output) -> String {
-    let mut words = output.verdict.summary();
+    let mut words = output.summary();
     let Solved { outcome, ending, .. } = solved;
     let step = &outcome.step;
     if outcome.problem.settings.method.takes_steps() {
@@ -66,10 +66,27 @@ pub(super) fn ending_words(solved: &Solved, output: &Output) -> String {
     }
     if output.report.placement == Some(Placement::Unmoved) {
         words += "; not moved into the unit square, whose numbers would fold it";
-    } else if step.verdict.planar && !output.verdict.planar {
+    } else if step.verdict.planar && !output.is_planar() && !is_folded(&output.report) {
         words += "; it was planar before it was brought to this size: try --fit true";
     }
     words
+}
+
+/// Whether rounding to 32 bits folds what was planar.
+fn is_folded(report: &Report) -> bool {
+    report.rounding.is_some_and(|rounding| rounding.folded)
+}
+
+/// What rounding to 32 bits did.
+fn rounding_words(report: &Report) -> Option<String> {
+    if is_folded(report) {
+        let text =
+            "32 bits are too few: it is planar in 64; write OBJ or PLY with --precision f64, or split it into charts";
+        return Some(text.to_owned());
+    }
+    let moved = report.rounding.map(|rounding| rounding.moved).filter(|&moved| moved > 0)?;
+    let vertices = if moved == 1 { "vertex" } else { "vertices" };
+    Some(format!("32 bits: {moved} {vertices} moved by a few units of the last place, where rounding folds faces"))
 }
 
 /// What became of the user's pins.
@@ -120,14 +137,62 @@ fn mesh_words(mesh: &MeshReport) -> Option<String> {
     (!words.is_empty()).then(|| format!("mesh: {}", words.join(", ")))
 }
 
-/// What a run came to.
-pub(super) fn summary(report: &Report, verdict: &str) -> String {
-    let mesh = &report.mesh;
-    let mut lines = vec![format!(
+/// The first line: what the mesh is.
+fn first_words(mesh: &MeshReport) -> String {
+    format!(
         "{}: {} vertices, {} faces, {} on the boundary, {} dividing edges, {} ears",
         mesh.path, mesh.vertices, mesh.faces, mesh.boundary_vertices, mesh.dividing_edges, mesh.ears
-    )];
-    lines.extend(mesh_words(mesh));
+    )
+}
+
+/// What a run of several charts came to.
+pub(super) fn atlas_summary(report: &Report) -> String {
+    let mut lines = vec![first_words(&report.mesh)];
+    lines.extend(mesh_words(&report.mesh));
+    let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
+    if let Some(atlas) = &report.atlas {
+        let holds = if atlas.holds_in_f32 { "; holds in 32 bits" } else { "; does not hold in 32 bits" };
+        let holds = if atlas.planar { holds } else { "" };
+        lines.push(format!("{}{family}: {}{holds}", report.method.map_or("check", Method::name), atlas.summary()));
+    }
+    lines.extend(rounding_words(report));
+    let mut charts: Vec<&ChartReport> = report.charts.iter().collect();
+    charts.sort_by(|a, b| b.distortion.symmetric_dirichlet.mean.total_cmp(&a.distortion.symmetric_dirichlet.mean));
+    lines.extend(charts.iter().take(NAMED).map(|chart| chart_words(chart)));
+    if charts.len() > NAMED {
+        lines.push(format!("and {} more charts, less distorted", charts.len() - NAMED));
+    }
+    lines.extend(report.packing.map(|PackingReport { picture: [width, height], gap, density, covered }| {
+        let percent = 100.0 * covered;
+        format!(
+            "packed into {width} x {height} pixels, {gap} apart: {percent:.0} % covered, {density:.4} pixels per unit"
+        )
+    }));
+    lines.push(seconds_words(&report.seconds));
+    lines.join("\n")
+}
+
+fn chart_words(chart: &ChartReport) -> String {
+    let face = chart.first_face.number();
+    let steps = if chart.steps.len() == 1 { "1 step".to_owned() } else { format!("{} steps", chart.steps.len()) };
+    let rung = chart.steps.last().map(|step| format!(" ({})", step.rung.as_rung())).unwrap_or_default();
+    let faces = if chart.faces == 1 { "1 face".to_owned() } else { format!("{} faces", chart.faces) };
+    let energy = chart.distortion.symmetric_dirichlet.mean;
+    let pins = pins_words(&chart.pins).map(|words| format!("; {words}")).unwrap_or_default();
+    format!("chart of face {face}: {faces}, {steps}{rung}; symmetric Dirichlet energy {energy:.3}{pins}")
+}
+
+fn seconds_words(seconds: &Seconds) -> String {
+    format!(
+        "{:.3} s: read {:.3}, solve {:.3}, verify {:.3}, write {:.3}",
+        seconds.total, seconds.read, seconds.solve, seconds.verify, seconds.write
+    )
+}
+
+/// What a run came to.
+pub(super) fn summary(report: &Report, verdict: &str) -> String {
+    let mut lines = vec![first_words(&report.mesh)];
+    lines.extend(mesh_words(&report.mesh));
     let family = report.family.map(|family| format!(", {family} weights")).unwrap_or_default();
     // Where there is no linear system, there is no residual.
     let residual = report.steps.last().and_then(|step| step.residual).filter(|residual| residual.is_finite());
@@ -135,6 +200,7 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
     let in_f32 = report.verdict.as_ref().and_then(Verdict::summary_in_f32);
     let in_f32 = in_f32.map(|words| format!("; {words}")).unwrap_or_default();
     lines.push(format!("{}{family}: {verdict}{residual}{in_f32}", report.method.map_or("check", Method::name)));
+    lines.extend(rounding_words(report));
     if report.new_vertices > 0 {
         lines.push(format!("new vertices: {} on {} split edges", report.new_vertices, report.split_edges.len()));
     }
@@ -153,10 +219,6 @@ pub(super) fn summary(report: &Report, verdict: &str) -> String {
             distortion.symmetric_dirichlet.mean
         ));
     }
-    let seconds = &report.seconds;
-    lines.push(format!(
-        "{:.3} s: read {:.3}, solve {:.3}, verify {:.3}, write {:.3}",
-        seconds.total, seconds.read, seconds.solve, seconds.verify, seconds.write
-    ));
+    lines.push(seconds_words(&report.seconds));
     lines.join("\n")
 }

@@ -5,7 +5,8 @@
 //! | `orient.rs` | the side of a line that a point lies on, exactly |
 //! | `bounds.rs`, `clip.rs`, `box_tree.rs` | boxes; segments and polygons cut to one; which of many boxes meet |
 //! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; where it meets itself |
-//! | `hull.rs` | the convex hull |
+//! | `hull.rs`, `rectangle.rs` | the convex hull; the rectangle of the least area around points |
+//! | `packing.rs` | boxes packed into a picture |
 //! | `triangulation.rs` | triangulations of points, and of what lies outside a polygon |
 //! | `similarity.rs` | the similarity that fits pairs of points best; whether pairs look mirrored |
 //! | `power.rs` | powers of two as factors |
@@ -17,10 +18,12 @@ mod clip;
 mod crossings;
 mod hull;
 mod orient;
+mod packing;
 mod picture;
 mod picture_frame;
 mod polygon;
 mod power;
+mod rectangle;
 mod similarity;
 mod triangulation;
 
@@ -30,9 +33,11 @@ pub use clip::{clip_polygon, clip_segment};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::convex_hull;
 pub use orient::{Orientation, orientation};
+pub use packing::{Packed, Packing, PackingOptions, pack};
 pub use picture::Picture;
 pub use picture_frame::{PictureFrame, VAxis};
 pub use polygon::{turning_number, winding_number};
 pub use power::power_of_two_near;
+pub use rectangle::least_box_turn;
 pub use similarity::{Similarity, look_mirrored};
 pub use triangulation::{delaunay_triangles, outside_triangles};

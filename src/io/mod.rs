@@ -5,12 +5,16 @@
 //! | `mesh_file`   | meshes of any format: what is kept of a file, and the way in               |
 //! | `obj`         | OBJ files with their materials, in and out                                 |
 //! | `ply`         | PLY files                                                                  |
+//! | `gltf`        | glTF files, as text and binary (GLB)                                       |
 //! | `targets`     | the user's pins in texture coordinates                                     |
 //! | `constraints` | constraint files: a pinned vertex a line                                   |
 //! | `project`     | project files: what a person has made of a mesh (JSON)                     |
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
 //! | `output`      | the table of formats; a finished flattening written in any of them         |
-//! | `report`      | report of a run (JSON), and a step as a row of a table                     |
+//! | `charts`      | the charts of a result, each by itself and as one mesh                     |
+//! | `precision`   | the bits of the numbers that are written, and the proof of these              |
+//! | `report`      | report of a run (JSON)                                                     |
+//! | `step_report` | a step in the report, and as a row of a table                              |
 //! | `error_report`| report of a run that came to nothing (JSON)                                |
 //! | `svg`         | an embedding or a step as a drawing                                        |
 //! | `steps`       | the steps of a run as a folder of drawings and a table                     |
@@ -23,28 +27,34 @@
 //! | `stamp`       | what tells one state of a file from another                                |
 
 mod atomic;
+mod charts;
 mod constraints;
 mod door;
 mod error_report;
 pub mod figure;
+mod gltf;
 mod mesh_file;
 mod obj;
 mod output;
 mod paths;
 mod picture;
 mod ply;
+mod precision;
 mod project;
 pub mod raster;
 mod report;
 mod stamp;
+mod step_report;
 mod steps;
 mod svg;
 mod targets;
 mod unfinished;
 
 pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
+pub use charts::{OutputChart, Together, proved_together, together};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
+pub use gltf::write_glb;
 pub use mesh_file::{
     MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError, Refined, Source,
     Statement, Texture, TextureError, TextureMesh, read_mesh, read_mesh_with, read_stream, read_stream_with,
@@ -54,14 +64,16 @@ pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedd
 pub use paths::{is_same_file, is_standard_input, would_replace};
 pub use picture::{PictureError, PictureFile, decode_picture};
 pub use ply::write_ply;
+pub use precision::{Precision, RoundingReport};
 pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
 pub use report::{
-    MeshReport, PinsReport, Placement, REPORT_SCHEMA, Report, Seconds, StepReport, WeightedPinReport,
+    ChartReport, MeshReport, PackingReport, PinsReport, Placement, REPORT_SCHEMA, Report, Seconds, WeightedPinReport,
     peak_memory_bytes, verdict_as_in_file, write_report,
 };
 pub use stamp::FileStamp;
+pub use step_report::StepReport;
 pub use steps::StepsFolder;
 pub use targets::{Target, Targets, hard_targets, pins_in_plane};
 pub use unfinished::discard_unfinished;

@@ -8,18 +8,20 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use glam::{DVec2, DVec3};
 
+use super::charts::{Together, textured, together};
 use super::door::check_finite;
+use super::gltf::write_glb;
 use super::obj::{copy_materials, relocated, write_obj_with};
 use super::ply::write_ply;
 use super::raster::{Canvas, Colour, Paint, View, colours, mesh_picture, plane_picture};
 use super::report::{Report, write_report};
 use super::svg::write_svg;
 use super::{
-    Materials, MeshFile, PictureFile, Refined, Texture, WriteError, write_atomically, write_to_standard_output,
+    Materials, MeshFile, OutputChart, PictureFile, Texture, WriteError, write_atomically, write_to_standard_output,
 };
 use crate::geom::Picture;
-use crate::mesh::{DiskMesh, Refinement, Repaired};
-use crate::solver::{Embedding, Verdict};
+use crate::mesh::{DiskMesh, FaceId, Repaired, VertexId};
+use crate::solver::{AtlasVerdict, Embedding, Verdict};
 
 /// Width and height of each half of a picture, pixels.
 const PICTURE_SIZE: u32 = 900;
@@ -37,6 +39,8 @@ pub enum OutputKind {
     Obj,
     /// The same as a PLY file.
     Ply,
+    /// The same as a binary glTF file.
+    Glb,
     /// A drawing of the layout.
     Svg,
     /// Mesh and layout side by side.
@@ -70,7 +74,7 @@ pub struct Format {
 }
 
 /// The formats, in the order of [`OutputKind`].
-static FORMATS: [Format; 5] = [
+static FORMATS: [Format; 6] = [
     Format {
         name: "OBJ mesh",
         extension: "obj",
@@ -92,11 +96,21 @@ static FORMATS: [Format; 5] = [
         },
     },
     Format {
+        name: "GLB mesh",
+        extension: "glb",
+        ending: "-flat.glb",
+        title: "Save the mesh with texture coordinates as GLB",
+        write: |output, _, out| {
+            let (mesh, texture) = output.textured();
+            write_glb(out, &mesh, &texture)
+        },
+    },
+    Format {
         name: "SVG drawing",
         extension: "svg",
         ending: "-flat.svg",
         title: "Export a drawing of the layout",
-        write: |output, _, out| write_svg(out, output.proved(&output.coordinates), output.aspect, output.svg_fit),
+        write: |output, _, out| write_svg(out, &output.charts, output.aspect, output.svg_fit),
     },
     Format {
         name: "PNG picture",
@@ -115,13 +129,22 @@ static FORMATS: [Format; 5] = [
 ];
 
 /// The extensions of all formats, for a message.
-pub const EXTENSIONS: &str = ".svg, .png, .json, .ply or .obj";
+pub const EXTENSIONS: &str = ".svg, .png, .json, .ply, .glb or .obj";
 
 impl OutputKind {
     /// The kind of a mesh's file, by the ending of its name; OBJ where that says nothing.
     pub fn of_mesh(path: &Path) -> Self {
-        let is_ply = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ply"));
-        if is_ply { Self::Ply } else { Self::Obj }
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match extension.as_str() {
+            "ply" => Self::Ply,
+            "glb" => Self::Glb,
+            _ => Self::Obj,
+        }
+    }
+
+    /// Whether it holds a mesh with its texture coordinates.
+    pub const fn is_mesh(self) -> bool {
+        matches!(self, Self::Obj | Self::Ply | Self::Glb)
     }
 
     /// Its row in the table of formats.
@@ -144,13 +167,16 @@ pub struct ProvedEmbedding<'a> {
 impl ProvedEmbedding<'_> {
     /// Its picture, with the faces red that the verdict calls flipped.
     pub fn picture(&self, canvas: &Canvas) -> Picture {
-        let triangles = self.mesh.mesh().real_triangles();
-        let mut paint: Vec<Colour> = vec![colours::CLAY; triangles.len()];
-        for face in &self.verdict.flipped_faces {
-            paint[face.index()] = colours::FLIPPED;
-        }
-        plane_picture(self.embedding, triangles, canvas, Paint::Faces(&paint))
+        layout_picture(self.embedding, self.mesh.mesh().real_triangles(), &self.verdict.flipped_faces, canvas)
     }
+}
+
+fn layout_picture(embedding: &Embedding, triangles: &[[VertexId; 3]], flipped: &[FaceId], canvas: &Canvas) -> Picture {
+    let mut paint: Vec<Colour> = vec![colours::CLAY; triangles.len()];
+    for face in flipped {
+        paint[face.index()] = colours::FLIPPED;
+    }
+    plane_picture(embedding, triangles, canvas, Paint::Faces(&paint))
 }
 
 /// A finished flattening, proved as it is written, with everything that files say about it.
@@ -162,16 +188,10 @@ pub struct Output<'a> {
     pub source_path: Option<&'a Path>,
     /// What becomes of its material libraries.
     pub materials: Materials,
-    /// The mesh that the coordinates are of: its triangles, or the refinement's.
-    pub mesh: &'a DiskMesh,
-    /// The mesh with its new vertices, where there are any.
-    pub refinement: Option<&'a Refinement>,
     /// The repairs of the file's mesh, where there are any.
     pub repaired: Option<&'a Repaired>,
-    /// One texture coordinate per vertex, v up.
-    pub coordinates: Embedding,
-    /// The verdict on these coordinates.
-    pub verdict: Verdict,
+    /// Its charts, one or more.
+    pub charts: Vec<OutputChart<'a>>,
     /// Report of the run.
     pub report: Report,
     /// The picture, where there is one: it goes beside an OBJ file, and on the mesh in a PNG file.
@@ -187,24 +207,36 @@ impl Output<'_> {
     /// it the layout. The layout lies in the plane, where angles are measured: texture coordinates of a picture that is
     /// not square are not square either.
     fn picture(&self) -> Picture {
-        let mesh = self.mesh.mesh();
-        let eye = self.mesh.real_faces().map(|face| mesh.double_area_vector(face)).sum();
+        let Together { mesh, coordinates, flipped } = together(&self.charts);
+        let eye = (0..mesh.face_count()).map(|face| mesh.double_area_vector(FaceId::from_index(face))).sum();
         let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
         let scale = DVec2::new(self.aspect, 1.0);
-        let layout: Embedding = self.coordinates.iter().map(|uv| *uv * scale).collect();
+        let layout: Embedding = coordinates.iter().map(|uv| *uv * scale).collect();
         let extent = layout.iter().fold(0.0_f64, |m, z| m.max((*z - layout[0]).abs().max_element()));
         let paint = match self.picture {
-            Some(picture) => Paint::Picture { coordinates: &self.coordinates, picture: &picture.pixels },
+            Some(picture) => Paint::Picture { coordinates: &coordinates, picture: &picture.pixels },
             None => Paint::Checker { coordinates: &layout, size: extent / CHECKER_FIELDS },
         };
         let clay = Canvas::clay(PICTURE_SIZE, PICTURE_SIZE);
-        let before = mesh_picture(&mesh.positions, mesh.real_triangles(), &view, &clay, paint);
+        let before = mesh_picture(&mesh.positions, &mesh.triangles, &view, &clay, paint);
         let drawing = Canvas::drawing(PICTURE_SIZE, PICTURE_SIZE);
-        before.beside(&self.proved(&layout).picture(&drawing))
+        before.beside(&layout_picture(&layout, &mesh.triangles, &flipped, &drawing))
     }
 
-    fn proved<'b>(&'b self, embedding: &'b Embedding) -> ProvedEmbedding<'b> {
-        ProvedEmbedding { mesh: self.mesh, embedding, verdict: &self.verdict }
+    /// The verdict in lower-case words: that on all charts, where there are several.
+    pub fn summary(&self) -> String {
+        match (&self.report.atlas, &self.charts[..]) {
+            (None, [chart]) => chart.verdict.summary(),
+            (atlas, _) => atlas.as_ref().map(AtlasVerdict::summary).unwrap_or_default(),
+        }
+    }
+
+    /// Whether what is written is proved one-to-one.
+    pub fn is_planar(&self) -> bool {
+        self.report
+            .atlas
+            .as_ref()
+            .map_or_else(|| self.charts.iter().all(|chart| chart.verdict.planar), |atlas| atlas.planar)
     }
 
     /// Writes one file: aside first, then renamed, so that it is never half-written. An OBJ file with a picture comes
@@ -249,7 +281,7 @@ impl Output<'_> {
 
     /// Lets finite coordinates pass.
     fn check(&self) -> io::Result<()> {
-        check_finite(&self.coordinates)
+        self.charts.iter().try_for_each(|chart| check_finite(&chart.coordinates))
     }
 
     /// Where the mesh came from.
@@ -259,17 +291,6 @@ impl Output<'_> {
 
     /// The file's mesh, with the new vertices where there are any, and the coordinates as those of its corners.
     fn textured(&self) -> (Cow<'_, MeshFile>, Texture) {
-        match (self.refinement, self.repaired) {
-            (None, None) => (Cow::Borrowed(self.source), Texture::per_vertex(&self.source.polygons, &self.coordinates)),
-            (None, Some(repaired)) => {
-                let texture = Texture::of_repaired(repaired, &self.source.polygons, &self.coordinates);
-                (Cow::Borrowed(self.source), texture)
-            }
-            (Some(refinement), repaired) => {
-                let refined = Refined::new(self.source, repaired, refinement);
-                let texture = refined.texture(&self.coordinates);
-                (Cow::Owned(refined.mesh), texture)
-            }
-        }
+        textured(&self.charts, self.source, self.repaired)
     }
 }

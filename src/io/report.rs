@@ -4,8 +4,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use super::{Precision, RoundingReport, StepReport};
 use crate::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
-use crate::solver::{AtlasVerdict, Choice as _, DistortionSummary, Family, Method, Step, Treatment, Verdict};
+use crate::solver::{AtlasVerdict, DistortionSummary, Family, Method, Treatment, Verdict};
 
 /// Version of the form of reports, which `docs/report.schema.json` describes. It counts up where a field goes or changes
 /// its meaning, not where one comes.
@@ -35,6 +36,12 @@ pub struct Report {
     /// Where the coordinates lie.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub placement: Option<Placement>,
+    /// How many bits the coordinates have as written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub precision: Option<Precision>,
+    /// What rounding to 32 bits did; absent where there are 64.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rounding: Option<RoundingReport>,
     /// Each step of each rung.
     pub steps: Vec<StepReport>,
     /// The exact verdict on the coordinates as written; absent where there are none, as the distortion is.
@@ -43,6 +50,12 @@ pub struct Report {
     /// The exact verdict on a layout of several charts, or of one with holes, in place of the verdict.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub atlas: Option<AtlasVerdict>,
+    /// Each chart, in the order of the verdict on them all; absent where there is one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub charts: Vec<ChartReport>,
+    /// How charts are packed; absent where none are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub packing: Option<PackingReport>,
     /// Distortion summed up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distortion: Option<DistortionSummary>,
@@ -95,6 +108,8 @@ pub enum Placement {
     True,
     /// Scaled by a power of two and not moved, because the numbers of the unit square would fold it.
     Unmoved,
+    /// Packed into a picture with other charts.
+    Packed,
 }
 
 /// The input mesh.
@@ -138,6 +153,20 @@ impl MeshReport {
 }
 
 impl MeshReport {
+    /// Describes a mesh of so many vertices that came from `path`, by its charts.
+    pub fn of_disks<'a>(path: String, vertices: usize, charts: impl Iterator<Item = &'a DiskMesh>) -> Self {
+        let mut whole = Self { path, vertices, unused_vertices: vertices, ..Self::default() };
+        for chart in charts.map(|mesh| Self::new(String::new(), mesh)) {
+            whole.faces += chart.faces;
+            whole.boundary_vertices += chart.boundary_vertices;
+            whole.dividing_edges += chart.dividing_edges;
+            whole.ears += chart.ears;
+            whole.unused_vertices -= chart.vertices - chart.unused_vertices;
+            whole.mollification = whole.mollification.max(chart.mollification);
+        }
+        whole
+    }
+
     /// Describes a layout of charts that came from `path`, over so many vertices.
     pub fn of_charts(path: String, vertices: usize, charts: &[Part]) -> Self {
         let loops = || charts.iter().flat_map(Part::loops);
@@ -149,6 +178,40 @@ impl MeshReport {
             ..Self::default()
         }
     }
+}
+
+/// One chart of several. Vertices are those of the mesh.
+#[derive(Debug, Serialize)]
+pub struct ChartReport {
+    /// Its first face.
+    pub first_face: FaceId,
+    /// Number of triangles.
+    pub faces: usize,
+    /// Pinned vertices.
+    pub pins: PinsReport,
+    /// Whether the boundary is free, or convex.
+    pub boundary: &'static str,
+    /// Where the coordinates lie.
+    pub placement: Placement,
+    /// Each step of each rung.
+    pub steps: Vec<StepReport>,
+    /// Distortion summed up.
+    pub distortion: DistortionSummary,
+    /// Vertices that it did not have before.
+    pub new_vertices: usize,
+}
+
+/// Charts in a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PackingReport {
+    /// Width and height of the picture, pixels.
+    pub picture: [u32; 2],
+    /// The least distance between charts, pixels.
+    pub gap: u32,
+    /// Pixels per unit of length on the surface, the same for all charts.
+    pub density: f64,
+    /// The share of the picture that the charts cover.
+    pub covered: f64,
 }
 
 /// The pins of a run.
@@ -172,6 +235,16 @@ pub struct PinsReport {
     pub weighted: Vec<WeightedPinReport>,
 }
 
+impl PinsReport {
+    /// The same with other numbers for the vertices.
+    #[must_use]
+    pub fn renumbered(mut self, number: impl Fn(VertexId) -> VertexId) -> Self {
+        self.unmet.iter_mut().for_each(|vertex| *vertex = number(*vertex));
+        self.weighted.iter_mut().for_each(|pin| pin.vertex = number(pin.vertex));
+        self
+    }
+}
+
 /// A pin that pulls by a weight.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WeightedPinReport {
@@ -181,127 +254,6 @@ pub struct WeightedPinReport {
     pub weight: f64,
     /// Its distance from its target.
     pub error: f64,
-}
-
-/// One step of one rung.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct StepReport {
-    /// The rung's method.
-    pub rung: Method,
-    /// Place in the run.
-    pub index: usize,
-    /// Flipped faces.
-    pub flipped_faces: usize,
-    /// Concave polygons.
-    pub concave_polygons: usize,
-    /// Holes that meet themselves or are turned inside out.
-    pub crossed_holes: usize,
-    /// Boundary crossings.
-    pub boundary_crossings: usize,
-    /// Overwound vertices.
-    pub overwound_vertices: usize,
-    /// Turning number of the boundary.
-    pub turning_number: Option<i64>,
-    /// Largest move of a vertex since the step before.
-    pub max_move: Option<f64>,
-    /// ‖Ax − b‖ / ‖b‖ of the linear solve; null where there is none, as in the next.
-    pub residual: Option<f64>,
-    /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sum of their terms' sizes.
-    pub equation_residual: Option<f64>,
-    /// Pivots that were too small and replaced.
-    pub replaced_pivots: usize,
-    /// Degenerate corners whose weight was bounded.
-    pub bounded_corners: usize,
-    /// Boundary vertices that were bent to a convex polygon to make the boundary simple.
-    pub bent_vertices: usize,
-    /// Bytes of the matrix's factors.
-    pub factor_bytes: usize,
-    /// Seconds of the step.
-    pub seconds: f64,
-    /// Proved one-to-one.
-    pub planar: bool,
-    /// Mean energy of the faces' maps, 4 where nothing is distorted; null where it was not asked for, as the
-    /// next two are.
-    pub energy: Option<f64>,
-    /// Smallest determinant of a face's map, at equal total areas.
-    pub least_determinant: Option<f64>,
-    /// Largest distance of an exact pin from its target, in the plane.
-    pub distance_left: Option<f64>,
-    /// Remark on the step.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub note: Option<String>,
-}
-
-/// A number as a cell of a table; empty where there is none.
-fn cell(number: impl Into<Option<f64>>) -> String {
-    number.into().filter(|number| number.is_finite()).map(|number| format!("{number:?}")).unwrap_or_default()
-}
-
-impl StepReport {
-    /// The fields as a row of a table, each with the head of its column; empty where there is no value.
-    pub fn row(&self) -> [(&'static str, String); 21] {
-        [
-            ("rung", self.rung.name().to_owned()),
-            ("index", self.index.to_string()),
-            ("flipped_faces", self.flipped_faces.to_string()),
-            ("concave_polygons", self.concave_polygons.to_string()),
-            ("crossed_holes", self.crossed_holes.to_string()),
-            ("boundary_crossings", self.boundary_crossings.to_string()),
-            ("overwound_vertices", self.overwound_vertices.to_string()),
-            ("turning_number", self.turning_number.map(|turns| turns.to_string()).unwrap_or_default()),
-            ("max_move", cell(self.max_move)),
-            ("residual", cell(self.residual)),
-            ("equation_residual", cell(self.equation_residual)),
-            ("replaced_pivots", self.replaced_pivots.to_string()),
-            ("bounded_corners", self.bounded_corners.to_string()),
-            ("bent_vertices", self.bent_vertices.to_string()),
-            ("factor_bytes", self.factor_bytes.to_string()),
-            ("seconds", cell(self.seconds)),
-            ("planar", self.planar.to_string()),
-            ("energy", cell(self.energy)),
-            ("least_determinant", cell(self.least_determinant)),
-            ("distance_left", cell(self.distance_left)),
-            ("note", self.note.clone().unwrap_or_default()),
-        ]
-    }
-
-    /// The numbers of a step.
-    pub fn of(step: &Step) -> Self {
-        let (solution, verdict) = (&step.solution, &step.verdict);
-        let counts = solution.linear.unwrap_or_default();
-        Self {
-            rung: step.rung,
-            index: step.index,
-            flipped_faces: verdict.flipped_faces.len(),
-            concave_polygons: verdict.concave_polygons.len(),
-            crossed_holes: verdict.crossed_holes.len(),
-            boundary_crossings: verdict.boundary_crossings.len(),
-            overwound_vertices: verdict.overwound_vertices.len(),
-            turning_number: verdict.turning_number,
-            max_move: step.max_move,
-            residual: solution.linear.map(|linear| linear.residual),
-            equation_residual: solution.linear.map(|linear| linear.equation_residual),
-            replaced_pivots: counts.replaced_pivots,
-            bounded_corners: counts.bounded_corners,
-            bent_vertices: step.bent_vertices,
-            factor_bytes: counts.factor_bytes,
-            seconds: step.seconds(),
-            planar: verdict.planar,
-            energy: step.progress.map(|progress| progress.energy),
-            least_determinant: step.progress.map(|progress| progress.least_determinant),
-            distance_left: step.progress.map(|progress| progress.distance_left),
-            note: step.note.clone(),
-        }
-    }
-
-    /// Flipped faces, concave polygons, crossed holes, boundary crossings and overwound vertices together.
-    pub fn defect_count(&self) -> usize {
-        self.flipped_faces
-            + self.concave_polygons
-            + self.crossed_holes
-            + self.boundary_crossings
-            + self.overwound_vertices
-    }
 }
 
 /// Seconds by phase of a run.

@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use super::WriteError;
 use super::paths::{is_same_file, whole};
-use super::report::StepReport;
+use super::step_report::StepReport;
 use super::svg::write_step_svg;
 use super::unfinished::{Unfinished, before_clean_up};
 use crate::mesh::DiskMesh;

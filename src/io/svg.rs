@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use glam::DVec2;
 
 use super::door::check_finite;
-use super::{OutputFit, ProvedEmbedding};
+use super::{OutputChart, OutputFit, ProvedEmbedding};
 use crate::geom::{Bounds, Similarity};
 use crate::mesh::{DiskMesh, EdgeId, VertexId};
 use crate::solver::{Embedding, Step, VirtualBoundary, to_true_area};
@@ -21,20 +21,26 @@ const MARGIN: f64 = 20.0;
 /// the embedding leaves it; or a unit of the drawing is a unit of the mesh.
 pub(super) fn write_svg(
     out: &mut impl Write,
-    shown: ProvedEmbedding<'_>,
+    charts: &[OutputChart<'_>],
     aspect: f64,
     fit: OutputFit,
 ) -> io::Result<()> {
     let scale = DVec2::new(aspect, 1.0);
-    let mut embedding: Embedding = shown.embedding.iter().map(|uv| uv * scale).collect();
-    let frame = match fit {
-        OutputFit::Unit => Frame::of_picture(aspect, &embedding),
-        OutputFit::True => {
-            to_true_area(shown.mesh, &mut embedding);
-            Frame::at_scale(&embedding)
+    let laid = |chart: &OutputChart<'_>| -> Embedding {
+        let mut embedding: Embedding = chart.coordinates.iter().map(|uv| uv * scale).collect();
+        if fit == OutputFit::True {
+            to_true_area(chart.mesh, &mut embedding);
         }
+        embedding
     };
-    Drawing::new(ProvedEmbedding { embedding: &embedding, ..shown }, frame, None).write(out)
+    let embeddings: Vec<Embedding> = charts.iter().map(laid).collect();
+    let points = embeddings.iter().flat_map(|embedding| embedding.iter());
+    let frame = match fit {
+        OutputFit::Unit => Frame::of_picture(aspect, points),
+        OutputFit::True => Frame::at_scale(points),
+    };
+    let shown: Vec<_> = charts.iter().zip(&embeddings).map(|(chart, embedding)| chart.laid(embedding)).collect();
+    Drawing::new(&shown, frame, None).write(out)
 }
 
 /// Draws a step as [`write_svg`] does; one of the virtual boundary with the outline it was solved with (the hull, as a
@@ -50,7 +56,7 @@ pub(super) fn write_step_svg(out: &mut impl Write, mesh: &DiskMesh, step: &Step)
     });
     let frame = Frame::around(embedding.iter().chain(outside.iter().flat_map(|outside| &outside.embedding)));
     let shown = ProvedEmbedding { mesh: step.mesh(mesh), embedding, verdict: &step.verdict };
-    Drawing::new(shown, frame, outside).write(out)
+    Drawing::new(&[shown], frame, outside).write(out)
 }
 
 /// What lies outside the boundary in a step of the virtual boundary.
@@ -60,9 +66,9 @@ struct Outside<'a> {
     stages: &'a VirtualBoundary,
 }
 
-/// An embedding on its page.
+/// Embeddings on their page.
 struct Drawing<'a> {
-    shown: ProvedEmbedding<'a>,
+    charts: &'a [ProvedEmbedding<'a>],
     outside: Option<Outside<'a>>,
     frame: Frame,
     /// Width of the thinnest lines.
@@ -70,16 +76,18 @@ struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(shown: ProvedEmbedding<'a>, frame: Frame, outside: Option<Outside<'a>>) -> Self {
+    fn new(charts: &'a [ProvedEmbedding<'a>], frame: Frame, outside: Option<Outside<'a>>) -> Self {
         // Thin enough that the faces of a fine mesh still show between the lines.
-        let width = (0.2 * SIZE / (shown.mesh.face_count() as f64).sqrt()).min(1.0);
-        Self { shown, outside, width: frame.length(width), frame }
+        let face_count: usize = charts.iter().map(|chart| chart.mesh.face_count()).sum();
+        let width = (0.2 * SIZE / (face_count as f64).sqrt()).min(1.0);
+        Self { charts, outside, width: frame.length(width), frame }
     }
 
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let page = self.frame.page();
         let outside = self.outside.iter().flat_map(|outside| &outside.embedding);
-        check_finite(self.shown.embedding.iter().chain(outside).chain([&page]))?;
+        let points = self.charts.iter().flat_map(|chart| chart.embedding.iter());
+        check_finite(points.chain(outside).chain([&page]))?;
         let DVec2 { x: width, y: height } = page;
         let size =
             if self.frame.is_to_scale { format!(r#"width="{width}" height="{height}" "#) } else { String::new() };
@@ -88,29 +96,29 @@ impl<'a> Drawing<'a> {
             r#"<svg xmlns="http://www.w3.org/2000/svg" {size}viewBox="0 0 {width} {height}" stroke-linejoin="round" fill="none">"#,
         )?;
         self.write_pockets(out)?;
-        self.write_faces(out)?;
+        self.charts.iter().try_for_each(|chart| self.write_faces(out, *chart))?;
         self.write_hull(out)?;
-        self.write_defects(out)?;
+        self.charts.iter().try_for_each(|chart| self.write_defects(out, *chart))?;
         writeln!(out, "</svg>")
     }
 
     /// Where a vertex lies in the drawing.
-    fn at(&self, vertex: VertexId) -> DVec2 {
-        self.frame.place(self.shown.embedding[vertex.index()])
+    fn at(&self, chart: ProvedEmbedding<'_>, vertex: VertexId) -> DVec2 {
+        self.frame.place(chart.embedding[vertex.index()])
     }
 
     /// Faces, inner edges, flipped faces, boundary.
-    fn write_faces(&self, out: &mut impl Write) -> io::Result<()> {
-        let (mesh, width) = (self.shown.mesh, self.width);
+    fn write_faces(&self, out: &mut impl Write, chart: ProvedEmbedding<'_>) -> io::Result<()> {
+        let (mesh, width) = (chart.mesh, self.width);
         let holes = mesh.mesh().holes();
         let loops = std::iter::once(mesh.boundary_loop()).chain(holes.iter().map(|hole| &hole.rim[..]));
-        let outlines: Vec<Vec<DVec2>> = loops.map(|of| of.iter().map(|&v| self.at(v)).collect()).collect();
+        let outlines: Vec<Vec<DVec2>> = loops.map(|of| of.iter().map(|&v| self.at(chart, v)).collect()).collect();
         let ground = r##"fill="#efece6""##;
         let ground = if holes.is_empty() { ground.to_owned() } else { format!(r#"{ground} fill-rule="evenodd""#) };
         self.write_closed(out, &ground, &outlines)?;
         let edges = mesh.edges().filter(|&e| !mesh.is_boundary_edge(e) && !mesh.is_virtual_edge(e));
-        self.write_edges(out, &format!(r##"stroke="#8a8680" stroke-width="{width}""##), edges)?;
-        let flipped = self.shown.verdict.flipped_faces.iter().map(|&face| mesh.face(face).map(|v| self.at(v)));
+        self.write_edges(out, chart, &format!(r##"stroke="#8a8680" stroke-width="{width}""##), edges)?;
+        let flipped = chart.verdict.flipped_faces.iter().map(|&face| mesh.face(face).map(|v| self.at(chart, v)));
         self.write_closed(out, &format!(r##"fill="#d92d3a" stroke="#d92d3a" stroke-width="{width}""##), flipped)?;
         let style = format!(r##"class="boundary" stroke="#2c2b29" stroke-width="{}""##, 2.0 * width);
         self.write_closed(out, &style, &outlines)
@@ -132,26 +140,27 @@ impl<'a> Drawing<'a> {
     }
 
     /// Crossings, concave polygons and overwound vertices.
-    fn write_defects(&self, out: &mut impl Write) -> io::Result<()> {
-        let ProvedEmbedding { verdict, .. } = self.shown;
+    fn write_defects(&self, out: &mut impl Write, chart: ProvedEmbedding<'_>) -> io::Result<()> {
+        let ProvedEmbedding { verdict, mesh, .. } = chart;
         let crossings = verdict.boundary_crossings.iter().flatten().copied();
         let style = format!(r##"stroke="#e8700a" stroke-width="{}""##, self.frame.length(3.0));
-        self.write_edges(out, &style, crossings)?;
-        let concave = verdict.concave_polygons.iter().filter_map(|&face| self.shown.mesh.polygon_of(face));
-        let outlines = concave.map(|polygon| polygon.corners.iter().map(|&v| self.at(v)).collect::<Vec<_>>());
+        self.write_edges(out, chart, &style, crossings)?;
+        let concave = verdict.concave_polygons.iter().filter_map(|&face| mesh.polygon_of(face));
+        let outlines = concave.map(|polygon| polygon.corners.iter().map(|&v| self.at(chart, v)).collect::<Vec<_>>());
         let style = format!(r##"stroke="#6e7b00" stroke-width="{}""##, self.frame.length(3.0));
         if !verdict.concave_polygons.is_empty() {
             self.write_closed(out, &style, outlines)?;
         }
-        let holes = || self.shown.mesh.mesh().holes().into_iter();
-        let crossed = holes().filter(|hole| verdict.crossed_holes.contains(&hole.rim[0]));
-        let loops: Vec<Vec<DVec2>> = crossed.map(|hole| hole.rim.iter().map(|&v| self.at(v)).collect()).collect();
+        let holes = chart.mesh.mesh().holes().into_iter();
+        let crossed = holes.filter(|hole| verdict.crossed_holes.contains(&hole.rim[0]));
+        let loops: Vec<Vec<DVec2>> =
+            crossed.map(|hole| hole.rim.iter().map(|&v| self.at(chart, v)).collect()).collect();
         if !loops.is_empty() {
             let style = format!(r##"stroke="#e8700a" stroke-width="{}""##, self.frame.length(3.0));
             self.write_closed(out, &style, loops)?;
         }
         for &vertex in &verdict.overwound_vertices {
-            let (DVec2 { x, y }, decimals) = (self.at(vertex), self.frame.decimals);
+            let (DVec2 { x, y }, decimals) = (self.at(chart, vertex), self.frame.decimals);
             let [radius, width] = [5.0, 2.0].map(|length| self.frame.length(length));
             writeln!(
                 out,
@@ -161,10 +170,16 @@ impl<'a> Drawing<'a> {
         Ok(())
     }
 
-    fn write_edges(&self, out: &mut impl Write, style: &str, edges: impl Iterator<Item = EdgeId>) -> io::Result<()> {
+    fn write_edges(
+        &self,
+        out: &mut impl Write,
+        chart: ProvedEmbedding<'_>,
+        style: &str,
+        edges: impl Iterator<Item = EdgeId>,
+    ) -> io::Result<()> {
         write!(out, r#"<path {style} d=""#)?;
         for edge in edges {
-            self.write_line(out, &self.shown.mesh.ends(edge).map(|v| self.at(v)))?;
+            self.write_line(out, &chart.mesh.ends(edge).map(|v| self.at(chart, v)))?;
         }
         writeln!(out, r#""/>"#)
     }
@@ -207,21 +222,22 @@ struct Frame {
 impl Frame {
     /// Around some points, at a size of its own.
     fn around<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> Self {
-        let bounds = finite_bounds(points);
+        let bounds = finite_bounds(points.into_iter().copied());
         let extent = bounds.size().max_element();
         let scale = if extent.is_finite() && extent > 0.0 { SIZE / extent } else { 1.0 };
         Self { bounds, scale, margin: MARGIN, decimals: 3, is_to_scale: false }
     }
 
     /// The unit square, as wide as a picture of this aspect, and whatever lies outside.
-    fn of_picture(aspect: f64, points: &[DVec2]) -> Self {
-        let bounds = finite_bounds(points.iter().chain(&[DVec2::ZERO, DVec2::new(aspect, 1.0)]));
+    fn of_picture<'a>(aspect: f64, points: impl Iterator<Item = &'a DVec2>) -> Self {
+        let page = [DVec2::ZERO, DVec2::new(aspect, 1.0)];
+        let bounds = finite_bounds(points.copied().chain(page));
         Self { bounds, scale: SIZE / aspect.max(1.0), margin: 0.0, decimals: 3, is_to_scale: false }
     }
 
     /// Around some points, lengths as they are.
-    fn at_scale(points: &[DVec2]) -> Self {
-        let bounds = finite_bounds(points);
+    fn at_scale<'a>(points: impl Iterator<Item = &'a DVec2>) -> Self {
+        let bounds = finite_bounds(points.copied());
         let extent = bounds.size().max_element();
         let decimals = (0..=300).take_while(|&n| extent * 10_f64.powi(n) < SIZE * SIZE).count();
         Self { bounds, scale: 1.0, margin: extent * MARGIN / SIZE, decimals, is_to_scale: true }
@@ -243,6 +259,6 @@ impl Frame {
     }
 }
 
-fn finite_bounds<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> Bounds {
-    Bounds::of(points.into_iter().copied().filter(|point| point.is_finite()))
+fn finite_bounds(points: impl IntoIterator<Item = DVec2>) -> Bounds {
+    Bounds::of(points.into_iter().filter(|point| point.is_finite()))
 }

@@ -136,6 +136,11 @@ impl Fault {
         )
     }
 
+    /// Whether it is none where each part of the surface is flattened by itself.
+    pub const fn is_of_charts(&self) -> bool {
+        matches!(self, Self::SeveralComponents { .. })
+    }
+
     /// A fixed lower-case name, for reports and tests.
     pub const fn name(&self) -> &'static str {
         self.words()[0]

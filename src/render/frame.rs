@@ -117,9 +117,20 @@ pub struct PictureLayer {
     pub sampling: Sampling,
 }
 
+/// What stands around the mesh, in the same unit space.
+#[derive(Clone, Debug)]
+pub struct Surroundings {
+    /// Its faces.
+    pub mesh: Arc<MeshArrays>,
+    /// How they stand back: [`FacePaint::faint`].
+    pub paint: Arc<FacePaint>,
+}
+
 /// The 3D pane.
 #[derive(Clone, Debug)]
 pub struct MeshFrame {
+    /// What stands around the mesh.
+    pub around: Option<Surroundings>,
     /// The mesh.
     pub mesh: Arc<MeshArrays>,
     /// Its embedding, for checker and picture. Without one they stay plain.

@@ -123,15 +123,10 @@ impl Planner<'_> {
         let uniforms = PaneUniforms::of_mesh(frame, self.size);
         let mut plan = Plan::new(Kind::Mesh, self.size, &uniforms, &frame.palette, frame.picture.as_ref());
         let mesh = &frame.mesh;
-        let positions = Key::Positions(mesh.revision);
-        let normals = Key::Normals(mesh.revision);
-        self.ensure(positions, &mesh.corner_positions);
-        self.ensure(normals, &mesh.corner_normals);
-        let plane = self.plane_or_zeros(frame.plane.as_ref(), mesh);
-        let paint = self.paint_or_zeros(frame.paint.as_ref(), mesh);
-        let draw = Draw { buffers: vec![positions, normals, plane, paint], count: corner_count(mesh) };
-        plan.faces.push(Faces { draw, opacity: 1.0 });
-
+        let around = frame.around.as_ref().map(|around| (&around.mesh, None, Some(&around.paint)));
+        for (mesh, plane, paint) in [(mesh, frame.plane.as_ref(), frame.paint.as_ref())].into_iter().chain(around) {
+            plan.faces.push(Faces { draw: self.mesh_faces(mesh, plane, paint), opacity: 1.0 });
+        }
         for layer in &frame.lines {
             let key = Key::MeshLines(mesh.revision, layer.edges.revision);
             self.ensure_with(key, || segments(&mesh.points, vertex_pairs(&layer.edges)));
@@ -143,6 +138,21 @@ impl Planner<'_> {
             plan.push(Shape::Line, self.draw_of(key, MESH_LINE_STRIDE), uniforms);
         }
         plan
+    }
+
+    /// The faces of a mesh, with its embedding and its colours.
+    fn mesh_faces(
+        &mut self,
+        mesh: &MeshArrays,
+        plane: Option<&Arc<PlaneArrays>>,
+        paint: Option<&Arc<FacePaint>>,
+    ) -> Draw {
+        let positions = Key::Positions(mesh.revision);
+        let normals = Key::Normals(mesh.revision);
+        self.ensure(positions, &mesh.corner_positions);
+        self.ensure(normals, &mesh.corner_normals);
+        let (plane, paint) = (self.plane_or_zeros(plane, mesh), self.paint_or_zeros(paint, mesh));
+        Draw { buffers: vec![positions, normals, plane, paint], count: corner_count(mesh) }
     }
 
     pub(super) fn plane(&mut self, frame: &PlaneFrame) -> Plan {

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::StopConditions;
 use crate::examples::Example;
-use crate::geom::VAxis;
+use crate::geom::{PackingOptions, VAxis};
 use crate::io::{OutputFit, OutputKind, Target};
 use crate::mesh::VertexId;
 use crate::solver::{Hold, Settings};
@@ -43,6 +43,10 @@ pub enum Action {
     TurnFaces,
     /// Mends what keeps the mesh from being a disk, and cuts it open.
     Mend,
+    /// Puts another chart on the screen, where the mesh has several.
+    ShowChart(usize),
+    /// Chooses how charts are packed.
+    SetPacking(PackingOptions),
     /// Places a constraint: pins a vertex, which may be pinned already.
     Place {
         /// The vertex.

@@ -1,11 +1,12 @@
 //! What the user edits, and one edit of it.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::Problem;
-use super::model::example_picture;
+use super::model::{ChartOf, example_picture};
 use crate::examples::Example;
-use crate::geom::{Bounds, PictureFrame, VAxis};
+use crate::geom::{Bounds, PackingOptions, PictureFrame, VAxis};
 use crate::io::{PictureFile, Target, Targets, hard_targets, pins_in_plane};
 use crate::mesh::{Form, VertexId};
 use crate::solver::{GaugeSize, Pins, Settings};
@@ -25,9 +26,24 @@ pub struct Document {
     pub v_axis: VAxis,
     /// What is made of the mesh's faces.
     pub form: Form,
+    /// The chart on the screen, where the mesh has several; none stands for the largest.
+    pub chart: Option<usize>,
+    /// How several charts are packed, where there is no picture that they go on.
+    pub packing: PackingOptions,
+    /// What the user has edited of charts that are not on the screen.
+    pub elsewhere: BTreeMap<usize, ChartEdits>,
     /// Rounds of relaxing that a person has asked for: they follow wherever a run comes to its end, whatever happens to
     /// pins, picture and faces. Choosing method or weights in any way, a repair and solving again drop them; a pause leaves
     /// those that were taken.
+    pub relaxed: usize,
+}
+
+/// What the user edits of one chart of several.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ChartEdits {
+    /// The pins by their targets. Vertices are the chart's own.
+    pub targets: Targets,
+    /// As [`Document::relaxed`].
     pub relaxed: usize,
 }
 
@@ -50,11 +66,31 @@ impl Document {
 
     /// What a run of it is to solve: where there is a picture, the embedding is made to lie on it.
     pub fn problem(&self) -> Problem {
+        self.problem_with(self.targets.clone())
+    }
+
+    /// What the user has edited of a chart.
+    pub(super) fn edits_of(&self, number: usize, of: &ChartOf) -> ChartEdits {
+        if of.charts.pick(self.chart) == number {
+            return ChartEdits { targets: self.targets.clone(), relaxed: self.relaxed };
+        }
+        self.elsewhere.get(&number).cloned().unwrap_or_default()
+    }
+
+    /// The same with other targets.
+    pub(super) fn problem_with(&self, targets: Targets) -> Problem {
         let frame = self.frame();
         let [low, high] = frame.corners();
         let has_picture = self.picture.is_some() || self.aspect.is_some();
         let size = if has_picture { GaugeSize::Within(Bounds { low, high }) } else { GaugeSize::TrueArea };
-        Problem { settings: Settings { size, ..self.settings }, frame, targets: self.targets.clone() }
+        Problem { settings: Settings { size, ..self.settings }, frame, targets }
+    }
+
+    /// Keeps what is edited of a chart that is not on the screen; nothing is no entry.
+    pub(super) fn put_elsewhere(&mut self, chart: usize, edits: ChartEdits) {
+        if edits != ChartEdits::default() {
+            self.elsewhere.insert(chart, edits);
+        }
     }
 
     /// The user's pins in that plane.
@@ -83,6 +119,22 @@ pub enum Command {
     SetForm(Form),
     /// Chooses how many rounds of relaxing follow a run.
     SetRelaxed(usize),
+    /// Puts another chart on the screen.
+    ShowChart {
+        /// The chart.
+        chart: usize,
+        /// The one that is on the screen.
+        from: usize,
+    },
+    /// Chooses how charts are packed.
+    SetPacking(PackingOptions),
+    /// Changes what is edited of a chart that is not on the screen.
+    SetElsewhere {
+        /// The chart.
+        chart: usize,
+        /// All that is edited of it.
+        edits: ChartEdits,
+    },
     /// Several edits that are one for the user.
     Together(Vec<Command>),
 }
@@ -104,6 +156,20 @@ impl Command {
             Self::SetVAxis(v_axis) => Self::SetVAxis(std::mem::replace(&mut document.v_axis, v_axis)),
             Self::SetForm(form) => Self::SetForm(std::mem::replace(&mut document.form, form)),
             Self::SetRelaxed(rounds) => Self::SetRelaxed(std::mem::replace(&mut document.relaxed, rounds)),
+            Self::ShowChart { chart, from } => {
+                let coming = document.elsewhere.remove(&chart).unwrap_or_default();
+                let targets = std::mem::replace(&mut document.targets, coming.targets);
+                let going = ChartEdits { targets, relaxed: std::mem::replace(&mut document.relaxed, coming.relaxed) };
+                document.put_elsewhere(from, going);
+                document.chart = Some(chart);
+                Self::ShowChart { chart: from, from: chart }
+            }
+            Self::SetPacking(options) => Self::SetPacking(std::mem::replace(&mut document.packing, options)),
+            Self::SetElsewhere { chart, edits } => {
+                let before = document.elsewhere.remove(&chart).unwrap_or_default();
+                document.put_elsewhere(chart, edits);
+                Self::SetElsewhere { chart, edits: before }
+            }
             Self::Together(commands) => {
                 let mut inverses: Vec<Self> = commands.into_iter().map(|command| command.apply(document)).collect();
                 inverses.reverse();

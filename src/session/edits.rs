@@ -22,9 +22,6 @@ pub(super) struct Flat {
     embedding: Result<Embedding, SolveError>,
 }
 
-/// The errand that turns the faces around.
-const FORMING: &str = "turning or mending the faces";
-
 /// Edits.
 impl Session {
     /// Carries out edits that are one for the user, and solves.
@@ -56,21 +53,6 @@ impl Session {
     pub(super) fn slide_settings(&mut self, settings: Settings) {
         if settings != self.document.settings {
             self.slide(Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]));
-        }
-    }
-
-    /// Turns the faces around.
-    pub(super) fn turn_faces(&mut self) {
-        if self.model().is_some() {
-            let form = self.document.form;
-            self.edit(vec![Command::SetForm(Form { faces_turned: !form.faces_turned, ..form })]);
-        }
-    }
-
-    /// Mends the mesh as far as that can be done, and cuts it open.
-    pub(super) fn mend(&mut self) {
-        if self.model().is_some_and(|model| model.remedy.is_some()) {
-            self.edit(vec![Command::SetForm(self.document.form.mended())]);
         }
     }
 
@@ -247,7 +229,7 @@ impl Session {
         if self.model().is_none() {
             return self.complain("constraints need a mesh: open one first", None);
         }
-        let count = self.vertex_count();
+        let count = self.model().map_or(0, |model| model.vertex_count_in_file());
         self.errands.send("reading the constraints", move |_| {
             let read = Constraints::read(&path, count);
             Errand::Constraints { path, read }
@@ -267,7 +249,7 @@ impl Session {
                 Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
                 Errand::Flat(flat) => self.take_flat(&flat),
                 Errand::Formed(model) => {
-                    self.mesh.take_other(*model);
+                    self.mesh.take_other(Arc::from(model));
                     if !self.has_form_as_wanted() {
                         self.solve();
                     }
@@ -288,34 +270,19 @@ impl Session {
         if targets.is_empty() {
             return self.complain("the file has no constraints", None);
         }
+        let Some(model) = self.model().cloned() else { return };
         if self.takes_pins() {
+            let mut by_chart = model.by_chart(targets);
+            let here = by_chart.remove(&self.chart_on_screen().unwrap_or(0)).unwrap_or_default();
             let known = &self.document.targets;
-            let fresh = targets.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
-            self.edit(fresh.map(|(vertex, target)| pin(vertex, target)).collect());
+            let fresh = here.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
+            let elsewhere = by_chart.into_iter().map(|(chart, targets)| {
+                let mut edits = self.document.elsewhere.get(&chart).cloned().unwrap_or_default();
+                edits.targets.extend(targets);
+                Command::SetElsewhere { chart, edits }
+            });
+            self.edit(fresh.map(|(vertex, target)| pin(vertex, target)).chain(elsewhere).collect());
         }
-    }
-
-    /// Brings the mesh into the form that the document wants. Where that takes time, a solve follows by itself. Returns
-    /// whether it has it now.
-    pub(super) fn bring_form(&mut self) -> bool {
-        if self.has_form_as_wanted() {
-            return true;
-        }
-        // What goes on is of no use any more.
-        self.solving.give_up_all();
-        let form = self.document.form;
-        if self.mesh.change_form(form) {
-            self.forget_steps();
-            self.messages.forget_mesh();
-            self.tell_faults();
-            return true;
-        }
-        if let Some(model) = self.model().cloned()
-            && !self.errands.is_under_way(FORMING)
-        {
-            self.errands.send(FORMING, move |_| Errand::Formed(Box::new(model.in_form(form))));
-        }
-        false
     }
 }
 

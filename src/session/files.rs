@@ -102,7 +102,11 @@ impl Files {
             None => self.table.missing_picture.clone(),
         };
         project.v_axis = document.v_axis;
-        project.targets.clone_from(&document.targets);
+        project.targets = model.all_targets(document);
+        project.chart = document.chart;
+        project.packing = document.packing;
+        let relaxed = document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
+        project.relaxed_elsewhere = relaxed.map(|(&chart, edits)| (chart, edits.relaxed)).collect();
         project.view.clone_from(&self.table.view);
         Some(project)
     }

@@ -7,7 +7,7 @@ use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
-use crate::io::{EXTENSIONS, write_atomically, write_constraints, write_durably};
+use crate::io::{EXTENSIONS, Precision, write_atomically, write_constraints, write_durably};
 
 impl Session {
     /// Puts something on the table. The document before it is gone, its history with it.
@@ -24,6 +24,7 @@ impl Session {
         self.history = History::default();
         self.errands.forget();
         self.mesh.open(model);
+        self.charts.forget();
         self.forget_steps();
         self.messages.clear();
         self.tell_faults();
@@ -58,13 +59,36 @@ impl Session {
         if self.refuses_to_replace(&request.path, None) {
             return;
         }
+        if model.chart.is_some() {
+            return self.save_atlas(request);
+        }
         let records = self.timeline().records()[..=outcome.step.index].to_vec();
         let picture = self.document.picture.clone();
         self.files.write(move || {
             let mut output = outcome.finished(&model, records, request.fit);
             output.picture = picture.as_deref();
+            output.round_to(Precision::default(), request.kind);
             let files = output.write(request.kind, &request.path)?;
-            Ok(Written { files, about: Some(output.verdict.summary()) })
+            Ok(Written { files, about: Some(output.summary()) })
+        });
+    }
+
+    /// Writes the layout of all charts.
+    fn save_atlas(&mut self, SaveRequest { path, kind, .. }: SaveRequest) {
+        let solved = match self.solved_atlas() {
+            Ok(solved) => solved,
+            Err(missing) => {
+                let charts = if missing == 1 { "1 chart has" } else { &format!("{missing} charts have") };
+                let text = format!("{charts} no embedding for these settings and pins yet");
+                return self.complain(&text, Some("the list of charts tells which: save again when they are solved"));
+            }
+        };
+        let picture = self.document.picture.clone();
+        self.files.write(move || {
+            let mut output = solved.output();
+            output.picture = picture.as_deref();
+            let files = output.write(kind, &path)?;
+            Ok(Written { files, about: Some(output.summary()) })
         });
     }
 
@@ -81,7 +105,7 @@ impl Session {
 
     /// Writes the targets as a constraint file.
     pub(super) fn export_constraints(&mut self, path: PathBuf) {
-        let targets = self.document.targets.clone();
+        let targets = self.model().map(|model| model.all_targets(&self.document)).unwrap_or_default();
         if targets.is_empty() {
             return self.complain("there are no constraints to write: pin a vertex first", None);
         }

@@ -9,6 +9,7 @@
 //! | `action`        | what a person can ask for                                                  |
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
+//! | `forming`       | the form that the mesh is to have, and its chart on the screen             |
 //! | `v_axis`        | where v = 0 is on the picture                                              |
 //! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
@@ -19,7 +20,11 @@
 //! | `solving/`      | part: a run, its timeline, and where it comes to rest                      |
 //! | `timeline`      | the steps of a run                                                         |
 //! | `stop`          | where a run comes to rest                                                  |
+//! | `atlas`         | solved charts, laid beside each other and proved together                  |
 //! | `outcome`       | a step with its proof, ready to be written; the problem that it solves     |
+//! | `atlas_view`    | part: that layout for files, and for the screen                            |
+//! | `chart_targets` | pins of a mesh with several charts, in files and in the document           |
+//! | `charts`        | part: charts that are not on the screen, solved in the background          |
 //! | `drag`          | part: what follows the pointer                                             |
 //! | `errands`       | part: small work for the document that takes time                          |
 //! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
@@ -35,7 +40,11 @@
 //! | `background`    | slots for work on background threads                                       |
 
 mod action;
+mod atlas;
+mod atlas_view;
 mod background;
+mod chart_targets;
+mod charts;
 mod document;
 mod drag;
 mod edits;
@@ -43,6 +52,7 @@ mod errands;
 mod files;
 mod filing;
 mod folder;
+mod forming;
 mod history;
 mod in_use;
 mod messages;
@@ -64,13 +74,16 @@ mod timeline;
 mod v_axis;
 
 pub use action::{Action, SaveRequest};
+pub use atlas::{SolvedChart, atlas};
+pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
-pub use document::{Command, Document};
+pub use charts::ChartState;
+pub use document::{ChartEdits, Command, Document};
 pub use drag::Preview;
 pub use history::History;
 pub use messages::{Message, Place, Severity, named};
 use messages::{Messages, Written};
-pub use model::{Model, Surface};
+pub use model::{ChartOf, Model, Surface};
 pub use outcome::{Outcome, Problem};
 pub use preferences::Preferences;
 pub use recent::RecentFiles;

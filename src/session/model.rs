@@ -8,7 +8,8 @@ use std::sync::Arc;
 use crate::examples::Example;
 use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
 use crate::mesh::{
-    Diagnosis, DiskMesh, Fault, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, diagnose, relative_volume,
+    Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, VertexId, diagnose,
+    relative_volume,
 };
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
@@ -34,11 +35,24 @@ pub struct Model {
     pub repaired: Option<Arc<Repaired>>,
     /// The repairs that would make a disk of what is none.
     pub remedy: Option<Arc<Repaired>>,
-    /// Its triangles and what is known of them.
+    /// Which chart of the mesh this is, where it has several.
+    pub chart: Option<ChartOf>,
+    /// Its triangles and what is known of them: those of the chart, where it is one of several.
     pub surface: Surface,
     /// Whether the outside of its faces seems to be where a person would look for the inside. Silent where the surface
     /// is too flat to tell. Found once, for it takes a look at all faces.
     pub faces_point_inward: bool,
+}
+
+/// One chart of several.
+#[derive(Clone, Debug)]
+pub struct ChartOf {
+    /// All of them.
+    pub charts: Arc<Charts>,
+    /// Which of them it is.
+    pub number: usize,
+    /// The chart.
+    pub chart: Arc<Chart>,
 }
 
 /// Triangles, with the diagnosis' word on them.
@@ -104,6 +118,7 @@ impl Model {
             source: Arc::new(source),
             repaired: None,
             remedy: None,
+            chart: None,
             surface: Surface::default(),
             faces_point_inward: false,
         }
@@ -114,15 +129,59 @@ impl Model {
     pub fn in_form(&self, form: Form) -> Self {
         let is_turned = form.faces_turned != self.form.faces_turned;
         let source = if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) };
-        let (surface, repaired) = surface_of(&source.polygons, form);
-        let remedy = match &surface {
+        let found = surface_of(&source.polygons, form);
+        let remedy = match &found.surface {
             Surface::Disk(_) => None,
             Surface::Faulty(..) => {
-                Some(form.mended().repaired(&source.polygons)).filter(Repaired::is_disk).map(Arc::new)
+                Some(form.mended().repaired(&source.polygons)).filter(Repaired::flattens).map(Arc::new)
             }
         };
+        Self { form, source, remedy, ..self.clone() }.with(found)
+    }
+
+    /// The chart that is wanted, where the mesh has several.
+    pub(super) fn with_chart(self, wanted: Option<usize>) -> Self {
+        match self.chart.as_ref().map(|of| of.charts.pick(wanted)) {
+            Some(number) => self.of_chart(number),
+            None => self,
+        }
+    }
+
+    /// Another chart of the same mesh, where it has several.
+    #[must_use = "the mesh itself stays as it is"]
+    pub fn of_chart(&self, number: usize) -> Self {
+        match &self.chart {
+            Some(now) if now.number != number => self.clone().with(Found::chart(&now.charts, number)),
+            _ => self.clone(),
+        }
+    }
+
+    fn with(self, Found { surface, repaired, chart }: Found) -> Self {
         let faces_point_inward = matches!(&surface, Surface::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME);
-        Self { form, source, repaired, remedy, surface, faces_point_inward, ..self.clone() }
+        Self { surface, repaired, chart, faces_point_inward, ..self }
+    }
+
+    /// Whether it is the chart that is wanted, where the mesh has several.
+    pub(super) fn is_chart(&self, wanted: Option<usize>) -> bool {
+        self.chart.as_ref().is_none_or(|of| of.number == of.charts.pick(wanted))
+    }
+
+    /// How many charts the mesh has.
+    pub fn chart_count(&self) -> usize {
+        self.chart.as_ref().map_or(1, |of| of.charts.count())
+    }
+
+    /// The vertex of the repaired mesh that one of this mesh or chart is: with the file's number, where the file has it.
+    pub fn vertex_in_file(&self, vertex: VertexId) -> VertexId {
+        self.chart.as_ref().and_then(|of| of.chart.vertex_of.get(vertex.index()).copied()).unwrap_or(vertex)
+    }
+
+    /// The vertex of this mesh or chart that one of the repaired mesh is.
+    pub fn vertex_of_file(&self, vertex: VertexId) -> Option<VertexId> {
+        match &self.chart {
+            Some(of) => of.chart.vertex_at(vertex),
+            None => (vertex.index() < self.vertex_count()).then_some(vertex),
+        }
     }
 
     /// Where it came from, in words.
@@ -163,8 +222,36 @@ impl Default for Surface {
     }
 }
 
-/// The triangles of a file's faces in a form, and the repairs that this took.
-fn surface_of(polygons: &PolygonMesh, form: Form) -> (Surface, Option<Arc<Repaired>>) {
+/// What a file's faces are in a form.
+struct Found {
+    surface: Surface,
+    /// The repairs that this took.
+    repaired: Option<Arc<Repaired>>,
+    chart: Option<ChartOf>,
+}
+
+impl Found {
+    /// One chart of several.
+    fn chart(charts: &Arc<Charts>, number: usize) -> Self {
+        let chart = Arc::new(charts.chart(number));
+        let mesh = chart.repaired.triangulate();
+        let surface = match DiskMesh::try_from(mesh.clone()) {
+            Ok(disk) => Surface::Disk(Arc::new(disk)),
+            Err(diagnosis) => Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)),
+        };
+        let repaired = Some(Arc::new(chart.repaired.clone()));
+        Self { surface, repaired, chart: Some(ChartOf { charts: Arc::clone(charts), number, chart }) }
+    }
+
+    /// What is no disk, and is left so.
+    fn faulty(polygons: &PolygonMesh, diagnosis: Diagnosis) -> Self {
+        let surface = Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(diagnosis));
+        Self { surface, repaired: None, chart: None }
+    }
+}
+
+/// What a file's faces are in a form.
+fn surface_of(polygons: &PolygonMesh, form: Form) -> Found {
     let as_given = DiskMesh::try_from(polygons.triangulate()).and_then(|disk| {
         let diagnosis = match form.repair {
             RepairExtent::Nothing => diagnose(&polygons.triangulate()),
@@ -172,19 +259,26 @@ fn surface_of(polygons: &PolygonMesh, form: Form) -> (Surface, Option<Arc<Repair
         };
         if diagnosis.faults.is_empty() { Ok(disk) } else { Err(Box::new(diagnosis)) }
     });
-    match as_given {
-        Ok(disk) => (Surface::Disk(Arc::new(disk)), None),
-        Err(diagnosis) if form.repair == RepairExtent::Nothing && !diagnosis.faults.iter().all(Fault::is_cut_open) => {
-            (Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(*diagnosis)), None)
-        }
-        Err(diagnosis) => {
-            let repaired = form.repaired(polygons);
-            let disk = if repaired.done().is_empty() { None } else { DiskMesh::try_from(repaired.triangulate()).ok() };
-            match disk {
-                Some(disk) => (Surface::Disk(Arc::new(disk)), Some(Arc::new(repaired))),
-                None => (Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(*diagnosis)), None),
-            }
-        }
+    let diagnosis = match as_given {
+        Ok(disk) => return Found { surface: Surface::Disk(Arc::new(disk)), repaired: None, chart: None },
+        Err(diagnosis) => *diagnosis,
+    };
+    let is_no_fault = |fault: &Fault| fault.is_cut_open() || fault.is_of_charts();
+    if form.repair == RepairExtent::Nothing && !diagnosis.faults.iter().all(is_no_fault) {
+        return Found::faulty(polygons, diagnosis);
+    }
+    let repaired = form.repaired(polygons);
+    if let Ok(disk) = DiskMesh::try_from(repaired.triangulate())
+        && !repaired.done().is_empty()
+    {
+        return Found { surface: Surface::Disk(Arc::new(disk)), repaired: Some(Arc::new(repaired)), chart: None };
+    }
+    // Parts that lie side by side, vertex on vertex, are as a rule one surface that a program took apart.
+    let is_apart = |fault: &Fault| matches!(fault, Fault::CoincidentVertices(_)) && form.repair != RepairExtent::All;
+    let charts = if diagnosis.faults.iter().any(is_apart) { None } else { Charts::of(repaired) };
+    match charts.map(Arc::new) {
+        Some(charts) => Found::chart(&charts, charts.largest()),
+        None => Found::faulty(polygons, diagnosis),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::mesh::{DiskMesh, Form};
 #[derive(Debug, Default)]
 pub(super) struct OpenMesh {
     model: Option<Arc<Model>>,
-    /// The same mesh in the form that was wanted before, or is wanted next.
+    /// The same mesh in the form that was wanted before, or is wanted next; or another chart of it.
     other: Option<Arc<Model>>,
     /// Counts the meshes opened, and their changes of form.
     revision: u64,
@@ -20,17 +20,18 @@ impl OpenMesh {
         *self = Self { model: Some(Arc::new(model)), other: None, revision: self.revision + 1 };
     }
 
-    /// Takes in the mesh in another form, for [`change_form`](Self::change_form).
-    pub(super) fn take_other(&mut self, model: Model) {
-        self.other = Some(Arc::new(model));
+    /// Takes in the mesh in another form, for [`change`](Self::change).
+    pub(super) fn take_other(&mut self, model: Arc<Model>) {
+        self.other = Some(model);
     }
 
-    /// Shows the mesh in another form. Returns whether it was there to be shown.
-    pub(super) fn change_form(&mut self, form: Form) -> bool {
-        let Some(other) = self.other.take_if(|other| other.form == form) else { return false };
+    /// Shows the mesh in another form, or another chart of it. Returns the one that was there before; none where the one
+    /// wanted is not at hand.
+    pub(super) fn change(&mut self, form: Form, chart: Option<usize>) -> Option<Arc<Model>> {
+        let other = self.other.take_if(|other| other.form == form && other.is_chart(chart))?;
         self.other = self.model.replace(other);
         self.revision += 1;
-        true
+        self.other.clone()
     }
 }
 
@@ -55,8 +56,9 @@ impl Session {
         self.model().map_or(0, |model| model.vertex_count())
     }
 
-    /// Whether the mesh has the form that the document wants. Where nothing is open, there is none.
+    /// Whether the mesh has the form that the document wants, and is the chart that it wants. Where nothing is open,
+    /// there is none.
     pub(super) fn has_form_as_wanted(&self) -> bool {
-        self.model().is_none_or(|model| model.form == self.document.form)
+        self.model().is_none_or(|model| model.form == self.document.form && model.is_chart(self.document.chart))
     }
 }

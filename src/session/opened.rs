@@ -108,20 +108,22 @@ impl Opened {
     fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
         let form = project.form();
-        let model = project_mesh(&project.mesh, form, &mut remarks)?;
+        let model = project_mesh(&project.mesh, form, &mut remarks)?.with_chart(project.chart);
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);
         let lost_pins = targets.len() < pin_count;
-        let document = Document {
-            targets,
+        let mut document = Document {
             settings,
             picture,
             v_axis: project.v_axis,
             form,
+            chart: project.chart,
+            packing: project.packing,
             relaxed: project.relaxed,
-            aspect: None,
+            ..Document::default()
         };
+        document.take_charts(&model, targets, &project.relaxed_elsewhere);
         // Saving must not take out of the file what only was not to be had this time.
         let missing_picture = project.picture.filter(|_| document.picture.is_none());
         let mut view = project.view;
@@ -193,7 +195,7 @@ fn example_called(name: &str) -> Option<Example> {
 
 /// The targets of vertices that the mesh has, with a remark about the others.
 fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Message>) -> Targets {
-    let count = model.vertex_count();
+    let count = model.vertex_count_in_file();
     let before = targets.len();
     let is_there = |vertex: &VertexId, target: &Target| vertex.index() < count && target.uv.is_finite();
     let lost: Vec<VertexId> = targets.iter().filter(|(v, target)| !is_there(v, target)).map(|(&v, _)| v).collect();

@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::Model;
 use crate::geom::{PictureFrame, VAxis};
 use crate::io::{
-    Materials, MeshReport, Output, OutputFit, PinsReport, Placement, Report, Seconds, StepReport, Target, Targets,
-    WeightedPinReport, pins_in_plane, verdict_as_in_file,
+    Materials, MeshReport, Output, OutputChart, OutputFit, PinsReport, Placement, Report, Seconds, StepReport, Target,
+    Targets, WeightedPinReport, pins_in_plane, verdict_as_in_file,
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
@@ -186,8 +186,14 @@ impl Outcome {
     }
 
     /// The targets of the user's pins, where the method takes any.
-    fn targets_in_use(&self) -> impl Iterator<Item = (&VertexId, &Target)> {
+    pub(super) fn targets_in_use(&self) -> impl Iterator<Item = (&VertexId, &Target)> {
         self.problem.targets.iter().filter(|_| self.problem.settings.method.uses_pins())
+    }
+
+    /// Vertices that pins hold exactly.
+    pub(super) fn held(&self) -> Vec<VertexId> {
+        let settings = &self.problem.settings;
+        self.targets_in_use().filter(|(_, target)| settings.is_exact(target.hold)).map(|(&vertex, _)| vertex).collect()
     }
 
     /// Takes the embedding to its final size, and proves and measures it there. `model` is the mesh as it was opened.
@@ -205,13 +211,12 @@ impl Outcome {
         let is_as_solved = is_on_picture || coordinates == step.solution.embedding;
         let summary = if is_as_solved { self.distortion.summary } else { distortion(mesh, &coordinates).summary };
         let pins = pins_report(self, &coordinates);
-        let (coordinates, verdict) = if is_on_picture && frame.v_axis == VAxis::Down {
-            // Where v runs down in the document, it runs up in the file, which rounds.
-            let upright: Embedding = coordinates.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
-            let of_file = verdict(mesh, &upright);
-            (upright, of_file)
-        } else {
-            (coordinates, of_coordinates)
+        let (coordinates, verdict) = match upright(&coordinates, frame.v_axis).filter(|_| is_on_picture) {
+            Some(upright) => {
+                let of_file = verdict(mesh, &upright);
+                (upright, of_file)
+            }
+            None => (coordinates, of_coordinates),
         };
         let solve = steps.iter().map(|step| step.seconds).sum();
         let verify = step.verify_seconds + start.elapsed().as_secs_f64();
@@ -235,11 +240,15 @@ impl Outcome {
             source: &model.source,
             source_path: model.path.as_deref(),
             materials: Materials::default(),
-            mesh,
-            refinement: step.refinement.as_deref(),
             repaired: model.repaired.as_deref(),
-            coordinates,
-            verdict,
+            charts: vec![OutputChart {
+                mesh,
+                refinement: step.refinement.as_deref(),
+                vertex_of: None,
+                coordinates,
+                verdict,
+                held: self.held(),
+            }],
             report,
             picture: None,
             aspect: if is_on_picture { frame.aspect } else { 1.0 },
@@ -248,9 +257,15 @@ impl Outcome {
     }
 }
 
+/// The coordinates as files have them, where v runs down in the document: there it runs up, which rounds.
+pub(super) fn upright(coordinates: &Embedding, v_axis: VAxis) -> Option<Embedding> {
+    let turned = || coordinates.iter().map(|uv| DVec2::new(uv.x, 1.0 - uv.y)).collect();
+    (v_axis == VAxis::Down).then(turned)
+}
+
 /// What became of the user's pins. Those that are to be met exactly have their own numbers in `coordinates`, whatever
 /// was solved: for them the solver's places count too.
-fn pins_report(outcome: &Outcome, coordinates: &Embedding) -> PinsReport {
+pub(super) fn pins_report(outcome: &Outcome, coordinates: &Embedding) -> PinsReport {
     let settings = &outcome.problem.settings;
     let (mut max_hard_error, mut max_weighted_error) = (None::<f64>, None::<f64>);
     let (mut weighted, mut unmet) = (Vec::new(), Vec::new());

@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use super::atlas_view::AtlasViews;
+use super::charts::OtherCharts;
 use super::drag::Drag;
 use super::errands::Errands;
 use super::files::Files;
@@ -18,6 +20,8 @@ pub struct Session {
     pub(super) history: History,
     /// The steps of the document's run.
     pub(super) solving: Solving,
+    pub(super) charts: OtherCharts,
+    pub(super) atlas_views: AtlasViews,
     pub(super) drag: Drag,
     pub(super) errands: Errands,
     pub(super) target_checks: TargetChecks,
@@ -39,6 +43,8 @@ impl Session {
             mesh: OpenMesh::default(),
             document: Document::default(),
             history: History::default(),
+            charts: OtherCharts::new(&wake),
+            atlas_views: AtlasViews::new(&wake),
             drag: Drag::new(&wake),
             errands: Errands::new(&wake),
             target_checks: TargetChecks::new(&wake),
@@ -93,6 +99,8 @@ impl Session {
             Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
             Action::Mend => self.mend(),
+            Action::ShowChart(number) => self.show_chart(number),
+            Action::SetPacking(options) => self.set_packing(options),
             Action::MirrorTargets => self.mirror_targets(),
             Action::FitTargets => self.fit_targets(),
             Action::ImportConstraints(path) => self.import_constraints(path),
@@ -120,6 +128,8 @@ impl Session {
         }
         self.poll_errands();
         self.poll_solving();
+        self.poll_charts();
+        self.poll_atlas();
         self.poll_drag();
         self.refresh_target_checks();
         self.files.poll_saving(&mut self.messages);
@@ -129,8 +139,9 @@ impl Session {
 
     /// Goes to another state of the document, and solves where there is one.
     fn travel(&mut self, to: impl FnOnce(&mut History, &mut Document) -> bool) {
+        let before = self.document.chart;
         if to(&mut self.history, &mut self.document) {
-            self.solve();
+            if self.document.chart == before { self.solve() } else { self.follow_chart() }
         }
     }
 

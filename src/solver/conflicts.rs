@@ -82,6 +82,16 @@ impl Conflict {
         }
     }
 
+    /// The same with other numbers for the vertices.
+    #[must_use]
+    pub fn renumbered(self, number: impl Fn(VertexId) -> VertexId) -> Self {
+        match self {
+            Self::TurnedFace { face, vertices } => Self::TurnedFace { face, vertices: vertices.map(number) },
+            Self::CrossingEdges { edges } => Self::CrossingEdges { edges: edges.map(|ends| ends.map(&number)) },
+            Self::TooNear { vertices } => Self::TooNear { vertices: vertices.map(number) },
+        }
+    }
+
     /// Whether new vertices resolve it.
     pub const fn needs_new_vertices(&self) -> bool {
         !matches!(self, Self::TooNear { .. })

@@ -224,6 +224,36 @@ impl SolveError {
         }
     }
 
+    /// The same with other numbers for the vertices.
+    #[must_use]
+    pub fn renumbered(mut self, number: impl Fn(VertexId) -> VertexId) -> Self {
+        match &mut self {
+            Self::CoincidentPins { first, second } | Self::TargetsTooNear { first, second } => {
+                (*first, *second) = (number(*first), number(*second));
+            }
+            Self::NoSuchVertex { vertex, .. }
+            | Self::UnusedVertex { vertex }
+            | Self::TargetNotFinite { vertex }
+            | Self::WeightNotPositive { vertex, .. }
+            | Self::OutOfRange { vertex }
+            | Self::Singular { vertex } => *vertex = number(*vertex),
+            Self::NotFinite { .. }
+            | Self::FamilyNotApplicable { .. }
+            | Self::BoundaryTooShort { .. }
+            | Self::TooManyPins { .. }
+            | Self::Unmet
+            | Self::TooFine
+            | Self::TooManyNewVertices { .. }
+            | Self::NotPlanar
+            | Self::AllBent
+            | Self::LadderExhausted { .. }
+            | Self::ResidualTooLarge { .. }
+            | Self::Linear { .. }
+            | Self::Cancelled => {}
+        }
+        self
+    }
+
     /// Whether a method came to nothing with pins and settings that may be: another method may give an embedding.
     pub const fn is_failure_of_method(&self) -> bool {
         matches!(

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `method`, `family`, `settings`, `choice` | what can be chosen, with its names and words |
 //! | `pins`, `conflicts` | pins and gauge; pins that contradict each other |
-//! | `placing`, `upright`, `sheet` | size, place and turn of what is not pinned, without a fold; the numbers that are written of it |
+//! | `placing`, `upright`, `sheet`, `rounding` | size, place and turn of what is not pinned, without a fold; the numbers that are written of it |
 //! | `units` | the units of a solve: near the origin and near size 1, wherever the targets are |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
@@ -50,6 +50,7 @@ pub mod plane_weights;
 mod prepared;
 mod relaxing;
 mod rest;
+mod rounding;
 mod schnyder;
 mod settings;
 mod shape_preserving;
@@ -82,8 +83,9 @@ pub use pins::{
     Hold, Pin, PinPositions, Pins, TakenTargets, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins,
     hard_pins,
 };
-pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two};
+pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor};
 pub use prepared::{Prepared, solve_once};
+pub use rounding::{Grid, Rounded, rounded};
 pub use schnyder::schnyder;
 pub use settings::{GaugeSize, Growth, Settings, Treatment};
 pub use shape_preserving::shape_preserving;

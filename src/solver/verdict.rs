@@ -156,7 +156,7 @@ pub fn is_one_to_one(mesh: &DiskMesh, embedding: &Embedding) -> bool {
 }
 
 /// As [`sense`], where no polygon is at fault either.
-fn planar_sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
+pub(super) fn planar_sense(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
     sense(mesh, embedding).filter(|&upright| concave_polygons(mesh, embedding, upright).next().is_none())
 }
 

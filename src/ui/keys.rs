@@ -60,6 +60,8 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::R, "Relax: lower the distortion of a planar embedding", || Request::Do(Action::Relax)),
     bind(SHIFT, Key::D, "Previous defect", || Request::StepDefect(-1)),
     bind(NONE, Key::D, "Next defect", || Request::StepDefect(1)),
+    bind(NONE, Key::PageUp, "Previous chart", || Request::StepChart(-1)),
+    bind(NONE, Key::PageDown, "Next chart", || Request::StepChart(1)),
     bind(SHIFT, Key::Space, "Run, or pause the run", || Request::RunOrPause),
     bind(NONE, Key::Space, "Take one step", || Request::Do(Action::Step)),
     bind(NONE, Key::ArrowLeft, "Previous step", || Request::GoToStep(StepTarget::Previous)),
@@ -183,7 +185,13 @@ impl Binding {
 impl Request {
     /// Whether a key that is held down asks for it again and again.
     fn repeats(&self) -> bool {
-        matches!(self, Self::Do(Action::Undo | Action::Redo | Action::Step) | Self::GoToStep(_) | Self::StepDefect(_))
+        matches!(
+            self,
+            Self::Do(Action::Undo | Action::Redo | Action::Step)
+                | Self::GoToStep(_)
+                | Self::StepDefect(_)
+                | Self::StepChart(_)
+        )
     }
 }
 

@@ -54,7 +54,15 @@ impl MeshArrays {
     ///
     /// If a corner names a vertex that is not there.
     pub fn new(positions: &[DVec3], triangles: &[[VertexId; 3]]) -> Self {
-        let frame = Sphere::around(positions);
+        Self::in_frame(positions, triangles, Sphere::around(positions))
+    }
+
+    /// The same in the unit space of another mesh, so that both can be drawn beside each other.
+    ///
+    /// # Panics
+    ///
+    /// If a corner names a vertex that is not there.
+    pub fn in_frame(positions: &[DVec3], triangles: &[[VertexId; 3]], frame: Sphere) -> Self {
         let points: Vec<[f32; 3]> = positions.iter().map(|&p| frame.unit_from_world(p).to_array()).collect();
         let corner_positions = triangles.iter().flatten().map(|v| points[v.index()]).collect();
         let normals = crease_normals(positions, triangles);
@@ -131,6 +139,18 @@ pub struct FacePaint {
 impl FacePaint {
     /// The bit of a face that is flipped.
     pub const FLIPPED: u8 = 1;
+
+    /// The bit of a face that stands back, plain in every shading.
+    pub const FAINT: u8 = 2;
+
+    /// Faces that stand back.
+    pub fn faint(face_count: usize) -> Self {
+        Self {
+            revision: Revision::fresh(),
+            corners: vec![[255, 255, 255, Self::FAINT]; 3 * face_count],
+            flipped: Vec::new(),
+        }
+    }
 
     /// White faces with the flipped ones marked. Faces that are not there are passed over.
     pub fn plain(face_count: usize, flipped: &[FaceId]) -> Self {

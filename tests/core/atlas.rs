@@ -63,7 +63,7 @@ fn a_chart_without_holes_gets_the_verdict_of_disks() {
 }
 
 /// Area that two triangles share, by clipping one with the sides of the other.
-fn shared_area(a: [DVec2; 3], b: [DVec2; 3]) -> f64 {
+pub(crate) fn shared_area(a: [DVec2; 3], b: [DVec2; 3]) -> f64 {
     let turn = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a);
     let upright = |[a, b, c]: [DVec2; 3]| if turn(a, b, c) > 0.0 { [a, b, c] } else { [a, c, b] };
     let clip = upright(b);

@@ -106,7 +106,7 @@ fn the_result_fits_the_unit_square_or_has_the_area_of_the_surface() {
 }
 
 /// Walks over XML and asserts that tags are closed in order and attributes quoted; returns the elements' start tags.
-fn xml_elements(text: &str) -> Vec<String> {
+pub(crate) fn xml_elements(text: &str) -> Vec<String> {
     let (mut open, mut elements) = (Vec::<String>::new(), Vec::new());
     for piece in text.split('<').skip(1) {
         let (tag, after) = piece.split_once('>').expect("a tag is closed");

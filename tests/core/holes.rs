@@ -190,11 +190,11 @@ fn whatever_the_holes_of_a_rough_surface_filling_them_makes_a_disk() {
     let mut random = Random(41);
     let mut filled_count = 0;
     for case in 0..200 {
-        let mut sheet = grid(5, 5);
+        let mut sheet = grid(8, 8);
         for p in &mut sheet.positions {
             *p += DVec3::new(random.unit(), random.unit(), 3.0 * random.unit());
         }
-        let left_out: BTreeSet<usize> = (0..12).map(|_| random.index(sheet.face_count())).collect();
+        let left_out: BTreeSet<usize> = (0..9).map(|_| random.index(sheet.face_count())).collect();
         let mesh = without_faces(&PolygonMesh::from(&sheet), |face| left_out.contains(&face));
         if diagnose(&mesh.triangulate()).component_count > 1 {
             continue;
@@ -227,7 +227,7 @@ fn holes_stay_where_nothing_may_be_repaired_or_they_are_to_be_cut_and_where_ther
     for form in [none, cut] {
         assert_eq!(form.repaired(&ring).done(), [], "{form:?}");
         let opened = Form { cut: true, ..form }.repaired(&ring);
-        assert!(opened.is_disk() && opened.done()[0].repair == Repair::Cut, "{form:?}");
+        assert!(opened.flattens() && opened.done()[0].repair == Repair::Cut, "{form:?}");
     }
     let fill_and_cut = Form { cut: true, ..Form::default() }.repaired(&ring);
     assert_eq!(fill_and_cut.done().iter().map(|done| done.repair).collect::<Vec<_>>(), [Repair::FillHoles]);

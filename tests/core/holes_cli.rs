@@ -140,3 +140,37 @@ fn the_plane_with_27_loops_flattens_without_an_option() {
         assert_eq!(check["atlas"]["charts"][0]["boundary_loops"], json!(27));
     }
 }
+
+#[test]
+fn charts_with_holes_are_filled_each_by_itself() {
+    let program = Program::new();
+    let one = obj_text(&sheet());
+    // The same again, beside the first, its faces after those of the first.
+    let moved = |line: &str| match line.split_once(' ') {
+        Some(("v", rest)) => {
+            let (x, others) = rest.split_once(' ').unwrap();
+            format!("v {} {others}\n", x.parse::<f64>().unwrap() + 20.0)
+        }
+        Some(("f", rest)) => {
+            let corners = rest.split(' ').map(|corner| (corner.parse::<u32>().unwrap() + 49).to_string());
+            format!("f {}\n", corners.collect::<Vec<_>>().join(" "))
+        }
+        _ => format!("{line}\n"),
+    };
+    let text = format!("{one}{}", one.lines().map(moved).collect::<String>());
+    program.write("two.obj", &text);
+    let report = program.run(&["flatten", "two.obj", "-o", "out.obj", "--png", "out.png", "--report", "-"]).expect(0);
+    let report = report.json();
+    assert_eq!(report["mesh"]["repairs"], json!([{"repair": "fill-holes", "count": 4}]));
+    assert_eq!(report["atlas"]["planar"], json!(true));
+    assert_eq!(report["charts"][1]["faces"], json!(66));
+    let written = fs::read_to_string(program.path("out.obj")).unwrap();
+    assert_eq!(without_texture(&written), text.lines().collect::<Vec<_>>());
+    let check = program.run(&["check", "out.obj", "--report", "-"]).expect(0).json();
+    for chart in 0..2 {
+        assert_eq!(check["atlas"]["charts"][chart]["boundary_loops"], json!(3));
+    }
+    // The other treatment: each is cut.
+    let cut = program.run(&["flatten", "two.obj", "--holes", "cut", "--cut", "auto", "--report", "-"]).expect(0).json();
+    assert_eq!(cut["mesh"]["repairs"][0]["repair"], json!("cut"));
+}

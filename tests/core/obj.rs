@@ -210,7 +210,7 @@ fn a_file_without_faces_is_named() {
 #[test]
 fn other_formats_are_named_by_extension_and_by_content() {
     let folder = tempfile::tempdir().expect("a folder");
-    for (extension, format) in [("FBX", "FBX"), ("gltf", "glTF"), ("glb", "glTF"), ("usdz", "USD")] {
+    for (extension, format) in [("FBX", "FBX"), ("dae", "COLLADA"), ("usdz", "USD")] {
         let path = folder.path().join(format!("mesh.{extension}"));
         std::fs::write(&path, "whatever").expect("written");
         let error = read_mesh(&path).expect_err("it is not read yet");
@@ -220,7 +220,7 @@ fn other_formats_are_named_by_extension_and_by_content() {
         (&b"4OFF\n3 1 0\n"[..], "OFF of other than three coordinates"),
         (b"# comment\nOFF BINARY\n", "binary OFF"),
         (b"<?xml version=\"1.0\"?>\n", "XML"),
-        (b"glTF\x02\0\0\0", "glTF"),
+        (b"glTF\x01\0\0\0\0\0\0\0", "glTF of another version than 2"),
     ] {
         let error = read_stream(content).expect_err("not read");
         assert_eq!(error.to_string(), format!("format not read yet: {format}"));

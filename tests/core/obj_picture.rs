@@ -208,7 +208,7 @@ fn where_v_runs_down_it_runs_up_in_the_file_and_the_verdict_is_on_that() {
     for (v, [u, down]) in targets {
         assert_eq!(written[v as usize], DVec2::new(u, 1.0 - down), "vertex {v}");
     }
-    assert_eq!(finished.verdict, freebound::solver::verdict(mesh, &written));
+    assert_eq!(finished.charts[0].verdict, freebound::solver::verdict(mesh, &written));
     assert_eq!(finished.report.pins.as_ref().unwrap().max_error, 0.0);
 }
 

@@ -6,9 +6,8 @@ use freebound::io::read_mesh;
 use freebound::mesh::DiskMesh;
 use serde_json::{Value, json};
 
-use crate::common::manifest;
 use crate::makers::{band, tetrahedron};
-use crate::program::{Program, argument, obj_text};
+use crate::program::{Program, obj_text};
 
 fn repairs(report: &Value) -> &Value {
     &report["mesh"]["repairs"]
@@ -77,19 +76,6 @@ fn a_pin_on_the_side_of_a_cut_that_is_new_is_met() {
     let report = program.run(&[&arguments[..], &["--pin", "0:0,0", "--pin", "16:1,0"]].concat()).expect(0).json();
     assert_eq!(report["pins"]["unmet"], json!([]));
     assert_eq!(report["pins"]["count"], json!(2));
-}
-
-#[test]
-fn every_bad_file_of_one_part_is_mended_cut_and_proved() {
-    let wanted =
-        ["closed_fish", "degenerate_capsule", "holes_plane", "moebius", "torus_one_hole", "raw_negative_indices"];
-    for entry in manifest().iter().filter(|entry| wanted.iter().any(|name| entry.file == format!("bad/{name}.obj"))) {
-        let program = Program::new();
-        let arguments = ["flatten", argument(&entry.path), "--repair", "all", "--cut", "auto", "--report", "-"];
-        let report = program.run(&arguments).expect(0).json();
-        assert_eq!(report["verdict"]["planar"], json!(true), "{}", entry.file);
-        assert_eq!(report["verdict"]["f32"], json!(true), "{}", entry.file);
-    }
 }
 
 #[test]

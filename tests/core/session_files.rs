@@ -66,8 +66,14 @@ fn a_hard_constraint_that_the_solver_misses_is_reported_though_the_file_has_its_
 
 #[test]
 fn every_format_stands_in_its_own_row_of_the_table() {
-    let rows =
-        [(OutputKind::Obj, "obj"), (OutputKind::Svg, "svg"), (OutputKind::Png, "png"), (OutputKind::Json, "json")];
+    let rows = [
+        (OutputKind::Obj, "obj"),
+        (OutputKind::Ply, "ply"),
+        (OutputKind::Glb, "glb"),
+        (OutputKind::Svg, "svg"),
+        (OutputKind::Png, "png"),
+        (OutputKind::Json, "json"),
+    ];
     for (kind, extension) in rows {
         let format = kind.format();
         assert_eq!(format.extension, extension);

@@ -251,7 +251,7 @@ fn finish(mesh: &TriMesh, places: Embedding) -> (bool, Placement, bool) {
     let outcome = outcome_with(&disk, places);
     let was_planar = outcome.step.verdict.planar;
     let finished = outcome.finished(&model, Vec::new(), OutputFit::Unit);
-    (was_planar, finished.report.placement.expect("there are coordinates"), finished.verdict.planar)
+    (was_planar, finished.report.placement.expect("there are coordinates"), finished.charts[0].verdict.planar)
 }
 
 #[test]

@@ -86,6 +86,8 @@ fn shortcuts_do_what_the_table_says() {
             Request::Quit => editor.files.unsaved.is_asked(),
             // Nothing is wrong here to go to.
             Request::StepDefect(_) => editor.selection.defect().is_none(),
+            // The mesh is one chart.
+            Request::StepChart(_) => editor.session.chart_on_screen().is_none(),
             Request::SetTool(tool) => editor.tools.tool() == tool,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
             Request::Frame => editor.mesh.pane.camera() != orbit,

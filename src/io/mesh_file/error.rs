@@ -40,6 +40,41 @@ pub enum ReadError {
         /// What is wrong with them.
         kind: ParseFaultKind,
     },
+    /// A part of a glTF file that cannot be understood.
+    #[error("{element}: {kind}")]
+    Element {
+        /// Which one, such as `accessor 3`; all are counted from 0.
+        element: String,
+        /// What is wrong with it.
+        kind: ParseFaultKind,
+    },
+    /// The JSON of a glTF file does not have the form of glTF.
+    #[error("{field}: {reason}")]
+    Json {
+        /// The field, such as `accessors[3].count`.
+        field: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The file needs an extension of glTF that is not read.
+    #[error("the file needs the extension {0}, which is not read")]
+    NeedsExtension(String),
+    /// A file that belongs to a glTF file.
+    #[error("buffer {buffer}: {uri} cannot be read: {source}")]
+    Beside {
+        /// Which buffer it holds.
+        buffer: usize,
+        /// Its name, as the file gives it.
+        uri: String,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+    /// Few bytes that are shown as many triangles.
+    #[error("its nodes and meshes show {corners} corners of triangles, many times what the file holds")]
+    TooManyCopies {
+        /// How many.
+        corners: u64,
+    },
     /// The file has no face.
     #[error("the file has no faces{}", if *vertices == 0 { String::new() } else { format!(", only {vertices} vertices") })]
     NoFaces {
@@ -63,6 +98,10 @@ impl ReadError {
             Self::NotText | Self::LineTooLong { .. } => "export the mesh as OBJ or PLY, and choose that file",
             Self::Parse { .. } => "mend these lines, or export the file again",
             Self::Bytes { .. } => "export the file again, or copy it again if it was cut short",
+            Self::Element { .. } | Self::Json { .. } => "export the file again",
+            Self::NeedsExtension(_) => "export it again without compression",
+            Self::Beside { .. } => "put that file beside this one, or export as GLB, which is one file",
+            Self::TooManyCopies { .. } => "export each mesh once",
             Self::NoFaces { .. } => "export the surface with its faces",
             Self::TooLarge => "simplify the mesh",
             Self::Cancelled => "open the file again",
@@ -85,6 +124,11 @@ pub(in crate::io) fn fault_at(place: Place, kind: ParseFaultKind) -> ReadError {
         Place::Line(line) => ReadError::Parse { faults: vec![ParseFault { line, kind }], total: 1 },
         Place::Byte(byte) => ReadError::Bytes { byte, kind },
     }
+}
+
+/// The only fault of a glTF file, in this element.
+pub(in crate::io) fn fault_in(element: &str, index: usize, kind: ParseFaultKind) -> ReadError {
+    ReadError::Element { element: format!("{element} {index}"), kind }
 }
 
 fn listed(faults: &[ParseFault], total: usize) -> String {
@@ -158,6 +202,12 @@ pub enum ParseFaultKind {
         /// How many such elements there are.
         count: usize,
     },
+    /// Bytes beyond the end of what holds them.
+    #[error("it reaches beyond the end of what holds it")]
+    BeyondEnd,
+    /// A node that more than one node holds, or itself.
+    #[error("it is the child of two nodes, or of itself")]
+    SecondParent,
     /// A face with so many corners, fewer than three.
     #[error("a face with {} {}, three are needed", .0, if *.0 == 1 { "corner" } else { "corners" })]
     TooFewCorners(usize),

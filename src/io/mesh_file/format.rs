@@ -7,6 +7,7 @@ use crate::io::obj::{Lines, split_mark, words};
 /// A format that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Format {
+    Gltf,
     Obj,
     Off,
     Ply,
@@ -25,6 +26,7 @@ impl Format {
             return Ok(format);
         }
         match extension {
+            Some("gltf" | "glb") => Ok(Self::Gltf),
             Some("off" | "coff" | "noff") => Ok(Self::Off),
             Some("ply") => Ok(Self::Ply),
             Some("stl") if head.contains(&0) => Ok(Self::StlBinary),
@@ -47,6 +49,9 @@ impl Format {
             return Err(ReadError::NotReadYet(name));
         }
         let text = split_mark(head).1;
+        if head.starts_with(b"glTF") || text.trim_ascii_start().starts_with(b"{") {
+            return Ok(Some(Self::Gltf));
+        }
         let word = Lines::of(text).find_map(|line| words(&line.whole[..line.length]).next()).unwrap_or_default();
         Ok(match word {
             b"ply" => Some(Self::Ply),
@@ -62,8 +67,7 @@ impl Format {
 }
 
 /// The first bytes of files that are not read.
-const MARKS: [(&[u8], &str); 6] = [
-    (b"glTF", "glTF"),
+const MARKS: [(&[u8], &str); 5] = [
     (b"Kaydara FBX Binary", "FBX"),
     (b"BLENDER", "Blender"),
     (b"PXR-USDC", "USD"),
@@ -88,7 +92,6 @@ fn format_not_read(extension: &str) -> Option<&'static str> {
         "dae" => "COLLADA",
         "dxf" => "DXF",
         "fbx" => "FBX",
-        "gltf" | "glb" => "glTF",
         "iges" | "igs" => "IGES",
         "ma" | "mb" => "Maya",
         "msh" => "Gmsh",
@@ -106,7 +109,6 @@ fn word_of_format(word: &[u8]) -> Option<&'static str> {
         b";" => "FBX",
         b"<?xml" => "XML",
         b"$MeshFormat" => "Gmsh",
-        b"{" => "glTF",
         _ => return None,
     })
 }

@@ -34,7 +34,7 @@ use crate::mesh::{PolygonMesh, Repaired, TriMesh, VertexId};
 use crate::solver::Embedding;
 
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
-pub(in crate::io) use error::{Place, fault_at};
+pub(in crate::io) use error::{Place, fault_at, fault_in};
 pub use read::{Progress, read_mesh, read_mesh_with, read_stream, read_stream_with};
 pub use refined::Refined;
 pub use source::Source;
@@ -114,6 +114,11 @@ impl Statement {
 }
 
 impl MeshFile {
+    /// Whether the numbers in its file have 32 bits, of 1 − v in place of v.
+    pub fn is_turned_over(&self) -> bool {
+        self.source.as_ref().is_some_and(|source| matches!(source.format, SourceFormat::Gltf(_)))
+    }
+
     /// The same mesh with every polygon run around the other way, from the same first corner.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {

@@ -11,6 +11,7 @@ use super::format::Format;
 use super::off::parse_off;
 use super::stl::{parse_stl_binary, parse_stl_text};
 use super::{MeshFile, ReadError, Source, SourceFormat};
+use crate::io::gltf::parse_gltf;
 use crate::io::obj::{Lines, parse as parse_obj};
 use crate::io::ply::parse_ply;
 
@@ -45,9 +46,8 @@ pub fn read_mesh(path: &Path) -> Result<MeshFile, ReadError> {
 /// [`ReadError`] says what is wrong with the file.
 pub fn read_mesh_with(path: &Path, watch: &mut dyn FnMut(Progress) -> ControlFlow<()>) -> Result<MeshFile, ReadError> {
     let file = File::open(path)?;
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let total = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|data| data.len());
-    read(file, Some(&extension), &mut |bytes| watch(Progress { bytes, total }))
+    read(file, Some(path), &mut |bytes| watch(Progress { bytes, total }))
 }
 
 /// Reads a mesh from a stream; its beginning tells the format.
@@ -73,12 +73,13 @@ pub fn read_stream_with(
 
 fn read(
     mut reader: impl Read,
-    extension: Option<&str>,
+    path: Option<&Path>,
     watch: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<MeshFile, ReadError> {
     let mut bytes = Vec::new();
     reader.by_ref().take(CHUNK).read_to_end(&mut bytes)?;
-    let format = Format::of(&bytes, extension)?;
+    let extension = path.map(|path| path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase());
+    let format = Format::of(&bytes, extension.as_deref())?;
     read_rest(&mut reader, &mut bytes, format, watch)?;
     let size = bytes.len() as u64;
     let mut mesh = match format {
@@ -87,6 +88,7 @@ fn read(
         Format::StlText => parse_stl_text(&bytes)?,
         Format::StlBinary => parse_stl_binary(&bytes)?,
         Format::Ply => return parse_ply(bytes),
+        Format::Gltf => return parse_gltf(bytes, path.map(|path| path.parent().unwrap_or(Path::new("")))),
     };
     if format == Format::Obj {
         mesh.source = Some(Source::of(SourceFormat::Obj, bytes, mesh.polygons.positions.len()));

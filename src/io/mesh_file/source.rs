@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::io::gltf::Scene;
 use crate::io::ply::Header;
 use crate::mesh::NewVertex;
 
@@ -23,12 +24,14 @@ pub struct Source {
 pub(in crate::io) enum SourceFormat {
     Obj,
     Ply(Arc<Header>),
+    /// The bytes are those of its buffers, one behind another.
+    Gltf(Arc<Scene>),
 }
 
 impl Source {
     /// A file's bytes, of a mesh with so many vertices.
-    pub(in crate::io) fn of(format: SourceFormat, bytes: Vec<u8>, vertex_count: usize) -> Self {
-        Self { format, bytes: Arc::new(bytes), vertex_count, face_of: None, new_vertices: Vec::new() }
+    pub(in crate::io) fn of(format: SourceFormat, bytes: impl Into<Arc<Vec<u8>>>, vertex_count: usize) -> Self {
+        Self { format, bytes: bytes.into(), vertex_count, face_of: None, new_vertices: Vec::new() }
     }
 
     /// The file's face that a face of the mesh is or is a part of.

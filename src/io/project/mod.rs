@@ -12,6 +12,7 @@
 mod error;
 mod fields;
 
+use std::collections::BTreeMap;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -22,7 +23,7 @@ use self::fields::{SourceFields, pin_list};
 use super::door::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
-use crate::geom::VAxis;
+use crate::geom::{PackingOptions, VAxis};
 use crate::mesh::{Form, HoleTreatment, RepairExtent};
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 
@@ -78,6 +79,15 @@ pub struct ProjectFile {
     pub relaxed: usize,
     #[serde(default = "default_new_vertices")]
     new_vertices: bool,
+    /// The chart on the screen, where the mesh has several; the largest without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chart: Option<usize>,
+    /// As `relaxed`, of charts that are not on the screen.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub relaxed_elsewhere: BTreeMap<usize, usize>,
+    /// How charts are packed.
+    #[serde(default)]
+    pub packing: PackingOptions,
     /// The targets of the user's pins.
     #[serde(default, rename = "pins", with = "pin_list")]
     pub targets: Targets,
@@ -185,6 +195,9 @@ impl ProjectFile {
             max_steps: settings.max_steps,
             relax_rounds: settings.relax_rounds,
             relaxed: 0,
+            chart: None,
+            relaxed_elsewhere: BTreeMap::new(),
+            packing: PackingOptions::default(),
             new_vertices: settings.new_vertices,
             targets: Targets::new(),
             view: ProjectView::default(),

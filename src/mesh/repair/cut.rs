@@ -1,4 +1,4 @@
-//! A connected surface is cut along edges until it is a disk.
+//! Each part of a surface is cut along edges until it is a disk.
 //!
 //! # Method
 //!
@@ -14,11 +14,12 @@
 //! Source: J. Erickson, K. Whittlesey, "Greedy optimal homotopy and homology generators", 2005; the far points as in
 //! A. Sheffer, "Spanning tree seams for reducing parameterization distortion of triangulated surfaces", 2002.
 
+use super::charts::{Compact, compact, parts_of};
 use super::sides::Sides;
 use super::ways::{Measure, Reach, Ways};
 use super::{Repair, Repaired};
-use crate::mesh::VertexId;
 use crate::mesh::union::DisjointSets;
+use crate::mesh::{VertexId, parts};
 
 /// A point is joined to a sphere's cut while it is farther from it than this share of the first two points' distance.
 const FAR: f64 = 0.5;
@@ -26,21 +27,25 @@ const FAR: f64 = 0.5;
 /// The most points of a sphere's cut.
 const MOST_POINTS: usize = 8;
 
-/// The mesh cut open. One that is a disk already, or has no faces, stays as it is.
+/// The mesh cut open, each part by itself. Parts that are disks already, or are so once their holes are
+/// filled, stay as they are.
 pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     let mut cut = whole.clone();
     let is_face = |face: usize| whole.polygons.corner_range(face).len() >= 3;
-    if whole.polygons.face_count() == 0 || !whole.is_sound() || !(0..whole.polygons.face_count()).all(is_face) {
+    if !whole.is_sound() || !(0..whole.polygons.face_count()).all(is_face) {
         return cut;
     }
     let sides = Sides::new(&whole.polygons);
-    let ways = Ways::new(&whole.polygons, &sides);
-    let seam = Surface { sides: &sides, ways: &ways }.seam();
-    let count = seam.iter().filter(|is_open| **is_open).count();
+    let mut is_open = vec![false; whole.polygons.corners.len()];
+    let count = parts_of(&whole.polygons, &sides)
+        .into_iter()
+        .map(|faces| compact(&whole.polygons, &faces))
+        .filter(|part| !(whole.fills && is_filled(part)))
+        .map(|part| open_part(&part, &mut is_open))
+        .sum();
     if count == 0 {
         return cut;
     }
-    let is_open = by_first_side(&sides, &seam, whole.polygons.corners.len());
     let fans = sides.fans(|on| on.len() == 2 && !is_open[on[0] as usize]);
     cut.split_into(fans);
     cut.note(Repair::Cut, count);
@@ -48,13 +53,23 @@ pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     cut
 }
 
-/// Whether an edge is open, by its first side.
-fn by_first_side(sides: &Sides<'_>, seam: &[bool], side_count: usize) -> Vec<bool> {
-    let mut is_open = vec![false; side_count];
-    for (on, &open) in sides.table.edges().zip(seam) {
-        is_open[on[0] as usize] = open;
+/// Whether a part is a disk once its holes are filled.
+fn is_filled(part: &Compact) -> bool {
+    parts(&part.polygons.triangulate()).is_ok_and(|found| found.len() == 1)
+}
+
+/// Opens the sides of the whole along which a part is cut. Returns how many edges these are. Where edges have three faces
+/// or more, there are none.
+fn open_part(part: &Compact, is_open: &mut [bool]) -> usize {
+    let sides = Sides::new(&part.polygons);
+    if sides.table.edges().any(|on| on.len() > 2) {
+        return 0;
     }
-    is_open
+    let seam = Surface { sides: &sides, ways: &Ways::new(&part.polygons, &sides) }.seam();
+    for (on, _) in sides.table.edges().zip(&seam).filter(|(_, is_open)| **is_open) {
+        on.iter().for_each(|&side| is_open[part.corner_of[side as usize] as usize] = true);
+    }
+    seam.iter().filter(|is_open| **is_open).count()
 }
 
 struct Surface<'a> {

@@ -1,8 +1,8 @@
-//! Holes are filled with virtual faces, so that the surface is a disk while it is flattened.
+//! Holes are filled with virtual faces, so that each part of the surface is a disk while it is flattened.
 //!
 //! # Method
 //!
-//! The longest boundary loop, by the lengths of its edges, is the outer one; all others are around holes. Of three ways to fill
+//! Of each part the longest boundary loop, by the lengths of its edges, is the outer one; all others are around holes. Of three ways to fill
 //! a hole the first is taken that serves:
 //!
 //! * A fan around a new vertex in the middle of the loop, where the loop is seen from there, in its best plane, as a whole.
@@ -10,17 +10,19 @@
 //! * A fan around a new vertex that is raised from the plane, so that its triangles have an area even where the loop is
 //!   a slit.
 //!
-//! Nothing is filled where the surface would be no disk for that: where it has handles, one side only, or is several parts. Such a surface
-//! is cut with its holes as parts of the boundary.
+//! Nothing is filled where a part would be no disk for that: where it has handles, or one side only. Such a part is cut with its holes
+//! as parts of the boundary.
 
 use std::collections::HashSet;
 
 use glam::DVec3;
 
+use super::charts::parts_of;
+use super::sides::Sides;
 use super::{Repair, Repaired};
 use crate::mesh::polygons::newell_normal;
 use crate::mesh::triangulate::triangulate;
-use crate::mesh::{FIRST_HOLE, Fault, TriMesh, VertexId, diagnose};
+use crate::mesh::{FIRST_HOLE, Part, TriMesh, VertexId, parts};
 
 /// A triangle, or a loop, whose area is a smaller share of its longest side's square, or its length's, has none.
 const THINNEST: f64 = 1e-6;
@@ -36,39 +38,55 @@ pub(super) struct Filling {
 }
 
 impl Repaired {
-    /// Fills all holes, where a disk comes of it.
+    /// Fills all holes where that is wanted and makes disks of all parts. Where there are several, each is filled when it
+    /// is taken for itself.
     #[must_use]
-    pub fn fill_holes(mut self) -> Self {
-        if !self.is_sound() || !self.filling.is_empty() {
-            return self;
+    pub(super) fn fill_holes(mut self) -> Self {
+        let loops = self.inner_loops();
+        self.note(Repair::FillHoles, loops.len());
+        if self.is_sound() && parts_of(&self.polygons, &Sides::new(&self.polygons)).len() == 1 {
+            self.filled()
+        } else {
+            self
         }
-        let mesh = self.triangulate();
-        let mut loops = None;
-        for fault in diagnose(&mesh).faults {
-            match fault {
-                Fault::SeveralBoundaryLoops(found) => loops = Some(found),
-                fault if fault.is_harmless() => {}
-                _ => return self,
-            }
+    }
+
+    /// Fills the holes of one part.
+    #[must_use]
+    pub(super) fn filled(mut self) -> Self {
+        let holes = self.inner_loops();
+        if !holes.is_empty() {
+            self.filling = Filling::of(&self.polygons.triangulate(), &holes);
         }
-        let holes = loops.map(|loops| inner_loops(&mesh, loops)).unwrap_or_default();
-        self.filling = Filling::of(&mesh, &holes);
-        self.note(Repair::FillHoles, holes.len());
         self
+    }
+
+    /// The loops to fill, each turned around so that the surface lies to its right; none where they are to stay, or filling
+    /// them makes no disks.
+    fn inner_loops(&self) -> Vec<Vec<VertexId>> {
+        if !self.fills || !self.is_sound() {
+            return Vec::new();
+        }
+        let mesh = self.polygons.triangulate();
+        let parts = parts(&mesh).unwrap_or_default();
+        let of_part = |part: &Part| {
+            let number = |vertex: &VertexId| part.vertex_of()[vertex.index()];
+            let loops = part.loops().iter().map(|of| of.iter().rev().map(number).collect()).collect();
+            all_but_the_longest(&mesh, loops)
+        };
+        parts.iter().flat_map(of_part).collect()
     }
 }
 
-/// All loops but the longest, each turned around so that the surface lies to its right.
-fn inner_loops(mesh: &TriMesh, mut loops: Vec<Vec<VertexId>>) -> Vec<Vec<VertexId>> {
+/// All loops but the longest, those with the lowest vertices first.
+fn all_but_the_longest(mesh: &TriMesh, mut loops: Vec<Vec<VertexId>>) -> Vec<Vec<VertexId>> {
     let length = |of: &[VertexId]| -> f64 {
-        let ends = of.iter().zip(of.iter().cycle().skip(1));
-        ends.map(|(a, b)| mesh.positions[a.index()].distance(mesh.positions[b.index()])).sum()
+        sides(of).map(|ends| ends.map(|v| mesh.positions[v.index()])).map(|[a, b]| a.distance(b)).sum()
     };
     loops.sort_by_key(|of| of.iter().min().copied());
     let lengths: Vec<f64> = loops.iter().map(|of| length(of)).collect();
     let longest = (0..loops.len()).fold(0, |best, at| if lengths[at] > lengths[best] { at } else { best });
     loops.remove(longest);
-    loops.iter_mut().for_each(|of| of.reverse());
     loops
 }
 
@@ -93,10 +111,6 @@ impl Filling {
             filling.hole_of.resize(filling.triangles.len(), number);
         }
         filling
-    }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
     }
 
     /// Runs around the other way.

@@ -7,13 +7,15 @@
 //! | `leave_out.rs` | repeated corners and duplicate faces left out |
 //! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
 //! | `fill.rs` | holes filled with virtual faces |
-//! | `cut.rs` | a surface cut open until it is a disk |
+//! | `cut.rs` | a surface cut open until it is a disk, or several |
+//! | `charts.rs` | the parts of a mesh, each a disk by itself |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
 //!
 //! A repair changes connectivity alone: every position stays, and old vertices keep their numbers; new ones, which lie where
 //! an old one does, follow. The file that the mesh came from is never changed but for its texture coordinates, which
 //! [`Repaired::corner_of`] carries back.
 
+mod charts;
 mod cut;
 mod fill;
 mod join;
@@ -27,7 +29,9 @@ use serde::{Deserialize, Serialize};
 
 use fill::Filling;
 
-use super::{DiskMesh, PolygonMesh, TriMesh, VertexId, diagnose};
+use super::{PolygonMesh, TriMesh, VertexId, diagnose};
+
+pub use charts::{Chart, Charts};
 
 /// What is made of a file's faces before they are flattened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,7 +42,7 @@ pub struct Form {
     pub repair: RepairExtent,
     /// What becomes of holes.
     pub holes: HoleTreatment,
-    /// Whether what is no disk is cut open.
+    /// Whether parts that are no disks are cut open.
     pub cut: bool,
 }
 
@@ -54,7 +58,7 @@ pub enum HoleTreatment {
 }
 
 impl Form {
-    /// All that can be done to make a disk.
+    /// All that can be done to make disks.
     #[must_use]
     pub const fn mended(self) -> Self {
         Self { repair: RepairExtent::All, cut: true, ..self }
@@ -67,10 +71,10 @@ impl Form {
             let before = source.turned();
             return Self { faces_turned: false, ..self }.repaired(&before).turned(&before);
         }
-        let repaired = Repaired::new(source, self.repair);
-        let fills = self.holes == HoleTreatment::Fill && self.repair != RepairExtent::Nothing;
-        let repaired = if fills { repaired.fill_holes() } else { repaired };
-        if self.cut { repaired.cut_to_disk() } else { repaired }
+        let mut repaired = Repaired::new(source, self.repair);
+        repaired.fills = self.holes == HoleTreatment::Fill && self.repair != RepairExtent::Nothing;
+        let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
+        repaired.fill_holes()
     }
 }
 
@@ -106,7 +110,7 @@ pub enum Repair {
     SplitVertices,
     /// Inner boundary loops are filled with virtual faces, which are of no file.
     FillHoles,
-    /// The surface is cut along edges until it is a disk.
+    /// The surface is cut along edges until each part is a disk.
     Cut,
 }
 
@@ -173,7 +177,9 @@ pub struct Repaired {
     face_of: Vec<u32>,
     /// Corners of the mesh as given that were left out, each with one that stands for it; that may be left out later.
     stand_ins: Vec<[u32; 2]>,
-    /// What fills its holes. Positions beyond those of the polygons are the filling's.
+    /// Whether holes are filled while it is flattened.
+    fills: bool,
+    /// What fills them, where it is one part. Positions beyond those of the polygons are the filling's.
     filling: Filling,
     done: Vec<Done>,
 }
@@ -203,6 +209,7 @@ impl Repaired {
             corner_of: (0..count(source.corners.len())).collect(),
             face_of: (0..count(source.face_count())).collect(),
             stand_ins: Vec::new(),
+            fills: false,
             filling: Filling::default(),
             done: Vec::new(),
         }
@@ -214,15 +221,12 @@ impl Repaired {
         self.polygons.corners.iter().all(|corner| corner.index() < count)
     }
 
-    /// Cuts the surface open until it is a disk: for one connected part without crowded edges. Nothing where it is a disk
-    /// already, or cutting makes none of it.
+    /// Cuts each part of the surface open until it is a disk: for parts without crowded edges. Nothing where all are disks
+    /// already, or cutting makes none of one.
     #[must_use]
-    pub fn cut_to_disk(self) -> Self {
-        if !self.filling.is_empty() {
-            return self;
-        }
+    pub fn cut_to_disks(self) -> Self {
         let cut = cut::cut_open(&self);
-        if DiskMesh::try_from(cut.triangulate()).is_ok() { cut } else { self }
+        if cut.flattens() { cut } else { self }
     }
 
     /// The same repairs of the mesh as given, `source`, with every face turned around.
@@ -276,23 +280,6 @@ impl Repaired {
         vertices
     }
 
-    /// The faces of the mesh as given, each with the corners that it has now. Faces that went stay as they were.
-    ///
-    /// # Panics
-    ///
-    /// If `source` is another mesh, with more corners.
-    pub fn all_faces(&self, source: &PolygonMesh) -> PolygonMesh {
-        let mut kept = self.face_of.iter().enumerate().peekable();
-        let (mut corners, mut starts) = (Vec::new(), vec![0]);
-        for face in 0..source.face_count() {
-            let here = kept.next_if(|(_, of)| **of as usize == face);
-            corners.extend_from_slice(here.map_or(source.face(face), |(place, _)| self.polygons.face(place)));
-            starts.push(u32::try_from(corners.len()).expect("no more corners than before"));
-        }
-        let are_triangles = starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
-        PolygonMesh { positions: self.polygons.positions.clone(), corners, starts: (!are_triangles).then_some(starts) }
-    }
-
     /// The vertex of the mesh as given in whose place each vertex lies.
     pub fn vertices_of(&self, source: &PolygonMesh) -> Vec<VertexId> {
         let mut vertices: Vec<VertexId> = (0..self.polygons.positions.len()).map(VertexId::from_index).collect();
@@ -302,8 +289,8 @@ impl Repaired {
         vertices
     }
 
-    /// Its faces as triangles, numbered as in the file. Those that fill holes follow, numbered from [`FIRST_HOLE`](super::FIRST_HOLE) on, and
-    /// so do the vertices that only these have.
+    /// Its faces as triangles, numbered as in the file. Those that fill holes follow, numbered from
+    /// [`FIRST_HOLE`](super::FIRST_HOLE) on, and so do the vertices that only these have.
     pub fn triangulate(&self) -> TriMesh {
         let TriMesh { positions, triangles, polygon_of } = self.polygons.triangulate();
         let of_triangle = |face: usize| self.face_of[polygon_of.as_ref().map_or(face, |of| of[face] as usize)];
@@ -322,8 +309,8 @@ impl Repaired {
         }
     }
 
-    /// Whether nothing keeps it from being a disk.
-    pub fn is_disk(&self) -> bool {
-        diagnose(&self.triangulate()).is_disk()
+    /// Whether nothing keeps it from being a disk, or several.
+    pub fn flattens(&self) -> bool {
+        diagnose(&self.triangulate()).is_disk() || charts::disks_of(self).is_some()
     }
 }

@@ -29,7 +29,7 @@ impl Solving {
         match end {
             None => {}
             Some(((), Err(failure))) => {
-                self.running = None;
+                self.failed = self.running.take().map(|running| running.problem);
                 messages.fail_background(Place::Embedding, "solving", &failure);
             }
             Some(((), Ok((run, result)))) => {
@@ -69,6 +69,7 @@ impl Solving {
     fn take_back(&mut self, run: Ladder, result: Result<(), SolveError>, messages: &mut Messages) -> Option<Next> {
         let Running { problem, paused, shared, .. } = self.running.take()?;
         let has_new_vertices = problem.settings.new_vertices;
+        self.failed = result.as_ref().err().filter(|error| **error != SolveError::Cancelled).map(|_| problem.clone());
         self.resting = Some(Resting { problem, run });
         let goal = match result {
             Ok(()) | Err(SolveError::Cancelled) if paused.is_some() => paused.filter(|goal| *goal != Goal::Steps(0)),

@@ -56,6 +56,8 @@ pub(super) struct Solving {
     is_outdated: bool,
     /// The message of the last solve, where it failed: the next one that succeeds takes it away.
     message: Option<u64>,
+    /// What nothing was found for.
+    failed: Option<Problem>,
 }
 
 /// What is asked.
@@ -73,11 +75,37 @@ impl Solving {
             rounds: Rounds::default(),
             is_outdated: false,
             message: None,
+            failed: None,
         }
     }
 
+    /// The steps that there are.
+    pub(super) fn timeline(&self) -> &Timeline {
+        &self.timeline
+    }
+
+    /// Whether a run takes steps in the background.
+    pub(super) fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// What the run solves that takes steps in the background.
+    pub(super) fn running_problem(&self) -> Option<&Problem> {
+        self.running.as_ref().map(|running| &running.problem)
+    }
+
+    /// Whether nothing was found for a problem.
+    pub(super) fn has_failed(&self, problem: &Problem) -> bool {
+        self.failed.as_ref().is_some_and(|failed| failed.has_steps_of(problem))
+    }
+
+    /// When a run that goes on by itself comes to rest.
+    pub(super) fn stop_conditions(&self) -> StopConditions {
+        self.stop
+    }
+
     /// The newest step.
-    fn newest(&self) -> Option<&Arc<Outcome>> {
+    pub(super) fn newest(&self) -> Option<&Arc<Outcome>> {
         self.timeline.outcome(self.timeline.newest()?)
     }
 
@@ -138,7 +166,7 @@ impl Solving {
 impl Solving {
     /// Begins a run, or lets the first step that is under way finish where only targets differ.
     pub(super) fn begin(&mut self, task: Task, goal: Goal) {
-        self.resting = None;
+        (self.resting, self.failed) = (None, None);
         if let Some(running) = &mut self.running
             && running.is_followed_by(&task.problem)
         {
@@ -255,6 +283,13 @@ impl Solving {
         self.outcome_revision += 1;
     }
 
+    /// Comes on the screen where `before` was.
+    pub(super) fn come_on_screen_after(&mut self, before: &Self) {
+        self.stop = before.stop;
+        self.outcome_revision = self.outcome_revision.max(before.outcome_revision) + 1;
+        self.message = None;
+    }
+
     /// Keeps what a solve can begin with where only targets differ.
     pub(super) fn keep_prepared(&mut self, prepared: Arc<Prepared>) {
         self.kept.prepared = Some(prepared);
@@ -296,12 +331,12 @@ impl Session {
 
     /// When a run that goes on by itself comes to rest.
     pub fn stop_conditions(&self) -> StopConditions {
-        self.solving.stop
+        self.solving.stop_conditions()
     }
 
     /// Whether a run takes steps in the background.
     pub fn is_running(&self) -> bool {
-        self.solving.running.is_some()
+        self.solving.is_running()
     }
 
     /// Why the run is at rest, where that is not because of a person's wish.

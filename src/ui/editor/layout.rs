@@ -53,6 +53,11 @@ impl Layout {
         (self.tab, self.panels_wanted) = (tab, Some(true));
     }
 
+    /// Has a tab come first where the panels show, or once they do.
+    pub(in crate::ui) fn offer_tab(&mut self, tab: Tab) {
+        self.tab = tab;
+    }
+
     /// Whether the panels at the right show. Where nobody said, a narrow window does without.
     pub fn panels_shown(&self) -> bool {
         self.panels_wanted.unwrap_or(!self.is_narrow)

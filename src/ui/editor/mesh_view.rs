@@ -51,9 +51,11 @@ impl MeshView {
         let made = self.job.poll().filter(|(key, _)| *key == session.model_revision()).map(|(_, scene)| scene);
         let is_new = made.is_some();
         if let Some(scene) = made {
-            // Another mesh, or the same one turned around, is seen from its outside.
-            self.pane.set_camera(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal));
-            self.frame(scene.sphere);
+            if !self.scene.as_ref().is_some_and(|before| scene.is_of_same_mesh(before)) {
+                // Another mesh, or the same one turned around, is seen from its outside.
+                self.pane.set_camera(OrbitCamera::facing(scene.sphere, UpAxis::Y, scene.arrays.mean_normal));
+                self.frame(scene.sphere);
+            }
             self.scene = Some(Arc::new(scene));
         }
         let revision = session.model_revision();

@@ -8,6 +8,8 @@
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
+//! | `element.rs` | parts of the mesh by their names |
+//! | `around.rs` | the charts around the one that is worked on |
 //! | `making.rs` | scenes are made in the background |
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
 //! | `look.rs` | how faces show: shading of each pane, wireframe, picture, colours |
@@ -18,6 +20,8 @@
 //! | `frames.rs` | how long frames take |
 //! | `views.rs` | what the cameras look at; defects |
 
+mod around;
+mod element;
 mod frames;
 mod host;
 mod kept;
@@ -34,11 +38,11 @@ pub(super) mod scene;
 mod selection;
 pub(super) mod views;
 
+pub(super) use element::Element;
 pub(super) use plane::HullScene;
 pub use plane::Stage;
 pub(super) use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
-pub(super) use scene::Element;
 pub use views::Defect;
 
 use std::sync::Arc;
@@ -200,9 +204,15 @@ impl Editor {
     fn begin_with_mesh(&mut self) {
         self.plane.forget();
         self.look.forget_paint();
+        if self.opened.note_charts(&self.session) {
+            self.layout.offer_tab(Tab::Charts);
+        }
         if self.opened.put_on_screen(&self.session) {
             self.selection.select([]);
             self.put_on_view();
+        } else if self.session.charts().is_some() {
+            // Vertices have the numbers of their chart.
+            self.selection.select([]);
         }
         self.pointer.forget_vertices();
         self.selection.set_defect(None);

@@ -22,6 +22,8 @@ const VIEW_INTERVAL: Duration = Duration::from_secs(1);
 pub struct Opened {
     /// What is on the screen, by the session's count of openings.
     on_screen: Option<u64>,
+    /// Whether what is on the screen is one chart of several.
+    has_charts: bool,
     /// When the session was last told how the person looks at it.
     view_kept: Option<Instant>,
     /// The mesh, by its revision, whose faces may point inward.
@@ -34,6 +36,12 @@ impl Opened {
     /// Takes in that the session's mesh is on the screen. Returns whether it is of another opening than before.
     pub(super) fn put_on_screen(&mut self, session: &Session) -> bool {
         self.on_screen.replace(session.opening_revision()) != Some(session.opening_revision())
+    }
+
+    /// Takes in whether the mesh on the screen has several charts. Returns whether it has them since now.
+    pub(super) fn note_charts(&mut self, session: &Session) -> bool {
+        let has_charts = session.charts().is_some();
+        !std::mem::replace(&mut self.has_charts, has_charts) && has_charts
     }
 
     pub(super) fn is_on_screen(&self, session: &Session) -> bool {

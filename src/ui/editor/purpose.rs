@@ -54,10 +54,13 @@ impl DialogForm {
     }
 }
 
+/// How the names of meshes and projects end.
+const OPENED: &[&str] = &["obj", "ply", "stl", "off", "glb", "gltf", "freebound"];
+
 impl Purpose {
     pub(in crate::ui) fn form(self) -> DialogForm {
         let (title, files, extensions, ending): (_, _, &[&str], _) = match self {
-            Self::Open => ("Open a mesh or a project", "Meshes and projects", &["obj", "freebound"], ""),
+            Self::Open => ("Open a mesh or a project", "Meshes and projects", OPENED, ""),
             Self::OpenPicture => ("Open a picture", "Pictures", &["png", "jpg", "jpeg"], ""),
             Self::ImportConstraints => ("Import constraints", "Constraints", &["txt"], ""),
             Self::ExportConstraints => ("Export the constraints", "Constraints", &["txt"], "-constraints.txt"),

@@ -145,15 +145,17 @@ pub enum Tab {
     Defects,
     /// The selected vertex.
     Vertex,
+    /// The charts of a mesh that has several.
+    Charts,
 }
 
 impl Tab {
     /// All tabs, from left to right.
-    pub const ALL: [Self; 4] = [Self::Method, Self::Pins, Self::Defects, Self::Vertex];
+    pub const ALL: [Self; 5] = [Self::Method, Self::Pins, Self::Defects, Self::Vertex, Self::Charts];
 
     /// Its name.
     pub const fn title(self) -> &'static str {
-        ["Method", "Pins", "Defects", "Vertex"][self as usize]
+        ["Method", "Pins", "Defects", "Vertex", "Charts"][self as usize]
     }
 }
 
@@ -217,6 +219,8 @@ pub enum Request {
     GoToDefect(usize),
     /// Goes to another defect: 1 the next, −1 the one before.
     StepDefect(isize),
+    /// Puts another chart on the screen: 1 the next, −1 the one before.
+    StepChart(isize),
     /// Selects exactly these vertices.
     Select(Vec<VertexId>),
     /// Adds vertices to the selection.

@@ -40,6 +40,7 @@ impl Editor {
             Request::Frame => self.frame(),
             Request::GoTo(vertices) => self.go_to_vertices(vertices),
             Request::GoToDefect(place) => self.go_to_defect(place),
+            Request::StepChart(by) => self.step_chart(by),
             Request::StepDefect(by) => self.step_defect(by),
             Request::Select(vertices) => self.selection.select(vertices),
             Request::AddToSelection(vertices) => self.selection.add(vertices),
@@ -111,6 +112,15 @@ impl Editor {
         } else {
             Action::Open(path)
         })
+    }
+
+    /// Puts the chart on the screen that is so many places after the one that is, around and around.
+    fn step_chart(&mut self, by: isize) {
+        let count = self.session.charts().map(|charts| charts.count());
+        if let Some((count, now)) = count.zip(self.session.chart_on_screen()) {
+            let count = count.cast_signed();
+            self.act(Action::ShowChart((now.cast_signed() + by).rem_euclid(count).cast_unsigned()));
+        }
     }
 
     fn set_hold(&mut self, hold: Hold) {

@@ -2,13 +2,17 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
+use super::around::Around;
+use crate::mesh::{DiskMesh, FaceId, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
 use crate::solver::{Embedding, FaceDistortion, GaugeSize, Step};
 use crate::ui::Shading;
-use crate::view::{EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Scale, Sphere, SurfacePicker};
+use crate::ui::editor::Element;
+use crate::view::{
+    EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Ray, Scale, Sphere, SurfacePicker,
+};
 
 /// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
 #[derive(Debug)]
@@ -25,13 +29,21 @@ pub struct MeshScene {
     /// Vertices that only fill holes: they are not shown.
     hidden: Vec<VertexId>,
     pub picker: SurfacePicker,
-    /// A ball around it.
+    /// A ball around it, and around what stands around it.
     pub sphere: Sphere,
+    /// The other charts, where the mesh has several.
+    pub around: Option<Around>,
 }
 
 impl MeshScene {
     pub fn new(model: Arc<Model>, model_revision: u64) -> Self {
         Self::of(model, model_revision, None)
+    }
+
+    /// Whether another chart of the same mesh is on the screen of both.
+    pub(super) fn is_of_same_mesh(&self, other: &Self) -> bool {
+        let charts = |scene: &Self| scene.model.chart.as_ref().map(|of| Arc::clone(&of.charts));
+        charts(self).zip(charts(other)).is_some_and(|(own, other)| Arc::ptr_eq(&own, &other))
     }
 
     /// The vertices of an element; none where the mesh does not have it.
@@ -65,13 +77,19 @@ impl MeshScene {
         let holes = mesh.holes();
         let boundary = EdgeList::closed_loops(outer.into_iter().chain(holes.iter().map(|hole| &hole.rim[..])));
         let (positions, triangles) = (&mesh.positions, mesh.real_triangles());
+        // In the unit of the chart's positions.
+        let unit = disk.map_or(1.0, DiskMesh::unit);
+        let whole = model.chart.as_ref().map(|of| &of.charts.whole().polygons().positions);
+        let whole: Option<Vec<DVec3>> = whole.map(|positions| positions.iter().map(|&at| at / unit).collect());
+        let sphere = Sphere::around(whole.as_ref().unwrap_or(positions));
         Self {
             model_revision,
-            arrays: Arc::new(MeshArrays::new(positions, triangles)),
+            arrays: Arc::new(MeshArrays::in_frame(positions, triangles, sphere)),
             boundary: Arc::new(boundary),
             hidden: disk.map(DiskMesh::virtual_vertices).unwrap_or_default(),
             picker: SurfacePicker::new(positions, triangles),
-            sphere: Sphere::around(positions),
+            sphere,
+            around: whole.and_then(|whole| Around::of(&model, &whole, sphere)),
             refinement,
             model,
         }
@@ -104,6 +122,13 @@ impl MeshScene {
     pub fn disk(&self) -> Option<&DiskMesh> {
         let given = self.model.disk().map(AsRef::as_ref);
         self.refinement.as_ref().map(|refinement| refinement.disk()).or(given)
+    }
+
+    /// The chart that is not on the screen and that a ray meets first, if no face of the chart on the screen is nearer.
+    pub(in crate::ui) fn other_chart_at(&self, ray: Ray) -> Option<usize> {
+        let (chart, distance) = self.around.as_ref()?.chart_at(ray)?;
+        let is_hidden = self.picker.hit(ray).is_some_and(|own| own.distance <= distance);
+        (!is_hidden).then_some(chart)
     }
 
     /// What there is to say about a vertex that the mesh as given does not have.
@@ -318,25 +343,4 @@ fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64>
     let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
     let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
     mesh.real_triangles().iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
-}
-
-/// A part of the mesh that a defect or a person names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::ui) enum Element {
-    Vertex(VertexId),
-    Edge(EdgeId),
-    Face(FaceId),
-}
-
-impl Element {
-    /// Understands what a person types: `12` or `v12` a vertex, `e3` an edge, `f7` a face.
-    pub(in crate::ui) fn parse(text: &str) -> Option<Self> {
-        let text = text.trim().to_ascii_lowercase();
-        let number = text.strip_prefix(['v', 'e', 'f']).unwrap_or(&text).trim().parse().ok()?;
-        Some(match text.as_bytes()[0] {
-            b'e' => Self::Edge(EdgeId::new(number)),
-            b'f' => Self::Face(FaceId::new(number)),
-            _ => Self::Vertex(VertexId::new(number)),
-        })
-    }
 }

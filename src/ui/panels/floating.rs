@@ -53,7 +53,11 @@ impl Group {
             | Request::UnpinSelected
             | Request::Escape
             | Request::Do(Action::Undo | Action::Redo) => Self::Pin,
-            Request::Do(_) | Request::RunOrPause | Request::GoToStep(_) | Request::StepDefect(_) => Self::Step,
+            Request::Do(_)
+            | Request::RunOrPause
+            | Request::GoToStep(_)
+            | Request::StepDefect(_)
+            | Request::StepChart(_) => Self::Step,
             Request::Ask(_)
             | Request::SaveProject
             | Request::ToggleExports
@@ -131,8 +135,8 @@ fn go_to_window(
 }
 
 /// Everything that can be exported: what it is, and what it is good for.
-pub(super) const EXPORTS: [(Purpose, &str, &str); 7] = {
-    use OutputKind::{Json, Obj, Png, Svg};
+pub(super) const EXPORTS: [(Purpose, &str, &str); 9] = {
+    use OutputKind::{Glb, Json, Obj, Ply, Png, Svg};
     use Purpose::{Export, PanePicture};
     let (unit, true_scale) = (Some(OutputFit::Unit), Some(OutputFit::True));
     [
@@ -141,6 +145,8 @@ pub(super) const EXPORTS: [(Purpose, &str, &str); 7] = {
             "Mesh with texture coordinates…",
             "OBJ, with its material and the picture where there is one",
         ),
+        (Export(Ply, None), "Mesh as PLY…", "PLY, with all that a PLY file had"),
+        (Export(Glb, None), "Mesh as GLB…", "Binary glTF, with all that a glTF file had, in 32 bits"),
         (Export(Svg, unit), "Layout in the unit square…", "SVG, as texture coordinates lie"),
         (Export(Svg, true_scale), "Layout at true scale…", "SVG in the mesh's own units, to cut out"),
         (PanePicture(Pane::Mesh), "Picture of the mesh's pane…", "PNG, as the pane shows"),

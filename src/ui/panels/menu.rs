@@ -218,6 +218,10 @@ fn view_menu(menu: &mut Menu<'_>) {
     let has_defects = editor.defect_count() > 0;
     menu.item(has_defects, "Next defect", Request::StepDefect(1));
     menu.item(has_defects, "Previous defect", Request::StepDefect(-1));
+    if editor.session.charts().is_some() {
+        menu.item(true, "Next chart", Request::StepChart(1));
+        menu.item(true, "Previous chart", Request::StepChart(-1));
+    }
     menu.ui.separator();
     menu.part("Theme", |menu| {
         use ThemePreference::{Dark, Light, System};
@@ -254,7 +258,8 @@ fn solve_menu(menu: &mut Menu<'_>) {
 fn title(editor: &Editor) -> String {
     let Some(model) = editor.session.model() else { return "Freebound".to_owned() };
     let counts = [model.vertex_count(), model.mesh().real_face_count()].map(grouped);
-    format!("{} · {} v · {} f", editor.marked_name(), counts[0], counts[1])
+    let chart = editor.session.chart_on_screen().map(|chart| format!(" · chart {chart}")).unwrap_or_default();
+    format!("{}{chart} · {} v · {} f", editor.marked_name(), counts[0], counts[1])
 }
 
 /// A count with its thousands set apart by spaces.

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `mod.rs` | the tool bar at the left, the panel at the right with its tabs |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
+//! | `charts_panel.rs` | the charts of a mesh that has several, and how they are packed |
 //! | `diagnosis.rs` | what is wrong with the mesh, and what mends it: in the tab of defects |
 //! | `compare_panel.rs` | numbers of two steps that are compared |
 //! | `picture_panel.rs` | the picture's part of the pins' tab |
@@ -17,6 +18,7 @@
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
 mod advice;
+mod charts_panel;
 mod compare_panel;
 mod defects_panel;
 mod diagnosis;
@@ -67,10 +69,19 @@ pub(super) fn tool_bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Re
 
 /// The panels at the right: a row of tabs and what the open one shows.
 pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
-    ui.horizontal(|ui| {
+    let charts = editor.session.charts().map(|charts| charts.count());
+    if charts.is_none() && editor.layout.tab() == Tab::Charts {
+        editor.layout.offer_tab(Tab::Method);
+    }
+    ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
-        for tab in Tab::ALL {
+        if charts.is_some() {
+            // One tab more has to stand in the same row.
+            ui.spacing_mut().button_padding.x = 4.0;
+        }
+        for tab in Tab::ALL.into_iter().filter(|tab| *tab != Tab::Charts || charts.is_some()) {
             let count = match tab {
+                Tab::Charts => charts.unwrap_or_default(),
                 Tab::Pins => editor.session.document().targets.len(),
                 Tab::Defects => editor.defect_count(),
                 Tab::Method | Tab::Vertex => 0,
@@ -84,6 +95,7 @@ pub(super) fn side_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut 
         Tab::Method => scrolled(ui, |ui| method_panel::method_panel(ui, editor, requests)),
         Tab::Pins => pins_panel::pins_panel(ui, editor, requests),
         Tab::Defects => defects_panel::defects_panel(ui, editor, requests),
+        Tab::Charts => charts_panel::charts_panel(ui, editor, requests),
         Tab::Vertex => scrolled(ui, |ui| vertex_panel::vertex_panel(ui, editor, requests)),
     }
 }

@@ -10,9 +10,10 @@ use super::pins::{self, Emphasis, PinKind};
 use super::{bars, header, legend, magnifier, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
+use crate::session::Action;
 use crate::ui::editor::scene::MeshScene;
 use crate::ui::editor::views::picture_box;
-use crate::ui::{Editor, Pane, Request, Shading, Theme, Tool, theme_of};
+use crate::ui::{Control, Editor, Pane, Request, Shading, Theme, Tool, theme_of};
 use crate::view::{OrbitCamera, Visibility};
 
 /// Opacity of the mark of a selected vertex that the mesh hides.
@@ -57,7 +58,11 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         };
         requests.push(Request::AddToSelection(scene.vertices().filter(inside).collect()));
     }
-    pane::click(ui, &response, editor, requests);
+    let ray = response.hover_pos().map(|at| camera.ray(pane::in_pane(rect, at), editor.mesh.pane.size()));
+    match ray.filter(|_| editor.pointer.vertex().is_none()).and_then(|ray| scene.other_chart_at(ray)) {
+        Some(chart) => other_chart(ui, &response, chart, requests),
+        None => pane::click(ui, &response, editor, requests),
+    }
     vertex_menu::of_pane(&response, editor, requests);
     if editor.host.has_gpu() {
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, frame(editor, &scene, camera, theme)));
@@ -66,6 +71,13 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     legend::legend(ui, rect, editor, Pane::Mesh);
     legend::no_move_note(ui, rect, editor, Pane::Mesh);
     magnifier::over_mesh(ui, view, editor, &scene, requests);
+}
+
+/// The pointer is over a chart that is not on the screen: a click puts it there.
+fn other_chart(ui: &egui::Ui, response: &Response, chart: usize, requests: &mut Vec<Request>) {
+    ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
+    let tip = format!("Chart {chart}: click to work on it");
+    response.clone().on_hover_text_at_pointer(tip).asks(Action::ShowChart(chart), requests);
 }
 
 /// Camera moves: turntable, pan, zoom to the pointer, pivot.
@@ -99,6 +111,7 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
     let plane = editor.plane.result().map(|plane| Arc::clone(&plane.arrays));
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
+        around: scene.around.as_ref().map(|around| around.surroundings.clone()),
         lines: vec![boundary_line(scene, theme)],
         picture: picture_layer(editor),
         paint: editor.plane.preview_paint().or(editor.look.paint(Pane::Mesh).map(|paint| &paint.faces)).map(Arc::clone),

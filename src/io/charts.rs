@@ -1,0 +1,123 @@
+//! The charts of a result: each as it is written, and all of them as one mesh with its texture coordinates.
+
+use std::borrow::Cow;
+
+use super::{MeshFile, NO_TEXTURE, ProvedEmbedding, Refined, Texture};
+use crate::mesh::{DiskMesh, FaceId, PolygonMesh, Refinement, Repaired, TriMesh, VertexId, parts};
+use crate::solver::{AtlasVerdict, Embedding, Verdict, atlas_verdict};
+
+/// A chart as it is written; the only one, as a rule.
+#[derive(Debug)]
+pub struct OutputChart<'a> {
+    /// The mesh that the coordinates are of: its triangles, or the refinement's.
+    pub mesh: &'a DiskMesh,
+    /// The mesh with its new vertices, where there are any.
+    pub refinement: Option<&'a Refinement>,
+    /// The vertex of the repaired mesh that each of its own is, where the mesh has several charts.
+    pub vertex_of: Option<&'a [VertexId]>,
+    /// One texture coordinate per vertex, v up.
+    pub coordinates: Embedding,
+    /// The verdict on these coordinates.
+    pub verdict: Verdict,
+    /// Vertices that pins hold exactly.
+    pub held: Vec<VertexId>,
+}
+
+impl OutputChart<'_> {
+    /// The chart with its verdict, laid elsewhere.
+    pub(super) fn laid<'b>(&'b self, embedding: &'b Embedding) -> ProvedEmbedding<'b> {
+        ProvedEmbedding { mesh: self.mesh, embedding, verdict: &self.verdict }
+    }
+}
+
+/// Charts as one mesh: the vertices of each follow those of the one before, and so do the faces.
+#[derive(Debug)]
+pub struct Together {
+    /// Positions and triangles; faces keep their numbers in the file.
+    pub mesh: TriMesh,
+    /// One texture coordinate per vertex.
+    pub coordinates: Embedding,
+    /// Faces that their charts' verdicts call flipped.
+    pub flipped: Vec<FaceId>,
+}
+
+/// Charts as one mesh, without what fills their holes.
+pub fn together(charts: &[OutputChart<'_>]) -> Together {
+    let (mut mesh, mut polygon_of) = (TriMesh::default(), Vec::new());
+    let (mut coordinates, mut flipped) = (Vec::new(), Vec::new());
+    for chart in charts {
+        let (own, faces) = (chart.mesh.mesh(), mesh.triangles.len());
+        let mut number_of = vec![VertexId::default(); own.vertex_count()];
+        let mut hidden = chart.mesh.virtual_vertices().into_iter().peekable();
+        for vertex in chart.mesh.vertices() {
+            if hidden.next_if_eq(&vertex).is_none() {
+                number_of[vertex.index()] = VertexId::from_index(mesh.positions.len());
+                mesh.positions.push(own.positions[vertex.index()]);
+                coordinates.push(chart.coordinates[vertex]);
+            }
+        }
+        let moved = |vertex: VertexId| number_of[vertex.index()];
+        mesh.triangles.extend(own.real_triangles().iter().map(|corners| corners.map(moved)));
+        polygon_of.extend(chart.mesh.real_faces().map(|face| own.polygon(face)));
+        flipped.extend(chart.verdict.flipped_faces.iter().map(|face| FaceId::from_index(faces + face.index())));
+    }
+    mesh.polygon_of = Some(polygon_of);
+    Together { mesh, coordinates: coordinates.into(), flipped }
+}
+
+/// The verdict on charts as they are written, faces as the file numbers them.
+///
+/// # Panics
+///
+/// If a chart is no disk, which none is.
+pub fn proved_together(charts: &[OutputChart<'_>]) -> AtlasVerdict {
+    let Together { mesh, coordinates, .. } = together(charts);
+    let parts = parts(&mesh).expect("charts are disks");
+    atlas_verdict(&parts, &coordinates).as_in_file(&mesh)
+}
+
+/// The file's mesh, with the new vertices where there are any, and the coordinates of charts as those of its corners. A mesh of
+/// several charts that has new vertices is written without its text: both its faces and its vertices are others.
+pub(super) fn textured<'a>(
+    charts: &[OutputChart<'_>],
+    source: &'a MeshFile,
+    repaired: Option<&Repaired>,
+) -> (Cow<'a, MeshFile>, Texture) {
+    let is_refined = charts.iter().any(|chart| chart.refinement.is_some());
+    match (charts, repaired) {
+        ([OutputChart { refinement: Some(refinement), coordinates, .. }], _) => {
+            let refined = Refined::new(source, repaired, refinement);
+            let texture = refined.texture(coordinates);
+            (Cow::Owned(refined.mesh), texture)
+        }
+        (_, Some(repaired)) if !is_refined => {
+            (Cow::Borrowed(source), texture_of_repaired(charts, &source.polygons, repaired))
+        }
+        ([OutputChart { coordinates, .. }], None) => {
+            (Cow::Borrowed(source), Texture::per_vertex(&source.polygons, coordinates))
+        }
+        _ => {
+            let Together { mesh, coordinates, .. } = together(charts);
+            let mesh = MeshFile::from(&mesh);
+            let texture = Texture::per_vertex(&mesh.polygons, &coordinates);
+            (Cow::Owned(mesh), texture)
+        }
+    }
+}
+
+fn texture_of_repaired(charts: &[OutputChart<'_>], source: &PolygonMesh, repaired: &Repaired) -> Texture {
+    if let [OutputChart { vertex_of: None, coordinates, .. }] = charts {
+        return Texture::of_repaired(repaired, source, coordinates);
+    }
+    let mut numbers = vec![NO_TEXTURE; repaired.polygons().positions.len()];
+    let mut coordinates = Vec::new();
+    for chart in charts {
+        for (vertex, uv) in chart.vertex_of.unwrap_or_default().iter().zip(&chart.coordinates) {
+            numbers[vertex.index()] = VertexId::from_index(coordinates.len()).number();
+            coordinates.push(*uv);
+        }
+    }
+    let number = |vertex: Option<VertexId>| vertex.map_or(NO_TEXTURE, |vertex| numbers[vertex.index()]);
+    let corners = repaired.vertices_at_corners(source).into_iter().map(number).collect();
+    Texture { coordinates, corners }
+}

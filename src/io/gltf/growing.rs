@@ -1,0 +1,109 @@
+//! A binary glTF file that is being made: its JSON, and bytes behind those that it had.
+
+use std::io::{self, Write};
+
+use serde_json::{Value, json};
+
+use super::accessor::Component;
+use super::container::{BINARY, CHUNK_HEAD, FILE_HEAD, JSON, MAGIC};
+
+/// What a view is for: vertices, indices.
+pub(super) const VERTICES: u32 = 34_962;
+pub(super) const INDICES: u32 = 34_963;
+
+/// Views and chunks begin at multiples of so many bytes.
+pub(super) const ALIGNMENT: usize = 4;
+
+/// The largest index of 16 bits; the next one is not used, for it restarts strips.
+const MAX_U16: usize = 65_534;
+
+/// The file so far.
+pub(super) struct Growing<'a> {
+    pub(super) json: Value,
+    /// The bytes that it had.
+    old: &'a [u8],
+    added: Vec<u8>,
+}
+
+impl<'a> Growing<'a> {
+    pub(super) fn of(json: Value, old: &'a [u8]) -> Self {
+        Self { json, old, added: vec![0; old.len().next_multiple_of(ALIGNMENT) - old.len()] }
+    }
+
+    /// Adds a thing to a list of the JSON, which may not be there yet; says which it is.
+    pub(super) fn push(&mut self, list: &str, thing: Value) -> usize {
+        let list = &mut self.json[list];
+        if !list.is_array() {
+            *list = json!([]);
+        }
+        let list = list.as_array_mut().expect("made above");
+        list.push(thing);
+        list.len() - 1
+    }
+
+    /// Adds bytes, as a view of them.
+    pub(super) fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        let begin = self.old.len() + self.added.len();
+        self.added.extend_from_slice(bytes);
+        self.added.resize(self.added.len() + bytes.len().next_multiple_of(ALIGNMENT) - bytes.len(), 0);
+        let mut view = json!({ "buffer": 0, "byteOffset": begin, "byteLength": bytes.len() });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.push("bufferViews", view)
+    }
+
+    /// Adds an accessor of vectors of so many 32-bit numbers.
+    pub(super) fn vectors<const N: usize>(&mut self, vectors: impl Iterator<Item = [f32; N]>) -> usize {
+        let mut bytes = Vec::new();
+        let mut count = 0;
+        for vector in vectors {
+            bytes.extend(vector.iter().flat_map(|x| x.to_le_bytes()));
+            count += 1;
+        }
+        let view = self.view(&bytes, Some(VERTICES));
+        self.push(
+            "accessors",
+            json!({ "bufferView": view, "componentType": Component::F32.code(), "count": count, "type": format!("VEC{N}") }),
+        )
+    }
+
+    /// Adds an accessor of the indices of triangles, in 16 bits where these do.
+    pub(super) fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
+        let all = triangles.as_flattened();
+        let largest = all.iter().max().map_or(0, |&index| index as usize);
+        let (kind, size) = if largest <= MAX_U16 { (Component::U16, 2) } else { (Component::U32, 4) };
+        let bytes: Vec<u8> = all.iter().flat_map(|index| index.to_le_bytes().into_iter().take(size)).collect();
+        let view = self.view(&bytes, Some(INDICES));
+        self.push(
+            "accessors",
+            json!({ "bufferView": view, "componentType": kind.code(), "count": all.len(), "type": "SCALAR" }),
+        )
+    }
+
+    /// Writes it.
+    pub(super) fn write(mut self, out: &mut impl Write) -> io::Result<()> {
+        let binary = self.old.len() + self.added.len();
+        let before = self.json.pointer_mut("/buffers/0").map(Value::take).filter(Value::is_object);
+        let mut buffer = before.unwrap_or_else(|| json!({}));
+        buffer.as_object_mut().map(|fields| fields.remove("uri"));
+        buffer["byteLength"] = json!(binary);
+        self.json["buffers"] = json!([buffer]);
+        let mut text = serde_json::to_vec(&self.json)?;
+        text.resize(text.len().next_multiple_of(ALIGNMENT), b' ');
+        let whole = FILE_HEAD + 2 * CHUNK_HEAD + text.len() + binary;
+        out.write_all(MAGIC)?;
+        out.write_all(&2_u32.to_le_bytes())?;
+        out.write_all(&length(whole)?)?;
+        out.write_all([length(text.len())?, *JSON].as_flattened())?;
+        out.write_all(&text)?;
+        out.write_all([length(binary)?, *BINARY].as_flattened())?;
+        out.write_all(self.old)?;
+        out.write_all(&self.added)
+    }
+}
+
+fn length(bytes: usize) -> io::Result<[u8; 4]> {
+    let too_large = |_| io::Error::new(io::ErrorKind::FileTooLarge, "a GLB file holds less than 4 GiB: write PLY");
+    Ok(u32::try_from(bytes).map_err(too_large)?.to_le_bytes())
+}

@@ -1,0 +1,59 @@
+//! The elements of an accessor, followed by those of vertices that the file does not have.
+
+use glam::DVec3;
+
+use super::accessor::{Elements, push_number};
+use super::growing::ALIGNMENT;
+
+/// What a vertex that the file does not have is made of: vertices of its set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Origin {
+    /// The same, with other texture coordinates.
+    Copy(usize),
+    /// It lies at a share of the way from one to the other.
+    Between([usize; 2], f64),
+}
+
+/// The bytes of all elements, each from a multiple of four bytes on, and how far they lie apart.
+pub(super) fn grown(elements: &Elements<'_>, name: &str, added: &[Origin]) -> (Vec<u8>, usize) {
+    let stride = (elements.width * elements.component.size()).next_multiple_of(ALIGNMENT);
+    let mut bytes = Vec::with_capacity(stride * (elements.count + added.len()));
+    let mut push = |element: &[u8]| {
+        bytes.extend_from_slice(element);
+        bytes.resize(bytes.len().next_multiple_of(stride), 0);
+    };
+    (0..elements.count).for_each(|place| push(elements.raw(place)));
+    for origin in added {
+        match *origin {
+            Origin::Copy(place) => push(elements.raw(place)),
+            Origin::Between(ends, share) => push(&between(elements, name, ends, share)),
+        }
+    }
+    (bytes, stride)
+}
+
+/// An element between those of two vertices: directions are of length 1 again, and joints with their weights those of
+/// the nearer one.
+fn between(elements: &Elements<'_>, name: &str, ends: [usize; 2], share: f64) -> Vec<u8> {
+    if name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") {
+        return elements.raw(ends[usize::from(share >= 0.5)]).to_vec();
+    }
+    let size = elements.component.size();
+    let number = |end: usize, at: usize| elements.component.number(&elements.raw(end)[at * size..]);
+    let mix = |at| {
+        let [a, b] = ends.map(|end| number(end, at));
+        a + share * (b - a)
+    };
+    let mut numbers: Vec<f64> = (0..elements.width).map(mix).collect();
+    if let ("NORMAL" | "TANGENT", [x, y, z, ..]) = (name, numbers.as_slice()) {
+        let length = [0, 1, 2].map(|at| number(ends[0], at)).iter().map(|x| x * x).sum::<f64>().sqrt();
+        let turned = DVec3::new(*x, *y, *z).normalize_or_zero() * length;
+        numbers[..3].copy_from_slice(&turned.to_array());
+    }
+    if name == "TANGENT" && numbers.len() == 4 {
+        numbers[3] = number(ends[0], 3);
+    }
+    let mut bytes = Vec::with_capacity(numbers.len() * size);
+    numbers.iter().for_each(|&number| push_number(&mut bytes, elements.component, number));
+    bytes
+}

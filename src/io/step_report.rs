@@ -1,0 +1,123 @@
+//! The numbers of a step: a part of the report, and a row of a table.
+
+use serde::Serialize;
+
+use crate::solver::{Choice as _, Method, Step};
+
+/// One step of one rung.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StepReport {
+    /// The rung's method.
+    pub rung: Method,
+    /// Place in the run.
+    pub index: usize,
+    /// Flipped faces.
+    pub flipped_faces: usize,
+    /// Concave polygons.
+    pub concave_polygons: usize,
+    /// Holes that meet themselves or are turned inside out.
+    pub crossed_holes: usize,
+    /// Boundary crossings.
+    pub boundary_crossings: usize,
+    /// Overwound vertices.
+    pub overwound_vertices: usize,
+    /// Turning number of the boundary.
+    pub turning_number: Option<i64>,
+    /// Largest move of a vertex since the step before.
+    pub max_move: Option<f64>,
+    /// ‖Ax − b‖ / ‖b‖ of the linear solve; null where there is none, as in the next.
+    pub residual: Option<f64>,
+    /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sum of their terms' sizes.
+    pub equation_residual: Option<f64>,
+    /// Pivots that were too small and replaced.
+    pub replaced_pivots: usize,
+    /// Degenerate corners whose weight was bounded.
+    pub bounded_corners: usize,
+    /// Boundary vertices that were bent to a convex polygon to make the boundary simple.
+    pub bent_vertices: usize,
+    /// Bytes of the matrix's factors.
+    pub factor_bytes: usize,
+    /// Seconds of the step.
+    pub seconds: f64,
+    /// Proved one-to-one.
+    pub planar: bool,
+    /// Mean energy of the faces' maps, 4 where nothing is distorted; null where it was not asked for, as the
+    /// next two are.
+    pub energy: Option<f64>,
+    /// Smallest determinant of a face's map, at equal total areas.
+    pub least_determinant: Option<f64>,
+    /// Largest distance of an exact pin from its target, in the plane.
+    pub distance_left: Option<f64>,
+    /// Remark on the step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}
+
+/// A number as a cell of a table; empty where there is none.
+fn cell(number: impl Into<Option<f64>>) -> String {
+    number.into().filter(|number| number.is_finite()).map(|number| format!("{number:?}")).unwrap_or_default()
+}
+
+impl StepReport {
+    /// The fields as a row of a table, each with the head of its column; empty where there is no value.
+    pub fn row(&self) -> [(&'static str, String); 21] {
+        [
+            ("rung", self.rung.name().to_owned()),
+            ("index", self.index.to_string()),
+            ("flipped_faces", self.flipped_faces.to_string()),
+            ("concave_polygons", self.concave_polygons.to_string()),
+            ("crossed_holes", self.crossed_holes.to_string()),
+            ("boundary_crossings", self.boundary_crossings.to_string()),
+            ("overwound_vertices", self.overwound_vertices.to_string()),
+            ("turning_number", self.turning_number.map(|turns| turns.to_string()).unwrap_or_default()),
+            ("max_move", cell(self.max_move)),
+            ("residual", cell(self.residual)),
+            ("equation_residual", cell(self.equation_residual)),
+            ("replaced_pivots", self.replaced_pivots.to_string()),
+            ("bounded_corners", self.bounded_corners.to_string()),
+            ("bent_vertices", self.bent_vertices.to_string()),
+            ("factor_bytes", self.factor_bytes.to_string()),
+            ("seconds", cell(self.seconds)),
+            ("planar", self.planar.to_string()),
+            ("energy", cell(self.energy)),
+            ("least_determinant", cell(self.least_determinant)),
+            ("distance_left", cell(self.distance_left)),
+            ("note", self.note.clone().unwrap_or_default()),
+        ]
+    }
+
+    /// The numbers of a step.
+    pub fn of(step: &Step) -> Self {
+        let (solution, verdict) = (&step.solution, &step.verdict);
+        let counts = solution.linear.unwrap_or_default();
+        Self {
+            rung: step.rung,
+            index: step.index,
+            flipped_faces: verdict.flipped_faces.len(),
+            concave_polygons: verdict.concave_polygons.len(),
+            crossed_holes: verdict.crossed_holes.len(),
+            boundary_crossings: verdict.boundary_crossings.len(),
+            overwound_vertices: verdict.overwound_vertices.len(),
+            turning_number: verdict.turning_number,
+            max_move: step.max_move,
+            residual: solution.linear.map(|linear| linear.residual),
+            equation_residual: solution.linear.map(|linear| linear.equation_residual),
+            replaced_pivots: counts.replaced_pivots,
+            bounded_corners: counts.bounded_corners,
+            bent_vertices: step.bent_vertices,
+            factor_bytes: counts.factor_bytes,
+            seconds: step.seconds(),
+            planar: verdict.planar,
+            energy: step.progress.map(|progress| progress.energy),
+            least_determinant: step.progress.map(|progress| progress.least_determinant),
+            distance_left: step.progress.map(|progress| progress.distance_left),
+            note: step.note.clone(),
+        }
+    }
+
+    /// Flipped faces, concave polygons, crossed holes, boundary crossings and overwound vertices together.
+    pub fn defect_count(&self) -> usize {
+        let faces = self.flipped_faces + self.concave_polygons + self.crossed_holes;
+        faces + self.boundary_crossings + self.overwound_vertices
+    }
+}

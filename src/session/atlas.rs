@@ -1,0 +1,191 @@
+//! Charts that are solved, laid beside each other and proved together.
+//!
+//! A chart with pins lies where they hold it. The others are packed into the unit square, all as large on the picture as on the
+//! surface by one factor; to the right of the square where pins hold a chart. Each is turned so that its box is small. Numbers
+//! round on the way; where that folds a chart, it is not turned.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::outcome::{pins_report, upright};
+use super::{Model, Outcome};
+use crate::geom::{Bounds, Packing, PackingOptions, least_box_turn, pack};
+use crate::io::{
+    ChartReport, Materials, MeshReport, Output, OutputChart, OutputFit, PackingReport, Placement, Report, Seconds,
+    StepReport, proved_together,
+};
+use crate::mesh::FaceId;
+use crate::solver::{Embedding, distortion, true_area_factor, verdict};
+
+/// A chart that is solved.
+#[derive(Clone, Copy, Debug)]
+pub struct SolvedChart<'a> {
+    /// The chart.
+    pub model: &'a Model,
+    /// The step that is written.
+    pub outcome: &'a Outcome,
+    /// The steps up to it.
+    pub steps: &'a [StepReport],
+}
+
+/// Lays charts out and proves them, each and together. They are those of one mesh, in their order.
+///
+/// # Panics
+///
+/// If there is no chart, or one is no chart of several, or no disk.
+pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Output<'a> {
+    let is_held = |chart: &SolvedChart<'_>| chart.outcome.targets_in_use().next().is_some();
+    let mut laid: Vec<Option<Embedding>> =
+        charts.iter().map(|chart| is_held(chart).then(|| chart.as_pinned())).collect();
+    let beside = first_column_beside(&laid);
+    let free: Vec<usize> = (0..charts.len()).filter(|&chart| laid[chart].is_none()).collect();
+    let mut boxes: Vec<Boxed> = free.par_iter().map(|&chart| Boxed::new(&charts[chart], true)).collect();
+    let mut packing = pack_boxes(&boxes, options);
+    let place = |packing: &Packing, boxes: &[Boxed], k: usize| boxes[k].laid(&charts[free[k]], packing, k, beside);
+    let is_folded = |(k, &chart): (usize, &usize)| {
+        let solved = &charts[chart];
+        let proved = |coordinates: &Embedding| verdict(solved.outcome.step.mesh(solved.disk()), coordinates).planar;
+        solved.outcome.step.verdict.planar && !proved(&place(&packing, &boxes, k))
+    };
+    let folded: Vec<usize> = free.par_iter().enumerate().filter(|&of| is_folded(of)).map(|(k, _)| k).collect();
+    if !folded.is_empty() {
+        folded.iter().for_each(|&k| boxes[k] = Boxed::new(&charts[free[k]], false));
+        packing = pack_boxes(&boxes, options);
+    }
+    for (k, &chart) in free.iter().enumerate() {
+        laid[chart] = Some(place(&packing, &boxes, k));
+    }
+    let covered = boxes.iter().map(|boxed| boxed.area).sum::<f64>() * packing.scale.powi(2);
+    let pixels = f64::from(packing.picture.x) * f64::from(packing.picture.y);
+    let density = packing.scale;
+    let packing =
+        PackingReport { picture: packing.picture.to_array(), gap: options.gap, density, covered: covered / pixels };
+    let coordinates = laid.into_iter().flatten().collect();
+    output(charts, coordinates, (!free.is_empty()).then_some(packing))
+}
+
+/// The whole u from which charts lie free of those with pins; 0 where there are none.
+fn first_column_beside(laid: &[Option<Embedding>]) -> f64 {
+    let held = laid.iter().flatten().map(Embedding::bounds).fold(Bounds::EMPTY, Bounds::union);
+    if held.high.x.is_finite() { held.high.x.max(1.0).ceil() } else { 0.0 }
+}
+
+fn pack_boxes(boxes: &[Boxed], options: PackingOptions) -> Packing {
+    pack(&boxes.iter().map(|boxed| boxed.bounds.size()).collect::<Vec<_>>(), options)
+}
+
+/// A chart turned so that its box is small, at the size of its surface.
+struct Boxed {
+    /// What its embedding is multiplied by, a complex number.
+    turn: DVec2,
+    bounds: Bounds,
+    /// Area of the surface.
+    area: f64,
+}
+
+impl Boxed {
+    fn new(chart: &SolvedChart<'_>, is_turned: bool) -> Self {
+        let embedding = &chart.outcome.step.solution.embedding;
+        let factor = true_area_factor(chart.outcome.step.mesh(chart.disk()), embedding) * chart.disk().unit();
+        let factor = if factor.is_finite() { factor } else { 1.0 };
+        let turn = factor * if is_turned { least_box_turn(embedding) } else { DVec2::X };
+        let bounds = Bounds::of(embedding.iter().map(|&z| turn.rotate(z)).filter(|z| z.is_finite()));
+        let bounds = if bounds.size().is_finite() { bounds } else { Bounds::at(DVec2::ZERO, DVec2::ZERO) };
+        let mesh = chart.disk().mesh();
+        let areas = chart.disk().real_faces().map(|face| mesh.double_area_vector(face).length() / 2.0);
+        Self { turn, bounds, area: areas.sum::<f64>() * chart.disk().unit().powi(2) }
+    }
+
+    /// Texture coordinates where it is packed as the `k`-th box, moved to the right by `beside`.
+    fn laid(&self, chart: &SolvedChart<'_>, packing: &Packing, k: usize, beside: f64) -> Embedding {
+        let (place, Bounds { low, high }) = (packing.places[k], self.bounds);
+        let coordinate = |&z: &DVec2| {
+            let z = self.turn.rotate(z);
+            let inside = if place.turned { DVec2::new(high.y - z.y, z.x - low.x) } else { z - low };
+            (place.low + inside * packing.scale) / packing.picture.as_dvec2() + DVec2::new(beside, 0.0)
+        };
+        chart.outcome.step.solution.embedding.iter().map(coordinate).collect()
+    }
+}
+
+impl SolvedChart<'_> {
+    fn disk(&self) -> &crate::mesh::DiskMesh {
+        self.model.disk().expect("only a disk has an outcome")
+    }
+
+    /// Its coordinates where its pins hold it, as files have them.
+    fn as_pinned(&self) -> Embedding {
+        let (coordinates, ..) = self.outcome.output(self.disk(), OutputFit::Unit);
+        upright(&coordinates, self.outcome.problem.frame.v_axis).unwrap_or(coordinates)
+    }
+
+    /// What is reported of it where it is written for a picture of this aspect, width over height.
+    fn report(&self, coordinates: &Embedding, aspect: f64) -> ChartReport {
+        let step = &self.outcome.step;
+        let mesh = step.mesh(self.disk());
+        let is_held = self.outcome.targets_in_use().next().is_some();
+        let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(aspect, 1.0)).collect();
+        let summary = if is_held { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
+        let pins = pins_report(self.outcome, coordinates).renumbered(|vertex| self.model.vertex_in_file(vertex));
+        ChartReport {
+            first_face: FaceId::new(mesh.mesh().polygon(FaceId::new(0))),
+            faces: mesh.mesh().real_face_count(),
+            pins,
+            boundary: if step.has_convex_boundary() { "convex" } else { "free" },
+            placement: if is_held { Placement::Pins } else { Placement::Packed },
+            steps: self.steps.to_vec(),
+            distortion: summary,
+            new_vertices: self.outcome.new_vertex_count(),
+        }
+    }
+}
+
+fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: Option<PackingReport>) -> Output<'a> {
+    let model = charts[0].model;
+    let of = |model: &'a Model| model.chart.as_ref().expect("one chart of several");
+    let whole = of(model).charts.whole();
+    let of_frame = charts[0].outcome.problem.frame.aspect;
+    let aspect =
+        packing.map_or(of_frame, |PackingReport { picture: [width, height], .. }| f64::from(width) / f64::from(height));
+    let reports = charts.par_iter().zip(&coordinates).map(|(chart, laid)| chart.report(laid, aspect)).collect();
+    let written = |(chart, coordinates): (&SolvedChart<'a>, Embedding)| {
+        let step = &chart.outcome.step;
+        let mesh = step.mesh(chart.model.disk().expect("only a disk has an outcome"));
+        let verdict = verdict(mesh, &coordinates);
+        let vertex_of = Some(&of(chart.model).chart.vertex_of[..]);
+        OutputChart {
+            mesh,
+            refinement: step.refinement.as_deref(),
+            vertex_of,
+            coordinates,
+            verdict,
+            held: chart.outcome.held(),
+        }
+    };
+    let written: Vec<OutputChart<'a>> = charts.par_iter().zip(coordinates).map(written).collect();
+    let disks = charts.iter().map(SolvedChart::disk);
+    let mesh = MeshReport::of_disks(model.path_words(), whole.polygons().positions.len(), disks);
+    let settings = charts[0].outcome.problem.settings;
+    let solve = charts.iter().flat_map(|chart| chart.steps).map(|step| step.seconds).sum();
+    let report = Report {
+        method: Some(settings.method),
+        family: settings.method.uses_family().then_some(settings.family),
+        atlas: Some(proved_together(&written)),
+        charts: reports,
+        packing,
+        new_vertices: charts.iter().map(|chart| chart.outcome.new_vertex_count()).sum(),
+        seconds: Seconds { solve, ..Seconds::default() },
+        ..Report::of_mesh(MeshReport { repairs: whole.done().to_vec(), ..mesh })
+    };
+    Output {
+        source: &model.source,
+        source_path: model.path.as_deref(),
+        materials: Materials::default(),
+        repaired: Some(whole),
+        charts: written,
+        report,
+        picture: None,
+        aspect,
+        svg_fit: OutputFit::Unit,
+    }
+}

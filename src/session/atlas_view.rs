@@ -1,0 +1,147 @@
+//! The layout of all charts, once each is solved: for files, and proved in the background for the screen.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::{Background, ChartState, Model, Outcome, Session, SolvedChart, Wake, atlas};
+use crate::geom::PackingOptions;
+use crate::io::{Output, PackingReport, StepReport};
+use crate::solver::AtlasVerdict;
+
+/// All charts of a mesh, each with the step that is written.
+#[derive(Clone, Debug)]
+pub(super) struct SolvedAtlas {
+    charts: Vec<Solved>,
+    options: PackingOptions,
+}
+
+/// One of them.
+#[derive(Clone, Debug)]
+struct Solved {
+    model: Arc<Model>,
+    outcome: Arc<Outcome>,
+    steps: Vec<StepReport>,
+}
+
+/// The layout as it would be written.
+#[derive(Clone, Debug)]
+pub struct AtlasView {
+    /// The boundary of each chart, in texture coordinates.
+    pub outlines: Vec<Vec<DVec2>>,
+    /// The verdict on all charts together.
+    pub verdict: AtlasVerdict,
+    /// How they are packed; none where pins hold them all.
+    pub packing: Option<PackingReport>,
+}
+
+/// Layouts that are made, by what they are made of.
+pub(super) struct AtlasViews {
+    making: Background<Made, AtlasView>,
+    made: Option<(Made, AtlasView)>,
+}
+
+/// What a layout is made of: steps by their places in memory, which they keep while they are shown.
+#[derive(Clone, Debug)]
+struct Made {
+    outcomes: Vec<Arc<Outcome>>,
+    options: PackingOptions,
+}
+
+impl Made {
+    fn is(&self, other: &SolvedAtlas) -> bool {
+        let outcomes = || self.outcomes.iter().zip(&other.charts);
+        self.options == other.options
+            && self.outcomes.len() == other.charts.len()
+            && outcomes().all(|(own, other)| Arc::ptr_eq(own, &other.outcome))
+    }
+}
+
+impl Solved {
+    fn chart(&self) -> SolvedChart<'_> {
+        SolvedChart { model: &self.model, outcome: &self.outcome, steps: &self.steps }
+    }
+}
+
+impl SolvedAtlas {
+    /// The layout, proved as it is written.
+    pub(super) fn output(&self) -> Output<'_> {
+        let charts: Vec<SolvedChart<'_>> = self.charts.iter().map(Solved::chart).collect();
+        atlas(&charts, self.options)
+    }
+
+    fn view(&self) -> AtlasView {
+        let output = self.output();
+        let outline = |chart: &crate::io::OutputChart<'_>| {
+            chart.mesh.boundary_loop().iter().map(|&vertex| chart.coordinates[vertex]).collect()
+        };
+        AtlasView {
+            outlines: output.charts.iter().map(outline).collect(),
+            packing: output.report.packing,
+            verdict: output.report.atlas.expect("a layout of charts has a verdict"),
+        }
+    }
+}
+
+impl AtlasViews {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self { making: Background::new("atlas", wake), made: None }
+    }
+}
+
+impl Session {
+    /// How charts are packed: into the picture, where there is one.
+    pub fn packing(&self) -> PackingOptions {
+        let pixels = self.document().picture.as_ref().map(|picture| &picture.pixels);
+        let picture = pixels.map(|pixels| [pixels.width, pixels.height]);
+        let options = self.document().packing;
+        PackingOptions { picture: picture.unwrap_or(options.picture), ..options }
+    }
+
+    /// All charts, each with its step.
+    ///
+    /// # Errors
+    ///
+    /// How many charts have none for the document as it is.
+    pub(super) fn solved_atlas(&self) -> Result<SolvedAtlas, usize> {
+        let count = self.charts().map_or(0, |charts| charts.count());
+        let solved: Vec<Solved> = (0..count).filter_map(|number| self.solved_chart(number)).collect();
+        match count - solved.len() {
+            0 => Ok(SolvedAtlas { charts: solved, options: self.packing() }),
+            missing => Err(missing),
+        }
+    }
+
+    fn solved_chart(&self, number: usize) -> Option<Solved> {
+        let ChartState::Solved(newest) = self.chart_state(number) else { return None };
+        let (model, outcome, records) = if self.chart_on_screen() == Some(number) {
+            (self.model()?, self.outcome().filter(|_| self.is_current())?, self.timeline().records())
+        } else {
+            let (model, timeline) = self.charts.other(number)?;
+            (model, &newest, timeline.records())
+        };
+        let steps = records[..=outcome.step.index].to_vec();
+        Some(Solved { model: Arc::clone(model), outcome: Arc::clone(outcome), steps })
+    }
+
+    /// Has the layout of all charts made, once each is solved.
+    pub(super) fn poll_atlas(&mut self) {
+        if let Some((key, Ok(view))) = self.atlas_views.making.poll() {
+            self.atlas_views.made = Some((key, view));
+        }
+        let Ok(solved) = self.solved_atlas() else { return };
+        let views = &mut self.atlas_views;
+        let has = |key: Option<&Made>| key.is_some_and(|key| key.is(&solved));
+        if solved.charts.is_empty() || has(views.made.as_ref().map(|(key, _)| key)) || has(views.making.key()) {
+            return;
+        }
+        let outcomes = solved.charts.iter().map(|chart| Arc::clone(&chart.outcome)).collect();
+        views.making.start(Made { outcomes, options: solved.options }, move |_| solved.view());
+    }
+
+    /// The layout of all charts, where each is solved and it was made.
+    pub fn atlas(&self) -> Option<&AtlasView> {
+        let (key, view) = self.atlas_views.made.as_ref()?;
+        self.solved_atlas().is_ok_and(|solved| key.is(&solved)).then_some(view)
+    }
+}

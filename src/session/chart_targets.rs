@@ -1,0 +1,59 @@
+//! Pins of a mesh with several charts: by the vertices of the mesh in files, by those of each chart in the document.
+
+use std::collections::BTreeMap;
+
+use super::{ChartEdits, Document, Model};
+use crate::io::Targets;
+
+impl Model {
+    /// How many vertices a file of pins can name: those of the repaired mesh, where it has several charts.
+    pub fn vertex_count_in_file(&self) -> usize {
+        let whole = self.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
+        whole.unwrap_or_else(|| self.vertex_count())
+    }
+
+    /// The targets of each chart, of those of the mesh; what is of no chart is left out.
+    pub(super) fn by_chart(&self, of_mesh: Targets) -> BTreeMap<usize, Targets> {
+        let Some(of) = &self.chart else { return BTreeMap::from([(0, of_mesh)]) };
+        let mut found: BTreeMap<usize, Targets> = BTreeMap::new();
+        for (vertex, target) in of_mesh {
+            if let Some(chart) = of.charts.chart_of_vertex(vertex) {
+                found.entry(chart).or_default().insert(vertex, target);
+            }
+        }
+        for (&number, targets) in &mut found {
+            let chart = if number == of.number { (*of.chart).clone() } else { of.charts.chart(number) };
+            let own = |(vertex, target)| Some((chart.vertex_at(vertex)?, target));
+            *targets = std::mem::take(targets).into_iter().filter_map(own).collect();
+        }
+        found
+    }
+
+    /// The targets of all charts, of the vertices of the mesh. The chart on the screen is this one.
+    pub(super) fn all_targets(&self, document: &Document) -> Targets {
+        let here = document.targets.iter().map(|(&vertex, target)| (self.vertex_in_file(vertex), *target));
+        let mut targets: Targets = here.collect();
+        let Some(of) = &self.chart else { return targets };
+        for (&number, edits) in document.elsewhere.iter().filter(|(_, edits)| !edits.targets.is_empty()) {
+            let vertex_of = of.charts.chart(number).vertex_of;
+            targets.extend(edits.targets.iter().map(|(vertex, target)| (vertex_of[vertex.index()], *target)));
+        }
+        targets
+    }
+}
+
+impl Document {
+    /// Takes over what a project says of the charts of its mesh: pins by the mesh's vertices, and rounds of relaxing of charts that
+    /// are not on the screen.
+    pub(super) fn take_charts(&mut self, model: &Model, targets: Targets, relaxed: &BTreeMap<usize, usize>) {
+        let here = model.chart.as_ref().map_or(0, |of| of.number);
+        let mut by_chart = model.by_chart(targets);
+        self.targets = by_chart.remove(&here).unwrap_or_default();
+        let numbers: std::collections::BTreeSet<usize> = by_chart.keys().chain(relaxed.keys()).copied().collect();
+        for number in numbers.into_iter().filter(|&number| number != here && number < model.chart_count()) {
+            let targets = by_chart.remove(&number).unwrap_or_default();
+            let relaxed = relaxed.get(&number).copied().unwrap_or_default();
+            self.put_elsewhere(number, ChartEdits { targets, relaxed });
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! The charts that are not on the screen, as they stand around the one that is: drawn, and picked.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::mesh::FaceId;
+use crate::render::Surroundings;
+use crate::session::Model;
+use crate::view::{FacePaint, MeshArrays, Ray, Sphere, SurfacePicker};
+
+/// The charts that are not on the screen, around the one that is.
+#[derive(Debug)]
+pub struct Around {
+    /// How they are drawn.
+    pub surroundings: Surroundings,
+    picker: SurfacePicker,
+    /// The chart of each of their faces.
+    chart_of: Vec<u32>,
+}
+
+impl Around {
+    pub(super) fn of(model: &Model, positions: &[DVec3], sphere: Sphere) -> Option<Self> {
+        let of = model.chart.as_ref()?;
+        let polygons = of.charts.whole().polygons();
+        let mut chart_of_polygon = vec![None; polygons.face_count()];
+        for (number, chart) in (0..).zip(0..of.charts.count()).filter(|(_, chart)| *chart != of.number) {
+            of.charts.faces(chart).iter().for_each(|&face| chart_of_polygon[face as usize] = Some(number));
+        }
+        let whole = polygons.triangulate();
+        let chart_of_face = |face: usize| chart_of_polygon[whole.polygon(FaceId::from_index(face)) as usize];
+        let others = (0..whole.face_count()).filter_map(|face| Some((whole.triangles[face], chart_of_face(face)?)));
+        let (triangles, chart_of): (Vec<_>, Vec<u32>) = others.unzip();
+        let mesh = MeshArrays::in_frame(positions, &triangles, sphere);
+        let paint = FacePaint::faint(triangles.len());
+        let surroundings = Surroundings { mesh: Arc::new(mesh), paint: Arc::new(paint) };
+        Some(Self { surroundings, picker: SurfacePicker::new(positions, &triangles), chart_of })
+    }
+
+    /// The chart that a ray meets first, and how far from its origin.
+    pub(super) fn chart_at(&self, ray: Ray) -> Option<(usize, f64)> {
+        let hit = self.picker.hit(ray)?;
+        Some((self.chart_of[hit.face.index()] as usize, hit.distance))
+    }
+}

@@ -1,0 +1,243 @@
+//! The charts of a mesh that has several: how they lie together, a list with the worst first, and how they are packed.
+
+use eframe::egui::{self, Color32, DragValue, Pos2, Rect, RichText, Role, Sense, Stroke, Vec2, WidgetInfo};
+use glam::DVec2;
+
+use super::menu::grouped;
+use crate::geom::{Bounds, PackingOptions};
+use crate::session::{Action, AtlasView, ChartState, Session};
+use crate::ui::{Control, Editor, Request, counted, keys_of, remark, sentence, theme_of};
+
+/// Height of a row of the list, points.
+const ROW: f32 = 22.0;
+
+/// A chart as the list tells of it.
+struct Row {
+    chart: usize,
+    faces: usize,
+    state: ChartState,
+}
+
+impl Row {
+    /// Charts that need a person come first, then the most distorted.
+    fn weight(&self) -> f64 {
+        match &self.state {
+            ChartState::Failed => f64::INFINITY,
+            ChartState::Solved(outcome) if !outcome.step.verdict.planar => f64::MAX,
+            ChartState::Solved(outcome) => outcome.distortion.summary.symmetric_dirichlet.mean,
+            ChartState::Solving => f64::NEG_INFINITY,
+        }
+    }
+
+    /// What there is to say about it.
+    fn words(&self) -> String {
+        match &self.state {
+            ChartState::Failed => "nothing found".to_owned(),
+            ChartState::Solving => "solving…".to_owned(),
+            ChartState::Solved(outcome) if !outcome.step.verdict.planar => outcome.step.verdict.summary(),
+            ChartState::Solved(outcome) => {
+                format!("planar, energy {:.2}", outcome.distortion.summary.symmetric_dirichlet.mean)
+            }
+        }
+    }
+}
+
+pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let session = &editor.session;
+    let Some(charts) = session.charts() else { return };
+    let mut rows: Vec<Row> = (0..charts.count())
+        .map(|chart| Row { chart, faces: charts.faces(chart).len(), state: session.chart_state(chart) })
+        .collect();
+    rows.sort_by(|a, b| b.weight().total_cmp(&a.weight()).then(a.chart.cmp(&b.chart)));
+    let side = ui.available_width().min(ui.available_height() * 0.45).max(80.0);
+    layout(ui, session, side, requests);
+    verdict(ui, session, &rows);
+    packing(ui, session, requests);
+    ui.separator();
+    list(ui, session, &rows, requests);
+}
+
+/// All charts as they lie in the picture; a click puts one on the screen.
+fn layout(ui: &mut egui::Ui, session: &Session, side: f32, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), side), Sense::click());
+    let response = response.named(Role::Image, "All charts as they lie in the picture");
+    let painter = ui.painter_at(rect);
+    let Some(AtlasView { outlines, .. }) = session.atlas() else {
+        let words = "The layout shows here once all charts are solved";
+        painter.text(
+            rect.center(),
+            egui::Align2::CENTER_CENTER,
+            words,
+            egui::FontId::proportional(12.0),
+            theme.weak_text,
+        );
+        return;
+    };
+    let place = Place::new(rect, outlines, session.packing());
+    painter.rect_stroke(place.rect_of(Bounds::UNIT), 0.0, Stroke::new(1.0, theme.weak_text), egui::StrokeKind::Outside);
+    let shown = session.chart_on_screen();
+    let under = response.hover_pos().and_then(|at| place.chart_at(outlines, at));
+    for (chart, outline) in outlines.iter().enumerate() {
+        let is_marked = Some(chart) == shown || Some(chart) == under;
+        let colour = if Some(chart) == shown { theme.accent } else { theme.text };
+        let stroke = Stroke::new(if is_marked { 2.0 } else { 1.0 }, colour);
+        painter.add(egui::Shape::closed_line(outline.iter().map(|&uv| place.of(uv)).collect(), stroke));
+    }
+    if let Some(chart) = under {
+        ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
+        let tip = format!("Chart {chart}: click to work on it");
+        response.on_hover_text_at_pointer(tip).asks(Action::ShowChart(chart), requests);
+    }
+}
+
+/// Where texture coordinates lie in the panel.
+struct Place {
+    rect: Rect,
+    low: DVec2,
+    points_per_unit: DVec2,
+}
+
+impl Place {
+    fn new(rect: Rect, outlines: &[Vec<DVec2>], packing: PackingOptions) -> Self {
+        let all = Bounds::of(outlines.iter().flatten().copied().filter(|uv| uv.is_finite())).union(Bounds::UNIT);
+        let [width, height] = packing.picture.map(f64::from);
+        let aspect = DVec2::new(width / height, 1.0);
+        let size = DVec2::new(rect.width().into(), rect.height().into()) - 2.0;
+        let scale = (size / (all.size() * aspect)).min_element();
+        Self { rect, low: all.low, points_per_unit: aspect * scale }
+    }
+
+    fn of(&self, uv: DVec2) -> Pos2 {
+        let at = ((uv - self.low) * self.points_per_unit).as_vec2();
+        Pos2::new(self.rect.left() + 1.0 + at.x, self.rect.bottom() - 1.0 - at.y)
+    }
+
+    fn rect_of(&self, bounds: Bounds) -> Rect {
+        Rect::from_two_pos(self.of(bounds.low), self.of(bounds.high))
+    }
+
+    /// The chart that a point lies in.
+    fn chart_at(&self, outlines: &[Vec<DVec2>], at: Pos2) -> Option<usize> {
+        let offset = [at.x - self.rect.left() - 1.0, self.rect.bottom() - 1.0 - at.y].map(f64::from);
+        let uv = self.low + DVec2::from_array(offset) / self.points_per_unit;
+        let winds = |outline: &Vec<DVec2>| crate::geom::winding_number(outline, uv).is_some_and(|winds| winds != 0);
+        outlines.iter().position(winds)
+    }
+}
+
+/// The verdict on all charts together.
+fn verdict(ui: &mut egui::Ui, session: &Session, rows: &[Row]) {
+    let theme = theme_of(ui);
+    let waiting = rows.iter().filter(|row| matches!(row.state, ChartState::Solving)).count();
+    match session.atlas() {
+        Some(AtlasView { verdict, .. }) if verdict.planar => {
+            let holds = if verdict.holds_in_f32 { "Holds in 32 bits" } else { "Does not hold in 32 bits" };
+            ui.colored_label(theme.planar, sentence(&verdict.summary())).on_hover_text(holds);
+        }
+        Some(AtlasView { verdict, .. }) => {
+            ui.colored_label(theme.flipped, sentence(&verdict.summary()));
+        }
+        None if waiting > 0 => {
+            ui.label(format!("{} of {} charts solved", rows.len() - waiting, rows.len()));
+        }
+        None => {
+            ui.label(counted(rows.len(), "chart", "charts"));
+        }
+    }
+    if let Some(packing) = session.atlas().and_then(|atlas| atlas.packing) {
+        let percent = 100.0 * packing.covered;
+        remark(ui, format!("{percent:.0} % covered, {:.4} pixels per unit of length", packing.density));
+    }
+}
+
+/// The picture that charts are packed into, and the gap between them. What is dragged or typed counts at its end.
+fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
+    let kept = ui.scope_id().with("packing");
+    let before = session.packing();
+    let mut options: PackingOptions = ui.data(|data| data.get_temp(kept)).unwrap_or(before);
+    let has_picture = session.document().picture.is_some();
+    let mut has_ended = false;
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Picture");
+        let tip = if has_picture { "The size of the open picture" } else { "Pixels that the charts are packed into" };
+        let mut side = |ui: &mut egui::Ui, pixels: &mut u32, name: &str| {
+            let value = DragValue::new(pixels).range(1..=PackingOptions::LONGEST_SIDE);
+            let field = ui.add_enabled(!has_picture, value).named(Role::SpinButton, name);
+            has_ended |= field.has_ended();
+            field.on_hover_text(tip).on_disabled_hover_text(tip);
+        };
+        let [width, height] = &mut options.picture;
+        side(ui, width, "Width of the picture in pixels");
+        ui.label("×");
+        side(ui, height, "Height of the picture in pixels");
+        ui.label("px");
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Gap");
+        let value = DragValue::new(&mut options.gap).range(0..=PackingOptions::WIDEST_GAP);
+        let field = ui.add(value).named(Role::SpinButton, "Gap between charts in pixels");
+        has_ended |= field.has_ended();
+        field.on_hover_text("Least distance between charts, in pixels of the picture");
+        ui.label("px");
+    });
+    if has_ended {
+        ui.data_mut(|data| data.remove::<PackingOptions>(kept));
+        if options != before {
+            requests.push(Action::SetPacking(options).into());
+        }
+    } else if options != before {
+        ui.data_mut(|data| data.insert_temp(kept, options));
+    }
+}
+
+/// The list, the worst first.
+fn list(ui: &mut egui::Ui, session: &Session, rows: &[Row], requests: &mut Vec<Request>) {
+    let keys = [-1, 1].map(|by| keys_of(ui.ctx(), &Request::StepChart(by)));
+    remark(ui, format!("Click a chart to work on it ({} and {})", keys[0], keys[1]));
+    let shown = session.chart_on_screen();
+    egui::ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, rows.len(), |ui, range| {
+        for row in &rows[range] {
+            row_of(ui, row, shown == Some(row.chart), requests);
+        }
+    });
+}
+
+fn row_of(ui: &mut egui::Ui, row: &Row, is_shown: bool, requests: &mut Vec<Request>) {
+    let theme = theme_of(ui);
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
+    let faces = format!("{} f", grouped(row.faces));
+    let words = row.words();
+    let name = format!("Chart {}, {}, {words}", row.chart, counted(row.faces, "face", "faces"));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_shown, &name));
+    if is_shown || response.hovered() || response.has_focus() {
+        let share = if is_shown { 0.22 } else { 0.10 };
+        ui.painter().rect_filled(rect, 3.0, theme.accent.gamma_multiply(share));
+    }
+    let colour: Color32 = match &row.state {
+        ChartState::Failed => theme.flipped,
+        ChartState::Solved(outcome) if !outcome.step.verdict.planar => theme.flipped,
+        ChartState::Solved(_) => theme.planar,
+        ChartState::Solving => theme.weak_text,
+    };
+    let inner = rect.shrink2(Vec2::new(4.0, 0.0));
+    let line = format!("Chart {}  {faces}", row.chart);
+    let galley = |ui: &egui::Ui, words: &str, colour| {
+        let job = RichText::new(words).color(colour);
+        egui::WidgetText::from(job).into_galley(
+            ui,
+            Some(egui::TextWrapMode::Truncate),
+            inner.width(),
+            egui::TextStyle::Body,
+        )
+    };
+    let left = galley(ui, &line, theme.text);
+    let right = galley(ui, &words, colour);
+    let middle = |height: f32| inner.center().y - height / 2.0;
+    let start =
+        Pos2::new((inner.right() - right.size().x).max(inner.left() + left.size().x + 8.0), middle(right.size().y));
+    let painter = ui.painter_at(inner);
+    painter.galley(Pos2::new(inner.left(), middle(left.size().y)), left, theme.text);
+    painter.galley(start, right, colour);
+    response.on_hover_text(name).asks(Action::ShowChart(row.chart), requests);
+}
