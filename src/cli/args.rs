@@ -60,6 +60,9 @@ pub struct FlattenArguments {
     /// Whether a surface that is no disk is cut open until it is one.
     #[arg(long, value_enum, default_value_t)]
     pub cut: Cut,
+    /// What the charts of the mesh are, which are flattened each by itself.
+    #[arg(long, value_enum, default_value_t)]
+    pub charts: ChartsOf,
     /// How to flatten.
     #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
     pub method: Method,
@@ -167,6 +170,16 @@ pub enum Cut {
     None,
     /// Where it is closed, has handles, holes, or one side only: along short ways, creases first
     Auto,
+}
+
+/// What the charts of a mesh are, as it is typed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum ChartsOf {
+    /// Its parts
+    #[default]
+    Parts,
+    /// The charts of the file's texture coordinates: it is cut along their seams
+    Uv,
 }
 
 impl FlattenArguments {

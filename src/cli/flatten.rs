@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::FlattenArguments;
+use super::args::{ChartsOf, FlattenArguments};
 use super::exit::conclude;
 use super::failed::await_report;
 use super::job::HeadlessJob;
@@ -17,7 +17,9 @@ use super::standard::{is_standard, name_of_input, read_model};
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
-use crate::io::{Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, WriteError};
+use crate::io::{
+    Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError, WriteError,
+};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::{Document, Model, Surface};
 use crate::solver::{Choice as _, SolveError};
@@ -44,7 +46,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = read_model(&arguments.mesh, arguments.form())?;
+        let model = in_charts(read_model(&arguments.mesh, arguments.form())?, arguments.charts)?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
@@ -82,6 +84,18 @@ fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
         return Err(Failure::Usage(text));
     }
     Ok(())
+}
+
+/// The mesh in the charts that are asked for.
+fn in_charts(model: Model, charts: ChartsOf) -> Result<Model, Failure> {
+    if charts == ChartsOf::Parts {
+        return Ok(model);
+    }
+    let path = model.path_words();
+    model.cut_along_texture().map_err(|error| match error {
+        TextureError::None => Failure::Usage(format!("{path}: {error}: leave out --charts uv")),
+        TextureError::Missing(_) => Failure::Texture { path, error },
+    })
 }
 
 /// Refuses files that would be written over, by the run itself or as results of one another.

@@ -178,7 +178,7 @@ impl Fault {
             Self::CoincidentVertices(_) => {
                 ["coincident-vertices", "merge coincident vertices in the program that the mesh comes from"]
             }
-            Self::SeveralComponents { .. } => ["several-components", "keep one component, or flatten each by itself"],
+            Self::SeveralComponents { .. } => ["several-components", "each is flattened by itself, once it is a disk"],
             Self::Closed { .. } => {
                 ["closed", "cut the surface open along a chain of edges, or delete a part that is not needed"]
             }

@@ -38,11 +38,17 @@ impl PolygonMesh {
     /// The same mesh with every polygon run around the other way, from the same first corner.
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
-        let mut turned = self.clone();
+        let corners = self.turned_at_corners(&self.corners);
+        Self { positions: self.positions.clone(), corners, starts: self.starts.clone() }
+    }
+
+    /// What belongs to the corners, in the order of the mesh that is [`turned`](Self::turned).
+    pub(crate) fn turned_at_corners<T: Copy>(&self, at_corners: &[T]) -> Vec<T> {
+        let mut turned = at_corners.to_vec();
         for face in 0..self.face_count() {
             let mut range = self.corner_range(face);
             range.start = (range.start + 1).min(range.end);
-            turned.corners[range].reverse();
+            turned[range].reverse();
         }
         turned
     }

@@ -7,7 +7,10 @@ use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
-use crate::io::{EXTENSIONS, Precision, write_atomically, write_constraints, write_durably};
+use crate::io::{EXTENSIONS, OutputFit, OutputKind, Precision, write_atomically, write_constraints, write_durably};
+
+/// The most faults with a bar each, where all can be mended.
+const FAULTS_TOLD: usize = 2;
 
 impl Session {
     /// Puts something on the table. The document before it is gone, its history with it.
@@ -41,6 +44,10 @@ impl Session {
     pub(super) fn tell_faults(&mut self) {
         let Some(model) = self.model().cloned() else { return };
         let Surface::Faulty(_, diagnosis) = &model.surface else { return };
+        // More of them would hide the mesh behind bars; the tab of defects lists them all, and one click mends them.
+        if model.remedy.is_some() && diagnosis.faults.len() > FAULTS_TOLD {
+            return;
+        }
         for fault in &diagnosis.faults {
             let message = Message::error(Place::Mesh, fault.message()).with_remedy(fault.remedy());
             self.messages.say(message.with_vertices(fault.vertices_of(0, model.mesh())));
@@ -74,7 +81,11 @@ impl Session {
     }
 
     /// Writes the layout of all charts.
-    fn save_atlas(&mut self, SaveRequest { path, kind, .. }: SaveRequest) {
+    fn save_atlas(&mut self, SaveRequest { path, kind, fit }: SaveRequest) {
+        if kind == OutputKind::Svg && fit == OutputFit::True {
+            let text = "several charts are drawn as they are packed: none at true scale";
+            return self.complain(text, Some("export the layout in the unit square"));
+        }
         let solved = match self.solved_atlas() {
             Ok(solved) => solved,
             Err(missing) => {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
+use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, TextureError, read_mesh_with, read_stream_with};
 use crate::mesh::{
     Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, VertexId, diagnose,
     relative_volume,
@@ -137,6 +137,22 @@ impl Model {
             }
         };
         Self { form, source, remedy, ..self.clone() }.with(found)
+    }
+
+    /// The same mesh cut along the seams of the file's texture coordinates: its charts are theirs.
+    ///
+    /// # Errors
+    ///
+    /// Where not all corners have texture coordinates.
+    pub fn cut_along_texture(&self) -> Result<Self, TextureError> {
+        let labels = self.source.texture_labels()?;
+        let cut = |form: Form| form.repaired_along(&self.source.polygons, Some(&labels));
+        let found = cut_surface(cut(self.form));
+        let remedy = match &found.surface {
+            Surface::Disk(_) => None,
+            Surface::Faulty(..) => Some(cut(self.form.mended())).filter(Repaired::flattens).map(Arc::new),
+        };
+        Ok(Self { remedy, ..self.clone() }.with(found))
     }
 
     /// The chart that is wanted, where the mesh has several.
@@ -279,6 +295,23 @@ fn surface_of(polygons: &PolygonMesh, form: Form) -> Found {
     match charts.map(Arc::new) {
         Some(charts) => Found::chart(&charts, charts.largest()),
         None => Found::faulty(polygons, diagnosis),
+    }
+}
+
+/// What a surface is that is cut along its seams.
+fn cut_surface(repaired: Repaired) -> Found {
+    let mesh = repaired.triangulate();
+    match DiskMesh::try_from(mesh.clone()) {
+        Ok(disk) => {
+            let repaired = (!repaired.done().is_empty()).then(|| Arc::new(repaired));
+            Found { surface: Surface::Disk(Arc::new(disk)), repaired, chart: None }
+        }
+        Err(diagnosis) => match Charts::of(repaired).map(Arc::new) {
+            Some(charts) => Found::chart(&charts, charts.largest()),
+            None => {
+                Found { surface: Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)), repaired: None, chart: None }
+            }
+        },
     }
 }
 

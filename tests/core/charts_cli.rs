@@ -37,7 +37,7 @@ fn triangles(file: &MeshFile) -> Vec<[DVec2; 3]> {
 
 /// Asserts by clipping that no two triangles share an area, and that none is turned over.
 #[track_caller]
-fn assert_one_to_one(file: &MeshFile) {
+pub(crate) fn assert_one_to_one(file: &MeshFile) {
     let triangles = triangles(file);
     for (k, &a) in triangles.iter().enumerate() {
         assert!((a[1] - a[0]).perp_dot(a[2] - a[0]) > 0.0, "{a:?}");
@@ -55,7 +55,7 @@ fn report_of(program: &Program, name: &str) -> Value {
 
 /// What `check` proves of a file: how many charts.
 #[track_caller]
-fn charts_proved(program: &Program, name: &str) -> usize {
+pub(crate) fn charts_proved(program: &Program, name: &str) -> usize {
     let report = program.run(&["check", name, "--report", "-"]).expect(0).json();
     assert_eq!((&report["atlas"]["planar"], &report["atlas"]["f32"]), (&json!(true), &json!(true)));
     report["atlas"]["charts"].as_array().expect("charts").len()

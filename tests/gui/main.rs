@@ -6,6 +6,7 @@
 mod actions;
 mod advice;
 mod artist;
+mod charts;
 mod compare;
 mod constrained;
 mod constraint_rows;

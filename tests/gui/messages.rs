@@ -45,7 +45,11 @@ fn every_bad_file_of_the_corpus_says_what_is_wrong_and_what_to_do() {
             assert!(messages.is_empty(), "{file_name}: {messages:?}");
             continue;
         }
-        assert!(!messages.is_empty(), "{file_name}");
+        if messages.is_empty() {
+            assert!(window.has_button("Mend all") && window.has_button("What is wrong"), "{file_name}");
+            assert!(window.verdict().ends_with("faults"), "{}", window.verdict());
+            continue;
+        }
         for message in &messages {
             assert!(message.remedy.as_ref().is_some_and(|remedy| !remedy.is_empty()), "{file_name}: {message:?}");
         }

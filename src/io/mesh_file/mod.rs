@@ -123,12 +123,8 @@ impl MeshFile {
     #[must_use = "the mesh itself stays as it is"]
     pub fn turned(&self) -> Self {
         let mut turned = Self { polygons: self.polygons.turned(), ..self.clone() };
-        for face in 0..self.polygons.face_count() {
-            let mut range = self.polygons.corner_range(face);
-            range.start += 1;
-            if let Some(texture) = &mut turned.texture {
-                texture.corners[range].reverse();
-            }
+        if let Some(texture) = &mut turned.texture {
+            texture.corners = self.polygons.turned_at_corners(&texture.corners);
         }
         turned
     }

@@ -1,5 +1,7 @@
 //! The mesh of a file's texture coordinates: the surface as it is cut in the plane.
 
+use std::collections::HashMap;
+
 use glam::DVec2;
 
 use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
@@ -36,7 +38,7 @@ impl MeshFile {
         self.check_complete(texture)?;
         let corners = &self.polygons.corners;
         let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
-        let bits = |place: u32| (coordinate(place) + DVec2::ZERO).to_array().map(f64::to_bits);
+        let bits = |place: u32| bits(coordinate(place));
         let mut texture_vertex = vec![0_u32; corners.len()];
         let (mut positions, mut vertex_of, mut embedding) = (Vec::new(), Vec::new(), Vec::new());
         let mut first_places: Vec<u32> = Vec::new();
@@ -70,6 +72,21 @@ impl MeshFile {
         Ok(TextureMesh { mesh: TriMesh { positions, triangles, polygon_of }, embedding: embedding.into(), vertex_of })
     }
 
+    /// A label for each corner, the same where texture coordinates are the same: the place of the first of them in the
+    /// file's list.
+    ///
+    /// # Errors
+    ///
+    /// As [`texture_mesh`](Self::texture_mesh).
+    pub fn texture_labels(&self) -> Result<Vec<u32>, TextureError> {
+        let texture = self.texture.as_ref().ok_or(TextureError::None)?;
+        self.check_complete(texture)?;
+        let mut first: HashMap<[u64; 2], u32> = HashMap::new();
+        let labels: Vec<u32> =
+            (0..).zip(&texture.coordinates).map(|(place, uv)| *first.entry(bits(*uv)).or_insert(place)).collect();
+        Ok(texture.corners.iter().map(|&corner| labels[corner as usize]).collect())
+    }
+
     fn check_complete(&self, texture: &Texture) -> Result<(), TextureError> {
         let lacks = |&face: &u32| {
             let places = self.polygons.corner_range(face as usize);
@@ -79,4 +96,9 @@ impl MeshFile {
         let faces: Vec<u32> = (0..face_count).filter(lacks).collect();
         if faces.is_empty() { Ok(()) } else { Err(TextureError::Missing(faces)) }
     }
+}
+
+/// What tells coordinates apart: their bits, except that −0 equals 0.
+fn bits(coordinate: DVec2) -> [u64; 2] {
+    (coordinate + DVec2::ZERO).to_array().map(f64::to_bits)
 }

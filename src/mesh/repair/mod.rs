@@ -8,6 +8,7 @@
 //! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
 //! | `fill.rs` | holes filled with virtual faces |
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
+//! | `seams.rs` | a surface cut along given seams |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
 //!
@@ -20,6 +21,7 @@ mod cut;
 mod fill;
 mod join;
 mod leave_out;
+mod seams;
 mod sides;
 mod ways;
 
@@ -67,11 +69,22 @@ impl Form {
     /// The repairs of a mesh, whose faces are turned already: the same as before they were, so that every vertex keeps its
     /// number when they are turned.
     pub fn repaired(self, source: &PolygonMesh) -> Repaired {
+        self.repaired_along(source, None)
+    }
+
+    /// As [`repaired`](Self::repaired), the surface cut at edges that have different labels on their sides: there is one for each
+    /// corner of `source`.
+    pub fn repaired_along(self, source: &PolygonMesh, labels: Option<&[u32]>) -> Repaired {
         if self.faces_turned {
             let before = source.turned();
-            return Self { faces_turned: false, ..self }.repaired(&before).turned(&before);
+            let labels = labels.map(|labels| source.turned_at_corners(labels));
+            let form = Self { faces_turned: false, ..self };
+            return form.repaired_along(&before, labels.as_deref()).turned(&before);
         }
         let mut repaired = Repaired::new(source, self.repair);
+        if let Some(labels) = labels {
+            repaired.cut_along(labels);
+        }
         repaired.fills = self.holes == HoleTreatment::Fill && self.repair != RepairExtent::Nothing;
         let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
         repaired.fill_holes()

@@ -66,7 +66,7 @@ fn pill(editor: &Editor) -> Option<Pill> {
     let model = session.model()?;
     if let Surface::Faulty(_, diagnosis) = &model.surface {
         let words = counted(diagnosis.faults.len(), "fault", "faults");
-        return Some(Pill::new(Sign::Bad, words, "The bars over the mesh say what is wrong and what to do"));
+        return Some(Pill::new(Sign::Bad, words, "The bars over the mesh and the tab Defects say what is wrong"));
     }
     Some(match session.status() {
         Status::Preview(preview) => {

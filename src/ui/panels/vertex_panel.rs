@@ -28,6 +28,9 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         }
         ui.small_button("Frame").asks(Request::GoTo(vec![vertex]), requests);
     });
+    if let Some(chart) = editor.session.chart_on_screen().filter(|_| scene.new_vertex(vertex).is_none()) {
+        ui.label(format!("of chart {chart}; in files {}", scene.model.vertex_in_file(vertex)));
+    }
     if let Some(new) = scene.new_vertex(vertex) {
         ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }

@@ -7,7 +7,7 @@ use eframe::egui::{self, Label, Rect, RichText, Sense, Vec2};
 
 use crate::session::{Action, Message, Place, Severity, named};
 use crate::ui::icons::{self, Sign};
-use crate::ui::{Control, Editor, Offer, Pane, Request, counted, sentence, theme_of};
+use crate::ui::{Control, Editor, Offer, Pane, Request, Tab, counted, sentence, theme_of};
 
 /// Shows the bars at the upper edge of a pane.
 pub(super) fn over(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
@@ -50,7 +50,15 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
             _ => format!("The mesh can be mended: {}", done.join(", ")),
         };
         let tip = "Make a disk of it. The file's positions and faces stay; undo takes it back";
-        warning(ui, &words, [Offer::new("Mend all", tip, Action::Mend)], requests);
+        let offers = [
+            Offer::new("Mend all", tip, Action::Mend),
+            Offer::new(
+                "What is wrong",
+                "Every fault, with a way to each of its elements",
+                Request::ShowTab(Tab::Defects),
+            ),
+        ];
+        warning(ui, &words, offers, requests);
     }
     let is_dragging = editor.tools.dragged().is_some();
     if pane == Pane::Plane && !is_dragging && editor.opened.targets_look_mirrored(session) {

@@ -91,7 +91,10 @@ fn waiting_words(editor: &Editor) -> Vec<&'static str> {
     match editor.session.model().map(|model| &model.surface) {
         None => vec!["Its embedding will show here"],
         Some(Surface::Faulty(..)) => {
-            vec!["This mesh cannot be flattened as it is", "The bars over the mesh say what is wrong and what to do"]
+            vec![
+                "This mesh cannot be flattened as it is",
+                "The bars over the mesh and the tab Defects say what is wrong",
+            ]
         }
         Some(Surface::Disk(_)) if editor.session.busy().is_some() => vec!["Solving…"],
         Some(Surface::Disk(_)) => vec!["Not solved", "Press Solve in the Method panel"],

@@ -1,0 +1,102 @@
+//! Meshes of several charts in the window: the list, the layout, the way from one chart to another.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+use egui::{Key, Modifiers};
+use freebound::mesh::{TriMesh, VertexId};
+use freebound::session::ChartState;
+use freebound::ui::Tab;
+
+use crate::harness::{Window, sheet};
+
+/// Three sheets side by side, each larger than the one before.
+fn sheets() -> TriMesh {
+    let mut whole = TriMesh::default();
+    for (number, rows) in [4, 6, 9].into_iter().enumerate() {
+        let part = sheet(rows, 0.3);
+        let offset = whole.positions.len();
+        let aside = 30.0 * number as f64 * glam::DVec3::X;
+        whole.positions.extend(part.positions.iter().map(|&at| at + aside));
+        let moved = |vertex: VertexId| VertexId::from_index(offset + vertex.index());
+        whole.triangles.extend(part.triangles.iter().map(|corners| corners.map(moved)));
+    }
+    whole
+}
+
+fn with_sheets() -> Window {
+    let mut window = Window::with_mesh("sheets.obj", &sheets());
+    until_laid_out(&mut window);
+    window
+}
+
+#[track_caller]
+fn until_laid_out(window: &mut Window) {
+    let start = Instant::now();
+    while window.editor().session.atlas().is_none() {
+        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", window.words());
+        std::thread::sleep(Duration::from_millis(1));
+        window.step();
+    }
+    window.settle();
+}
+
+fn chart(window: &Window) -> Option<usize> {
+    window.editor().session.chart_on_screen()
+}
+
+/// What the list calls a chart.
+fn row(window: &Window, chart: usize) -> String {
+    let session = &window.editor().session;
+    let ChartState::Solved(outcome) = session.chart_state(chart) else { panic!("chart {chart} is not solved") };
+    let energy = outcome.distortion.summary.symmetric_dirichlet.mean;
+    let faces = session.charts().expect("three charts").faces(chart).len();
+    format!("Chart {chart}, {faces} faces, planar, energy {energy:.2}")
+}
+
+#[test]
+fn a_mesh_of_several_parts_opens_with_the_list_of_its_charts() {
+    let window = with_sheets();
+    assert_eq!(window.editor().layout.tab(), Tab::Charts);
+    assert!(window.shows("3 charts, each planar, and apart: proved one-to-one"), "{:?}", window.words());
+    for chart in 0..3 {
+        assert!(window.has_button(&row(&window, chart)), "{:?}", window.words());
+    }
+    assert_eq!(chart(&window), Some(2), "the largest");
+    assert!(window.is_proved());
+}
+
+#[test]
+fn a_click_in_the_list_and_the_page_keys_lead_from_chart_to_chart() {
+    let mut window = with_sheets();
+    let name = row(&window, 0);
+    window.click(&name);
+    assert_eq!(chart(&window), Some(0));
+    assert!(window.is_proved());
+    assert_eq!(window.embedding().len(), 25);
+    for (key, expected) in [(Key::PageDown, 1), (Key::PageDown, 2), (Key::PageDown, 0), (Key::PageUp, 2)] {
+        window.press(Modifiers::NONE, key);
+        assert_eq!(chart(&window), Some(expected));
+    }
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(chart(&window), Some(0));
+}
+
+#[test]
+fn the_selection_does_not_go_over_to_another_chart() {
+    let mut window = with_sheets();
+    window.editor_mut().selection.select([VertexId::new(3)]);
+    window.press(Modifiers::NONE, Key::PageDown);
+    assert!(window.editor().selection.vertices().is_empty());
+}
+
+#[test]
+fn there_is_no_tab_of_charts_where_there_is_one_chart() {
+    let mut window = with_sheets();
+    let path = window.path("one.obj");
+    crate::harness::write_obj(&path, &sheet(5, 0.3));
+    window.open(&path);
+    window.step();
+    assert_ne!(window.editor().layout.tab(), Tab::Charts);
+    assert!(!window.has_button("Charts 3") && !window.has_button("Charts"));
+}
