@@ -7,6 +7,7 @@
 //! | `corpus.rs` | where the corpus lies: meshes of others, beside the project |
 //! | `deep.rs` | disks whose inside is far from a small boundary: stacked, tube, hand |
 //! | `sheet.rs` | an irregular sheet of any size |
+//! | `head.rs` | a closed head of quads |
 //! | `quads.rs` | sheets of quads and of hexagons, gentle to rough |
 //! | `flat.rs`, `caps.rs`, `cube.rs`, `face.rs` | the built-in meshes |
 //! | `fill.rs`, `delaunay.rs` | good triangles on a surface, for these |
@@ -31,6 +32,7 @@ mod delaunay;
 mod face;
 mod fill;
 mod flat;
+mod head;
 mod landmarks;
 mod paint;
 mod plain;
@@ -48,6 +50,7 @@ pub(crate) use caps::bumpy_cap_of;
 pub(crate) use corpus::corpus;
 pub(crate) use deep::{hand, stacked, tube};
 pub(crate) use delaunay::{coord, triangulate};
+pub(crate) use head::head;
 pub(crate) use landmarks::landmarks;
 pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, write_obj};
 pub(crate) use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};

@@ -91,9 +91,7 @@ impl Places {
 
     /// Refuses to write over files that the mesh's materials name.
     pub(super) fn spare_materials(&self, source: &MeshFile, mesh: &Path) -> Result<(), Failure> {
-        material_files(source, mesh)
-            .iter()
-            .try_for_each(|file| self.spare(file, "a file that the mesh's materials name"))
+        material_files(source, mesh).iter().try_for_each(|file| self.spare(file, "a file that belongs to the mesh"))
     }
 
     /// Refuses to write over a file that is read. `what` it is, in words.

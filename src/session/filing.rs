@@ -98,6 +98,7 @@ impl Session {
         self.files.write(move || {
             let mut output = solved.output();
             output.picture = picture.as_deref();
+            output.round_to(Precision::default(), kind);
             let files = output.write(kind, &path)?;
             Ok(Written { files, about: Some(output.summary()) })
         });

@@ -19,7 +19,7 @@ impl Role {
     const fn words(self) -> &'static str {
         match self {
             Self::Mesh => "the mesh",
-            Self::Material => "a file that the mesh's materials name",
+            Self::Material => "a file that belongs to the mesh",
             Self::Picture => "the picture",
             Self::Constraints => "the constraints",
             Self::Project => "the project",

@@ -43,8 +43,8 @@ pub(crate) fn sheet(n: u32) -> (Vec<f32>, Vec<f32>, Vec<u32>) {
     let at = |x, y| y * (n + 1) + x;
     for y in 0..n {
         for x in 0..n {
-            let [a, b, c, d] = [at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
-            indices.extend([a, b, c, a, c, d]);
+            let [low, right, far, left] = [at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
+            indices.extend([low, right, far, low, far, left]);
         }
     }
     (positions, texture, indices)
@@ -154,6 +154,7 @@ fn interleaved_and_sparse_and_normalized_elements_are_those_that_another_reader_
                 // The other reader multiplies by a rounded 1/255; glTF says to divide.
                 assert!((*uv - *near).abs().max_element() <= f64::from(f32::EPSILON), "{uv} {near}");
                 for x in uv.to_array() {
+                    #[expect(clippy::cast_possible_truncation, reason = "a small integer")]
                     let whole = (x * f64::from(largest)).round() as f32;
                     assert_eq!(x, f64::from(whole / largest), "{kind}");
                 }
@@ -241,8 +242,7 @@ fn vertices_at_one_place_are_one_within_a_node_and_never_between_nodes() {
 #[test]
 fn texture_coordinates_are_turned_over_exactly_and_parts_without_have_none() {
     let mut maker = plain(2, U16);
-    let bare = maker.json["meshes"][0]["primitives"][0].clone();
-    let mut bare = bare;
+    let mut bare = maker.json["meshes"][0]["primitives"][0].clone();
     bare["attributes"].as_object_mut().unwrap().remove("TEXCOORD_0");
     maker.json["meshes"][0]["primitives"].as_array_mut().unwrap().push(bare);
     let file = read(&maker.glb());
@@ -273,4 +273,21 @@ fn buffers_beside_a_file_are_read_from_there() {
     fs::write(folder.path().join("a b/all.bin"), &maker.binary[1..]).expect("written");
     let cut_short = read_mesh(&path).expect_err("a byte lacks").to_string();
     assert!(cut_short.ends_with(&format!("it has {} bytes, not {}", maker.binary.len() - 1, maker.binary.len())));
+}
+
+/// `FREEBOUND_MESH=file cargo test … time_of_reading -- --ignored --nocapture`
+#[test]
+#[ignore = "a measurement"]
+fn time_of_reading() {
+    let path = std::env::var("FREEBOUND_MESH").expect("a file");
+    for _ in 0..3 {
+        let start = std::time::Instant::now();
+        let file = read_mesh(path.as_ref()).expect("it is right");
+        println!("{} faces read in {:?}", file.polygons.face_count(), start.elapsed());
+        let start = std::time::Instant::now();
+        let mut bytes = Vec::new();
+        freebound::io::write_glb(&mut bytes, &file, file.texture.as_ref().expect("texture coordinates"))
+            .expect("memory");
+        println!("{} bytes written in {:?}", bytes.len(), start.elapsed());
+    }
 }

@@ -104,10 +104,8 @@ fn the_program_writes_and_proves_numbers_of_32_bits_where_it_is_asked_or_the_for
         assert_eq!(report["rounding"].is_object(), precision == "f32");
         assert_eq!([&report["verdict"]["planar"], &report["verdict"]["f32"]], [true, true]);
         let file = read_mesh(&program.path(output)).expect("it is right");
-        let is_short = |z: &DVec2| match output.ends_with("glb") {
-            true => is_f32(z.x) && is_f32(1.0 - z.y),
-            false => is_f32(z.x) && is_f32(z.y),
-        };
+        let is_turned_over = output.ends_with("glb");
+        let is_short = |z: &DVec2| is_f32(z.x) && is_f32(if is_turned_over { 1.0 - z.y } else { z.y });
         let texture = file.texture.as_ref().expect("texture coordinates");
         assert_eq!(texture.coordinates.iter().all(is_short), precision == "f32", "{output}");
         program.run(&["check", output]).expect(0);

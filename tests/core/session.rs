@@ -139,11 +139,18 @@ fn save(folder: &TempDir, name: &str, kind: OutputKind) -> Action {
 fn every_save_is_answered_even_of_several_at_once() {
     let mut session = opened(Example::Dome);
     let folder = tempfile::tempdir().unwrap();
-    for (name, kind) in [("a.obj", OutputKind::Obj), ("b.svg", OutputKind::Svg), ("c.json", OutputKind::Json)] {
+    let kinds = [
+        ("a.obj", OutputKind::Obj),
+        ("b.svg", OutputKind::Svg),
+        ("c.json", OutputKind::Json),
+        ("d.ply", OutputKind::Ply),
+        ("e.glb", OutputKind::Glb),
+    ];
+    for (name, kind) in kinds {
         session.handle(save(&folder, name, kind));
     }
     settle(&mut session);
-    for name in ["a.obj", "b.svg", "c.json"] {
+    for (name, _) in kinds {
         assert!(folder.path().join(name).is_file(), "{name}");
         let told = session.messages().iter().any(|message| message.text.contains(name));
         assert!(told, "{name}: {:?}", session.messages());

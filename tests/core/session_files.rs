@@ -108,9 +108,9 @@ fn what_is_open_is_not_written_over() {
     fs::create_dir(folder.path().join("deep")).unwrap();
     let open = [
         ("dome.obj", "the mesh"),
-        ("looks.mtl", "a file that the mesh's materials name"),
-        ("skin.png", "a file that the mesh's materials name"),
-        ("dents.png", "a file that the mesh's materials name"),
+        ("looks.mtl", "a file that belongs to the mesh"),
+        ("skin.png", "a file that belongs to the mesh"),
+        ("dents.png", "a file that belongs to the mesh"),
         ("photo.png", "the picture"),
         ("pins.txt", "the constraints"),
         ("work.freebound", "the project"),

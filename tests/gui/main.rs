@@ -18,6 +18,7 @@ mod gestures;
 mod glide;
 mod glyphs;
 mod harness;
+mod head;
 mod hull;
 mod layout;
 mod magnifier;

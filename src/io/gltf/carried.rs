@@ -28,6 +28,9 @@ const TRIANGLES: u32 = 4;
 /// An extension that holds a primitive's numbers a second time.
 const DRACO: &str = "KHR_draco_mesh_compression";
 
+/// Extensions that hold the bytes of a view a second time, in another buffer.
+const COMPRESSED_VIEWS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
 /// The first bytes of pictures, and what such files are.
 const PICTURES: [(&[u8], &str); 2] = [(b"\x89PNG", "image/png"), (b"\xFF\xD8\xFF", "image/jpeg")];
 
@@ -102,6 +105,9 @@ impl Carried<'_> {
             let start = view["buffer"].as_u64().and_then(|buffer| starts.get(usize::try_from(buffer).ok()?));
             let offset = view["byteOffset"].as_u64().unwrap_or(0) + start.copied().unwrap_or(0) as u64;
             view["buffer"] = json!(0);
+            if let Some(extensions) = view.get_mut("extensions").and_then(Value::as_object_mut) {
+                COMPRESSED_VIEWS.iter().for_each(|name| drop(extensions.remove(*name)));
+            }
             view["byteOffset"] = json!(offset);
         }
     }

@@ -11,6 +11,7 @@
 //! | `carried`   | the file that a mesh was read from, with other texture coordinates               |
 //! | `placed`    | which vertices of the file its corners get, and which of them twice              |
 //! | `grown`     | accessors with more elements                                                     |
+//! | `files`     | the files that belong to a file                                                  |
 //! | `growing`   | a binary file that is being made                                                 |
 //!
 //! What is shown are the meshes of all nodes of the file's scene, or of all nodes where it names none, with their
@@ -29,6 +30,7 @@ mod accessor;
 mod carried;
 mod container;
 mod document;
+mod files;
 mod growing;
 mod grown;
 mod placed;
@@ -36,6 +38,7 @@ mod read;
 mod scene;
 mod write;
 
+pub(in crate::io) use files::files_beside;
 pub(in crate::io) use read::parse_gltf;
 pub(in crate::io) use scene::Scene;
 pub use write::write_glb;

@@ -8,7 +8,7 @@ use super::TEXTURE;
 use super::container::Buffers;
 use super::document::Document;
 use super::grown::Origin;
-use super::read::{elements, upright};
+use super::read::{elements, turned_over, upright};
 use super::scene::Scene;
 use crate::io::mesh_file::{MeshFile, NO_TEXTURE, Source, Texture};
 use crate::mesh::VertexId;
@@ -93,7 +93,7 @@ impl Placed {
                 };
                 let uv = match wanted {
                     // What has not changed keeps its bits.
-                    Some(uv) if uv != upright(old.map(f64::from)) => [uv.x as f32, (1.0 - uv.y) as f32],
+                    Some(uv) if uv != upright(old.map(f64::from)) => turned_over(uv),
                     _ => old,
                 };
                 triangle[at] = own.sets[set].number(origin, uv);

@@ -145,6 +145,12 @@ pub(super) fn upright(uv: [f64; 2]) -> DVec2 {
     DVec2::new(uv[0], 1.0 - uv[1])
 }
 
+/// The texture coordinate of a file, in its 32 bits and with v down, of one with v up.
+#[expect(clippy::cast_possible_truncation, reason = "that is what the format holds")]
+pub(super) fn turned_over(uv: DVec2) -> [f32; 2] {
+    [uv.x as f32, (1.0 - uv.y) as f32]
+}
+
 /// An attribute of a set, of so many numbers for each vertex.
 pub(super) fn elements<'a>(
     document: &Document,

@@ -11,6 +11,7 @@ use serde_json::json;
 
 use super::carried::write_carried;
 use super::growing::Growing;
+use super::read::turned_over;
 use super::{POSITION, TEXTURE};
 use crate::io::door::check_finite;
 use crate::io::mesh_file::{MeshFile, NO_TEXTURE, SourceFormat, Texture};
@@ -73,7 +74,7 @@ fn write_plain(out: &mut impl Write, mesh: &MeshFile, texture: &Texture) -> io::
     if !texture.coordinates.is_empty() {
         let coordinates = vertices.iter().map(|&(_, coordinate)| {
             let uv = texture.coordinates.get(coordinate as usize).copied();
-            uv.map_or([0.0; 2], |uv| [uv.x as f32, (1.0 - uv.y) as f32])
+            uv.map_or([0.0; 2], turned_over)
         });
         attributes[TEXTURE] = json!(file.vectors(coordinates));
     }

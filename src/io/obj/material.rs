@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::io::gltf::files_beside;
 use crate::io::mesh_file::{MeshFile, Statement};
 
 /// Keywords of lines that name pictures, beside those that begin with `map_`.
@@ -35,7 +36,8 @@ pub fn material_picture(mesh: &MeshFile, path: &Path) -> Option<PathBuf> {
     faces_with.into_iter().rev().max_by_key(|&(_, faces)| faces).map(|(picture, _)| picture.to_owned())
 }
 
-/// The material libraries of an OBJ file at `path`, and the pictures that they name, as far as they are there.
+/// The material libraries of an OBJ file at `path`, and the pictures that they name; buffers and pictures of a glTF file. As far
+/// as they are there.
 pub fn material_files(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for library in libraries(mesh, path.parent().unwrap_or(Path::new(""))) {
@@ -50,6 +52,7 @@ pub fn material_files(mesh: &MeshFile, path: &Path) -> Vec<PathBuf> {
         found.extend(pictures);
         found.push(library);
     }
+    found.extend(files_beside(mesh));
     found.retain(|file| file.is_file());
     found
 }

@@ -135,24 +135,28 @@ impl Surface<'_> {
 
     /// Opens a tree of ways between points of a sphere that lie far apart.
     fn open_sphere(&self, seam: &mut [bool]) {
-        let from = |vertex: VertexId, by| self.ways.reach(std::iter::once(vertex), by);
-        let first = from(self.ways.edges()[0].ends[0], Measure::Length).farthest(self.ways);
-        let reach = from(first, Measure::Length);
-        let second = reach.farthest(self.ways);
-        let size = reach.far[second.index()];
-        open(seam, from(first, Measure::Cost).way_to(second, self.ways));
+        let start = self.ways.edges()[0].ends[0];
+        let [by_length, by_cost] = self.reaches(&[start]);
+        let first = by_length.farthest(&by_cost);
+        let [by_length, by_cost] = self.reaches(&[first]);
+        let second = by_length.farthest(&by_cost);
+        let size = by_length.far[second.index()];
+        open(seam, by_cost.way_to(second, self.ways));
         for _ in 2..MOST_POINTS {
-            let on_seam = || self.vertices_of(seam).into_iter();
-            let reach = self.ways.reach(on_seam(), Measure::Length);
-            let next = reach.farthest(self.ways);
+            let [by_length, by_cost] = self.reaches(&self.vertices_of(seam));
+            let next = by_length.farthest(&by_cost);
             // A cut of one edge would be a boundary of two vertices.
             let is_cut = seam.iter().filter(|is_open| **is_open).count() > 1;
-            if is_cut && reach.far[next.index()] <= FAR * size {
+            if is_cut && by_length.far[next.index()] <= FAR * size {
                 break;
             }
-            let reach = self.ways.reach(on_seam(), Measure::Cost);
-            open(seam, reach.way_to(next, self.ways));
+            open(seam, by_cost.way_to(next, self.ways));
         }
+    }
+
+    /// How far all vertices are from some, by length and by cost.
+    fn reaches(&self, from: &[VertexId]) -> [Reach; 2] {
+        [Measure::Length, Measure::Cost].map(|by| self.ways.reach(from.iter().copied(), by))
     }
 
     fn vertices_of(&self, seam: &[bool]) -> Vec<VertexId> {

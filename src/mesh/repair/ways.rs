@@ -31,8 +31,6 @@ pub(super) struct Ways {
     at: Vec<u32>,
     /// Where the edges of each vertex begin, and the end of the last.
     starts: Vec<u32>,
-    /// How far each vertex looks to the front, from 0 to 1.
-    fronts: Vec<f64>,
 }
 
 /// An edge as a way.
@@ -86,12 +84,7 @@ impl Ways {
                 *place += 1;
             }
         }
-        let mut vertex_normals = vec![DVec3::ZERO; polygons.positions.len()];
-        for (face, normal) in normals.iter().enumerate() {
-            polygons.face(face).iter().for_each(|v| vertex_normals[v.index()] += *normal);
-        }
-        let fronts = vertex_normals.iter().map(|normal| normal.normalize_or_zero().z.max(0.0)).collect();
-        Self { edges, at, starts, fronts }
+        Self { edges, at, starts }
     }
 
     pub(super) fn vertex_count(&self) -> usize {
@@ -156,12 +149,13 @@ impl Reach {
         })
     }
 
-    /// The farthest vertex that a way leads to, the first of several. One that looks straight to the front counts as half
-    /// as far.
-    pub(super) fn farthest(&self, ways: &Ways) -> VertexId {
+    /// The vertex that is farthest by length, the first of several. One whose ways cost more than they are long, because they
+    /// go across the front, counts as nearer by as much. `cost` is how far vertices are by cost.
+    pub(super) fn farthest(&self, cost: &Self) -> VertexId {
         let score = |v: usize| {
-            let far = if self.far[v].is_finite() { self.far[v] } else { -1.0 };
-            far * (1.0 - 0.5 * ways.fronts[v])
+            let (far, cost) = (self.far[v], cost.far[v]);
+            let share = if cost > far { far / cost } else { 1.0 };
+            if far.is_finite() { far * share } else { -1.0 }
         };
         let farther = |best: usize, v: usize| if score(v) > score(best) { v } else { best };
         VertexId::from_index((0..self.far.len()).fold(0, farther))

@@ -71,6 +71,11 @@ impl Layout {
         self.panels_wanted = Some(!self.panels_shown());
     }
 
+    /// Whether the window is too narrow for panels beside the panes.
+    pub(in crate::ui) fn is_narrow(&self) -> bool {
+        self.is_narrow
+    }
+
     /// Takes the width that panels and panes have together, points.
     pub(in crate::ui) fn set_width(&mut self, width: f32) {
         self.is_narrow = width < PANELS_FROM;

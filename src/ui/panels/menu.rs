@@ -6,7 +6,7 @@ use super::advice::advice;
 use super::floating::EXPORTS;
 use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
-use crate::io::OutputFit;
+use crate::io::{OutputFit, OutputKind};
 use crate::session::Action;
 use crate::ui::{Control, Editor, Pane, Purpose, Request, Shading, StepTarget, Tab, Tool, icons, keys_of, theme_of};
 
@@ -39,12 +39,27 @@ pub(in crate::ui) fn top_bar(ui: &mut egui::Ui, editor: &mut Editor, requests: &
         let right = ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let panels = ui.selectable_label(editor.layout.panels_shown(), "Panels");
             panels.on_hover_text("Show or hide the panels at the right").asks(Request::TogglePanels, requests);
+            export_button(ui, editor, requests);
             verdict_pill(ui, editor, requests);
             advice(ui, editor, requests);
             ui.min_rect().left()
         });
         title_between(ui, bar, menus.inner..=right.inner, &title(editor));
     });
+}
+
+/// Writes the mesh with its texture coordinates, in the kind of file that it came from. A narrow window has the menu alone.
+fn export_button(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    if editor.layout.is_narrow() {
+        return;
+    }
+    let path = editor.session.model().and_then(|model| model.path.as_deref());
+    let kind = path.map_or(OutputKind::Obj, OutputKind::of_mesh);
+    let button = ui.add_enabled(editor.session.outcome().is_some(), Button::new("Export"));
+    let keys = keys_of(ui.ctx(), &Request::ToggleExports);
+    let tip = format!("Write the mesh with its texture coordinates ({keys} lists all that can be written)");
+    let button = button.named(egui::Role::Button, "Export the mesh").on_hover_text(tip);
+    button.asks(Request::Ask(Purpose::Export(kind, None)), requests);
 }
 
 /// What is open, in the middle of the bar as far as menus and verdict leave room.

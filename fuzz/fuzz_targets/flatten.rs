@@ -1,0 +1,27 @@
+//! Any bytes as a mesh: what can be read and mended is flattened, every chart of it, and what is planar is proved again.
+#![no_main]
+
+use freebound::mesh::Form;
+use freebound::session::Model;
+use freebound::{Options, flatten};
+use libfuzzer_sys::fuzz_target;
+
+/// Larger meshes only take longer.
+const MOST_FACES: usize = 120;
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(model) = Model::read_stream("bytes", bytes, Form::default().mended(), &|| false) else { return };
+    if model.source.polygons.corners.len() > 3 * MOST_FACES {
+        return;
+    }
+    for chart in 0..model.chart_count() {
+        let chart = model.of_chart(chart);
+        if let Some(disk) = chart.disk()
+            && let Ok(step) = flatten(disk, &Options::default())
+        {
+            let mesh = step.mesh(disk);
+            let embedding = &step.candidate.solution.embedding;
+            assert_eq!(step.verdict.planar, freebound::solver::verdict(mesh, embedding).planar);
+        }
+    }
+});

@@ -1,0 +1,25 @@
+//! Any bytes as a mesh file of any format: read or refused, mended where that can be, and written again.
+#![no_main]
+
+use freebound::io::{Texture, read_stream, write_obj};
+use freebound::mesh::Form;
+use libfuzzer_sys::fuzz_target;
+
+/// Larger meshes only take longer.
+const MOST_CORNERS: usize = 3_000;
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(file) = read_stream(bytes) else { return };
+    // What is not finite is read, to be named, and refused where it is written.
+    let are_finite = file.polygons.positions.iter().all(|at| at.is_finite());
+    let texture = file.texture.clone().unwrap_or_default();
+    if file.polygons.corners.len() > MOST_CORNERS || !are_finite || !texture.coordinates.iter().all(|uv| uv.is_finite()) {
+        return;
+    }
+    write_obj(&mut Vec::new(), &file, &texture).expect("memory takes all");
+    drop(file.texture_mesh());
+    let repaired = Form::default().mended().repaired(&file.polygons);
+    let coordinates = repaired.polygons().positions.iter().map(|at| at.truncate()).collect();
+    let texture = Texture::of_repaired(&repaired, &file.polygons, &coordinates);
+    write_obj(&mut Vec::new(), &file, &texture).expect("memory takes all");
+});
