@@ -9,7 +9,7 @@ use glam::{DVec2, UVec2};
 
 use crate::geom::PackingOptions;
 use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Precision, Target};
-use crate::mesh::{Form, RepairExtent, VertexId};
+use crate::mesh::{Form, HoleTreatment, RepairExtent, VertexId};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
@@ -54,6 +54,9 @@ pub struct FlattenArguments {
     /// What may be repaired before the mesh is flattened: nothing, what changes no visible surface, or all that can be.
     #[arg(long, value_enum, default_value_t)]
     pub repair: Extent,
+    /// What becomes of holes: filled while the surface is flattened, or cut open where a surface is cut.
+    #[arg(long, value_enum, default_value_t)]
+    pub holes: Holes,
     /// Whether a surface that is no disk is cut open until it is one.
     #[arg(long, value_enum, default_value_t)]
     pub cut: Cut,
@@ -149,6 +152,16 @@ pub enum Extent {
     None,
 }
 
+/// What becomes of holes, as it is typed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Holes {
+    /// Filled with faces that no file gets, unless --repair is none
+    #[default]
+    Fill,
+    /// Cut to the outside, with --cut auto
+    Cut,
+}
+
 /// Whether a surface is cut open, as it is typed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Cut {
@@ -177,7 +190,11 @@ impl FlattenArguments {
             Extent::All => RepairExtent::All,
             Extent::None => RepairExtent::Nothing,
         };
-        Form { repair, cut: self.cut == Cut::Auto, ..Form::default() }
+        let holes = match self.holes {
+            Holes::Fill => HoleTreatment::Fill,
+            Holes::Cut => HoleTreatment::Cut,
+        };
+        Form { repair, holes, cut: self.cut == Cut::Auto, ..Form::default() }
     }
 
     /// How several charts are packed, into this picture where there is one.

@@ -28,9 +28,14 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
             go_on()?;
             let report = report(MeshReport::new(path, mesh), start, start.elapsed().as_secs_f64());
             let notes = &report.mesh;
+            let holes = match mesh.mesh().holes().len() {
+                0 => String::new(),
+                1 => "with a hole, ".to_owned(),
+                count => format!("with {count} holes, "),
+            };
             let words = format!(
-                "{}: a disk of {} vertices and {} faces, {} on the boundary, {} dividing edges, {} ears; no texture \
-                 coordinates",
+                "{}: a disk {holes}of {} vertices and {} faces, {} on the boundary, {} dividing edges, {} ears; no \
+                 texture coordinates",
                 notes.path, notes.vertices, notes.faces, notes.boundary_vertices, notes.dividing_edges, notes.ears
             );
             deliver(&report, arguments.report.as_deref(), || words)?;

@@ -189,7 +189,7 @@ fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failur
 /// How many vertices pins can name: those of the whole mesh, where it has several charts.
 fn vertex_count(model: &Model) -> usize {
     let whole = model.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
-    whole.unwrap_or_else(|| model.mesh().vertex_count())
+    whole.unwrap_or_else(|| model.vertex_count())
 }
 
 /// The exact pin that has the target of another exact one.

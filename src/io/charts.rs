@@ -45,17 +45,24 @@ pub struct Together {
     pub flipped: Vec<FaceId>,
 }
 
-/// Charts as one mesh.
+/// Charts as one mesh, without what fills their holes.
 pub fn together(charts: &[OutputChart<'_>]) -> Together {
     let (mut mesh, mut polygon_of) = (TriMesh::default(), Vec::new());
     let (mut coordinates, mut flipped) = (Vec::new(), Vec::new());
     for chart in charts {
-        let (own, vertices, faces) = (chart.mesh.mesh(), mesh.positions.len(), mesh.triangles.len());
-        let moved = |vertex: VertexId| VertexId::from_index(vertices + vertex.index());
-        mesh.positions.extend_from_slice(&own.positions);
-        mesh.triangles.extend(own.triangles.iter().map(|corners| corners.map(moved)));
-        polygon_of.extend((0..own.face_count()).map(|face| own.polygon(FaceId::from_index(face))));
-        coordinates.extend_from_slice(&chart.coordinates);
+        let (own, faces) = (chart.mesh.mesh(), mesh.triangles.len());
+        let mut number_of = vec![VertexId::default(); own.vertex_count()];
+        let mut hidden = chart.mesh.virtual_vertices().into_iter().peekable();
+        for vertex in chart.mesh.vertices() {
+            if hidden.next_if_eq(&vertex).is_none() {
+                number_of[vertex.index()] = VertexId::from_index(mesh.positions.len());
+                mesh.positions.push(own.positions[vertex.index()]);
+                coordinates.push(chart.coordinates[vertex]);
+            }
+        }
+        let moved = |vertex: VertexId| number_of[vertex.index()];
+        mesh.triangles.extend(own.real_triangles().iter().map(|corners| corners.map(moved)));
+        polygon_of.extend(chart.mesh.real_faces().map(|face| own.polygon(face)));
         flipped.extend(chart.verdict.flipped_faces.iter().map(|face| FaceId::from_index(faces + face.index())));
     }
     mesh.polygon_of = Some(polygon_of);

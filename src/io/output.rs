@@ -167,7 +167,7 @@ pub struct ProvedEmbedding<'a> {
 impl ProvedEmbedding<'_> {
     /// Its picture, with the faces red that the verdict calls flipped.
     pub fn picture(&self, canvas: &Canvas) -> Picture {
-        layout_picture(self.embedding, &self.mesh.mesh().triangles, &self.verdict.flipped_faces, canvas)
+        layout_picture(self.embedding, self.mesh.mesh().real_triangles(), &self.verdict.flipped_faces, canvas)
     }
 }
 

@@ -140,8 +140,8 @@ impl MeshReport {
     pub fn new(path: String, mesh: &DiskMesh) -> Self {
         Self {
             path,
-            vertices: mesh.vertex_count(),
-            faces: mesh.face_count(),
+            vertices: mesh.real_vertex_count(),
+            faces: mesh.mesh().real_face_count(),
             boundary_vertices: mesh.boundary_loop().len(),
             dividing_edges: mesh.dividing_edges().len(),
             ears: mesh.ears().len(),

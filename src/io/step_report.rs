@@ -15,6 +15,8 @@ pub struct StepReport {
     pub flipped_faces: usize,
     /// Concave polygons.
     pub concave_polygons: usize,
+    /// Holes that meet themselves or are turned inside out.
+    pub crossed_holes: usize,
     /// Boundary crossings.
     pub boundary_crossings: usize,
     /// Overwound vertices.
@@ -58,12 +60,13 @@ fn cell(number: impl Into<Option<f64>>) -> String {
 
 impl StepReport {
     /// The fields as a row of a table, each with the head of its column; empty where there is no value.
-    pub fn row(&self) -> [(&'static str, String); 20] {
+    pub fn row(&self) -> [(&'static str, String); 21] {
         [
             ("rung", self.rung.name().to_owned()),
             ("index", self.index.to_string()),
             ("flipped_faces", self.flipped_faces.to_string()),
             ("concave_polygons", self.concave_polygons.to_string()),
+            ("crossed_holes", self.crossed_holes.to_string()),
             ("boundary_crossings", self.boundary_crossings.to_string()),
             ("overwound_vertices", self.overwound_vertices.to_string()),
             ("turning_number", self.turning_number.map(|turns| turns.to_string()).unwrap_or_default()),
@@ -92,6 +95,7 @@ impl StepReport {
             index: step.index,
             flipped_faces: verdict.flipped_faces.len(),
             concave_polygons: verdict.concave_polygons.len(),
+            crossed_holes: verdict.crossed_holes.len(),
             boundary_crossings: verdict.boundary_crossings.len(),
             overwound_vertices: verdict.overwound_vertices.len(),
             turning_number: verdict.turning_number,
@@ -111,8 +115,9 @@ impl StepReport {
         }
     }
 
-    /// Flipped faces, concave polygons, boundary crossings and overwound vertices together.
+    /// Flipped faces, concave polygons, crossed holes, boundary crossings and overwound vertices together.
     pub fn defect_count(&self) -> usize {
-        self.flipped_faces + self.concave_polygons + self.boundary_crossings + self.overwound_vertices
+        let faces = self.flipped_faces + self.concave_polygons + self.crossed_holes;
+        faces + self.boundary_crossings + self.overwound_vertices
     }
 }

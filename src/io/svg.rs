@@ -110,14 +110,18 @@ impl<'a> Drawing<'a> {
     /// Faces, inner edges, flipped faces, boundary.
     fn write_faces(&self, out: &mut impl Write, chart: ProvedEmbedding<'_>) -> io::Result<()> {
         let (mesh, width) = (chart.mesh, self.width);
-        let outline: Vec<DVec2> = mesh.boundary_loop().iter().map(|&v| self.at(chart, v)).collect();
-        self.write_closed(out, r##"fill="#efece6""##, [&outline])?;
-        let edges = mesh.edges().filter(|&e| !mesh.is_boundary_edge(e));
+        let holes = mesh.mesh().holes();
+        let loops = std::iter::once(mesh.boundary_loop()).chain(holes.iter().map(|hole| &hole.rim[..]));
+        let outlines: Vec<Vec<DVec2>> = loops.map(|of| of.iter().map(|&v| self.at(chart, v)).collect()).collect();
+        let ground = r##"fill="#efece6""##;
+        let ground = if holes.is_empty() { ground.to_owned() } else { format!(r#"{ground} fill-rule="evenodd""#) };
+        self.write_closed(out, &ground, &outlines)?;
+        let edges = mesh.edges().filter(|&e| !mesh.is_boundary_edge(e) && !mesh.is_virtual_edge(e));
         self.write_edges(out, chart, &format!(r##"stroke="#8a8680" stroke-width="{width}""##), edges)?;
         let flipped = chart.verdict.flipped_faces.iter().map(|&face| mesh.face(face).map(|v| self.at(chart, v)));
         self.write_closed(out, &format!(r##"fill="#d92d3a" stroke="#d92d3a" stroke-width="{width}""##), flipped)?;
         let style = format!(r##"class="boundary" stroke="#2c2b29" stroke-width="{}""##, 2.0 * width);
-        self.write_closed(out, &style, [&outline])
+        self.write_closed(out, &style, &outlines)
     }
 
     fn write_pockets(&self, out: &mut impl Write) -> io::Result<()> {
@@ -146,6 +150,14 @@ impl<'a> Drawing<'a> {
         let style = format!(r##"stroke="#6e7b00" stroke-width="{}""##, self.frame.length(3.0));
         if !verdict.concave_polygons.is_empty() {
             self.write_closed(out, &style, outlines)?;
+        }
+        let holes = chart.mesh.mesh().holes().into_iter();
+        let crossed = holes.filter(|hole| verdict.crossed_holes.contains(&hole.rim[0]));
+        let loops: Vec<Vec<DVec2>> =
+            crossed.map(|hole| hole.rim.iter().map(|&v| self.at(chart, v)).collect()).collect();
+        if !loops.is_empty() {
+            let style = format!(r##"stroke="#e8700a" stroke-width="{}""##, self.frame.length(3.0));
+            self.write_closed(out, &style, loops)?;
         }
         for &vertex in &verdict.overwound_vertices {
             let (DVec2 { x, y }, decimals) = (self.at(chart, vertex), self.frame.decimals);

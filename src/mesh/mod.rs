@@ -12,7 +12,8 @@
 //! | `unit.rs` | meshes of the largest and smallest sizes, brought to the middle of the range of numbers |
 //! | `disk.rs` | a mesh proved to be a disk, with halfedges |
 //! | `polygons.rs`, `diagonals.rs` | the polygons that a disk's triangles are cut from, and their other diagonals |
-//! | `repair/` | what keeps a mesh from being a disk, mended; surfaces cut open |
+//! | `holes.rs` | virtual faces, which fill holes |
+//! | `repair/` | what keeps a mesh from being a disk, mended; holes filled; surfaces cut open |
 //! | `refinement.rs` | a disk with new vertices on its edges |
 //! | `volume.rs` | which side of a surface is the outside |
 
@@ -24,6 +25,7 @@ mod diagonals;
 mod disk;
 mod edges;
 mod fault;
+mod holes;
 mod ids;
 mod measure;
 mod orientation;
@@ -43,11 +45,12 @@ pub use diagnosis::{Diagnosis, diagnose};
 pub use disk::DiskMesh;
 pub use edges::EdgeTable;
 pub use fault::{Elements, FaceList, Fault};
+pub use holes::{FIRST_HOLE, Hole};
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
-pub use repair::{Chart, Charts, Done, Form, Repair, RepairExtent, Repaired};
+pub use repair::{Chart, Charts, Done, Form, HoleTreatment, Repair, RepairExtent, Repaired};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

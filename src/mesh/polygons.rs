@@ -67,7 +67,8 @@ impl Polygons {
         let mut found = Self { starts: vec![0], ..Self::default() };
         let Some(polygon_of) = &mesh.polygon_of else { return found };
         let mut face = 0;
-        for run in polygon_of.chunk_by(|a, b| a == b) {
+        let real = &polygon_of[..mesh.real_face_count()];
+        for run in real.chunk_by(|a, b| a == b) {
             let faces = &mesh.triangles[face..face + run.len()];
             if let Some(corners) = (run.len() > 1).then(|| outline(faces)).flatten() {
                 found.push(mesh, &corners, FaceId::from_index(face));
@@ -126,10 +127,7 @@ pub(super) fn newell_normal(points: &[DVec3]) -> DVec3 {
 
 /// The corners around triangles that make a polygon without a vertex inside; `None` where they do not.
 fn outline(triangles: &[[VertexId; 3]]) -> Option<Vec<VertexId>> {
-    let mut sides: Vec<[VertexId; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-    sides.sort_unstable();
-    let is_outer = |&[a, b]: &[VertexId; 2]| sides.binary_search(&[b, a]).is_err();
-    let outer: Vec<[VertexId; 2]> = sides.iter().copied().filter(is_outer).collect();
+    let outer = outer_sides(triangles);
     let mut corners = vec![triangles[0].into_iter().find(|&v| outer.iter().any(|side| side[0] == v))?];
     while corners.len() < outer.len() {
         let at = outer.binary_search_by_key(corners.last()?, |side| side[0]).ok()?;
@@ -137,4 +135,12 @@ fn outline(triangles: &[[VertexId; 3]]) -> Option<Vec<VertexId>> {
     }
     let is_closed = outer.len() == triangles.len() + 2 && outer.contains(&[*corners.last()?, corners[0]]);
     is_closed.then_some(corners)
+}
+
+/// The sides of triangles that no other one of them shares, ascending.
+pub(super) fn outer_sides(triangles: &[[VertexId; 3]]) -> Vec<[VertexId; 2]> {
+    let mut sides: Vec<[VertexId; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+    sides.sort_unstable();
+    let is_outer = |&[a, b]: &[VertexId; 2]| sides.binary_search(&[b, a]).is_err();
+    sides.iter().copied().filter(is_outer).collect()
 }

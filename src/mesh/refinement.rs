@@ -106,11 +106,26 @@ impl Refinement {
         numbers(given).difference(&numbers(&self.disk)).copied().map(FaceId::new).collect()
     }
 
-    /// The old edges that are split, each once, ascending.
-    pub fn split_edges(&self) -> Vec<[VertexId; 2]> {
-        let mut edges: Vec<[VertexId; 2]> = self.new_vertices.iter().map(|new| new.edge).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        edges
+    /// The new vertices that lie on the surface, with their numbers: not those within holes.
+    pub fn new_vertices_of_surface(&self) -> impl Iterator<Item = (VertexId, &NewVertex)> {
+        let numbers = (self.old_vertex_count()..).map(VertexId::from_index);
+        numbers.zip(&self.new_vertices).filter(|(vertex, _)| !self.disk.is_virtual_vertex(*vertex))
     }
+
+    /// The old edges that are split, each once, ascending; those within holes, too.
+    pub fn split_edges(&self) -> Vec<[VertexId; 2]> {
+        each_once(self.new_vertices.iter())
+    }
+
+    /// The same without those within holes.
+    pub fn split_edges_of_surface(&self) -> Vec<[VertexId; 2]> {
+        each_once(self.new_vertices_of_surface().map(|(_, new)| new))
+    }
+}
+
+fn each_once<'a>(new_vertices: impl Iterator<Item = &'a NewVertex>) -> Vec<[VertexId; 2]> {
+    let mut edges: Vec<[VertexId; 2]> = new_vertices.map(|new| new.edge).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges
 }

@@ -92,7 +92,7 @@ impl Boxed {
         let bounds = Bounds::of(embedding.iter().map(|&z| turn.rotate(z)).filter(|z| z.is_finite()));
         let bounds = if bounds.size().is_finite() { bounds } else { Bounds::at(DVec2::ZERO, DVec2::ZERO) };
         let mesh = chart.disk().mesh();
-        let areas = chart.disk().faces().map(|face| mesh.double_area_vector(face).length() / 2.0);
+        let areas = chart.disk().real_faces().map(|face| mesh.double_area_vector(face).length() / 2.0);
         Self { turn, bounds, area: areas.sum::<f64>() * chart.disk().unit().powi(2) }
     }
 
@@ -146,7 +146,7 @@ impl SolvedChart<'_> {
         let pins = pins_report(self.outcome, coordinates).renumbered(|vertex| self.model.vertex_in_file(vertex));
         ChartReport {
             first_face: FaceId::new(mesh.mesh().polygon(FaceId::new(0))),
-            faces: mesh.face_count(),
+            faces: mesh.mesh().real_face_count(),
             pins,
             boundary: if step.has_convex_boundary() { "convex" } else { "free" },
             placement: if is_held { Placement::Pins } else { Placement::Packed },

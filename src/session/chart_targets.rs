@@ -9,7 +9,7 @@ impl Model {
     /// How many vertices a file of pins can name: those of the repaired mesh, where it has several charts.
     pub fn vertex_count_in_file(&self) -> usize {
         let whole = self.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
-        whole.unwrap_or_else(|| self.mesh().vertex_count())
+        whole.unwrap_or_else(|| self.vertex_count())
     }
 
     /// The targets of each chart, of those of the mesh; what is of no chart is left out.

@@ -93,8 +93,9 @@ impl Files {
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
-        let Form { faces_turned, repair, cut } = document.form;
+        let Form { faces_turned, repair, holes, cut } = document.form;
         (project.faces_turned, project.repair, project.cut) = (faces_turned, repair, cut);
+        project.holes = Some(holes);
         project.relaxed = document.relaxed;
         project.picture = match &document.picture {
             Some(picture) => picture_source(picture, model),

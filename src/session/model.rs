@@ -196,7 +196,7 @@ impl Model {
     pub fn vertex_of_file(&self, vertex: VertexId) -> Option<VertexId> {
         match &self.chart {
             Some(of) => of.chart.vertex_at(vertex),
-            None => (vertex.index() < self.mesh().vertex_count()).then_some(vertex),
+            None => (vertex.index() < self.vertex_count()).then_some(vertex),
         }
     }
 
@@ -209,12 +209,18 @@ impl Model {
         }
     }
 
-    /// The triangles.
+    /// The triangles, with those that fill its holes.
     pub fn mesh(&self) -> &TriMesh {
         match &self.surface {
             Surface::Disk(disk) => disk.mesh(),
             Surface::Faulty(mesh, _) => mesh,
         }
+    }
+
+    /// How many vertices it has, those of no face included. What fills its holes has none of its own here.
+    pub fn vertex_count(&self) -> usize {
+        let polygons = self.repaired.as_ref().map_or(&self.source.polygons, |repaired| repaired.polygons());
+        polygons.positions.len()
     }
 
     /// The disk, where it is one.

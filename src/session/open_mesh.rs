@@ -53,7 +53,7 @@ impl Session {
 
     /// How many vertices the open mesh has; none where nothing is open.
     pub(super) fn vertex_count(&self) -> usize {
-        self.model().map_or(0, |model| model.mesh().vertex_count())
+        self.model().map_or(0, |model| model.vertex_count())
     }
 
     /// Whether the mesh has the form that the document wants, and is the chart that it wants. Where nothing is open,

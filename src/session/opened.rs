@@ -107,7 +107,7 @@ impl Opened {
 
     fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
-        let form = Form { faces_turned: project.faces_turned, repair: project.repair, cut: project.cut };
+        let form = project.form();
         let model = project_mesh(&project.mesh, form, &mut remarks)?.with_chart(project.chart);
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.targets.len());
@@ -127,7 +127,7 @@ impl Opened {
         // Saving must not take out of the file what only was not to be had this time.
         let missing_picture = project.picture.filter(|_| document.picture.is_none());
         let mut view = project.view;
-        view.selection.retain(|&vertex| (vertex as usize) < model.mesh().vertex_count());
+        view.selection.retain(|&vertex| (vertex as usize) < model.vertex_count());
         Ok(Self { model, document, view, origin, remarks, missing_picture, lost_pins })
     }
 }

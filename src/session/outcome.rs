@@ -100,7 +100,7 @@ impl Outcome {
 
     /// How many vertices its mesh has beyond those of the mesh as given.
     pub fn new_vertex_count(&self) -> usize {
-        self.step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len())
+        self.step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count())
     }
 
     /// The texture coordinates that go into a file, where they lie, and the verdict on them, which is that on the mesh
@@ -231,7 +231,7 @@ impl Outcome {
             verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),
             distortion: Some(summary),
             new_vertices: self.new_vertex_count(),
-            split_edges: step.refinement.as_ref().map(|r| r.split_edges()).unwrap_or_default(),
+            split_edges: step.refinement.as_ref().map(|r| r.split_edges_of_surface()).unwrap_or_default(),
             cut_polygons: step.refinement.as_ref().map(|r| r.cut_polygons(given)).unwrap_or_default(),
             seconds: Seconds { solve, verify, total: solve + verify, ..Seconds::default() },
             ..Report::of_mesh(MeshReport { repairs, ..MeshReport::new(model.path_words(), given) })

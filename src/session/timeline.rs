@@ -26,7 +26,8 @@ pub struct Standing {
 
 impl Standing {
     fn of(step: &Step) -> Self {
-        let new_vertices = step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len());
+        let new_vertices =
+            step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count());
         Self { progress: step.progress, unmet: step.unmet().len(), new_vertices }
     }
 }

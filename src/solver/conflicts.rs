@@ -116,8 +116,12 @@ pub fn conflicts(mesh: &DiskMesh, pins: &Pins) -> Vec<Conflict> {
 }
 
 fn turned_faces(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
-    let pinned: BTreeSet<FaceId> =
-        targets.keys().flat_map(|&v| mesh.outgoing(v)).filter_map(|side| mesh.face_of(side)).collect();
+    let pinned: BTreeSet<FaceId> = targets
+        .keys()
+        .flat_map(|&v| mesh.outgoing(v))
+        .filter_map(|side| mesh.face_of(side))
+        .filter(|&face| !mesh.is_virtual(face))
+        .collect();
     let turned = |face: FaceId| {
         let vertices = mesh.face(face);
         let [a, b, c] = vertices.map(|v| targets.get(&v).copied());
@@ -146,8 +150,12 @@ impl PinnedEdge {
 }
 
 fn crossing_edges(mesh: &DiskMesh, targets: &PinPositions) -> Vec<Conflict> {
-    let pinned: BTreeSet<EdgeId> =
-        targets.keys().flat_map(|&v| mesh.outgoing(v)).map(|side| mesh.edge_of(side)).collect();
+    let pinned: BTreeSet<EdgeId> = targets
+        .keys()
+        .flat_map(|&v| mesh.outgoing(v))
+        .map(|side| mesh.edge_of(side))
+        .filter(|&edge| !mesh.is_virtual_edge(edge))
+        .collect();
     let edge = |edge: EdgeId| {
         let [a, b] = mesh.ends(edge);
         let ends = [a.min(b), a.max(b)];

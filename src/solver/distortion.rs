@@ -67,7 +67,7 @@ impl FaceDistortion {
 /// Distortion of an embedding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distortion {
-    /// One entry per face.
+    /// One entry per face; those that fill holes have none.
     pub faces: Vec<FaceDistortion>,
     /// All faces together.
     pub summary: DistortionSummary,
@@ -154,7 +154,7 @@ fn face_maps(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceMap> {
             [1, 2].map(|k| (images[k] - images[0]) * in_plane),
         )
     };
-    mesh.triangles.par_iter().with_min_len(FACES_PER_TASK).map(map).collect()
+    mesh.real_triangles().par_iter().with_min_len(FACES_PER_TASK).map(map).collect()
 }
 
 /// One over an extent, kept finite, so that squares of lengths neither underflow nor overflow.

@@ -70,13 +70,17 @@ pub(super) fn disk_in_plane(points: &[DVec2], triangles: Vec<[VertexId; 3]>) -> 
     DiskMesh::of_topology(TriMesh { positions, triangles, polygon_of: None }).ok()
 }
 
-/// The outside's energies, at rest as it lies.
-pub(super) fn outside_elements(outside: &Outside, points: &[DVec2], weight: f64) -> Vec<Element> {
+/// The energies of triangles outside a mesh, at rest as they lie: all together weigh so much.
+pub(super) fn outside_elements<'a>(
+    triangles: impl Iterator<Item = &'a [VertexId; 3]> + Clone,
+    points: &[DVec2],
+    weight: f64,
+) -> Vec<Element> {
     let shape = |t: &[VertexId; 3]| t.map(|v| points[v.index()]);
     let area = |[a, b, c]: [DVec2; 3]| (b - a).perp_dot(c - a);
-    let total: f64 = outside.triangles.iter().map(|t| area(shape(t))).sum();
+    let total: f64 = triangles.clone().map(|t| area(shape(t))).sum();
     let element = |t: &[VertexId; 3]| {
         Element::new(t.map(VertexId::number), shape(t), (weight * area(shape(t)) / total, THINNEST))
     };
-    outside.triangles.iter().map(element).collect()
+    triangles.map(element).collect()
 }

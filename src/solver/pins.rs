@@ -120,8 +120,8 @@ impl TakenTargets {
 pub fn check_pins(mesh: &DiskMesh, pins: &Pins) -> Result<(), SolveError> {
     let mut taken = TakenTargets::default();
     for (&vertex, pin) in pins {
-        if vertex.index() >= mesh.vertex_count() {
-            return Err(SolveError::NoSuchVertex { vertex, count: mesh.vertex_count() });
+        if vertex.index() >= mesh.vertex_count() || mesh.is_virtual_vertex(vertex) {
+            return Err(SolveError::NoSuchVertex { vertex, count: mesh.real_vertex_count() });
         }
         if !mesh.is_used(vertex) {
             return Err(SolveError::UnusedVertex { vertex });

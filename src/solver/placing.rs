@@ -174,19 +174,19 @@ fn usable_factor(factor: f64) -> f64 {
     if factor.is_finite() && factor > 0.0 { factor } else { 1.0 }
 }
 
-/// The factor to the total area of the surface, in the mesh's unit. Both areas are summed at a size near 1, so that no square of a length
+/// The factor to the total area of the surface, holes left out, in the mesh's unit. Both areas are summed at a size near 1, so that no square of a length
 /// overflows or vanishes.
 pub fn true_area_factor(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let (in_space, in_plane) = (length_scale(mesh), power_of_two_near(embedding.bounds().size().max_element()).recip());
     let surface: f64 = mesh
-        .faces()
+        .real_faces()
         .map(|face| {
             let [a, b, c] = mesh.mesh().corners(face).map(|x| x * in_space);
             (b - a).cross(c - a).length()
         })
         .sum();
     let flat: f64 = mesh
-        .faces()
+        .real_faces()
         .map(|face| {
             let [a, b, c] = mesh.face(face).map(|v| embedding[v] * in_plane);
             (b - a).perp_dot(c - a).abs()

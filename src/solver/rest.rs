@@ -16,6 +16,8 @@ const THINNEST: f64 = 1e-4;
 #[derive(Debug)]
 pub(super) struct Rest {
     shapes: Vec<Shape>,
+    /// What fills holes: at rest as it lies, as the outside is.
+    filling: Vec<[VertexId; 3]>,
     /// Area of the surface.
     area: f64,
 }
@@ -39,7 +41,7 @@ pub(super) struct Surrounded<'a> {
 impl Rest {
     /// The faces.
     pub(super) fn new(mesh: &DiskMesh) -> Self {
-        Self::of(mesh, mesh.faces().map(|face| (mesh.face(face), 1.0)))
+        Self::of(mesh, mesh.real_faces().map(|face| (mesh.face(face), 1.0)))
     }
 
     /// The faces, and the triangles at the corners of polygons, both together with the polygon's area: while none of these
@@ -62,7 +64,8 @@ impl Rest {
             polygon.faces().for_each(|face| parts[face.index()] = of_cut);
             ears.extend(convex.into_iter().map(|ear| (ear, (1.0 - of_cut) * whole / of_ears)));
         }
-        let faces = mesh.faces().map(|face| (mesh.face(face), parts[face.index()])).filter(|(_, part)| *part > 0.0);
+        let faces =
+            mesh.real_faces().map(|face| (mesh.face(face), parts[face.index()])).filter(|(_, part)| *part > 0.0);
         (!ears.is_empty()).then(|| Self::of(mesh, faces.chain(ears)))
     }
 
@@ -79,7 +82,8 @@ impl Rest {
         for shape in &mut shapes {
             shape.share /= area;
         }
-        Self { shapes, area }
+        let filling = mesh.mesh().triangles[mesh.mesh().real_face_count()..].to_vec();
+        Self { shapes, filling, area }
     }
 
     /// How distorted an embedding is whose pins have so far to go.
@@ -103,7 +107,7 @@ impl Rest {
         self.elements(mesh, embedding).iter().filter(is_folded).count()
     }
 
-    /// Mesh and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
+    /// Mesh, what fills its holes, and outside of an embedding with its exact pins held and the others on springs; and all points, those of the
     /// frame last. `similar` is one made before for the same mesh and pins.
     pub(super) fn membrane(
         &self,
@@ -115,7 +119,8 @@ impl Rest {
         let mut points = embedding.to_vec();
         points.extend(&outside.frame);
         let mut elements = self.elements(mesh, embedding);
-        elements.extend(outside_elements(outside, &points, weight));
+        let around = self.filling.iter().chain(&outside.triangles);
+        elements.extend(outside_elements(around, &points, weight));
         let is_pulled = pins.values().any(|pin| !pin.hold.is_exact());
         let unit = if is_pulled { spring_unit(mesh, embedding) } else { 0.0 };
         let springs = pins.iter().filter_map(|(vertex, pin)| match pin.hold {
@@ -137,7 +142,7 @@ impl Rest {
     /// The triangles' energies, at rest when as large as the embedding is now.
     fn elements(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Element> {
         let flat: f64 = mesh
-            .faces()
+            .real_faces()
             .map(|face| {
                 let [a, b, c] = embedding.corners(mesh, face);
                 0.5 * (b - a).perp_dot(c - a)

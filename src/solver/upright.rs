@@ -76,13 +76,13 @@ fn upright_turn(mesh: &DiskMesh, embedding: &Embedding) -> Option<DVec2> {
     let origin = mesh.mesh().positions[0];
     let corners = |face: FaceId| mesh.mesh().corners(face).map(|x| (x - origin) * in_space);
     let doubled_area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
-    let (normal, area) = mesh.faces().fold((DVec3::ZERO, 0.0), |(normal, area), face| {
+    let (normal, area) = mesh.real_faces().fold((DVec3::ZERO, 0.0), |(normal, area), face| {
         let doubled = doubled_area(corners(face));
         (normal + doubled, area + doubled.length())
     });
     let [right, up] = front_view(normal / area);
     let parts = || {
-        mesh.faces().map(|face| {
+        mesh.real_faces().map(|face| {
             let at = corners(face);
             let middle = at.iter().sum::<DVec3>() / 3.0;
             let z = embedding.corners(mesh, face).iter().sum::<DVec2>() / 3.0;

@@ -7,6 +7,19 @@
 //! degree in mesh processing", arXiv 1310.0955.) Both are decided without rounding, for the very numbers given, so
 //! the verdict is a proof. It must be taken again where these numbers are rounded for a file.
 //!
+//! # Holes
+//!
+//! A surface with holes is flattened as a disk: virtual faces fill its inner boundary loops ([`Hole`]). Where these are
+//! positive, too, the theorem holds for the whole disk, and so for the surface in it: faces do not overlap; each loop is
+//! simple, for it is the image of a simple loop; the faces around it lie outside of it, for the filling lies within; and no two loops meet.
+//!
+//! Where the filling of a hole folds, the hole is *crossed* unless its loop is a simple polygon that turns +1, in the direction in
+//! which the filling runs around. A simple polygon has a triangulation without further vertices, and where it turns +1 its
+//! triangles are positive. With it in the place of the filling that folds, what is filled is a disk again, its faces
+//! positive and its boundary simple, if the real faces and the outer boundary are so: one-to-one by the theorem.
+//! So an embedding of a surface with holes is one-to-one if and only if its real faces are positive, the outer boundary is simple,
+//! and no hole is crossed: where it is, all loops are simple polygons, and the surface lies outside of those around holes.
+//!
 //! # Polygons
 //!
 //! Other programs cut polygons into triangles by rules of their own. So a polygon with more than three corners has to
@@ -24,6 +37,7 @@
 //!
 //! * A *flipped face*: its orientation is negative, or zero, or a corner is not finite.
 //! * A *concave polygon*: all its triangles are positive, but it does not turn left at a corner that is convex in space.
+//! * A *crossed hole*: its filling folds, and its loop is no simple polygon that has the surface around it.
 //! * A *boundary crossing*: two boundary edges that meet other than at a shared end (see [`crossings()`]).
 //!   Edges with an end that is not finite take no part; their faces are flipped already.
 //! * An *overwound vertex*: all faces around an interior vertex are positive, yet its link winds around it twice or
@@ -42,7 +56,7 @@ use serde::Serialize;
 
 use super::Embedding;
 use crate::geom::{Orientation, crossings, is_simple, orientation, turning_number, winding_number};
-use crate::mesh::{DiskMesh, EdgeId, FaceId, Polygon, VertexId};
+use crate::mesh::{DiskMesh, EdgeId, FaceId, Hole, Polygon, VertexId};
 
 /// Whether an embedding is one-to-one, and the elements at fault. All lists ascend.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -54,6 +68,11 @@ pub struct Verdict {
     pub flipped_faces: Vec<FaceId>,
     /// Polygons that other cuts into triangles would fold, by their first faces.
     pub concave_polygons: Vec<FaceId>,
+    /// Holes that meet themselves or are turned inside out, each by the lowest vertex around it.
+    pub crossed_holes: Vec<VertexId>,
+    /// Whether virtual faces fold: rungs that keep all faces positive do not go on from there.
+    #[serde(skip)]
+    pub is_filling_folded: bool,
     /// Pairs of boundary edges that meet other than at a shared end, the lower id first; at most `CROSSINGS_LISTED`.
     pub boundary_crossings: Vec<[EdgeId; 2]>,
     /// Whether there are more crossings than those listed. The report shows this field only where there are.
@@ -80,16 +99,20 @@ pub struct Verdict {
 pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
     assert_eq!(embedding.len(), mesh.vertex_count(), "an embedding has one position per vertex");
     let orientations: Vec<Option<Orientation>> = orientations(mesh, embedding).collect();
-    let some_are = |wanted| orientations.contains(&Some(wanted));
+    let real = &orientations[..mesh.mesh().real_face_count()];
+    let some_are = |wanted| real.contains(&Some(wanted));
     let mirrored = some_are(Orientation::Clockwise) && !some_are(Orientation::CounterClockwise);
     let upright = if mirrored { Orientation::Clockwise } else { Orientation::CounterClockwise };
     let is_upright = |face: FaceId| orientations[face.index()] == Some(upright);
 
-    let flipped_faces: Vec<FaceId> = mesh.faces().filter(|&face| !is_upright(face)).collect();
-    let zero_area_faces = orientations.iter().filter(|&&o| o == Some(Orientation::Collinear)).count();
+    let flipped_faces: Vec<FaceId> = mesh.real_faces().filter(|&face| !is_upright(face)).collect();
+    let folded = folded_holes(mesh, is_upright);
+    let is_crossed = |hole: &&Hole| !is_around(hole, embedding, upright);
+    let crossed_holes: Vec<VertexId> = folded.iter().filter(is_crossed).map(|hole| hole.rim[0]).collect();
+    let zero_area_faces = real.iter().filter(|&&o| o == Some(Orientation::Collinear)).count();
     let boundary = embedding.boundary(mesh);
     let (boundary_crossings, more_crossings) = boundary_crossings(mesh, &boundary);
-    let is_one_to_one = flipped_faces.is_empty() && boundary_crossings.is_empty();
+    let is_one_to_one = flipped_faces.is_empty() && crossed_holes.is_empty() && boundary_crossings.is_empty();
     let concave_polygons = concave_polygons(mesh, embedding, upright)
         .filter(|polygon| polygon.faces().all(is_upright))
         .map(|polygon| polygon.first_face)
@@ -100,18 +123,20 @@ pub fn verdict(mesh: &DiskMesh, embedding: &Embedding) -> Verdict {
         planar,
         flipped_faces,
         concave_polygons,
+        crossed_holes,
+        is_filling_folded: !folded.is_empty(),
         boundary_crossings,
         more_crossings,
         overwound_vertices,
         turning_number: turning_number(&boundary),
         zero_area_faces,
         mirrored,
-        holds_in_f32: planar && planar_sense(mesh, &in_f32(embedding)) == Some(upright),
+        holds_in_f32: planar && sense_of_surface(mesh, &in_f32(embedding)) == Some(upright),
     }
 }
 
 /// Whether an embedding of a disk is planar, as it lies or in a mirror: what [`verdict`] says, without a list of what is
-/// wrong.
+/// wrong. What fills holes has to be positive, too.
 ///
 /// # Panics
 ///
@@ -120,7 +145,8 @@ pub fn is_planar(mesh: &DiskMesh, embedding: &Embedding) -> bool {
     planar_sense(mesh, embedding).is_some()
 }
 
-/// Whether an embedding of a disk is one-to-one, as it lies or in a mirror, polygons being cut as the mesh's faces are.
+/// Whether an embedding of a disk is one-to-one, as it lies or in a mirror, polygons being cut as the mesh's faces are,
+/// and holes filled as they are.
 ///
 /// # Panics
 ///
@@ -145,6 +171,38 @@ fn concave_polygons<'a>(
         orientation(a, b, c) == Some(upright)
     };
     mesh.polygons().filter(move |polygon| !polygon.convex_ears().all(turns))
+}
+
+/// As [`planar_sense`], for the surface without what fills its holes.
+fn sense_of_surface(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
+    planar_sense(mesh, embedding).or_else(|| {
+        let orientations: Vec<Option<Orientation>> = orientations(mesh, embedding).collect();
+        let upright = orientations[0]?;
+        let folded = folded_holes(mesh, |face| orientations[face.index()] == Some(upright));
+        let is_surface = upright != Orientation::Collinear
+            && !folded.is_empty()
+            && orientations[..mesh.mesh().real_face_count()].iter().all(|&other| other == Some(upright))
+            && folded.iter().all(|hole| is_around(hole, embedding, upright))
+            && is_simple(&embedding.boundary(mesh))
+            && concave_polygons(mesh, embedding, upright).next().is_none();
+        is_surface.then_some(upright)
+    })
+}
+
+/// The holes whose filling has faces that are not upright.
+fn folded_holes(mesh: &DiskMesh, is_upright: impl Fn(FaceId) -> bool) -> Vec<Hole> {
+    let is_folded = |faces: std::ops::Range<usize>| !faces.map(FaceId::from_index).all(&is_upright);
+    if !is_folded(mesh.mesh().real_face_count()..mesh.face_count()) {
+        return Vec::new();
+    }
+    mesh.mesh().holes().into_iter().filter(|hole| is_folded(hole.faces.clone())).collect()
+}
+
+/// Whether the loop around a hole is a simple polygon with the surface outside of it.
+fn is_around(hole: &Hole, embedding: &Embedding, upright: Orientation) -> bool {
+    let places: Vec<DVec2> = hole.rim.iter().map(|&v| embedding[v]).collect();
+    let turns = if upright == Orientation::Clockwise { -1 } else { 1 };
+    turning_number(&places) == Some(turns) && is_simple(&places)
 }
 
 /// The orientation that all faces of a one-to-one embedding have; none where it is not one-to-one.
@@ -216,13 +274,13 @@ fn overwound_vertices(
         .with_min_len(FACES_PER_TASK)
         .map_init(Vec::new, |link, vertex| is_overwound(link, VertexId::from_index(vertex)))
         .collect();
-    mesh.vertices().filter(|vertex| overwound[vertex.index()]).collect()
+    mesh.vertices().filter(|&vertex| overwound[vertex.index()] && !mesh.is_virtual_vertex(vertex)).collect()
 }
 
 impl Verdict {
-    /// Whether the embedding is one-to-one, polygons being cut as the mesh's faces are.
+    /// Whether the embedding is one-to-one, polygons being cut as the mesh's faces are, and holes filled as they are.
     pub fn is_one_to_one(&self) -> bool {
-        self.flipped_faces.is_empty() && self.boundary_crossings.is_empty()
+        self.flipped_faces.is_empty() && !self.is_filling_folded && self.boundary_crossings.is_empty()
     }
 
     /// How many boundary crossings there are, in words: more than are listed, or just so many.
@@ -231,10 +289,11 @@ impl Verdict {
         format!("{more}{}", self.boundary_crossings.len())
     }
 
-    /// Flipped faces, concave polygons, boundary crossings as far as they are listed, and overwound vertices together.
+    /// Flipped faces, concave polygons, crossed holes, boundary crossings as far as they are listed, and overwound vertices together.
     pub fn defect_count(&self) -> usize {
         let crossings = self.boundary_crossings.len();
-        self.flipped_faces.len() + self.concave_polygons.len() + crossings + self.overwound_vertices.len()
+        let faces = self.flipped_faces.len() + self.concave_polygons.len() + self.crossed_holes.len();
+        faces + crossings + self.overwound_vertices.len()
     }
 
     /// What becomes of a planar embedding in 32 bits, in lower-case words; none where it is not planar in 64.
@@ -261,6 +320,7 @@ impl Verdict {
         let faults = [
             counted(self.flipped_faces.len(), "flipped face", "flipped faces"),
             counted(self.concave_polygons.len(), "concave polygon", "concave polygons"),
+            counted(self.crossed_holes.len(), "crossed hole", "crossed holes"),
             crossings,
             counted(self.overwound_vertices.len(), "overwound vertex", "overwound vertices"),
             self.mirrored.then(|| "mirrored".to_owned()),

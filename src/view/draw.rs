@@ -191,8 +191,13 @@ impl EdgeList {
 
     /// The closed line through the vertices of a boundary loop.
     pub fn closed_loop(vertices: &[VertexId]) -> Self {
-        let next = vertices.iter().cycle().skip(1);
-        Self::new(vertices.iter().zip(next).map(|(&a, &b)| [a, b]).collect())
+        Self::closed_loops(std::iter::once(vertices))
+    }
+
+    /// The closed lines through the vertices of boundary loops.
+    pub fn closed_loops<'a>(loops: impl Iterator<Item = &'a [VertexId]>) -> Self {
+        let ends = |vertices: &'a [VertexId]| vertices.iter().zip(vertices.iter().cycle().skip(1));
+        Self::new(loops.flat_map(ends).map(|(&a, &b)| [a, b]).collect())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use freebound::mesh::{Charts, DiskMesh, Form, PolygonMesh, VertexId};
+use freebound::mesh::{Charts, DiskMesh, Form, HoleTreatment, PolygonMesh, VertexId};
 use freebound::session::Model;
 
 use crate::common::corpus_disks;
@@ -112,7 +112,10 @@ fn a_mesh_of_one_part_or_with_a_part_that_is_no_disk_has_no_charts() {
     let mut ring = grid(3, 3);
     ring.triangles.drain(8..10);
     let two = interleaved(&[one, (&ring).into()], &mut Random(1));
-    assert_eq!(Charts::of(Form::default().repaired(&two)), None);
+    let unfilled = Form { holes: HoleTreatment::Cut, ..Form::default() };
+    assert_eq!(Charts::of(unfilled.repaired(&two)), None);
+    assert_eq!(Charts::of(Form { cut: true, ..unfilled }.repaired(&two)).expect("cut").count(), 2);
+    assert_eq!(Charts::of(Form::default().repaired(&two)).expect("filled").count(), 2);
     assert_eq!(mended(&two).count(), 2);
 }
 

@@ -15,7 +15,7 @@ const BAD: [(&str, i32, i32, &str, &str); 14] = [
     ("closed_fish.obj", 3, 3, "closed", "closed"),
     ("nonmanifold_ArtDemo.obj", 3, 3, "non-manifold-edges", "non-manifold-edges"),
     ("multicomp.obj", 3, 3, "several-components", "several-components"),
-    ("holes_plane.obj", 3, 3, "several-boundary-loops", "several-boundary-loops"),
+    ("holes_plane.obj", 0, 0, "", ""),
     ("degenerate_capsule.obj", 0, 0, "", ""),
     ("moebius.obj", 3, 3, "non-orientable", "non-orientable"),
     ("torus_one_hole.obj", 3, 3, "handles", "handles"),

@@ -36,6 +36,8 @@ mod gltf_hostile;
 mod gltf_read;
 mod gltf_write;
 mod harmless;
+mod holes;
+mod holes_cli;
 mod house;
 mod iterate;
 mod ladder;

@@ -72,7 +72,7 @@ fn a_closed_surface_is_refused_with_the_way_on_and_cut_open_where_that_is_asked_
 fn a_pin_on_the_side_of_a_cut_that_is_new_is_met() {
     let program = Program::new();
     program.write("ring.obj", &obj_text(&(&band(8, 0)).into()));
-    let arguments = ["flatten", "ring.obj", "--cut", "auto", "--report", "-"];
+    let arguments = ["flatten", "ring.obj", "--holes", "cut", "--cut", "auto", "--report", "-"];
     let report = program.run(&[&arguments[..], &["--pin", "0:0,0", "--pin", "16:1,0"]].concat()).expect(0).json();
     assert_eq!(report["pins"]["unmet"], json!([]));
     assert_eq!(report["pins"]["count"], json!(2));

@@ -5,16 +5,16 @@ use freebound::mesh::{Form, PolygonMesh, Repair};
 use freebound::session::{Action, Place, Session, Surface};
 use tempfile::TempDir;
 
-use crate::makers::{band, tetrahedron, write_obj};
+use crate::makers::{tetrahedron, write_obj};
 use crate::program::obj_text;
 use crate::session::{session, settled};
 use crate::session_documents::errors;
 
-/// A session with a ring, in a folder of its own.
-fn with_ring() -> (TempDir, Session) {
+/// A session with a tetrahedron, in a folder of its own.
+fn with_closed() -> (TempDir, Session) {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("ring.obj");
-    write_obj(&path, &band(9, 0));
+    let path = folder.path().join("closed.obj");
+    write_obj(&path, &tetrahedron());
     let mut session = session();
     settled(&mut session, Action::Open(path));
     (folder, session)
@@ -26,7 +26,7 @@ fn is_faulty(session: &Session) -> bool {
 
 #[test]
 fn mending_is_an_edit_that_is_undone_and_repeated() {
-    let (_folder, mut session) = with_ring();
+    let (_folder, mut session) = with_closed();
     assert!(is_faulty(&session) && !session.can_repair());
     assert_eq!(errors(&session).len(), 1);
     let remedy = session.model().expect("open").remedy.clone().expect("it can be cut");
@@ -62,12 +62,12 @@ fn mending_does_nothing_where_nothing_is_wrong_or_nothing_can_be_done() {
 
 #[test]
 fn a_project_of_a_mended_mesh_opens_as_it_was_pins_of_new_vertices_too() {
-    let (folder, mut session) = with_ring();
+    let (folder, mut session) = with_closed();
     settled(&mut session, Action::Mend);
-    let first_new = u32::try_from(band(9, 0).vertex_count()).expect("few");
+    let first_new = u32::try_from(tetrahedron().vertex_count()).expect("few");
     settled(&mut session, Action::Fix([0, first_new].map(freebound::mesh::VertexId::new).to_vec()));
     let solved = session.outcome().expect("solved").step.solution.embedding.clone();
-    let path = folder.path().join("ring.freebound");
+    let path = folder.path().join("closed.freebound");
     settled(&mut session, Action::SaveProject(path.clone()));
     let mut again = crate::session::session();
     settled(&mut again, Action::Open(path));
@@ -79,7 +79,7 @@ fn a_project_of_a_mended_mesh_opens_as_it_was_pins_of_new_vertices_too() {
 
 #[test]
 fn turning_a_mended_mesh_keeps_it_mended_and_every_vertex_its_number() {
-    let (_folder, mut session) = with_ring();
+    let (_folder, mut session) = with_closed();
     settled(&mut session, Action::Mend);
     let places = |session: &Session| {
         let model = session.model().expect("open").clone();

@@ -48,6 +48,8 @@ fn a_flat_hexagon_is_planar() {
         planar: true,
         flipped_faces: vec![],
         concave_polygons: vec![],
+        crossed_holes: vec![],
+        is_filling_folded: false,
         boundary_crossings: vec![],
         more_crossings: false,
         overwound_vertices: vec![],
@@ -225,7 +227,7 @@ fn the_report_has_the_fields_of_the_design() {
     let case = strip(vec![at(0.0, 0.0), at(0.0, 1.0), at(1.0, 1.0), at(1.0, 0.0)].into());
     assert_eq!(
         serde_json::to_string(&judge(&case)).unwrap(),
-        "{\"planar\":false,\"flipped_faces\":[1],\"concave_polygons\":[],\"boundary_crossings\":[[0,4]],\"overwound_vertices\":[],\
+        "{\"planar\":false,\"flipped_faces\":[1],\"concave_polygons\":[],\"crossed_holes\":[],\"boundary_crossings\":[[0,4]],\"overwound_vertices\":[],\
          \"turning_number\":0,\"zero_area_faces\":0,\"mirrored\":false,\"f32\":false}"
     );
 }

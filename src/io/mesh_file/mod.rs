@@ -83,7 +83,8 @@ impl Texture {
     pub fn of_repaired(repaired: &Repaired, source: &PolygonMesh, coordinates: &Embedding) -> Self {
         let number = |vertex: Option<VertexId>| vertex.map_or(NO_TEXTURE, VertexId::number);
         let corners = repaired.vertices_at_corners(source).into_iter().map(number).collect();
-        Self { coordinates: coordinates.to_vec(), corners }
+        // What fills holes stands behind.
+        Self { coordinates: coordinates[..repaired.polygons().positions.len()].to_vec(), corners }
     }
 }
 

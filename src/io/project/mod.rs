@@ -24,7 +24,7 @@ use super::door::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::{PackingOptions, VAxis};
-use crate::mesh::RepairExtent;
+use crate::mesh::{Form, HoleTreatment, RepairExtent};
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
@@ -47,6 +47,9 @@ pub struct ProjectFile {
     /// What may be repaired of it.
     #[serde(default)]
     pub repair: RepairExtent,
+    /// What becomes of its holes; of older projects they are cut where the mesh is.
+    #[serde(default)]
+    pub holes: Option<HoleTreatment>,
     /// Whether it is cut open where it is no disk.
     #[serde(default)]
     pub cut: bool,
@@ -163,6 +166,12 @@ struct Head {
 }
 
 impl ProjectFile {
+    /// What is made of the mesh's faces.
+    pub fn form(&self) -> Form {
+        let holes = self.holes.unwrap_or(if self.cut { HoleTreatment::Cut } else { HoleTreatment::Fill });
+        Form { faces_turned: self.faces_turned, repair: self.repair, holes, cut: self.cut }
+    }
+
     /// A project of a mesh, with nothing but settings made of it yet.
     pub fn new(mesh: ProjectSource, settings: &Settings) -> Self {
         let (method, boundary) = match settings.method {
@@ -174,6 +183,7 @@ impl ProjectFile {
             mesh,
             faces_turned: false,
             repair: RepairExtent::default(),
+            holes: Some(HoleTreatment::default()),
             cut: false,
             picture: None,
             v_axis: VAxis::default(),

@@ -1,6 +1,7 @@
 //! The charts of a repaired mesh: its parts that hang together across edges, where every one of them is a disk.
 
 use super::Repaired;
+use super::fill::Filling;
 use super::sides::Sides;
 use crate::mesh::union::DisjointSets;
 use crate::mesh::{PolygonMesh, VertexId, parts};
@@ -27,7 +28,7 @@ pub struct Chart {
 impl Charts {
     /// The charts of a mesh, in the order of their first faces; none where it is one part, or a part is no disk.
     pub fn of(whole: Repaired) -> Option<Self> {
-        let faces = disks_of(&whole.polygons).filter(|faces| faces.len() > 1)?;
+        let faces = disks_of(&whole).filter(|faces| faces.len() > 1)?;
         let mut chart_of_vertex = vec![None; whole.polygons.positions.len()];
         for (number, own) in (0..).zip(&faces) {
             for corner in own.iter().flat_map(|&face| whole.polygons.face(face as usize)) {
@@ -75,8 +76,11 @@ impl Charts {
             face_of: self.faces[chart].iter().map(|&face| self.whole.face_of[face as usize]).collect(),
             polygons: part.polygons,
             stand_ins: Vec::new(),
+            fills: self.whole.fills,
+            filling: Filling::default(),
             done: self.whole.done.clone(),
         };
+        let repaired = repaired.filled();
         Chart { repaired, vertex_of: part.vertex_of }
     }
 }
@@ -88,11 +92,12 @@ impl Chart {
     }
 }
 
-/// The faces of each part, where every part is a disk and no two share a vertex.
-pub(super) fn disks_of(polygons: &PolygonMesh) -> Option<Vec<Vec<u32>>> {
+/// The faces of each part, where every part is a disk, once its holes are filled where they are to be, and no two share a vertex.
+pub(super) fn disks_of(whole: &Repaired) -> Option<Vec<Vec<u32>>> {
+    let polygons = &whole.polygons;
     let found = parts(&polygons.triangulate()).ok()?;
     let faces = parts_of(polygons, &Sides::new(polygons));
-    let are_disks = found.len() == faces.len() && found.iter().all(|part| part.loops().len() == 1);
+    let are_disks = found.len() == faces.len() && found.iter().all(|part| whole.fills || part.loops().len() == 1);
     // A part has a copy of each vertex that it shares.
     let own_count: usize = found.iter().map(|part| part.vertex_of().len()).sum();
     let mut used: Vec<VertexId> = polygons.corners.clone();

@@ -18,8 +18,8 @@ use super::charts::{Compact, compact, parts_of};
 use super::sides::Sides;
 use super::ways::{Measure, Reach, Ways};
 use super::{Repair, Repaired};
-use crate::mesh::VertexId;
 use crate::mesh::union::DisjointSets;
+use crate::mesh::{VertexId, parts};
 
 /// A point is joined to a sphere's cut while it is farther from it than this share of the first two points' distance.
 const FAR: f64 = 0.5;
@@ -27,7 +27,8 @@ const FAR: f64 = 0.5;
 /// The most points of a sphere's cut.
 const MOST_POINTS: usize = 8;
 
-/// The mesh cut open, each part by itself. Parts that are disks already stay as they are.
+/// The mesh cut open, each part by itself. Parts that are disks already, or are so once their holes are
+/// filled, stay as they are.
 pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     let mut cut = whole.clone();
     let is_face = |face: usize| whole.polygons.corner_range(face).len() >= 3;
@@ -38,7 +39,9 @@ pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     let mut is_open = vec![false; whole.polygons.corners.len()];
     let count = parts_of(&whole.polygons, &sides)
         .into_iter()
-        .map(|faces| open_part(&compact(&whole.polygons, &faces), &mut is_open))
+        .map(|faces| compact(&whole.polygons, &faces))
+        .filter(|part| !(whole.fills && is_filled(part)))
+        .map(|part| open_part(&part, &mut is_open))
         .sum();
     if count == 0 {
         return cut;
@@ -48,6 +51,11 @@ pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     cut.note(Repair::Cut, count);
     cut.turn_faces();
     cut
+}
+
+/// Whether a part is a disk once its holes are filled.
+fn is_filled(part: &Compact) -> bool {
+    parts(&part.polygons.triangulate()).is_ok_and(|found| found.len() == 1)
 }
 
 /// Opens the sides of the whole along which a part is cut. Returns how many edges these are. Where edges have three faces

@@ -6,6 +6,7 @@
 //! | `sides.rs` | sides of polygons, and which lie on one edge |
 //! | `leave_out.rs` | repeated corners and duplicate faces left out |
 //! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
+//! | `fill.rs` | holes filled with virtual faces |
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
@@ -17,6 +18,7 @@
 
 mod charts;
 mod cut;
+mod fill;
 mod join;
 mod leave_out;
 mod seams;
@@ -26,6 +28,8 @@ mod ways;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+
+use fill::Filling;
 
 use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
@@ -38,8 +42,21 @@ pub struct Form {
     pub faces_turned: bool,
     /// What may be repaired.
     pub repair: RepairExtent,
+    /// What becomes of holes.
+    pub holes: HoleTreatment,
     /// Whether parts that are no disks are cut open.
     pub cut: bool,
+}
+
+/// What becomes of inner boundary loops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HoleTreatment {
+    /// They are filled with virtual faces, unless nothing may be repaired.
+    #[default]
+    Fill,
+    /// They are cut open to the outside, where a surface is cut at all.
+    Cut,
 }
 
 impl Form {
@@ -68,7 +85,9 @@ impl Form {
         if let Some(labels) = labels {
             repaired.cut_along(labels);
         }
-        if self.cut { repaired.cut_to_disks() } else { repaired }
+        repaired.fills = self.holes == HoleTreatment::Fill && self.repair != RepairExtent::Nothing;
+        let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
+        repaired.fill_holes()
     }
 }
 
@@ -102,6 +121,8 @@ pub enum Repair {
     TurnFaces,
     /// Fans of faces that meet in nothing but a vertex get one each.
     SplitVertices,
+    /// Inner boundary loops are filled with virtual faces, which are of no file.
+    FillHoles,
     /// The surface is cut along edges until each part is a disk.
     Cut,
 }
@@ -116,6 +137,7 @@ impl Repair {
             Self::SplitEdges => "split-edges",
             Self::TurnFaces => "turn-faces",
             Self::SplitVertices => "split-vertices",
+            Self::FillHoles => "fill-holes",
             Self::Cut => "cut",
         }
     }
@@ -136,6 +158,7 @@ impl Repair {
             Self::SplitVertices => {
                 ["vertex split, one for each fan of faces", "vertices split, one for each fan of faces"]
             }
+            Self::FillHoles => ["hole filled while it is flattened", "holes filled while it is flattened"],
             Self::Cut => ["edge cut open", "edges cut open"],
         }
     }
@@ -167,6 +190,10 @@ pub struct Repaired {
     face_of: Vec<u32>,
     /// Corners of the mesh as given that were left out, each with one that stands for it; that may be left out later.
     stand_ins: Vec<[u32; 2]>,
+    /// Whether holes are filled while it is flattened.
+    fills: bool,
+    /// What fills them, where it is one part. Positions beyond those of the polygons are the filling's.
+    filling: Filling,
     done: Vec<Done>,
 }
 
@@ -195,6 +222,8 @@ impl Repaired {
             corner_of: (0..count(source.corners.len())).collect(),
             face_of: (0..count(source.face_count())).collect(),
             stand_ins: Vec::new(),
+            fills: false,
+            filling: Filling::default(),
             done: Vec::new(),
         }
     }
@@ -227,6 +256,7 @@ impl Repaired {
         }
         self.corner_of.iter_mut().for_each(|corner| *corner = place[*corner as usize]);
         self.stand_ins.iter_mut().flatten().for_each(|corner| *corner = place[*corner as usize]);
+        self.filling.turn();
         self
     }
 
@@ -235,7 +265,7 @@ impl Repaired {
         &self.done
     }
 
-    /// Positions and faces.
+    /// Positions and faces; of holes nothing but that they are there.
     pub fn polygons(&self) -> &PolygonMesh {
         &self.polygons
     }
@@ -272,12 +302,13 @@ impl Repaired {
         vertices
     }
 
-    /// Its faces as triangles, numbered as in the file.
+    /// Its faces as triangles, numbered as in the file. Those that fill holes follow, numbered from
+    /// [`FIRST_HOLE`](super::FIRST_HOLE) on, and so do the vertices that only these have.
     pub fn triangulate(&self) -> TriMesh {
         let TriMesh { positions, triangles, polygon_of } = self.polygons.triangulate();
         let of_triangle = |face: usize| self.face_of[polygon_of.as_ref().map_or(face, |of| of[face] as usize)];
         let polygon_of = Some((0..triangles.len()).map(of_triangle).collect());
-        TriMesh { positions, triangles, polygon_of }
+        self.filling.appended_to(TriMesh { positions, triangles, polygon_of })
     }
 
     /// Notes what was done, where it was.
@@ -293,6 +324,6 @@ impl Repaired {
 
     /// Whether nothing keeps it from being a disk, or several.
     pub fn flattens(&self) -> bool {
-        diagnose(&self.triangulate()).is_disk() || charts::disks_of(&self.polygons).is_some()
+        diagnose(&self.triangulate()).is_disk() || charts::disks_of(self).is_some()
     }
 }

@@ -34,7 +34,7 @@ impl Ladder {
         let placing = task.place(disk, &mut candidate);
         let mut verdict = self.verdict_of(mesh, &candidate);
         let is_start = self.plan.part().aim == Aim::PlanarStart;
-        let is_proved = verdict.planar || (is_start && verdict.is_one_to_one());
+        let is_proved = verdict.is_one_to_one() && (verdict.planar || is_start);
         if !is_proved || !task.are_met(&candidate.solution.embedding) {
             let is_kept = self.keep_what_is_proved(&mut candidate);
             verdict = if is_kept { self.verdict_of(mesh, &candidate) } else { verdict };

@@ -8,6 +8,7 @@
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
+//! | `element.rs` | parts of the mesh by their names |
 //! | `around.rs` | the charts around the one that is worked on |
 //! | `making.rs` | scenes are made in the background |
 //! | `selection.rs` | what is selected, what is under the pointer, the tool in hand |
@@ -20,6 +21,7 @@
 //! | `views.rs` | what the cameras look at; defects |
 
 mod around;
+mod element;
 mod frames;
 mod host;
 mod kept;
@@ -36,11 +38,11 @@ pub(super) mod scene;
 mod selection;
 pub(super) mod views;
 
+pub(super) use element::Element;
 pub(super) use plane::HullScene;
 pub use plane::Stage;
 pub(super) use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
-pub(super) use scene::Element;
 pub use views::Defect;
 
 use std::sync::Arc;

@@ -116,7 +116,7 @@ impl Editor {
             self.mesh.pane.set_camera(orbit);
         }
         self.plane.set_saved_camera(view.plane_camera);
-        let count = self.session.model().map_or(0, |model| model.mesh().vertex_count());
+        let count = self.session.model().map_or(0, |model| model.vertex_count());
         let there = view.selection.into_iter().map(VertexId::new).filter(|vertex| vertex.index() < count);
         self.selection.select(there);
     }

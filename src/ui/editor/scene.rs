@@ -5,10 +5,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::around::Around;
-use crate::mesh::{DiskMesh, EdgeId, FaceId, NewVertex, Refinement, TriMesh, VertexId};
+use crate::mesh::{DiskMesh, FaceId, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
 use crate::solver::{Embedding, FaceDistortion, GaugeSize, Step};
 use crate::ui::Shading;
+use crate::ui::editor::Element;
 use crate::view::{
     EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Ray, Scale, Sphere, SurfacePicker,
 };
@@ -23,8 +24,10 @@ pub struct MeshScene {
     /// The mesh with new vertices that it is of; none where it is of the mesh as given.
     pub refinement: Option<Arc<Refinement>>,
     pub arrays: Arc<MeshArrays>,
-    /// The boundary, where it is a disk.
+    /// The boundary, where it is a disk: of holes, too.
     pub boundary: Arc<EdgeList>,
+    /// Vertices that only fill holes: they are not shown.
+    hidden: Vec<VertexId>,
     pub picker: SurfacePicker,
     /// A ball around it, and around what stands around it.
     pub sphere: Sphere,
@@ -49,7 +52,7 @@ impl MeshScene {
         match element {
             Element::Vertex(vertex) if vertex.index() < mesh.vertex_count() => vec![vertex],
             Element::Vertex(_) => Vec::new(),
-            Element::Face(face) => mesh.triangles.get(face.index()).map(|t| t.to_vec()).unwrap_or_default(),
+            Element::Face(face) => mesh.real_triangles().get(face.index()).map(|t| t.to_vec()).unwrap_or_default(),
             Element::Edge(edge) => match self.disk() {
                 Some(disk) if edge.index() < disk.edge_count() => disk.ends(edge).to_vec(),
                 _ => Vec::new(),
@@ -69,8 +72,11 @@ impl MeshScene {
 
     fn of(model: Arc<Model>, model_revision: u64, refinement: Option<Arc<Refinement>>) -> Self {
         let disk = refinement.as_ref().map(|refinement| refinement.disk()).or(model.disk().map(AsRef::as_ref));
-        let boundary = EdgeList::closed_loop(disk.map_or(&[], |disk| disk.boundary_loop()));
-        let TriMesh { positions, triangles, .. } = disk.map_or(model.mesh(), |disk| disk.mesh());
+        let mesh = disk.map_or(model.mesh(), |disk| disk.mesh());
+        let outer = disk.map(|disk| disk.boundary_loop());
+        let holes = mesh.holes();
+        let boundary = EdgeList::closed_loops(outer.into_iter().chain(holes.iter().map(|hole| &hole.rim[..])));
+        let (positions, triangles) = (&mesh.positions, mesh.real_triangles());
         // In the unit of the chart's positions.
         let unit = disk.map_or(1.0, DiskMesh::unit);
         let whole = model.chart.as_ref().map(|of| &of.charts.whole().polygons().positions);
@@ -80,6 +86,7 @@ impl MeshScene {
             model_revision,
             arrays: Arc::new(MeshArrays::in_frame(positions, triangles, sphere)),
             boundary: Arc::new(boundary),
+            hidden: disk.map(DiskMesh::virtual_vertices).unwrap_or_default(),
             picker: SurfacePicker::new(positions, triangles),
             sphere,
             around: whole.and_then(|whole| Around::of(&model, &whole, sphere)),
@@ -90,6 +97,26 @@ impl MeshScene {
 
     pub fn mesh(&self) -> &TriMesh {
         self.refinement.as_ref().map_or(self.model.mesh(), |refinement| refinement.disk().mesh())
+    }
+
+    /// The vertices around the hole whose lowest one this is.
+    pub(in crate::ui) fn hole_rim(&self, lowest: VertexId) -> Vec<VertexId> {
+        let hole = self.mesh().holes().into_iter().find(|hole| hole.rim[0] == lowest);
+        hole.map(|hole| hole.rim).unwrap_or_default()
+    }
+
+    /// The vertices that are shown.
+    pub(in crate::ui) fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        let all = (0..self.mesh().vertex_count()).map(VertexId::from_index);
+        all.filter(|vertex| self.hidden.binary_search(vertex).is_err())
+    }
+
+    /// Picks among the shown vertices in the plane, where they have these places.
+    fn plane_picker(&self, places: &[DVec2]) -> PlanePicker {
+        let mut places = places[..self.mesh().vertex_count()].to_vec();
+        // What is nowhere is not picked.
+        self.hidden.iter().for_each(|vertex| places[vertex.index()] = DVec2::NAN);
+        PlanePicker::new(&places)
     }
 
     pub fn disk(&self) -> Option<&DiskMesh> {
@@ -143,9 +170,9 @@ impl PlaneScene {
         let embedding = &outcome.step.solution.embedding;
         Self {
             outcome_revision,
-            arrays: Arc::new(PlaneArrays::new(embedding, &mesh.mesh().triangles)),
-            picker: Arc::new(PlanePicker::new(embedding)),
-            faces_outside: faces_outside(&outcome, &mesh.mesh().triangles),
+            arrays: Arc::new(PlaneArrays::new(embedding, mesh.mesh().real_triangles())),
+            picker: Arc::new(mesh.plane_picker(embedding)),
+            faces_outside: faces_outside(&outcome, mesh.mesh().real_triangles()),
             positions: None,
             part: Part::Result,
             outcome,
@@ -156,9 +183,8 @@ impl PlaneScene {
     /// The same mesh with other points than the outcome's embedding: at a stage on the way to it, or with its outside.
     /// Points beyond the mesh's are drawn with, and not picked.
     pub(in crate::ui) fn of_part(&self, part: Part, positions: Embedding) -> Self {
-        let mesh = self.mesh.mesh();
-        let arrays = PlaneArrays::new(&positions, &mesh.triangles);
-        let picker = PlanePicker::new(&positions[..mesh.vertex_count()]);
+        let arrays = PlaneArrays::new(&positions, self.mesh.mesh().real_triangles());
+        let picker = self.mesh.plane_picker(&positions);
         Self { part, ..self.moved(&self.mesh, positions, arrays, Arc::new(picker)) }
     }
 
@@ -168,9 +194,9 @@ impl PlaneScene {
         let picker = if Arc::ptr_eq(mesh, &self.mesh) {
             Arc::clone(&self.picker)
         } else {
-            Arc::new(PlanePicker::new(&self.positions()[..mesh.mesh().vertex_count()]))
+            Arc::new(mesh.plane_picker(self.positions()))
         };
-        let arrays = PlaneArrays::in_frame(&positions, &mesh.mesh().triangles, self.arrays.frame);
+        let arrays = PlaneArrays::in_frame(&positions, mesh.mesh().real_triangles(), self.arrays.frame);
         self.moved(mesh, positions, arrays, picker)
     }
 
@@ -259,7 +285,7 @@ impl Paint {
     pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
         let plain = |flipped: &[FaceId]| Self {
             key,
-            faces: Arc::new(FacePaint::plain(mesh.face_count(), flipped)),
+            faces: Arc::new(FacePaint::plain(mesh.real_face_count(), flipped)),
             legend: None,
         };
         let Some(outcome) = outcome else { return plain(&[]) };
@@ -316,26 +342,5 @@ fn embedding_on(base: &Step, step: &Step) -> Embedding {
 fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64> {
     let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
     let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
-    mesh.triangles.iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
-}
-
-/// A part of the mesh that a defect or a person names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::ui) enum Element {
-    Vertex(VertexId),
-    Edge(EdgeId),
-    Face(FaceId),
-}
-
-impl Element {
-    /// Understands what a person types: `12` or `v12` a vertex, `e3` an edge, `f7` a face.
-    pub(in crate::ui) fn parse(text: &str) -> Option<Self> {
-        let text = text.trim().to_ascii_lowercase();
-        let number = text.strip_prefix(['v', 'e', 'f']).unwrap_or(&text).trim().parse().ok()?;
-        Some(match text.as_bytes()[0] {
-            b'e' => Self::Edge(EdgeId::new(number)),
-            b'f' => Self::Face(FaceId::new(number)),
-            _ => Self::Vertex(VertexId::new(number)),
-        })
-    }
+    mesh.real_triangles().iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
 }

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::geom::Bounds;
-use crate::mesh::{DiskMesh, EdgeId, FaceId, VertexId};
+use crate::mesh::{EdgeId, FaceId, VertexId};
 use crate::session::{Document, Outcome};
 use crate::solver::Verdict;
+use crate::ui::editor::MeshScene;
 use crate::ui::{Editor, Element};
 use crate::view::part_around;
 
@@ -18,6 +19,8 @@ pub enum Defect {
     Flipped(FaceId),
     /// A polygon that another cut into triangles would fold, by its first face.
     Concave(FaceId),
+    /// A hole that meets itself or is turned inside out, by its lowest vertex.
+    CrossedHole(VertexId),
     /// Two boundary edges that meet.
     Crossing([EdgeId; 2]),
     /// An interior vertex that its faces wind around twice.
@@ -25,22 +28,24 @@ pub enum Defect {
 }
 
 impl Defect {
-    /// The defects that a verdict lists: flipped faces, then concave polygons, then crossings, then overwound vertices.
+    /// The defects that a verdict lists: flipped faces, concave polygons, crossed holes, crossings, overwound vertices.
     pub(in crate::ui) fn all(verdict: &Verdict) -> impl Iterator<Item = Self> {
         let flipped = verdict.flipped_faces.iter().map(|&face| Self::Flipped(face));
         let crossings = verdict.boundary_crossings.iter().map(|&edges| Self::Crossing(edges));
         let overwound = verdict.overwound_vertices.iter().map(|&vertex| Self::Overwound(vertex));
         let concave = verdict.concave_polygons.iter().map(|&face| Self::Concave(face));
-        flipped.chain(concave).chain(crossings).chain(overwound)
+        let holes = verdict.crossed_holes.iter().map(|&lowest| Self::CrossedHole(lowest));
+        flipped.chain(concave).chain(holes).chain(crossings).chain(overwound)
     }
 
-    pub(in crate::ui) fn elements(self, disk: Option<&DiskMesh>) -> Vec<Element> {
+    pub(in crate::ui) fn elements(self, scene: &MeshScene) -> Vec<Element> {
         match self {
             Self::Flipped(face) => vec![Element::Face(face)],
             Self::Concave(first) => {
-                let polygon = disk.and_then(|disk| disk.polygon_of(first));
+                let polygon = scene.disk().and_then(|disk| disk.polygon_of(first));
                 polygon.map(|polygon| polygon.faces().map(Element::Face).collect()).unwrap_or_default()
             }
+            Self::CrossedHole(lowest) => scene.hole_rim(lowest).into_iter().map(Element::Vertex).collect(),
             Self::Crossing(edges) => edges.map(Element::Edge).to_vec(),
             Self::Overwound(vertex) => vec![Element::Vertex(vertex)],
         }
@@ -51,6 +56,7 @@ impl Defect {
         match self {
             Self::Flipped(face) => format!("flipped face {face}"),
             Self::Concave(face) => format!("concave polygon at {face}"),
+            Self::CrossedHole(lowest) => format!("crossed hole at {lowest}"),
             Self::Crossing([a, b]) => format!("crossing {a} × {b}"),
             Self::Overwound(vertex) => format!("overwound vertex {vertex}"),
         }
@@ -111,8 +117,7 @@ impl Editor {
     pub(super) fn go_to_defect(&mut self, place: usize) {
         self.selection.set_defect(Some(place));
         if let (Some(scene), Some(defect)) = (self.mesh_scene(), self.defects().get(place)) {
-            let vertices =
-                defect.elements(scene.disk()).into_iter().flat_map(|element| scene.vertices_of(element)).collect();
+            let vertices = defect.elements(&scene).into_iter().flat_map(|element| scene.vertices_of(element)).collect();
             self.go_to_vertices(vertices);
         }
     }
@@ -128,7 +133,8 @@ impl Editor {
         self.plane.shows_preview()
     }
 
-    /// Everything that is wrong with the embedding on the screen: flipped faces, concave polygons, crossings, overwound vertices.
+    /// Everything that is wrong with the embedding on the screen: flipped faces, concave polygons, crossed holes,
+    /// crossings, overwound vertices.
     pub fn defects(&self) -> Vec<Defect> {
         self.step_on_screen().map(|outcome| Defect::all(&outcome.step.verdict).collect()).unwrap_or_default()
     }

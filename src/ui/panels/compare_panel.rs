@@ -65,6 +65,7 @@ fn rows(timeline: &Timeline, steps: [usize; 2]) -> Vec<Row> {
         count("Flipped", |record| record.flipped_faces),
         count("Crossings", |record| record.boundary_crossings),
         count("Concave", |record| record.concave_polygons),
+        count("Holes", |record| record.crossed_holes),
         count("Overwound", |record| record.overwound_vertices),
         measured("Angle", |outcome| outcome.distortion.summary.angle.mean),
         measured("Area", |outcome| outcome.distortion.summary.area.mean),

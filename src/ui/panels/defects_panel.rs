@@ -15,17 +15,19 @@ const ROW: f32 = 22.0;
 enum Kind {
     Flipped,
     Concave,
+    CrossedHole,
     Crossing,
     Overwound,
 }
 
 impl Kind {
-    const ALL: [Self; 4] = [Self::Flipped, Self::Concave, Self::Crossing, Self::Overwound];
+    const ALL: [Self; 5] = [Self::Flipped, Self::Concave, Self::CrossedHole, Self::Crossing, Self::Overwound];
 
     const fn of(defect: Defect) -> Self {
         match defect {
             Defect::Flipped(_) => Self::Flipped,
             Defect::Concave(_) => Self::Concave,
+            Defect::CrossedHole(_) => Self::CrossedHole,
             Defect::Crossing(_) => Self::Crossing,
             Defect::Overwound(_) => Self::Overwound,
         }
@@ -35,7 +37,7 @@ impl Kind {
         match self {
             Self::Flipped => theme.flipped,
             Self::Concave => theme.concave,
-            Self::Crossing => theme.crossing,
+            Self::CrossedHole | Self::Crossing => theme.crossing,
             Self::Overwound => theme.overwound,
         }
     }
@@ -45,6 +47,7 @@ impl Kind {
         match self {
             Self::Flipped => counted(verdict.flipped_faces.len(), "flipped face", "flipped faces"),
             Self::Concave => counted(verdict.concave_polygons.len(), "concave polygon", "concave polygons"),
+            Self::CrossedHole => counted(verdict.crossed_holes.len(), "crossed hole", "crossed holes"),
             Self::Crossing if verdict.boundary_crossings.len() == 1 => "1 boundary crossing".to_owned(),
             Self::Crossing => format!("{} boundary crossings", verdict.crossing_count_in_words()),
             Self::Overwound => counted(verdict.overwound_vertices.len(), "overwound vertex", "overwound vertices"),

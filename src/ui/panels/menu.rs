@@ -272,8 +272,7 @@ fn solve_menu(menu: &mut Menu<'_>) {
 /// What is open: name, vertices, faces.
 fn title(editor: &Editor) -> String {
     let Some(model) = editor.session.model() else { return "Freebound".to_owned() };
-    let mesh = model.mesh();
-    let counts = [mesh.vertex_count(), mesh.face_count()].map(grouped);
+    let counts = [model.vertex_count(), model.mesh().real_face_count()].map(grouped);
     let chart = editor.session.chart_on_screen().map(|chart| format!(" · chart {chart}")).unwrap_or_default();
     format!("{}{chart} · {} v · {} f", editor.marked_name(), counts[0], counts[1])
 }

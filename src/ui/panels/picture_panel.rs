@@ -44,7 +44,7 @@ pub(super) fn picture_ui(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<
         sharp.asks(Request::ToggleSharp, requests);
     });
     if let Some(plane) = editor.plane.scene().filter(|plane| document.picture.is_some() && plane.faces_outside > 0) {
-        let share = 100.0 * plane.faces_outside as f64 / plane.mesh.mesh().face_count().max(1) as f64;
+        let share = 100.0 * plane.faces_outside as f64 / plane.mesh.mesh().real_face_count().max(1) as f64;
         let share = if share < 0.1 { "less than 0.1".to_owned() } else { format!("{share:.1}") };
         remark(ui, format!("{share} % of the faces reach out of the picture: hatched in the embedding"));
     }

@@ -105,7 +105,7 @@ fn of_step(step: &Step) -> Pill {
         let tip = "No two faces overlap, but exact pins are not on their targets. Click shows them";
         return Pill::new(Sign::Unmet, format!("Planar, constraints not met: {unmet} · {rung}"), tip);
     }
-    let new = step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices().len());
+    let new = step.refinement.as_ref().map_or(0, |refinement| refinement.new_vertices_of_surface().count());
     let note = match new {
         0 => String::new(),
         _ => format!(". The mesh has {}", counted(new, "new vertex", "new vertices")),
@@ -139,6 +139,7 @@ fn short_verdict(verdict: &Verdict) -> String {
     let counts = [
         (verdict.flipped_faces.len(), format!("{} flipped", verdict.flipped_faces.len())),
         (verdict.concave_polygons.len(), format!("{} concave", verdict.concave_polygons.len())),
+        (verdict.crossed_holes.len(), format!("{} crossed holes", verdict.crossed_holes.len())),
         (verdict.boundary_crossings.len(), crossings),
         (verdict.overwound_vertices.len(), format!("{} overwound", verdict.overwound_vertices.len())),
     ];

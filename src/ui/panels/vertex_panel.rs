@@ -6,7 +6,7 @@ use eframe::egui;
 
 use super::equation_table;
 use super::status::short;
-use crate::mesh::{DiskMesh, NewVertex, VertexId};
+use crate::mesh::{DiskMesh, HalfedgeId, NewVertex, VertexId};
 use crate::session::Action;
 use crate::solver::Embedding;
 use crate::ui::{Control, Editor, Request, number, pairs};
@@ -46,10 +46,12 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
             number(ui, "v", short(uv.y));
         }
         if let Some(disk) = scene.disk() {
-            let valence = disk.outgoing(vertex).count();
+            let valence = disk.outgoing(vertex).filter(|&h| !disk.is_virtual_edge(disk.edge_of(h))).count();
             number(ui, "Valence", valence.to_string());
             let place = disk.boundary_place(vertex);
-            number(ui, "Lies", place.map_or_else(|| "inside".to_owned(), |at| format!("on the boundary ({at})")));
+            let is_at_hole = disk.outgoing(vertex).filter_map(|h| disk.face_of(h)).any(|face| disk.is_virtual(face));
+            let elsewhere = if is_at_hole { "around a hole" } else { "inside" };
+            number(ui, "Lies", place.map_or_else(|| elsewhere.to_owned(), |at| format!("on the boundary ({at})")));
             number(ui, "Angles on the mesh", turns(angle_sum_on_mesh(disk, vertex)));
             if let Some(embedding) = embedding {
                 number(ui, "Angles in the plane", turns(angle_sum_in_plane(disk, embedding, vertex)));
@@ -90,5 +92,6 @@ fn angle_sum_in_plane(disk: &DiskMesh, embedding: &Embedding, vertex: VertexId) 
 
 /// The other two corners of each face around a vertex.
 fn corners(disk: &DiskMesh, vertex: VertexId) -> impl Iterator<Item = [VertexId; 2]> + '_ {
-    disk.outgoing(vertex).filter(|&h| !disk.is_outer(h)).map(|h| [disk.head(h), disk.tail(disk.previous(h))])
+    let is_shown = |h: &HalfedgeId| disk.face_of(*h).is_some_and(|face| !disk.is_virtual(face));
+    disk.outgoing(vertex).filter(is_shown).map(|h| [disk.head(h), disk.tail(disk.previous(h))])
 }

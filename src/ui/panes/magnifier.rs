@@ -199,8 +199,8 @@ fn neighbourhood(plane: &PlaneScene, defect: Defect) -> Option<Bounds> {
             let link = around(disk.outgoing(vertex).map(|h| disk.head(h)).collect());
             (plane.position_of(vertex)?, link.size().max_element())
         }
-        Defect::Flipped(_) | Defect::Concave(_) => {
-            let elements = defect.elements(Some(disk)).into_iter();
+        Defect::Flipped(_) | Defect::Concave(_) | Defect::CrossedHole(_) => {
+            let elements = defect.elements(&plane.mesh).into_iter();
             let bounds = around(elements.flat_map(|element| plane.mesh.vertices_of(element)).collect());
             (bounds.middle(), bounds.size().max_element())
         }

@@ -56,8 +56,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
             let at = view.spot(scene.mesh().positions[vertex.index()]);
             at.is_some_and(|at| chosen.contains(at)) && scene.picker.is_visible(*vertex, camera.eye())
         };
-        let vertices = (0..scene.mesh().vertex_count()).map(VertexId::from_index);
-        requests.push(Request::AddToSelection(vertices.filter(inside).collect()));
+        requests.push(Request::AddToSelection(scene.vertices().filter(inside).collect()));
     }
     let ray = response.hover_pos().map(|at| camera.ray(pane::in_pane(rect, at), editor.mesh.pane.size()));
     match ray.filter(|_| editor.pointer.vertex().is_none()).and_then(|ray| scene.other_chart_at(ray)) {
@@ -156,8 +155,8 @@ pub(super) fn style(editor: &Editor, pane: Pane) -> Style {
 
 /// The vertices that are marked as new.
 pub(super) fn new_vertices(scene: &MeshScene) -> impl Iterator<Item = VertexId> {
-    let first = scene.refinement.as_ref().map_or(usize::MAX, |refinement| refinement.old_vertex_count());
-    (first..scene.mesh().vertex_count()).take(MARKS_SHOWN).map(VertexId::from_index)
+    let of_surface = scene.refinement.iter().flat_map(|refinement| refinement.new_vertices_of_surface());
+    of_surface.map(|(vertex, _)| vertex).take(MARKS_SHOWN)
 }
 
 /// A small dot.
@@ -187,6 +186,11 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
         let corners: Vec<(Pos2, bool)> = outline.iter().filter_map(|&corner| place(corner)).collect();
         if corners.len() == outline.len() && corners.iter().any(|(_, is_seen)| *is_seen) {
             pane::concave_mark(&painter, corners.into_iter().map(|(at, _)| at).collect(), theme);
+        }
+    }
+    for rim in pane::crossed_holes(editor, scene) {
+        if let Some(line) = rim.iter().map(|&vertex| seen(vertex)).collect::<Option<Vec<Pos2>>>() {
+            pane::crossed_hole_mark(&painter, line, theme);
         }
     }
     for at in pane::overwound(editor).into_iter().filter_map(seen) {

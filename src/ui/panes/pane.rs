@@ -253,6 +253,9 @@ pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &E
     for outline in concave(editor, &plane.mesh) {
         concave_mark(painter, outline.into_iter().map(|v| view.spot(at(v))).collect(), theme);
     }
+    for rim in crossed_holes(editor, &plane.mesh) {
+        crossed_hole_mark(painter, rim.into_iter().map(|v| view.spot(at(v))).collect(), theme);
+    }
     for vertex in overwound(editor) {
         overwound_mark(painter, view.spot(at(vertex)), theme);
     }
@@ -263,6 +266,17 @@ pub(super) fn concave(editor: &Editor, scene: &MeshScene) -> Vec<Vec<VertexId>> 
     let (Some(verdict), Some(disk)) = (editor.plane.verdict(), scene.disk()) else { return Vec::new() };
     let polygons = verdict.concave_polygons.iter().take(MARKS_SHOWN).filter_map(|&face| disk.polygon_of(face));
     polygons.map(|polygon| polygon.corners.to_vec()).collect()
+}
+
+/// The loops around the crossed holes that are marked.
+pub(super) fn crossed_holes(editor: &Editor, scene: &MeshScene) -> Vec<Vec<VertexId>> {
+    let Some(crossed) = editor.plane.verdict().map(|verdict| &verdict.crossed_holes) else { return Vec::new() };
+    crossed.iter().take(MARKS_SHOWN).map(|&lowest| scene.hole_rim(lowest)).collect()
+}
+
+/// A heavy outline.
+pub(super) fn crossed_hole_mark(painter: &egui::Painter, rim: Vec<Pos2>, theme: &Theme) {
+    painter.add(egui::Shape::closed_line(rim, Stroke::new(3.0, theme.crossing)));
 }
 
 /// A heavy outline.

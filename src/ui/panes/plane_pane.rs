@@ -121,8 +121,7 @@ fn navigate(ui: &egui::Ui, response: &Response, camera: &mut PlaneCamera) {
 fn within(view: Viewport<PlaneCamera>, chosen: Rect, editor: &Editor, plane: &PlaneScene) -> Vec<VertexId> {
     let [a, b] = [chosen.left_bottom(), chosen.right_top()].map(|corner| view.point_at(corner));
     let is_inside = |z: DVec2| z.cmpge(a).all() && z.cmple(b).all();
-    let vertices = (0..plane.mesh.mesh().vertex_count()).map(VertexId::from_index);
-    let inside = vertices.filter(|&vertex| plane.position_of(vertex).is_some_and(is_inside));
+    let inside = plane.mesh.vertices().filter(|&vertex| plane.position_of(vertex).is_some_and(is_inside));
     let pins = editor.pins_shown().into_iter().filter(|pin| is_inside(pin.target));
     inside.chain(pins.map(|pin| pin.vertex)).collect()
 }

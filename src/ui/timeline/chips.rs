@@ -232,6 +232,7 @@ fn numbers_of(record: &StepReport, standing: &Standing) -> Vec<(&'static str, St
     let mut numbers = vec![
         ("Flipped faces", record.flipped_faces.to_string()),
         ("Concave polygons", record.concave_polygons.to_string()),
+        ("Crossed holes", record.crossed_holes.to_string()),
         ("Boundary crossings", record.boundary_crossings.to_string()),
         ("Overwound vertices", record.overwound_vertices.to_string()),
         ("Turning number", record.turning_number.map_or_else(|| "none".to_owned(), |number| number.to_string())),

@@ -118,7 +118,7 @@ impl HullScene {
             Stage::Peeled => return scene,
         };
         let moved = moved_along(positions, disk, [&stages.solved, &result.outcome.step.solution.embedding]);
-        let paint = FacePaint::plain(disk.face_count(), &flipped_faces(disk, positions));
+        let paint = FacePaint::plain(disk.mesh().real_face_count(), &flipped_faces(disk, positions));
         Self { plane: Some(Arc::new(result.of_part(Part::Stage, moved))), paint: Some(Arc::new(paint)), ..scene }
     }
 
@@ -208,7 +208,7 @@ fn flipped_faces(disk: &DiskMesh, embedding: &Embedding) -> Vec<FaceId> {
         let [a, b, c] = embedding.corners(disk, face);
         orientation(a, b, c) != Some(Orientation::CounterClockwise)
     };
-    disk.faces().filter(is_flipped).collect()
+    disk.real_faces().filter(is_flipped).collect()
 }
 
 /// An embedding moved as the boundary is from one embedding to another that differs from it by a similarity; where there is

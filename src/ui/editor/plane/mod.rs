@@ -296,7 +296,7 @@ impl PlaneView {
         let same = before.filter(|before| before.verdict.as_ref().map(Arc::as_ptr) == known);
         let anew = || {
             let flipped = verdict.as_ref().map_or(&[] as &[_], |verdict| &verdict.flipped_faces);
-            Arc::new(FacePaint::plain(triangles.face_count(), flipped))
+            Arc::new(FacePaint::plain(triangles.real_face_count(), flipped))
         };
         let faces = same.map_or_else(anew, |before| before.faces);
         self.preview = Some(PreviewScene { key, scene, faces, verdict });

@@ -1,0 +1,24 @@
+//! Parts of the mesh by their names.
+
+use crate::mesh::{EdgeId, FaceId, VertexId};
+
+/// A part of the mesh that a defect or a person names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::ui) enum Element {
+    Vertex(VertexId),
+    Edge(EdgeId),
+    Face(FaceId),
+}
+
+impl Element {
+    /// Understands what a person types: `12` or `v12` a vertex, `e3` an edge, `f7` a face.
+    pub(in crate::ui) fn parse(text: &str) -> Option<Self> {
+        let text = text.trim().to_ascii_lowercase();
+        let number = text.strip_prefix(['v', 'e', 'f']).unwrap_or(&text).trim().parse().ok()?;
+        Some(match text.as_bytes()[0] {
+            b'e' => Self::Edge(EdgeId::new(number)),
+            b'f' => Self::Face(FaceId::new(number)),
+            _ => Self::Vertex(VertexId::new(number)),
+        })
+    }
+}
