@@ -113,10 +113,10 @@ fn a_chart_with_a_hole_is_cut_where_that_is_asked_for() {
     // A cylinder of two rings that wind around it.
     let ring = band(12, 0);
     write(&program, "in.obj", &grouped(interleaved(&[(&ring).into(), (&grid(2, 2)).into()], &mut Random(2)), |_| 0));
-    let refused = program.run(&["flatten", "in.obj", "--charts", "uv"]).expect(3);
+    let refused = program.run(&["flatten", "in.obj", "--charts", "uv", "--holes", "cut"]).expect(3);
     assert!(refused.stderr.contains("several-boundary-loops"), "{}", refused.stderr);
     assert!(refused.stderr.contains("--repair all --cut auto"), "{}", refused.stderr);
-    program.run(&["flatten", "in.obj", "--charts", "uv", "--cut", "auto", "-o", "out.obj"]).expect(0);
+    program.run(&["flatten", "in.obj", "--charts", "uv", "--holes", "cut", "--cut", "auto", "-o", "out.obj"]).expect(0);
     assert_eq!(charts_proved(&program, "out.obj"), 2);
 }
 
