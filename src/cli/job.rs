@@ -187,13 +187,13 @@ fn solve(
             Ok(step) => step,
             Err(SolveError::Cancelled) => return Err(SolveError::Cancelled.into()),
             // Where a rung fails, the steps before it are written.
-            Err(error) => match last {
-                Some(before) => return Ok(Solved { outcome: placed(before), records, ending: Err(error) }),
-                None => {
+            Err(error) => {
+                let Some(before) = last else {
                     let in_file = error.renumbered(|vertex| model.vertex_in_file(vertex));
                     return Err(Failure::of_method(method, in_file));
-                }
-            },
+                };
+                return Ok(Solved { outcome: placed(before), records, ending: Err(error) });
+            }
         };
         progress.reach(step_words(&step));
         records.push(StepReport::of(&step));

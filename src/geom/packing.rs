@@ -121,7 +121,9 @@ fn places(sizes: &[DVec2], scale: f64, room: Room) -> Option<Vec<Packed>> {
     }
     let mut places = if boxes.len() > MANY { by_guillotines(&boxes, room) } else { by_maximal(&boxes, room) }?;
     let margin = DVec2::splat(f64::from(room.gap) / 2.0);
-    places.iter_mut().for_each(|place| place.low += margin);
+    for place in &mut places {
+        place.low += margin;
+    }
     Some(places)
 }
 

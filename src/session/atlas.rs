@@ -49,7 +49,9 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Output<
     };
     let folded: Vec<usize> = free.par_iter().enumerate().filter(|&of| is_folded(of)).map(|(k, _)| k).collect();
     if !folded.is_empty() {
-        folded.iter().for_each(|&k| boxes[k] = Boxed::new(&charts[free[k]], false));
+        for &k in &folded {
+            boxes[k] = Boxed::new(&charts[free[k]], false);
+        }
         packing = pack_boxes(&boxes, options);
     }
     for (k, &chart) in free.iter().enumerate() {

@@ -42,15 +42,12 @@ impl Session {
             self.solving.give_up_all();
         }
         if let Some(before) = self.mesh.change(form, chart) {
-            match wanted {
-                Some(number) => {
-                    self.charts.exchange(&before, &mut self.solving, number);
-                    self.drag.end();
-                }
-                None => {
-                    self.charts.forget();
-                    self.forget_steps();
-                }
+            if let Some(number) = wanted {
+                self.charts.exchange(&before, &mut self.solving, number);
+                self.drag.end();
+            } else {
+                self.charts.forget();
+                self.forget_steps();
             }
             self.messages.forget_mesh();
             self.tell_faults();

@@ -174,7 +174,7 @@ impl Model {
 
     fn with(self, Found { surface, repaired, chart }: Found) -> Self {
         let faces_point_inward = matches!(&surface, Surface::Disk(disk) if relative_volume(disk) < -LEAST_VOLUME);
-        Self { surface, repaired, chart, faces_point_inward, ..self }
+        Self { repaired, chart, surface, faces_point_inward, ..self }
     }
 
     /// Whether it is the chart that is wanted, where the mesh has several.

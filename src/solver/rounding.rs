@@ -84,7 +84,9 @@ pub fn rounded(mesh: &DiskMesh, embedding: &Embedding, grid: Grid, held: &BTreeS
         if wrong.is_empty() || wrong.len() > MOST_WRONG {
             break;
         }
-        wrong.iter().for_each(|triple| search.mend(triple, reach));
+        for triple in &wrong {
+            search.mend(triple, reach);
+        }
     }
     let moved = nearest.iter().zip(search.placed.iter()).filter(|(before, after)| before != after).count();
     Rounded { embedding: search.placed, moved }

@@ -219,7 +219,9 @@ fn pins_that_are_not_met_are_named_as_the_file_numbers_vertices() {
     ]
     .map(|([x, y], [u, v])| format!("{}:{u},{v}", corner(x, y).number()));
     let mut arguments = vec!["flatten", "in.obj", "--no-new-vertices", "--report", "-"];
-    pins.iter().for_each(|pin| arguments.extend(["--pin", pin]));
+    for pin in &pins {
+        arguments.extend(["--pin", pin]);
+    }
     let report = program.run(&arguments).expect(4).json();
     let unmet: Vec<&Value> = report["charts"]
         .as_array()

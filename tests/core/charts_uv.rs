@@ -50,7 +50,8 @@ fn the_charts_are_those_of_the_texture_coordinates() {
         for (number, part) in expected.iter().enumerate() {
             let mut faces: Vec<u32> = part.face_of().iter().map(|face| texture.mesh.polygon(*face)).collect();
             let mut own = charts.chart(number).repaired.triangulate().polygon_of.expect("numbers of the file");
-            (faces.dedup(), own.dedup());
+            faces.dedup();
+            own.dedup();
             assert_eq!(own, faces, "case {case}");
         }
     }

@@ -123,12 +123,11 @@ pub(crate) fn seen(glb: &[u8]) -> Vec<Seen> {
     let blob = file.blob.as_deref().expect("a binary chunk");
     let mut found = Vec::new();
     let mut walk: Vec<(gltf::Node<'_>, DMat4)> = Vec::new();
-    let roots: Vec<gltf::Node<'_>> = match file.default_scene() {
-        Some(scene) => scene.nodes().collect(),
-        None => {
-            let children: Vec<usize> = file.nodes().flat_map(|node| node.children()).map(|n| n.index()).collect();
-            file.nodes().filter(|node| !children.contains(&node.index())).collect()
-        }
+    let roots: Vec<gltf::Node<'_>> = if let Some(scene) = file.default_scene() {
+        scene.nodes().collect()
+    } else {
+        let children: Vec<usize> = file.nodes().flat_map(|node| node.children()).map(|n| n.index()).collect();
+        file.nodes().filter(|node| !children.contains(&node.index())).collect()
     };
     walk.extend(roots.into_iter().rev().map(|node| (node, DMat4::IDENTITY)));
     while let Some((node, outer)) = walk.pop() {

@@ -197,7 +197,7 @@ proptest! {
     #[test]
     fn any_json_in_the_place_of_any_other_is_read_or_refused(
         choices in prop::collection::vec(0_usize..40, 1..7),
-        number in prop_oneof![Just(json!(0)), Just(json!(1)), Just(json!(-1)), Just(json!(255)), Just(json!(4294967295_u64)),
+        number in prop_oneof![Just(json!(0)), Just(json!(1)), Just(json!(-1)), Just(json!(255)), Just(json!(4_294_967_295_u64)),
             Just(json!(u64::MAX)), Just(json!(1e300)), Just(json!(null)), Just(json!([])), Just(json!({})), Just(json!("VEC3")),
             Just(json!(5121)), Just(json!(5125)), Just(json!([0, 0, 0])), Just(json!([1e308, 0, 1e308]))],
     ) {

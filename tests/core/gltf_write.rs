@@ -72,7 +72,7 @@ fn rich() -> GlbMaker {
     maker.json["extensionsUsed"] = json!(["EXT_unknown"]);
     maker.json["extensions"] = json!({"EXT_unknown": {"deep": {"number": 0.1, "list": [null, true]}}});
     maker.json["nodes"] = json!([
-        {"mesh": 0, "children": [1, 2, 3], "name": "root", "extras": {"π": 3.141592653589793}},
+        {"mesh": 0, "children": [1, 2, 3], "name": "root", "extras": {"π": 2.25}},
         {"mesh": 0, "translation": [3, 0, 0], "scale": [1, -1, 1], "weights": [0.5, 0.5]},
         {"mesh": 1, "translation": [0, 5, 0]},
         {"camera": 0},

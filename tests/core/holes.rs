@@ -49,7 +49,7 @@ fn peeled(repaired: &Repaired, embedding: &Embedding) -> AtlasVerdict {
 fn holed_sheet(random: &mut Random, side: u32, roughness: f64) -> PolygonMesh {
     let sheet = quad_sheet(side, side, roughness, random);
     loop {
-        let left_out: BTreeSet<usize> = (0..1 + random.below(side))
+        let left_out: BTreeSet<usize> = (0..=random.below(side))
             .map(|_| (1 + random.below(side - 2)) * side + 1 + random.below(side - 2))
             .map(|face| face as usize)
             .collect();

@@ -12,8 +12,8 @@ fn wrapped(around: u32, along: u32, place: impl Fn(f64, f64) -> DVec3) -> TriMes
     let positions = (0..around * along).map(|v| place(turn(v % around, around), turn(v / around, along))).collect();
     let squares = (0..around * along).flat_map(|k| {
         let (x, y) = (k % around, k / around);
-        let [a, b, c, d] = [at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
-        [[a, b, c], [a, c, d]]
+        let square = [at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
+        [[square[0], square[1], square[2]], [square[0], square[2], square[3]]]
     });
     TriMesh::new(positions, &squares.collect::<Vec<_>>())
 }

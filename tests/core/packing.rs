@@ -172,7 +172,7 @@ fn no_turn_gives_points_a_smaller_box() {
         let least = box_area(&points, turn);
         let hull = convex_hull(&points);
         let sides = (0..hull.len()).map(|k| points[hull[(k + 1) % hull.len()]] - points[hull[k]]);
-        let turns = sides.map(|along| DVec2::new(along.x, -along.y).normalize());
+        let turns = sides.map(|along| DVec2::new(along.x, -along.y).try_normalize().expect("a side has a length"));
         let angles = (0..720).map(|k| DVec2::from_angle(f64::from(k) * std::f64::consts::PI / 720.0));
         for other in turns.chain(angles) {
             assert!(least <= box_area(&points, other) * (1.0 + 1e-12), "case {case}: {turn} {other}");

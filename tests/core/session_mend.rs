@@ -45,11 +45,9 @@ fn mending_is_an_edit_that_is_undone_and_repeated() {
 #[test]
 fn mending_does_nothing_where_nothing_is_wrong_or_nothing_can_be_done() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut two = tetrahedron();
-    two.positions.extend(tetrahedron().positions.iter().map(|p| *p + glam::DVec3::splat(9.0)));
-    two.triangles
-        .extend(tetrahedron().triangles.iter().map(|t| t.map(|v| freebound::mesh::VertexId::new(v.number() + 4))));
-    for (name, mesh) in [("two.obj", two), ("sheet.obj", crate::makers::grid(3, 2))] {
+    let mut lost = crate::makers::grid(3, 2);
+    lost.positions[4].y = f64::NAN;
+    for (name, mesh) in [("lost.obj", lost), ("sheet.obj", crate::makers::grid(3, 2))] {
         let path = folder.path().join(name);
         write_obj(&path, &mesh);
         let mut session = session();

@@ -34,7 +34,7 @@ fn with_sheets() -> Window {
 fn until_laid_out(window: &mut Window) {
     let start = Instant::now();
     while window.editor().session.atlas().is_none() {
-        assert!(start.elapsed() < Duration::from_secs(60), "{:?}", window.words());
+        assert!(start.elapsed() < Duration::from_mins(1), "{:?}", window.words());
         std::thread::sleep(Duration::from_millis(1));
         window.step();
     }

@@ -106,7 +106,9 @@ impl Carried<'_> {
             let offset = view["byteOffset"].as_u64().unwrap_or(0) + start.copied().unwrap_or(0) as u64;
             view["buffer"] = json!(0);
             if let Some(extensions) = view.get_mut("extensions").and_then(Value::as_object_mut) {
-                COMPRESSED_VIEWS.iter().for_each(|name| drop(extensions.remove(*name)));
+                for name in COMPRESSED_VIEWS {
+                    extensions.remove(name);
+                }
             }
             view["byteOffset"] = json!(offset);
         }

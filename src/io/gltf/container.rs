@@ -54,7 +54,7 @@ impl Chunks {
             return Err(fault_at(Place::Byte(8), kind));
         }
         let mut at = FILE_HEAD;
-        let json = chunk(&bytes[..length], at, JSON)?.ok_or_else(|| {
+        let json = chunk(&bytes[..length], at, *JSON)?.ok_or_else(|| {
             let expected = "the chunk of JSON";
             fault_at(
                 Place::Byte(FILE_HEAD as u64),
@@ -62,22 +62,20 @@ impl Chunks {
             )
         })?;
         at = json.end;
-        let binary = if at + CHUNK_HEAD <= length { chunk(&bytes[..length], at, BINARY)? } else { None };
+        let binary = if at + CHUNK_HEAD <= length { chunk(&bytes[..length], at, *BINARY)? } else { None };
         Ok(Self { json, binary })
     }
 }
 
 /// The content of the chunk that begins at a place, if it is of a kind.
-fn chunk(bytes: &[u8], at: usize, kind: &[u8; 4]) -> Result<Option<Range<usize>>, ReadError> {
+fn chunk(bytes: &[u8], at: usize, kind: [u8; 4]) -> Result<Option<Range<usize>>, ReadError> {
     let length = number(bytes, at)?;
     let begin = at + CHUNK_HEAD;
-    match begin.checked_add(length).filter(|&end| end <= bytes.len()) {
-        Some(end) => Ok((bytes[at + 4..begin] == *kind).then_some(begin..end)),
-        None => {
-            let kind = ParseFaultKind::TooMany { element: "byte".to_owned(), count: length as u64 };
-            Err(fault_at(Place::Byte(at as u64), kind))
-        }
-    }
+    let Some(end) = begin.checked_add(length).filter(|&end| end <= bytes.len()) else {
+        let kind = ParseFaultKind::TooMany { element: "byte".to_owned(), count: length as u64 };
+        return Err(fault_at(Place::Byte(at as u64), kind));
+    };
+    Ok((bytes[at + 4..begin] == kind).then_some(begin..end))
 }
 
 /// The 32-bit number at a place, where the head of a chunk has room for it and the next one.

@@ -54,6 +54,8 @@ fn between(elements: &Elements<'_>, name: &str, ends: [usize; 2], share: f64) ->
         numbers[3] = number(ends[0], 3);
     }
     let mut bytes = Vec::with_capacity(numbers.len() * size);
-    numbers.iter().for_each(|&number| push_number(&mut bytes, elements.component, number));
+    for &number in &numbers {
+        push_number(&mut bytes, elements.component, number);
+    }
     bytes
 }

@@ -90,16 +90,15 @@ impl Shown {
                     continue;
                 };
                 let count_of = |accessor: usize| count(document, buffers, accessor);
-                let set = match set_of.get(&(&found.attributes, &found.targets)) {
-                    Some(&set) => set,
-                    None => {
-                        let begin = own.sets.last().map_or(0, |set| set.range.end);
-                        let (attributes, targets) = (found.attributes.clone(), found.targets.clone());
-                        let range = begin..begin + count_of(position)?;
-                        own.sets.push(VertexSet { instance, attributes, targets, range });
-                        set_of.insert((&found.attributes, &found.targets), own.sets.len() - 1);
-                        own.sets.len() - 1
-                    }
+                let set = if let Some(&set) = set_of.get(&(&found.attributes, &found.targets)) {
+                    set
+                } else {
+                    let begin = own.sets.last().map_or(0, |set| set.range.end);
+                    let (attributes, targets) = (found.attributes.clone(), found.targets.clone());
+                    let range = begin..begin + count_of(position)?;
+                    own.sets.push(VertexSet { instance, attributes, targets, range });
+                    set_of.insert((&found.attributes, &found.targets), own.sets.len() - 1);
+                    own.sets.len() - 1
                 };
                 let vertices = own.sets[set].range.len();
                 let listed = found.indices.map_or(Ok(vertices), count_of)?;

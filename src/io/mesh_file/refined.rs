@@ -54,7 +54,7 @@ impl Refined {
                 let corner = |vertex: VertexId| {
                     let own = new.number_of.get(&(cut.chart, vertex)).copied();
                     let vertex_in_file =
-                        own.unwrap_or_else(|| old.vertex_in(polygon, old.whole(charts, cut.chart, vertex)));
+                        own.unwrap_or_else(|| old.vertex_in(polygon, Old::whole(charts, cut.chart, vertex)));
                     (vertex_in_file, old.first[cut.chart] + vertex.number())
                 };
                 faces.push(charts[cut.chart].mesh.face(face).map(corner).into_iter(), number);
@@ -161,7 +161,7 @@ impl<'a> Old<'a> {
     }
 
     /// The vertex of the repaired mesh that an old one of a chart is.
-    fn whole(&self, charts: &[RefinedChart<'_>], chart: usize, vertex: VertexId) -> VertexId {
+    fn whole(charts: &[RefinedChart<'_>], chart: usize, vertex: VertexId) -> VertexId {
         charts[chart].vertex_of.map_or(vertex, |vertex_of| vertex_of[vertex.index()])
     }
 
@@ -191,7 +191,7 @@ impl New {
                 let Some(place) = vertex.index().checked_sub(refinement.old_vertex_count()) else { continue };
                 found.entry((cut.chart, vertex)).or_insert_with(|| {
                     let NewVertex { edge, at } = refinement.new_vertices()[place];
-                    let [a, b] = edge.map(|end| old.vertex_in(polygon as usize, old.whole(charts, cut.chart, end)));
+                    let [a, b] = edge.map(|end| old.vertex_in(polygon as usize, Old::whole(charts, cut.chart, end)));
                     // The lower number first.
                     if a <= b { NewVertex { edge: [a, b], at } } else { NewVertex { edge: [b, a], at: 1.0 - at } }
                 });

@@ -67,7 +67,9 @@ fn open_part(part: &Compact, is_open: &mut [bool]) -> usize {
     }
     let seam = Surface { sides: &sides, ways: &Ways::new(&part.polygons, &sides) }.seam();
     for (on, _) in sides.table.edges().zip(&seam).filter(|(_, is_open)| **is_open) {
-        on.iter().for_each(|&side| is_open[part.corner_of[side as usize] as usize] = true);
+        for &side in on {
+            is_open[part.corner_of[side as usize] as usize] = true;
+        }
     }
     seam.iter().filter(|is_open| **is_open).count()
 }

@@ -73,7 +73,7 @@ impl MeshScene {
     fn of(model: Arc<Model>, model_revision: u64, refinement: Option<Arc<Refinement>>) -> Self {
         let disk = refinement.as_ref().map(|refinement| refinement.disk()).or(model.disk().map(AsRef::as_ref));
         let mesh = disk.map_or(model.mesh(), |disk| disk.mesh());
-        let outer = disk.map(|disk| disk.boundary_loop());
+        let outer = disk.map(DiskMesh::boundary_loop);
         let holes = mesh.holes();
         let boundary = EdgeList::closed_loops(outer.into_iter().chain(holes.iter().map(|hole| &hole.rim[..])));
         let (positions, triangles) = (&mesh.positions, mesh.real_triangles());

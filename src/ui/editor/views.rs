@@ -117,7 +117,7 @@ impl Editor {
     pub(super) fn go_to_defect(&mut self, place: usize) {
         self.selection.set_defect(Some(place));
         if let (Some(scene), Some(defect)) = (self.mesh_scene(), self.defects().get(place)) {
-            let vertices = defect.elements(&scene).into_iter().flat_map(|element| scene.vertices_of(element)).collect();
+            let vertices = defect.elements(scene).into_iter().flat_map(|element| scene.vertices_of(element)).collect();
             self.go_to_vertices(vertices);
         }
     }
