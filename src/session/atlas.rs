@@ -123,7 +123,7 @@ impl SolvedChart<'_> {
 
     /// The edges that new vertices lie on, as the file numbers their ends.
     fn split_edges(&self) -> Vec<[VertexId; 2]> {
-        let edges = self.outcome.step.refinement.as_ref().map(|refinement| refinement.split_edges());
+        let edges = self.outcome.step.refinement.as_ref().map(|refinement| refinement.split_edges_of_surface());
         let in_file = |edge: [VertexId; 2]| {
             let mut ends = edge.map(|vertex| self.model.vertex_in_file(vertex));
             ends.sort_unstable();
@@ -145,7 +145,10 @@ impl SolvedChart<'_> {
         let is_held = self.outcome.targets_in_use().next().is_some();
         let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(aspect, 1.0)).collect();
         let summary = if is_held { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
-        let pins = pins_report(self.outcome, coordinates).renumbered(|vertex| self.model.vertex_in_file(vertex));
+        // Targets are as the document has them, v up or down.
+        let in_document = upright(coordinates, self.outcome.problem.frame.v_axis).filter(|_| is_held);
+        let pins = pins_report(self.outcome, in_document.as_ref().unwrap_or(coordinates));
+        let pins = pins.renumbered(|vertex| self.model.vertex_in_file(vertex));
         ChartReport {
             first_face: FaceId::new(mesh.mesh().polygon(FaceId::new(0))),
             faces: mesh.mesh().real_face_count(),

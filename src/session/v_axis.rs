@@ -4,22 +4,32 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::{Command, Session};
+use super::{ChartEdits, Command, Session};
 use crate::geom::VAxis;
-use crate::io::Target;
+use crate::io::{Target, Targets};
 use crate::mesh::VertexId;
 
-/// How the targets' v were turned around last, each as it was before and after. 1 − v rounds, and so does not always come
+/// How the targets' v were turned around last, by chart and vertex, each as it was before and after. 1 − v rounds, and so does not always come
 /// back: turned around again, a number that is known from before is that number to the last bit.
 #[derive(Debug, Default)]
-pub(super) struct TurnedV(BTreeMap<VertexId, [f64; 2]>);
+pub(super) struct TurnedV(BTreeMap<(usize, VertexId), [f64; 2]>);
 
 impl TurnedV {
-    fn turned(&self, vertex: VertexId, v: f64) -> f64 {
+    fn turned(&self, vertex: (usize, VertexId), v: f64) -> f64 {
         match self.0.get(&vertex) {
             Some([before, after]) if after.to_bits() == v.to_bits() => *before,
             _ => 1.0 - v,
         }
+    }
+
+    /// The targets of a chart turned around, which `into` remembers.
+    fn targets(&self, chart: usize, targets: &Targets, into: &mut Self) -> Targets {
+        let turned = |(&vertex, target): (&VertexId, &Target)| {
+            let v = self.turned((chart, vertex), target.uv.y);
+            into.0.insert((chart, vertex), [target.uv.y, v]);
+            (vertex, Target { uv: DVec2::new(target.uv.x, v), ..*target })
+        };
+        targets.iter().map(turned).collect()
     }
 }
 
@@ -29,15 +39,16 @@ impl Session {
         if v_axis == self.document.v_axis {
             return;
         }
-        let mut turned = BTreeMap::new();
+        let mut into = TurnedV::default();
+        let shown = self.charts().map_or(0, |charts| charts.pick(self.document.chart));
+        let here = self.turned_v.targets(shown, &self.document.targets, &mut into);
         let mut commands = vec![Command::SetVAxis(v_axis)];
-        for (&vertex, target) in &self.document.targets {
-            let v = self.turned_v.turned(vertex, target.uv.y);
-            turned.insert(vertex, [target.uv.y, v]);
-            let target = Target { uv: DVec2::new(target.uv.x, v), ..*target };
-            commands.push(Command::SetPin { vertex, target: Some(target) });
+        commands.extend(here.into_iter().map(|(vertex, target)| Command::SetPin { vertex, target: Some(target) }));
+        for (&chart, edits) in &self.document.elsewhere {
+            let targets = self.turned_v.targets(chart, &edits.targets, &mut into);
+            commands.push(Command::SetElsewhere { chart, edits: ChartEdits { targets, ..edits.clone() } });
         }
-        self.turned_v = TurnedV(turned);
+        self.turned_v = into;
         self.edit(commands);
     }
 }

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 
 use super::Embedding;
-use super::verdict::planar_sense;
+use super::verdict::sense_of_surface;
 use crate::geom::{Orientation, orientation};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -75,7 +75,7 @@ pub struct Rounded {
 /// If the embedding does not have one position per vertex.
 pub fn rounded(mesh: &DiskMesh, embedding: &Embedding, grid: Grid, held: &BTreeSet<VertexId>) -> Rounded {
     let nearest: Embedding = embedding.iter().map(|&z| grid.nearest(z)).collect();
-    let Some(upright) = planar_sense(mesh, embedding).filter(|_| planar_sense(mesh, &nearest).is_none()) else {
+    let Some(upright) = sense_of_surface(mesh, embedding).filter(|_| sense_of_surface(mesh, &nearest).is_none()) else {
         return Rounded { embedding: nearest, moved: 0 };
     };
     let mut search = Search { mesh, exact: embedding, grid, held, upright, placed: nearest.clone() };
@@ -121,7 +121,7 @@ impl Search<'_> {
 
     /// All triples that do not turn as they are to.
     fn wrong_triples(&self) -> Vec<Triple> {
-        let faces = self.mesh.faces().map(|face| self.mesh.face(face));
+        let faces = self.mesh.real_faces().map(|face| self.mesh.face(face));
         let ears = self.mesh.polygons().flat_map(|polygon| polygon.convex_ears().collect::<Vec<_>>());
         faces.chain(ears).filter(|triple| self.is_wrong(triple)).collect()
     }
@@ -129,7 +129,8 @@ impl Search<'_> {
     /// The triples of the faces and polygons around a vertex.
     fn triples_at(&self, vertex: VertexId) -> Vec<Triple> {
         let mut found = Vec::new();
-        for face in self.mesh.outgoing(vertex).filter_map(|halfedge| self.mesh.face_of(halfedge)) {
+        let faces = self.mesh.outgoing(vertex).filter_map(|halfedge| self.mesh.face_of(halfedge));
+        for face in faces.filter(|&face| !self.mesh.is_virtual(face)) {
             found.push(self.mesh.face(face));
             let ears = self.mesh.polygon_of(face).map(|polygon| polygon.convex_ears().collect::<Vec<_>>());
             found.extend(ears.into_iter().flatten());

@@ -17,8 +17,9 @@
 //! which the filling runs around. A simple polygon has a triangulation without further vertices, and where it turns +1 its
 //! triangles are positive. With it in the place of the filling that folds, what is filled is a disk again, its faces
 //! positive and its boundary simple, if the real faces and the outer boundary are so: one-to-one by the theorem.
-//! So an embedding of a surface with holes is one-to-one if and only if its real faces are positive, the outer boundary is simple,
-//! and no hole is crossed: where it is, all loops are simple polygons, and the surface lies outside of those around holes.
+//! So an embedding of a surface with holes is one-to-one if its real faces are positive, the outer boundary is simple,
+//! and no hole is crossed; and only if, where the outer loop lies outside: then all loops are simple polygons, and the surface
+//! lies outside of those around holes. One that lies inside out, the outer loop innermost, counts as crossed.
 //!
 //! # Polygons
 //!
@@ -174,7 +175,7 @@ fn concave_polygons<'a>(
 }
 
 /// As [`planar_sense`], for the surface without what fills its holes.
-fn sense_of_surface(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
+pub(super) fn sense_of_surface(mesh: &DiskMesh, embedding: &Embedding) -> Option<Orientation> {
     planar_sense(mesh, embedding).or_else(|| {
         let orientations: Vec<Option<Orientation>> = orientations(mesh, embedding).collect();
         let upright = orientations[0]?;

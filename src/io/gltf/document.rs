@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DAffine3, DMat4, DQuat, DVec3, DVec4};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde_json::Value;
 
 use crate::io::mesh_file::ReadError;
 
@@ -119,6 +120,7 @@ pub(super) struct Buffer {
 impl Document {
     /// Reads it from JSON.
     pub(super) fn of(json: &[u8]) -> Result<Self, ReadError> {
+        check_objects(json)?;
         let mut text = serde_json::Deserializer::from_slice(json);
         let document: Self = serde_path_to_error::deserialize(&mut text).map_err(|error| ReadError::Json {
             field: Some(error.path().to_string()).filter(|path| path != ".").unwrap_or_else(|| "JSON".to_owned()),
@@ -131,6 +133,23 @@ impl Document {
         missing.map_or(Ok(()), |name| Err(ReadError::NeedsExtension(name.clone())))?;
         Ok(document)
     }
+}
+
+/// Refuses lists where glTF has objects: structures would be read from them, which no file means.
+fn check_objects(json: &[u8]) -> Result<(), ReadError> {
+    let Ok(root) = serde_json::from_slice::<Value>(json) else { return Ok(()) };
+    let refused = |field: &str| ReadError::Json { field: field.to_owned(), reason: "no object".to_owned() };
+    if !root.is_object() {
+        return Err(refused("JSON"));
+    }
+    for field in ["scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"] {
+        let entries = root[field].as_array().into_iter().flatten();
+        let primitives = entries.clone().filter_map(|entry| entry["primitives"].as_array()).flatten();
+        if entries.chain(primitives).any(|entry| !entry.is_object()) {
+            return Err(refused(field));
+        }
+    }
+    Ok(())
 }
 
 impl Default for Document {
