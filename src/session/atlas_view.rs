@@ -39,6 +39,8 @@ pub struct AtlasView {
 pub(super) struct AtlasViews {
     making: Background<Made, AtlasView>,
     made: Option<(Made, AtlasView)>,
+    /// What no layout could be made of: it is not tried again.
+    failed: Option<Made>,
 }
 
 /// What a layout is made of: steps by their places in memory, which they keep while they are shown.
@@ -85,7 +87,7 @@ impl SolvedAtlas {
 
 impl AtlasViews {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { making: Background::new("atlas", wake), made: None }
+        Self { making: Background::new("atlas", wake), made: None, failed: None }
     }
 }
 
@@ -126,13 +128,20 @@ impl Session {
 
     /// Has the layout of all charts made, once each is solved.
     pub(super) fn poll_atlas(&mut self) {
-        if let Some((key, Ok(view))) = self.atlas_views.making.poll() {
-            self.atlas_views.made = Some((key, view));
+        match self.atlas_views.making.poll() {
+            Some((key, Ok(view))) => self.atlas_views.made = Some((key, view)),
+            Some((key, Err(_))) => self.atlas_views.failed = Some(key),
+            None => {}
         }
-        let Ok(solved) = self.solved_atlas() else { return };
+        if self.charts().is_none() {
+            self.atlas_views.made = None;
+            return;
+        }
+        // One after the other: steps may come faster than layouts.
+        let Some(solved) = self.solved_atlas().ok().filter(|_| !self.atlas_views.making.is_busy()) else { return };
         let views = &mut self.atlas_views;
         let has = |key: Option<&Made>| key.is_some_and(|key| key.is(&solved));
-        if solved.charts.is_empty() || has(views.made.as_ref().map(|(key, _)| key)) || has(views.making.key()) {
+        if has(views.made.as_ref().map(|(key, _)| key)) || has(views.failed.as_ref()) {
             return;
         }
         let outcomes = solved.charts.iter().map(|chart| Arc::clone(&chart.outcome)).collect();

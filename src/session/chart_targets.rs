@@ -1,9 +1,11 @@
 //! Pins of a mesh with several charts: by the vertices of the mesh in files, by those of each chart in the document.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::{ChartEdits, Document, Model};
-use crate::io::Targets;
+use crate::io::{Target, Targets};
+use crate::mesh::VertexId;
 
 impl Model {
     /// How many vertices a file of pins can name: those of the repaired mesh, where it has several charts.
@@ -29,16 +31,19 @@ impl Model {
         found
     }
 
-    /// The targets of all charts, of the vertices of the mesh. The chart on the screen is this one.
+    /// The targets of all charts, of the vertices of the mesh.
     pub(super) fn all_targets(&self, document: &Document) -> Targets {
-        let here = document.targets.iter().map(|(&vertex, target)| (self.vertex_in_file(vertex), *target));
-        let mut targets: Targets = here.collect();
-        let Some(of) = &self.chart else { return targets };
-        for (&number, edits) in document.elsewhere.iter().filter(|(_, edits)| !edits.targets.is_empty()) {
-            let vertex_of = of.charts.chart(number).vertex_of;
-            targets.extend(edits.targets.iter().map(|(vertex, target)| (vertex_of[vertex.index()], *target)));
+        let Some(of) = &self.chart else { return document.targets.clone() };
+        let here = (of.charts.pick(document.chart), &document.targets);
+        let elsewhere = document.elsewhere.iter().map(|(&number, edits)| (number, &edits.targets));
+        let mut all = Targets::new();
+        for (number, targets) in std::iter::once(here).chain(elsewhere).filter(|(_, targets)| !targets.is_empty()) {
+            let chart = if number == of.number { Arc::clone(&of.chart) } else { Arc::new(of.charts.chart(number)) };
+            let in_file =
+                |(vertex, target): (&VertexId, &Target)| Some((*chart.vertex_of.get(vertex.index())?, *target));
+            all.extend(targets.iter().filter_map(in_file));
         }
-        targets
+        all
     }
 }
 

@@ -36,6 +36,8 @@ pub(super) struct OtherCharts {
     others: BTreeMap<usize, Other>,
     /// Charts that are taken out of their mesh, by their number and the mesh's revision.
     forming: Background<(u64, usize), Model>,
+    /// The chart that a person asked for, until it has been taken out.
+    asked: Option<usize>,
 }
 
 /// A chart that is not on the screen.
@@ -48,18 +50,24 @@ struct Other {
 
 impl OtherCharts {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { wake: Arc::clone(wake), others: BTreeMap::new(), forming: Background::new("chart", wake) }
+        Self { wake: Arc::clone(wake), others: BTreeMap::new(), forming: Background::new("chart", wake), asked: None }
     }
 
     /// Drops all: another mesh is open, or the same one in another form.
     pub(super) fn forget(&mut self) {
         self.others.clear();
         self.forming.cancel();
+        self.asked = None;
     }
 
     /// A chart that has been taken out of the mesh.
     pub(super) fn model(&self, number: usize) -> Option<&Arc<Model>> {
         self.others.get(&number).map(|other| &other.model)
+    }
+
+    /// Forgets the chart that a person asked for and that is not there yet.
+    pub(super) fn forget_asked(&mut self) {
+        self.asked = None;
     }
 
     /// Exchanges the chart on the screen, `model` with its run, for another one, whose run takes its place.
@@ -114,14 +122,26 @@ impl Session {
         }
     }
 
-    /// Puts another chart on the screen, as an edit.
+    /// Puts another chart on the screen, as an edit; once it has been taken out of the mesh, where it has not yet.
     pub(super) fn show_chart(&mut self, number: usize) {
         let Some(of) = self.model().and_then(|model| model.chart.clone()) else { return };
-        if number >= of.charts.count() || number == of.charts.pick(self.document.chart) {
+        let from = of.charts.pick(self.document.chart);
+        self.charts.asked = None;
+        if number >= of.charts.count() {
             return;
         }
-        let from = of.charts.pick(self.document.chart);
-        self.history.apply(Command::ShowChart { chart: number, from }, &mut self.document);
+        if number == from {
+            return if self.has_chart_as_wanted() {
+            } else {
+                self.follow_chart()
+            };
+        }
+        if number != of.number && self.charts.model(number).is_none() {
+            self.charts.asked = Some(number);
+            return;
+        }
+        self.end_gesture();
+        self.history.apply(Command::ShowChart { to: number, from, chart: Some(number) }, &mut self.document);
         self.follow_chart();
     }
 
@@ -134,7 +154,9 @@ impl Session {
     pub(super) fn follow_chart(&mut self) {
         self.drag.end();
         let is_there = self.bring_form();
-        if !is_there || !(self.is_current() || self.is_running()) {
+        let problem = self.document.problem();
+        let is_under_way = self.solving.running_problem().is_some_and(|of| of.has_steps_of(&problem));
+        if !is_there || !(self.is_current() || is_under_way) {
             self.solve();
         }
     }
@@ -151,19 +173,25 @@ impl Session {
             }
         }
         let mut free = AT_ONCE.saturating_sub(self.charts.running_count());
+        let (stop, is_at_rest) = (self.solving.stop_conditions(), !self.history.is_in_gesture());
         for (&number, other) in &mut self.charts.others {
             let ChartEdits { targets, relaxed } = self.document.edits_of(number, &of);
             let problem = self.document.problem_with(targets);
-            let has_begun = other.poll(problem, relaxed, (free > 0).then_some(self.solving.stop_conditions()));
+            // A run of what is wanted no more gives its place to the next.
+            let may_begin = is_at_rest && (free > 0 || other.solving.is_running());
+            let has_begun = other.poll(problem, relaxed, may_begin.then_some(stop));
             free = free.saturating_sub(usize::from(has_begun));
         }
         self.form_next(&of, revision);
+        if let Some(number) = self.charts.asked.filter(|&number| self.charts.model(number).is_some()) {
+            self.show_chart(number);
+        }
     }
 
     /// Has the next chart taken out of the mesh.
     fn form_next(&mut self, of: &ChartOf, revision: u64) {
         let is_open = |number: &usize| *number != of.number && !self.charts.others.contains_key(number);
-        let next = (0..of.charts.count()).find(is_open);
+        let next = self.charts.asked.into_iter().chain(0..of.charts.count()).find(is_open);
         if let (Some(number), Some(model)) = (next.filter(|_| !self.charts.forming.is_busy()), self.model().cloned()) {
             self.charts.forming.start((revision, number), move |_| model.of_chart(number));
         }

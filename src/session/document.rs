@@ -122,9 +122,11 @@ pub enum Command {
     /// Puts another chart on the screen.
     ShowChart {
         /// The chart.
-        chart: usize,
+        to: usize,
         /// The one that is on the screen.
         from: usize,
+        /// How the document has it: none stands for the largest.
+        chart: Option<usize>,
     },
     /// Chooses how charts are packed.
     SetPacking(PackingOptions),
@@ -156,13 +158,12 @@ impl Command {
             Self::SetVAxis(v_axis) => Self::SetVAxis(std::mem::replace(&mut document.v_axis, v_axis)),
             Self::SetForm(form) => Self::SetForm(std::mem::replace(&mut document.form, form)),
             Self::SetRelaxed(rounds) => Self::SetRelaxed(std::mem::replace(&mut document.relaxed, rounds)),
-            Self::ShowChart { chart, from } => {
-                let coming = document.elsewhere.remove(&chart).unwrap_or_default();
+            Self::ShowChart { to, from, chart } => {
+                let coming = document.elsewhere.remove(&to).unwrap_or_default();
                 let targets = std::mem::replace(&mut document.targets, coming.targets);
                 let going = ChartEdits { targets, relaxed: std::mem::replace(&mut document.relaxed, coming.relaxed) };
                 document.put_elsewhere(from, going);
-                document.chart = Some(chart);
-                Self::ShowChart { chart: from, from: chart }
+                Self::ShowChart { to: from, from: to, chart: std::mem::replace(&mut document.chart, chart) }
             }
             Self::SetPacking(options) => Self::SetPacking(std::mem::replace(&mut document.packing, options)),
             Self::SetElsewhere { chart, edits } => {

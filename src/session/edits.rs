@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::errands::Errand;
-use super::{Command, Document, Message, Place, Session};
+use super::{ChartEdits, Command, Document, Message, Place, Session};
 use crate::geom::{Bounds, PictureFrame, Similarity};
 use crate::io::{Constraints, ConstraintsError, PictureFile, Target, Targets};
 use crate::mesh::{Form, VertexId};
@@ -17,8 +17,9 @@ use crate::solver::{Control, Embedding, Family, GaugeSize, Hold, Ladder, Method,
 pub(super) struct Flat {
     /// The picture's frame.
     frame: PictureFrame,
-    /// Whether the mesh's faces were turned around.
+    /// The form that the mesh had, and the chart that it was.
     form: Form,
+    chart: Option<usize>,
     embedding: Result<Embedding, SolveError>,
 }
 
@@ -45,19 +46,35 @@ impl Session {
     /// Chooses method and weights. Their own result shows, without the relaxing that was asked for on another one.
     pub(super) fn choose(&mut self, settings: Settings) {
         if settings != self.document.settings {
-            self.edit(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
+            let edits = std::iter::once(Command::SetSettings(settings)).chain(self.drop_relaxing());
+            self.edit(edits.collect());
         }
+    }
+
+    /// The edits that drop the relaxing that was asked for, on all charts.
+    pub(super) fn drop_relaxing(&self) -> Vec<Command> {
+        let relaxed = self.document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
+        let elsewhere = relaxed.map(|(&chart, edits)| {
+            let edits = ChartEdits { relaxed: 0, ..edits.clone() };
+            Command::SetElsewhere { chart, edits }
+        });
+        std::iter::once(Command::SetRelaxed(0)).chain(elsewhere).collect()
     }
 
     /// Chooses method and weights as part of a drag of a slider.
     pub(super) fn slide_settings(&mut self, settings: Settings) {
         if settings != self.document.settings {
-            self.slide(Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]));
+            let edits = std::iter::once(Command::SetSettings(settings)).chain(self.drop_relaxing());
+            self.slide(Command::Together(edits.collect()));
         }
     }
 
     /// Says why where the method takes no pins.
     fn takes_pins(&mut self) -> bool {
+        if !self.has_chart_as_wanted() {
+            // The vertices on the screen are those of another chart, for a moment.
+            return false;
+        }
         if self.document.settings.method.uses_pins() {
             return true;
         }
@@ -95,6 +112,9 @@ impl Session {
 
     /// Moves pins as part of a drag. Where one of them is a gauge pin, all of those become the user's first.
     pub(super) fn move_pins(&mut self, moves: &[(VertexId, DVec2)]) {
+        if !self.has_chart_as_wanted() {
+            return;
+        }
         let is_users = |(vertex, _): &(VertexId, DVec2)| self.document.targets.contains_key(vertex);
         if !moves.iter().all(is_users) {
             // Where the solver chose no gauge, those it has are pins of the user's that are freed by now.
@@ -172,13 +192,13 @@ impl Session {
         let Some((disk, form)) = model.and_then(|model| Some((model.disk()?.clone(), model.form))) else {
             return self.complain("a mesh with faults has nothing to fit to", None);
         };
-        let frame = self.document.frame();
+        let (frame, chart) = (self.document.frame(), self.chart_on_screen());
         let [low, high] = frame.corners();
         let size = GaugeSize::Within(Bounds { low, high });
         let settings = Settings { size, ..Settings::new(Method::Natural, Family::Conformal) };
         self.errands.send("fitting the targets", move |cancel| {
             let step = Ladder::new(settings, Pins::new()).step(&disk, Control::new(cancel, &|_| {}));
-            Errand::Flat(Flat { frame, form, embedding: step.map(|step| step.candidate.solution.embedding) })
+            Errand::Flat(Flat { frame, form, chart, embedding: step.map(|step| step.candidate.solution.embedding) })
         });
     }
 
@@ -192,8 +212,9 @@ impl Session {
                 return;
             }
         };
-        if flat.frame != self.document.frame() || flat.form != self.document.form {
-            let text = "picture or faces changed while the targets were being fitted";
+        let is_of_chart = flat.chart == self.chart_on_screen() && self.has_form_as_wanted();
+        if flat.frame != self.document.frame() || flat.form != self.document.form || !is_of_chart {
+            let text = "picture, faces or chart changed while the targets were being fitted";
             return self.complain(text, Some("fit them again"));
         }
         let pairs: Vec<[DVec2; 2]> =
@@ -260,8 +281,9 @@ impl Session {
 
     /// Says why a constraint file is not used, and shows the vertices that it is about.
     fn tell_constraints(&mut self, error: &ConstraintsError) {
-        let count = self.vertex_count();
-        let vertices = error.vertices().into_iter().filter(|vertex| vertex.index() < count).collect();
+        let model = self.model();
+        let of_chart = |vertex| model.and_then(|model| model.vertex_of_file(vertex));
+        let vertices = error.vertices().into_iter().filter_map(of_chart).collect();
         let message = Message::error(Place::Embedding, error.to_string()).with_vertices(vertices);
         self.messages.say(message.with_remedy("mend the file and import it again: nothing of it was taken"));
     }
@@ -273,7 +295,8 @@ impl Session {
         let Some(model) = self.model().cloned() else { return };
         if self.takes_pins() {
             let mut by_chart = model.by_chart(targets);
-            let here = by_chart.remove(&self.chart_on_screen().unwrap_or(0)).unwrap_or_default();
+            let shown = model.chart.as_ref().map_or(0, |of| of.charts.pick(self.document.chart));
+            let here = by_chart.remove(&shown).unwrap_or_default();
             let known = &self.document.targets;
             let fresh = here.into_iter().filter(|(vertex, target)| known.get(vertex) != Some(target));
             let elsewhere = by_chart.into_iter().map(|(chart, targets)| {

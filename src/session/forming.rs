@@ -43,6 +43,7 @@ impl Session {
         }
         if let Some(before) = self.mesh.change(form, chart) {
             if let Some(number) = wanted {
+                self.solving.forget_message(&mut self.messages);
                 self.charts.exchange(&before, &mut self.solving, number);
                 self.drag.end();
             } else {

@@ -56,9 +56,14 @@ impl Session {
         self.model().map_or(0, |model| model.vertex_count())
     }
 
+    /// Whether the chart on the screen is the one that the document wants.
+    pub(super) fn has_chart_as_wanted(&self) -> bool {
+        self.model().is_none_or(|model| model.is_chart(self.document.chart))
+    }
+
     /// Whether the mesh has the form that the document wants, and is the chart that it wants. Where nothing is open,
     /// there is none.
     pub(super) fn has_form_as_wanted(&self) -> bool {
-        self.model().is_none_or(|model| model.form == self.document.form && model.is_chart(self.document.chart))
+        self.model().is_none_or(|model| model.form == self.document.form) && self.has_chart_as_wanted()
     }
 }

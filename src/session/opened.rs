@@ -197,7 +197,9 @@ fn example_called(name: &str) -> Option<Example> {
 fn targets_there_are(mut targets: Targets, model: &Model, remarks: &mut Vec<Message>) -> Targets {
     let count = model.vertex_count_in_file();
     let before = targets.len();
-    let is_there = |vertex: &VertexId, target: &Target| vertex.index() < count && target.uv.is_finite();
+    let has_face = |vertex: VertexId| model.chart.as_ref().is_none_or(|of| of.charts.chart_of_vertex(vertex).is_some());
+    let is_there =
+        |vertex: &VertexId, target: &Target| vertex.index() < count && target.uv.is_finite() && has_face(*vertex);
     let lost: Vec<VertexId> = targets.iter().filter(|(v, target)| !is_there(v, target)).map(|(&v, _)| v).collect();
     targets.retain(|vertex, target| is_there(vertex, target));
     if !lost.is_empty() {

@@ -140,8 +140,8 @@ impl Session {
         }
         let family = if before.family.power().is_some() { before.family } else { Family::default() };
         let settings = Settings { method: Method::Auto, family, ..before };
-        let edit = Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
-        if self.history.apply(edit, &mut self.document) {
+        let edits = std::iter::once(Command::SetSettings(settings)).chain(self.drop_relaxing());
+        if self.history.apply(Command::Together(edits.collect()), &mut self.document) {
             self.drag.end();
             self.begin(Goal::End);
         }

@@ -149,6 +149,7 @@ impl Session {
         self.files.cancel_loading();
         self.drag.stop_following();
         self.errands.forget();
+        self.charts.forget_asked();
         self.solving.pause();
     }
 }

@@ -279,3 +279,50 @@ fn a_walk_among_charts_and_back_ends_where_it_began() {
     assert_eq!(*session.document(), last);
     until_laid_out(&mut session);
 }
+
+#[test]
+fn a_chart_shown_in_the_middle_of_another_method_is_solved_by_it() {
+    let (_folder, mut session) = with_disks();
+    for method in [Method::Lscm, Method::Natural, Method::Lscm] {
+        let settings = Settings { method, ..session.document().settings };
+        session.handle(Action::SetSettings(settings));
+        session.poll();
+        let next = (session.chart_on_screen().expect("one of five") + 1) % 5;
+        session.handle(Action::ShowChart(next));
+        session.poll();
+    }
+    until_laid_out(&mut session);
+    for chart in 0..5 {
+        assert_eq!(solved(&session, chart).problem.settings.method, Method::Lscm, "chart {chart}");
+    }
+}
+
+#[test]
+fn a_chart_asked_for_before_it_is_there_comes_and_pins_never_go_to_another() {
+    let (folder, _) = with_disks();
+    let mut session = session();
+    session.handle(Action::Open(file(&folder, "parts.obj")));
+    while session.chart_on_screen().is_none() {
+        session.poll();
+    }
+    let first = session.chart_on_screen().expect("one of five");
+    let next = (first + 3) % 5;
+    session.handle(Action::ShowChart(next));
+    // Whichever chart is on the screen by now, the pin is of that.
+    let shown = session.chart_on_screen().expect("one of five");
+    session.handle(Action::Place { vertex: VertexId::new(2), target: Target::hard(DVec2::splat(0.5)) });
+    until_laid_out(&mut session);
+    assert_eq!(session.chart_on_screen(), Some(next));
+    let pinned: Vec<usize> = (0..5).filter(|&chart| !solved(&session, chart).problem.targets.is_empty()).collect();
+    assert_eq!(pinned, [shown]);
+}
+
+#[test]
+fn a_look_at_another_chart_that_is_taken_back_is_no_change() {
+    let (_folder, mut session) = with_disks();
+    let opening = session.document().clone();
+    let other = (session.chart_on_screen().expect("one of five") + 1) % 5;
+    settled(&mut session, Action::ShowChart(other));
+    settled(&mut session, Action::Undo);
+    assert_eq!(*session.document(), opening);
+}

@@ -103,7 +103,7 @@ impl Solving {
     }
 
     /// Takes away what a solve before said.
-    pub(super) fn forget_message(&mut self, messages: &mut Messages) {
+    pub(in crate::session) fn forget_message(&mut self, messages: &mut Messages) {
         if let Some(stale) = self.message.take() {
             messages.dismiss(stale);
         }

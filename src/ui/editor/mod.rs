@@ -125,6 +125,22 @@ impl Editor {
         self.plane.drawn().map(|plane| &plane.mesh).or(self.mesh.scene())
     }
 
+    /// Whether a scene has the vertices that the session has: for a moment after another chart, or another form, has come
+    /// there, it has not.
+    pub(super) fn is_of_session(&self, scene: &MeshScene) -> bool {
+        scene.model_revision == self.session.model_revision()
+    }
+
+    /// Lets go of all vertices where another chart has come on the screen: these have other numbers.
+    fn let_go_of_chart(&mut self) {
+        if self.opened.note_chart(&self.session) {
+            self.selection.select([]);
+            self.pointer.forget_vertices();
+            self.tools.end_drag();
+            self.tools.set_pair(None);
+        }
+    }
+
     /// What goes on in the background, once it has taken long enough to be worth a word.
     pub fn busy_for_long(&self) -> Option<Busy> {
         self.session.busy().filter(|_| self.host.is_busy_for_long())
@@ -137,6 +153,7 @@ impl Editor {
             self.keep_view();
         }
         self.session.poll();
+        self.let_go_of_chart();
         self.go_on_after_saving();
         self.go_on_playing();
         if self.mesh.poll(&self.session) {
@@ -210,9 +227,6 @@ impl Editor {
         if self.opened.put_on_screen(&self.session) {
             self.selection.select([]);
             self.put_on_view();
-        } else if self.session.charts().is_some() {
-            // Vertices have the numbers of their chart.
-            self.selection.select([]);
         }
         self.pointer.forget_vertices();
         self.selection.set_defect(None);

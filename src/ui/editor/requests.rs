@@ -140,6 +140,7 @@ impl Editor {
         }
         let before = self.session.document().frame();
         self.session.handle(action);
+        self.let_go_of_chart();
         let after = self.session.document().frame();
         if before.aspect.to_bits() == after.aspect.to_bits() {
             // Where v runs the other way the picture lies elsewhere in the plane. On the screen it stays.

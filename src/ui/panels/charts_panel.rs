@@ -184,7 +184,9 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     if has_ended {
         ui.data_mut(|data| data.remove::<PackingOptions>(kept));
         if options != before {
-            requests.push(Action::SetPacking(options).into());
+            // The size of the open picture is not the person's choice.
+            let picture = if has_picture { session.document().packing.picture } else { options.picture };
+            requests.push(Action::SetPacking(PackingOptions { picture, ..options }).into());
         }
     } else if options != before {
         ui.data_mut(|data| data.insert_temp(kept, options));

@@ -30,12 +30,14 @@ fn equation_of(
     vertex: VertexId,
 ) -> Option<Result<(VertexEquation, WeightSource), NoEquation>> {
     let step = &outcome.step;
-    let disk = step.mesh(editor.session.model()?.disk()?);
+    // Of the sheet that is drawn: the session may have gone on to another chart.
+    let disk = step.mesh(editor.mesh_scene()?.model.disk()?);
     let timeline = editor.session.timeline();
     let index_before = timeline.index_of(outcome).and_then(|index| index.checked_sub(1));
     let before = index_before.and_then(|index| timeline.outcome(index));
     let before = before.map(|before| &before.step.solution.embedding);
-    (vertex.index() < disk.vertex_count()).then(|| equation_of_step(disk, step, before, vertex))
+    let is_there = vertex.index() < disk.vertex_count() && disk.vertex_count() == step.solution.embedding.len();
+    is_there.then(|| equation_of_step(disk, step, before, vertex))
 }
 
 pub(super) fn equation_ui(ui: &mut egui::Ui, editor: &Editor, vertex: VertexId, requests: &mut Vec<Request>) {

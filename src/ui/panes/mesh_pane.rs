@@ -47,6 +47,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     }
     if let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(rect, at)) {
         let pick = scene.picker.nearest_vertex(&camera, editor.mesh.pane.size(), pointer, Visibility::Visible);
+        let pick = pick.filter(|_| editor.is_of_session(&scene));
         editor.pointer.over_mesh(pick.map(|pick| pick.vertex));
         editor.aim(ui, Pane::Mesh, None);
     }

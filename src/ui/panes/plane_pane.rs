@@ -80,6 +80,7 @@ fn look_under(
     pointer: Option<Pos2>,
 ) {
     let Viewport { rect, camera } = view;
+    let pointer = pointer.filter(|_| editor.is_of_session(&plane.mesh));
     let grip = pointer.filter(|_| !plane.is_stage()).and_then(|at| pin_drag::pin_at(editor, view, at));
     let nearest = |at| plane.picker.nearest_vertex(&camera, pane::size_of(rect), pane::in_pane(rect, at));
     let pick = pointer.and_then(nearest);
