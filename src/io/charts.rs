@@ -1,9 +1,10 @@
 //! The charts of a result: each as it is written, and all of them as one mesh with its texture coordinates.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 
 use super::{MeshFile, NO_TEXTURE, ProvedEmbedding, Refined, RefinedChart, Texture};
-use crate::mesh::{DiskMesh, FaceId, PolygonMesh, Refinement, Repaired, TriMesh, VertexId, parts};
+use crate::mesh::{DiskMesh, FaceId, Polygon, PolygonMesh, Refinement, Repaired, TriMesh, VertexId, parts};
 use crate::solver::{AtlasVerdict, Embedding, Verdict, atlas_verdict};
 
 /// A chart as it is written; the only one, as a rule.
@@ -76,7 +77,14 @@ pub fn together(charts: &[OutputChart<'_>]) -> Together {
 /// If a chart is no disk, which none is.
 pub fn proved_together(charts: &[OutputChart<'_>]) -> AtlasVerdict {
     let Together { mesh, coordinates, .. } = together(charts);
-    let parts = parts(&mesh).expect("charts are disks");
+    let mut parts = parts(&mesh).expect("charts are disks");
+    // Polygons that are written as triangles may be concave.
+    let whole = charts.iter().flat_map(|chart| {
+        let number = |polygon: Polygon<'_>| chart.mesh.mesh().polygon(polygon.first_face);
+        chart.mesh.polygons().map(number)
+    });
+    let whole: HashSet<u32> = whole.collect();
+    parts.iter_mut().for_each(|part| part.keep_polygons(&whole));
     atlas_verdict(&parts, &coordinates).as_in_file(&mesh)
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Fans of faces that meet in nothing but a vertex are not joined by it: each has a vertex of its own in its part.
 
+use std::collections::HashSet;
+
 use super::edges::EdgeTable;
 use super::polygons::{Polygon, Polygons};
 use super::union::DisjointSets;
@@ -138,6 +140,12 @@ impl Part {
     /// Its boundary loops: the surface lies to the left of each.
     pub fn loops(&self) -> &[Vec<VertexId>] {
         &self.loops
+    }
+
+    /// Lets go of the polygons whose numbers are not among these: from then on they are but their triangles.
+    pub fn keep_polygons(&mut self, whole: &HashSet<u32>) {
+        let mesh = &self.mesh;
+        self.polygons.retain(|polygon| whole.contains(&mesh.polygon(polygon.first_face)));
     }
 
     /// The polygons with more than three corners that its triangles are cut from.
