@@ -46,6 +46,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let disk = DiskMesh::try_from(texture.mesh.clone()).or_else(|_| {
         // Looked at again without faces that add nothing, which a repair leaves in the file.
         texture.mesh = std::mem::take(&mut texture.mesh).without_repeats();
+        texture.drop_collapsed_faces();
         DiskMesh::try_from(texture.mesh.clone())
     });
     let Ok(mesh) = disk else {

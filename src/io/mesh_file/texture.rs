@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::{MeshFile, NO_TEXTURE, Texture, TextureError};
-use crate::mesh::{TriMesh, VertexId};
+use crate::mesh::{FaceId, TriMesh, VertexId};
 use crate::solver::Embedding;
 
 /// A mesh over texture vertices, with the embedding that the file gives.
@@ -101,4 +101,24 @@ impl MeshFile {
 /// What tells coordinates apart: their bits, except that −0 equals 0.
 fn bits(coordinate: DVec2) -> [u64; 2] {
     (coordinate + DVec2::ZERO).to_array().map(f64::to_bits)
+}
+
+impl TextureMesh {
+    /// Leaves out triangles with two corners in one place, in space as in the plane, to the bit: where a polygon names a place
+    /// twice by vertices of different numbers. They cover nothing in either.
+    pub fn drop_collapsed_faces(&mut self) {
+        let TextureMesh { mesh, embedding, .. } = self;
+        let is_one_place = |a: VertexId, b: VertexId| {
+            mesh.positions[a.index()] == mesh.positions[b.index()] && embedding[a] == embedding[b]
+        };
+        let stays: Vec<bool> = mesh
+            .triangles
+            .iter()
+            .map(|&[a, b, c]| ![[a, b], [b, c], [c, a]].iter().any(|&[p, q]| is_one_place(p, q)))
+            .collect();
+        let kept = |face: &usize| stays[*face];
+        let faces = || (0..stays.len()).filter(kept);
+        mesh.polygon_of = Some(faces().map(|face| mesh.polygon(FaceId::from_index(face))).collect());
+        mesh.triangles = faces().map(|face| mesh.triangles[face]).collect();
+    }
 }
