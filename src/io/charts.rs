@@ -84,7 +84,9 @@ pub fn proved_together(charts: &[OutputChart<'_>]) -> AtlasVerdict {
         chart.mesh.polygons().map(number)
     });
     let whole: HashSet<u32> = whole.collect();
-    parts.iter_mut().for_each(|part| part.keep_polygons(&whole));
+    for part in &mut parts {
+        part.keep_polygons(&whole);
+    }
     atlas_verdict(&parts, &coordinates).as_in_file(&mesh)
 }
 

@@ -131,10 +131,10 @@ impl Session {
             return;
         }
         if number == from {
-            return if self.has_chart_as_wanted() {
-            } else {
-                self.follow_chart()
-            };
+            if !self.has_chart_as_wanted() {
+                self.follow_chart();
+            }
+            return;
         }
         if number != of.number && self.charts.model(number).is_none() {
             self.charts.asked = Some(number);
