@@ -23,7 +23,7 @@ pub enum Precision {
 /// What rounding did to coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RoundingReport {
-    /// Coordinates that are not the nearest, because that folds a face.
+    /// Vertices that are not at the nearest numbers, because these fold a face.
     pub moved: usize,
     /// What was planar before is so no more.
     pub folded: bool,

@@ -4,8 +4,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use freebound::geom::PackingOptions;
-use freebound::io::{Constraints, MeshFile, OutputFit, OutputKind, ProjectFile, Target, Texture, read_mesh, write_obj};
+use freebound::geom::{PackingOptions, VAxis};
+use freebound::io::{
+    Constraints, MeshFile, OutputFit, OutputKind, ProjectFile, Target, Targets, Texture, read_mesh, write_obj,
+};
 use freebound::mesh::{VertexId, parts};
 use freebound::session::{Action, ChartState, Outcome, SaveRequest, Session};
 use freebound::solver::{Method, Settings, atlas_verdict};
@@ -325,4 +327,21 @@ fn a_look_at_another_chart_that_is_taken_back_is_no_change() {
     settled(&mut session, Action::ShowChart(other));
     settled(&mut session, Action::Undo);
     assert_eq!(*session.document(), opening);
+}
+
+#[test]
+fn pins_of_all_charts_keep_their_places_where_v_runs_the_other_way() {
+    let (_folder, mut session) = with_disks();
+    let first = session.chart_on_screen().expect("one of five");
+    pin(&mut session, DVec2::new(0.1, 0.2));
+    settled(&mut session, Action::ShowChart((first + 1) % 5));
+    pin(&mut session, DVec2::new(0.6, 0.3));
+    let before = session.document().clone();
+    settled(&mut session, Action::SetVAxis(VAxis::Down));
+    let v = |targets: &Targets| targets[&VertexId::new(0)].uv.y;
+    assert_eq!(v(&session.document().targets), 1.0 - 0.3);
+    assert_eq!(v(&session.document().elsewhere[&first].targets), 1.0 - 0.2);
+    settled(&mut session, Action::SetVAxis(VAxis::Up));
+    assert_eq!(*session.document(), before);
+    until_laid_out(&mut session);
 }
