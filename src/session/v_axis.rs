@@ -15,8 +15,8 @@ use crate::mesh::VertexId;
 pub(super) struct TurnedV(BTreeMap<(usize, VertexId), [f64; 2]>);
 
 impl TurnedV {
-    fn turned(&self, vertex: (usize, VertexId), v: f64) -> f64 {
-        match self.0.get(&vertex) {
+    fn turned(&self, chart: usize, vertex: VertexId, v: f64) -> f64 {
+        match self.0.get(&(chart, vertex)) {
             Some([before, after]) if after.to_bits() == v.to_bits() => *before,
             _ => 1.0 - v,
         }
@@ -25,7 +25,7 @@ impl TurnedV {
     /// The targets of a chart turned around, which `into` remembers.
     fn targets(&self, chart: usize, targets: &Targets, into: &mut Self) -> Targets {
         let turned = |(&vertex, target): (&VertexId, &Target)| {
-            let v = self.turned((chart, vertex), target.uv.y);
+            let v = self.turned(chart, vertex, target.uv.y);
             into.0.insert((chart, vertex), [target.uv.y, v]);
             (vertex, Target { uv: DVec2::new(target.uv.x, v), ..*target })
         };
