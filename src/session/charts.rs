@@ -65,6 +65,11 @@ impl OtherCharts {
         self.others.get(&number).map(|other| &other.model)
     }
 
+    /// Whether a person asked for a chart that is not there yet.
+    pub(super) fn is_asked(&self) -> bool {
+        self.asked.is_some()
+    }
+
     /// Forgets the chart that a person asked for and that is not there yet.
     pub(super) fn forget_asked(&mut self) {
         self.asked = None;
@@ -166,6 +171,10 @@ impl Session {
         let Some(of) = self.model().and_then(|model| model.chart.clone()) else { return };
         let revision = self.model_revision();
         while let Some(((of_mesh, number), formed)) = self.charts.forming.poll() {
+            if formed.is_err() {
+                // Nobody waits for what does not come.
+                self.charts.asked.take_if(|asked| *asked == number);
+            }
             if let Some(model) = formed.ok().filter(|_| of_mesh == revision && number != of.number) {
                 let solving = Solving::new(Arc::clone(&self.charts.wake));
                 let other = Other { model: Arc::new(model), solving, messages: Messages::default() };

@@ -57,7 +57,7 @@ impl Session {
 
     /// What goes on in the background that is worth waiting for.
     pub fn busy(&self) -> Option<Busy> {
-        if self.files.is_loading() || self.errands.is_busy() {
+        if self.files.is_loading() || self.errands.is_busy() || self.charts.is_asked() {
             Some(Busy::Loading)
         } else if self.is_running() {
             Some(Busy::Solving(self.solving.phase()))
