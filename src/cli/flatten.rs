@@ -51,7 +51,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
         disk_of(&model)?;
-        let targets = gather(arguments, vertex_count(&model))?;
+        let targets = gather(arguments, model.vertex_count_in_file())?;
         refuse_pins_of_no_face(&model, &targets)?;
         let packing = arguments.packing(picture.as_ref());
         let document = Document {
@@ -178,18 +178,12 @@ fn gather(arguments: &FlattenArguments, vertex_count: usize) -> Result<Targets, 
 /// Refuses pins of vertices that belong to no chart, where the mesh has several.
 fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failure> {
     let Some(of) = &model.chart else { return Ok(()) };
-    let count = vertex_count(model);
+    let count = model.vertex_count_in_file();
     match targets.keys().find(|&&vertex| of.charts.chart_of_vertex(vertex).is_none()) {
         Some(&vertex) if vertex.index() >= count => Err(SolveError::NoSuchVertex { vertex, count }.into()),
         Some(&vertex) => Err(SolveError::UnusedVertex { vertex }.into()),
         None => Ok(()),
     }
-}
-
-/// How many vertices pins can name: those of the whole mesh, where it has several charts.
-fn vertex_count(model: &Model) -> usize {
-    let whole = model.chart.as_ref().map(|of| of.charts.whole().polygons().positions.len());
-    whole.unwrap_or_else(|| model.vertex_count())
 }
 
 /// The exact pin that has the target of another exact one.

@@ -34,9 +34,8 @@ pub struct SolvedChart<'a> {
 ///
 /// If there is no chart, or one is no chart of several, or no disk.
 pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Output<'a> {
-    let is_held = |chart: &SolvedChart<'_>| chart.outcome.targets_in_use().next().is_some();
     let mut laid: Vec<Option<Embedding>> =
-        charts.iter().map(|chart| is_held(chart).then(|| chart.as_pinned())).collect();
+        charts.iter().map(|chart| chart.is_held().then(|| chart.as_pinned())).collect();
     let beside = first_column_beside(&laid);
     let free: Vec<usize> = (0..charts.len()).filter(|&chart| laid[chart].is_none()).collect();
     let mut boxes: Vec<Boxed> = free.par_iter().map(|&chart| Boxed::new(&charts[chart], true)).collect();
@@ -115,6 +114,11 @@ impl SolvedChart<'_> {
         self.model.disk().expect("only a disk has an outcome")
     }
 
+    /// Whether pins hold it.
+    fn is_held(&self) -> bool {
+        self.outcome.targets_in_use().next().is_some()
+    }
+
     /// Its coordinates where its pins hold it, as files have them.
     fn as_pinned(&self) -> Embedding {
         let (coordinates, ..) = self.outcome.output(self.disk(), OutputFit::Unit);
@@ -142,7 +146,7 @@ impl SolvedChart<'_> {
     fn report(&self, coordinates: &Embedding, aspect: f64) -> ChartReport {
         let step = &self.outcome.step;
         let mesh = step.mesh(self.disk());
-        let is_held = self.outcome.targets_in_use().next().is_some();
+        let is_held = self.is_held();
         let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(aspect, 1.0)).collect();
         let summary = if is_held { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
         // Targets are as the document has them, v up or down.

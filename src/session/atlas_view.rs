@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Background, ChartState, Model, Outcome, Session, SolvedChart, Wake, atlas};
+use super::{Background, ChartState, Model, Outcome, Session, SolvedChart, Timeline, Wake, atlas};
 use crate::geom::PackingOptions;
 use crate::io::{Output, PackingReport, StepReport};
 use crate::solver::AtlasVerdict;
@@ -51,11 +51,11 @@ struct Made {
 }
 
 impl Made {
-    fn is(&self, other: &SolvedAtlas) -> bool {
-        let outcomes = || self.outcomes.iter().zip(&other.charts);
+    fn is(&self, other: &Self) -> bool {
+        let mut outcomes = self.outcomes.iter().zip(&other.outcomes);
         self.options == other.options
-            && self.outcomes.len() == other.charts.len()
-            && outcomes().all(|(own, other)| Arc::ptr_eq(own, &other.outcome))
+            && self.outcomes.len() == other.outcomes.len()
+            && outcomes.all(|(own, other)| Arc::ptr_eq(own, other))
     }
 }
 
@@ -106,24 +106,38 @@ impl Session {
     ///
     /// How many charts have none for the document as it is.
     pub(super) fn solved_atlas(&self) -> Result<SolvedAtlas, usize> {
-        let count = self.charts().map_or(0, |charts| charts.count());
-        let solved: Vec<Solved> = (0..count).filter_map(|number| self.solved_chart(number)).collect();
-        match count - solved.len() {
-            0 => Ok(SolvedAtlas { charts: solved, options: self.packing() }),
+        let solved = |(model, outcome, timeline): (&Arc<Model>, Arc<Outcome>, &Timeline)| {
+            let steps = timeline.records()[..=outcome.step.index].to_vec();
+            Solved { model: Arc::clone(model), outcome, steps }
+        };
+        let charts: Vec<Solved> = self.solved_charts().map(solved).collect();
+        match self.charts().map_or(0, |charts| charts.count()) - charts.len() {
+            0 => Ok(SolvedAtlas { charts, options: self.packing() }),
             missing => Err(missing),
         }
     }
 
-    fn solved_chart(&self, number: usize) -> Option<Solved> {
+    /// The charts that are solved for the document as it is.
+    fn solved_charts(&self) -> impl Iterator<Item = (&Arc<Model>, Arc<Outcome>, &Timeline)> {
+        let count = self.charts().map_or(0, |charts| charts.count());
+        (0..count).filter_map(|number| self.solved_chart(number))
+    }
+
+    fn solved_chart(&self, number: usize) -> Option<(&Arc<Model>, Arc<Outcome>, &Timeline)> {
         let ChartState::Solved(newest) = self.chart_state(number) else { return None };
-        let (model, outcome, records) = if self.chart_on_screen() == Some(number) {
-            (self.model()?, self.outcome().filter(|_| self.is_current())?, self.timeline().records())
-        } else {
-            let (model, timeline) = self.charts.other(number)?;
-            (model, &newest, timeline.records())
-        };
-        let steps = records[..=outcome.step.index].to_vec();
-        Some(Solved { model: Arc::clone(model), outcome: Arc::clone(outcome), steps })
+        if self.chart_on_screen() == Some(number) {
+            let shown = self.outcome().filter(|_| self.is_current())?;
+            return Some((self.model()?, Arc::clone(shown), self.timeline()));
+        }
+        let (model, timeline) = self.charts.other(number)?;
+        Some((model, newest, timeline))
+    }
+
+    /// What the layout of all charts is to be made of, once each is solved.
+    fn to_be_made(&self) -> Option<Made> {
+        let outcomes: Vec<Arc<Outcome>> = self.solved_charts().map(|(_, outcome, _)| outcome).collect();
+        let is_whole = self.charts().is_some_and(|charts| charts.count() == outcomes.len());
+        is_whole.then(|| Made { outcomes, options: self.packing() })
     }
 
     /// Has the layout of all charts made, once each is solved.
@@ -138,19 +152,20 @@ impl Session {
             return;
         }
         // One after the other: steps may come faster than layouts.
-        let Some(solved) = self.solved_atlas().ok().filter(|_| !self.atlas_views.making.is_busy()) else { return };
-        let views = &mut self.atlas_views;
-        let has = |key: Option<&Made>| key.is_some_and(|key| key.is(&solved));
-        if has(views.made.as_ref().map(|(key, _)| key)) || has(views.failed.as_ref()) {
+        let Some(key) = self.to_be_made().filter(|_| !self.atlas_views.making.is_busy()) else { return };
+        let views = &self.atlas_views;
+        let known = views.made.iter().map(|(key, _)| key).chain(&views.failed);
+        if known.into_iter().any(|known| known.is(&key)) {
             return;
         }
-        let outcomes = solved.charts.iter().map(|chart| Arc::clone(&chart.outcome)).collect();
-        views.making.start(Made { outcomes, options: solved.options }, move |_| solved.view());
+        if let Ok(solved) = self.solved_atlas() {
+            self.atlas_views.making.start(key, move |_| solved.view());
+        }
     }
 
     /// The layout of all charts, where each is solved and it was made.
     pub fn atlas(&self) -> Option<&AtlasView> {
         let (key, view) = self.atlas_views.made.as_ref()?;
-        self.solved_atlas().is_ok_and(|solved| key.is(&solved)).then_some(view)
+        self.to_be_made().is_some_and(|now| key.is(&now)).then_some(view)
     }
 }

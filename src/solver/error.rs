@@ -199,16 +199,33 @@ impl SolveError {
 
     /// The vertices that it names, which a person may want to see.
     pub fn vertices(&self) -> Vec<VertexId> {
+        // One that the mesh does not have cannot be shown.
+        if matches!(self, Self::NoSuchVertex { .. }) {
+            return Vec::new();
+        }
+        self.clone().named().into_iter().map(|vertex| *vertex).collect()
+    }
+
+    /// The same with other numbers for the vertices.
+    #[must_use]
+    pub fn renumbered(mut self, number: impl Fn(VertexId) -> VertexId) -> Self {
+        for vertex in self.named() {
+            *vertex = number(*vertex);
+        }
+        self
+    }
+
+    /// All vertices that it names.
+    fn named(&mut self) -> Vec<&mut VertexId> {
         match self {
-            Self::CoincidentPins { first, second } | Self::TargetsTooNear { first, second } => vec![*first, *second],
-            Self::UnusedVertex { vertex }
+            Self::CoincidentPins { first, second } | Self::TargetsTooNear { first, second } => vec![first, second],
+            Self::NoSuchVertex { vertex, .. }
+            | Self::UnusedVertex { vertex }
             | Self::TargetNotFinite { vertex }
             | Self::WeightNotPositive { vertex, .. }
             | Self::OutOfRange { vertex }
-            | Self::Singular { vertex } => vec![*vertex],
-            // One that the mesh does not have cannot be shown.
-            Self::NoSuchVertex { .. }
-            | Self::NotFinite { .. }
+            | Self::Singular { vertex } => vec![vertex],
+            Self::NotFinite { .. }
             | Self::FamilyNotApplicable { .. }
             | Self::BoundaryTooShort { .. }
             | Self::TooManyPins { .. }
@@ -222,36 +239,6 @@ impl SolveError {
             | Self::Linear { .. }
             | Self::Cancelled => Vec::new(),
         }
-    }
-
-    /// The same with other numbers for the vertices.
-    #[must_use]
-    pub fn renumbered(mut self, number: impl Fn(VertexId) -> VertexId) -> Self {
-        match &mut self {
-            Self::CoincidentPins { first, second } | Self::TargetsTooNear { first, second } => {
-                (*first, *second) = (number(*first), number(*second));
-            }
-            Self::NoSuchVertex { vertex, .. }
-            | Self::UnusedVertex { vertex }
-            | Self::TargetNotFinite { vertex }
-            | Self::WeightNotPositive { vertex, .. }
-            | Self::OutOfRange { vertex }
-            | Self::Singular { vertex } => *vertex = number(*vertex),
-            Self::NotFinite { .. }
-            | Self::FamilyNotApplicable { .. }
-            | Self::BoundaryTooShort { .. }
-            | Self::TooManyPins { .. }
-            | Self::Unmet
-            | Self::TooFine
-            | Self::TooManyNewVertices { .. }
-            | Self::NotPlanar
-            | Self::AllBent
-            | Self::LadderExhausted { .. }
-            | Self::ResidualTooLarge { .. }
-            | Self::Linear { .. }
-            | Self::Cancelled => {}
-        }
-        self
     }
 
     /// Whether a method came to nothing with pins and settings that may be: another method may give an embedding.
