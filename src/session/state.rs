@@ -101,6 +101,7 @@ impl Session {
             Action::Mend => self.mend(),
             Action::ShowChart(number) => self.show_chart(number),
             Action::SetPacking(options) => self.set_packing(options),
+            Action::SetChartSize { chart, size } => self.set_chart_size(chart, size),
             Action::MirrorTargets => self.mirror_targets(),
             Action::FitTargets => self.fit_targets(),
             Action::ImportConstraints(path) => self.import_constraints(path),
