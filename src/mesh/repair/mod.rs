@@ -11,6 +11,7 @@
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
+//! | `paths.rs` | shortest paths along edges, for seams that a person draws |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
 //!
 //! A repair changes connectivity alone: every position stays, and old vertices keep their numbers; new ones, which lie where
@@ -23,6 +24,7 @@ mod fill;
 mod form;
 mod join;
 mod leave_out;
+mod paths;
 mod seams;
 mod sides;
 mod ways;
@@ -37,6 +39,7 @@ use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
 pub use charts::{Chart, Charts};
 pub use form::{Form, HoleTreatment};
+pub use paths::{EdgePaths, PathTree};
 pub use seams::Seams;
 
 /// What may be done to a mesh so that it flattens.
