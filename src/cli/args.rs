@@ -198,7 +198,9 @@ impl FlattenArguments {
             Holes::Fill => HoleTreatment::Fill,
             Holes::Cut => HoleTreatment::Cut,
         };
-        Form { repair, holes, cut: self.cut == Cut::Auto, ..Form::default() }
+        let mut form = Form { repair, holes, cut: self.cut == Cut::Auto, ..Form::default() };
+        form.seams.of_texture = self.charts == ChartsOf::Uv;
+        form
     }
 
     /// How several charts are packed, into this picture where there is one.
