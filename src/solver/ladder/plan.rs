@@ -7,13 +7,13 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
+use self::Kind::{Again, Continuation, Fit, Given, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
 use super::cut::Cut;
 use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
-use super::{again, continuation, iterate, matchmaker, natural, schnyder, virtual_boundary};
+use super::{again, continuation, given, iterate, matchmaker, natural, schnyder, virtual_boundary};
 use crate::solver::{Embedding, GaugeSize, Method, Pins, Prepared, Settings};
 
 /// The rungs of a part, flight by flight.
@@ -36,6 +36,13 @@ const MATCHED: Flights = &[&[Fit, Matchmaker]];
 /// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
 const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
 
+/// The layout that it starts from, as it is.
+const GIVEN: Flights = &[&[Given]];
+/// From that until planar, stalled or at the limit.
+const GIVEN_ITERATED: Flights = &[&[Given, Iterate]];
+/// From that until planar.
+const GIVEN_BENT: Flights = &[&[Given], &[VirtualBoundary]];
+
 /// The most rounds of relaxing until a planar embedding serves.
 const ROUNDS_UNTIL_IT_SERVES: usize = 60;
 
@@ -45,6 +52,7 @@ const ROUNDS_TO_CONVEX: usize = 30;
 /// Every rung but relaxing, which follows all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
+    Given,
     Natural,
     Iterate,
     Again,
@@ -58,6 +66,7 @@ pub(super) enum Kind {
 impl Kind {
     fn rung(self, kept: &Kept) -> Box<dyn Rung> {
         match self {
+            Given => Box::<given::Given>::default(),
             Natural => Box::new(natural::Natural { prepared: kept.prepared.clone() }),
             Iterate => Box::<iterate::Iterate>::default(),
             Again => Box::<again::Again>::default(),
@@ -105,6 +114,32 @@ pub(super) struct Plan {
 
 impl Plan {
     pub(super) fn new(task: &Arc<Task>, kept: &Kept) -> Self {
+        if task.start.is_some() { Self::from_given(task, kept) } else { Self::afresh(task, kept) }
+    }
+
+    /// From the layout that the task starts from.
+    fn from_given(task: &Arc<Task>, kept: &Kept) -> Self {
+        let part = |flights| Part::new(task, Aim::Constraints, flights, kept);
+        // Constraints are met from the layout as it is.
+        let start = || {
+            let settings = Settings { size: task.settings.size, ..Settings::default() };
+            let sheet = Arc::clone(&task.sheet);
+            let task = Task { start: task.start.clone(), ..Task::new(settings, Pins::new(), sheet) };
+            Part::new(&Arc::new(task), Aim::PlanarStart, GIVEN, kept)
+        };
+        let parts = match task.settings.method {
+            Method::Iterate => [part(GIVEN_ITERATED)].into(),
+            Method::VirtualBoundary => [part(GIVEN_BENT)].into(),
+            Method::Auto if !task.is_constrained() => [part(GIVEN)].into(),
+            Method::Auto => [start(), part(Self::flights_to_constraints(task))].into(),
+            Method::Matchmaker => [start(), part(MATCHED)].into(),
+            _ => [start(), part(CONTINUED)].into(),
+        };
+        Self { parts }
+    }
+
+    /// From the surface alone.
+    pub(super) fn afresh(task: &Arc<Task>, kept: &Kept) -> Self {
         let planar_start = kept.planar_start.clone().filter(|start| start.size == task.settings.size);
         let kept = Kept { planar_start, ..kept.clone() };
         let part = |flights| Part::new(task, Aim::Constraints, flights, &kept);
@@ -117,10 +152,9 @@ impl Plan {
         let parts = match task.settings.method {
             Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
             Method::Auto => {
-                let flights = if task.adds_vertices() { CONTINUED_OR_MATCHED } else { CONTINUED };
-                [part(ITERATED)].into_iter().chain(from_start(flights)).collect()
+                [part(ITERATED)].into_iter().chain(from_start(Self::flights_to_constraints(task))).collect()
             }
-            Method::Continuation | Method::Relax | Method::Cut => from_start(CONTINUED).collect(),
+            Method::Continuation | Method::Relax | Method::Cut | Method::Given => from_start(CONTINUED).collect(),
             Method::Matchmaker => from_start(MATCHED).collect(),
             Method::Iterate => [part(ITERATED)].into(),
             Method::VirtualBoundary => [part(BENT)].into(),
@@ -128,6 +162,11 @@ impl Plan {
             Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
         };
         Self { parts }
+    }
+
+    /// For `auto`.
+    fn flights_to_constraints(task: &Task) -> Flights {
+        if task.adds_vertices() { CONTINUED_OR_MATCHED } else { CONTINUED }
     }
 
     pub(super) fn part(&self) -> &Part {
