@@ -10,6 +10,7 @@
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
+//! | `paths.rs` | shortest paths along edges, for seams that a person draws |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
 //!
 //! A repair changes connectivity alone: every position stays, and old vertices keep their numbers; new ones, which lie where
@@ -21,6 +22,7 @@ mod cut;
 mod fill;
 mod join;
 mod leave_out;
+mod paths;
 mod seams;
 mod sides;
 mod ways;
@@ -34,6 +36,7 @@ use fill::Filling;
 use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
 pub use charts::{Chart, Charts};
+pub use paths::{EdgePaths, PathTree};
 
 /// What is made of a file's faces before they are flattened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
