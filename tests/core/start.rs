@@ -71,7 +71,7 @@ fn relaxing_begins_with_the_layout_and_stays_planar_at_every_step() {
     let settings = Settings { relax_rounds: Some(8), ..one_of_each() };
     let (steps, ending) = finished(&mesh, ladder(settings, Pins::new(), &layout));
     assert_eq!(ending, Ok(Ending::Planar));
-    assert!(steps.len() > 3 && steps[1..].iter().all(|step| step.rung == Method::Relax));
+    assert!(steps.len() > 2 && steps[1..].iter().all(|step| step.rung == Method::Relax));
     assert!(steps.iter().all(|step| step.verdict.planar));
     let energies: Vec<f64> = steps.iter().map(|step| energy(&mesh, step)).collect();
     assert!(energies.is_sorted_by(|before, after| after <= before), "{energies:?}");

@@ -31,12 +31,15 @@ impl MeshFile {
     ///
     /// [`LayoutError`] where there are no texture coordinates, not at all corners, or several at a vertex.
     pub fn layout(&self, repaired: Option<&Repaired>, mesh: &TriMesh) -> Result<Embedding, LayoutError> {
-        let texture = self.complete_texture()?;
+        let texture = self.texture.as_ref().ok_or(TextureError::None)?;
         let polygons = repaired.map_or(&self.polygons, Repaired::polygons);
         let mut found: Vec<Option<DVec2>> = vec![None; mesh.vertex_count()];
         for (corner, vertex) in polygons.corners.iter().enumerate() {
             let of = repaired.map_or(corner, |repaired| repaired.corner_of(corner));
-            let uv = texture.coordinates[texture.corners[of] as usize];
+            let Some(&uv) = texture.coordinates.get(texture.corners[of] as usize) else {
+                self.complete_texture()?;
+                continue;
+            };
             if found[vertex.index()].replace(uv).is_some_and(|other| bits(other) != bits(uv)) {
                 return Err(LayoutError::Torn { vertex: self.polygons.corners[of] });
             }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `mod.rs` | [`Ladder`]: walks the plan, proves each candidate, remembers the latest step |
 //! | `plan.rs` | the plan of every method: which rung follows which |
+//! | `flights.rs` | the rungs by name, and the flights of them that plans are made of |
 //! | `proof.rs` | a candidate proved in the numbers that are written of it: a step |
 //! | `rung.rs` | what a rung is: from the latest step to a candidate, or to a reason why there is none |
 //! | `task.rs` | what is asked for: settings and pins |
@@ -25,6 +26,7 @@
 mod again;
 mod continuation;
 mod cut;
+mod flights;
 mod given;
 mod iterate;
 mod matchmaker;
@@ -92,7 +94,7 @@ impl Ladder {
     fn of(asked: Task) -> Self {
         let (units, kept) = (asked.units(), Kept::default());
         let task = Arc::new(asked.in_units(&units));
-        let plan = Plan::new(&task, &kept);
+        let plan = Plan::new(&task, &kept, asked.start.as_ref());
         Self { asked, units, task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default(), kept }
     }
 
@@ -117,7 +119,7 @@ impl Ladder {
     /// The same with what earlier ladders on the mesh have computed, used where it serves.
     #[must_use]
     pub fn with_kept(self, kept: &Kept) -> Self {
-        Self { plan: Plan::new(&self.task, kept), kept: kept.clone(), ..self }
+        Self { plan: Plan::new(&self.task, kept, self.asked.start.as_ref()), kept: kept.clone(), ..self }
     }
 
     /// The same, going on from a step of another ladder's on the same mesh, which counts as this one's first.

@@ -7,77 +7,23 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use self::Kind::{Again, Continuation, Fit, Given, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
 use super::cut::Cut;
+use super::flights::Kind::{self, Fit, Iterate, Schnyder};
+use super::flights::{
+    BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, ITERATED, LADDER, LINEAR,
+    MATCHED,
+};
 use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
-use super::{again, continuation, given, iterate, matchmaker, natural, schnyder, virtual_boundary};
 use crate::solver::{Embedding, GaugeSize, Method, Pins, Prepared, Settings};
-
-/// The rungs of a part, flight by flight.
-type Flights = &'static [&'static [Kind]];
-
-/// Until planar.
-const LADDER: Flights = &[&[Natural, Iterate], &[Again, Iterate], &[VirtualBoundary], &[Schnyder]];
-/// Until planar, stalled or at the limit.
-const ITERATED: Flights = &[&[Natural, Iterate]];
-/// Until planar.
-const BENT: Flights = &[&[Natural], &[VirtualBoundary]];
-/// By theorem.
-const DRAWN: Flights = &[&[Schnyder]];
-/// One linear solve.
-const LINEAR: Flights = &[&[Natural]];
-/// From a planar start until the constraints are met, or stuck.
-const CONTINUED: Flights = &[&[Fit, Continuation]];
-/// From a planar start until the constraints are met, with new vertices.
-const MATCHED: Flights = &[&[Fit, Matchmaker]];
-/// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
-const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
-
-/// The layout that it starts from, as it is.
-const GIVEN: Flights = &[&[Given]];
-/// From that until planar, stalled or at the limit.
-const GIVEN_ITERATED: Flights = &[&[Given, Iterate]];
-/// From that until planar.
-const GIVEN_BENT: Flights = &[&[Given], &[VirtualBoundary]];
 
 /// The most rounds of relaxing until a planar embedding serves.
 const ROUNDS_UNTIL_IT_SERVES: usize = 60;
 
 /// Rounds of relaxing by which polygons become convex.
 const ROUNDS_TO_CONVEX: usize = 30;
-
-/// Every rung but relaxing, which follows all of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Kind {
-    Given,
-    Natural,
-    Iterate,
-    Again,
-    VirtualBoundary,
-    Schnyder,
-    Fit,
-    Continuation,
-    Matchmaker,
-}
-
-impl Kind {
-    fn rung(self, kept: &Kept) -> Box<dyn Rung> {
-        match self {
-            Given => Box::<given::Given>::default(),
-            Natural => Box::new(natural::Natural { prepared: kept.prepared.clone() }),
-            Iterate => Box::<iterate::Iterate>::default(),
-            Again => Box::<again::Again>::default(),
-            VirtualBoundary => Box::<virtual_boundary::Bend>::default(),
-            Schnyder => Box::<schnyder::Draw>::default(),
-            Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
-            Continuation => Box::<continuation::Continue>::default(),
-            Matchmaker => Box::<matchmaker::Match>::default(),
-        }
-    }
-}
 
 /// What ladders on a mesh have computed, for further ones on it.
 #[derive(Clone, Debug, Default)]
@@ -113,18 +59,18 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn new(task: &Arc<Task>, kept: &Kept) -> Self {
-        if task.start.is_some() { Self::from_given(task, kept) } else { Self::afresh(task, kept) }
+    /// From a layout in the plane on, where there is one.
+    pub(super) fn new(task: &Arc<Task>, kept: &Kept, layout: Option<&Arc<Embedding>>) -> Self {
+        layout.map_or_else(|| Self::afresh(task, kept), |layout| Self::from_given(task, kept, layout))
     }
 
-    /// From the layout that the task starts from.
-    fn from_given(task: &Arc<Task>, kept: &Kept) -> Self {
+    fn from_given(task: &Arc<Task>, kept: &Kept, layout: &Arc<Embedding>) -> Self {
         let part = |flights| Part::new(task, Aim::Constraints, flights, kept);
         // Constraints are met from the layout as it is.
         let start = || {
             let settings = Settings { size: task.settings.size, ..Settings::default() };
             let sheet = Arc::clone(&task.sheet);
-            let task = Task { start: task.start.clone(), ..Task::new(settings, Pins::new(), sheet) };
+            let task = Task { start: Some(Arc::clone(layout)), ..Task::new(settings, Pins::new(), sheet) };
             Part::new(&Arc::new(task), Aim::PlanarStart, GIVEN, kept)
         };
         let parts = match task.settings.method {
