@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::{ChartsOf, FlattenArguments};
+use super::args::FlattenArguments;
 use super::exit::conclude;
 use super::failed::await_report;
 use super::job::HeadlessJob;
@@ -46,7 +46,8 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = in_charts(read_model(&arguments.mesh, arguments.form())?, arguments.charts)?;
+        let model = read_model(&arguments.mesh, arguments.form())?;
+        check_texture(&model)?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
@@ -86,13 +87,13 @@ fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The mesh in the charts that are asked for.
-fn in_charts(model: Model, charts: ChartsOf) -> Result<Model, Failure> {
-    if charts == ChartsOf::Parts {
-        return Ok(model);
+/// Refuses to cut along texture coordinates that not all corners have.
+fn check_texture(model: &Model) -> Result<(), Failure> {
+    if !model.form.seams.of_texture {
+        return Ok(());
     }
     let path = model.path_words();
-    model.cut_along_texture().map_err(|error| match error {
+    model.source.texture_labels().map(drop).map_err(|error| match error {
         TextureError::None => Failure::Usage(format!("{path}: {error}: leave out --charts uv")),
         TextureError::Missing(_) => Failure::Texture { path, error },
     })

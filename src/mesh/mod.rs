@@ -51,6 +51,8 @@ pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
-pub use repair::{Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PathTree, Repair, RepairExtent, Repaired};
+pub use repair::{
+    Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PathTree, Repair, RepairExtent, Repaired, Seams,
+};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

@@ -93,8 +93,8 @@ impl Files {
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
-        let Form { faces_turned, repair, holes, cut } = document.form;
-        (project.faces_turned, project.repair, project.cut) = (faces_turned, repair, cut);
+        let Form { faces_turned, repair, holes, cut, seams } = document.form.clone();
+        (project.faces_turned, project.repair, project.cut, project.seams) = (faces_turned, repair, cut, seams);
         project.holes = Some(holes);
         project.relaxed = document.relaxed;
         project.picture = match &document.picture {

@@ -108,7 +108,7 @@ impl Opened {
     fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
         let form = project.form();
-        let model = project_mesh(&project.mesh, form, &mut remarks)?.with_chart(project.chart);
+        let model = project_mesh(&project.mesh, form.clone(), &mut remarks)?.with_chart(project.chart);
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);

@@ -4,7 +4,7 @@
 //! |----------|--------------------------------------------------|
 //! | `mod`    | a project, read and written; paths in it         |
 //! | `error`  | why a file did not become a project              |
-//! | `fields` | how sources and pins stand in the file           |
+//! | `fields` | how sources, seams and pins stand in the file    |
 //!
 //! A project names mesh and picture and holds everything else. Fields that this version does not know are ignored, so
 //! that a later version can add some; one that changes what fields mean takes the next [`PROJECT_VERSION`].
@@ -19,12 +19,12 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 pub use self::error::ProjectError;
-use self::fields::{SourceFields, pin_list};
+use self::fields::{SourceFields, pin_list, seam_list};
 use super::door::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::{PackingOptions, VAxis};
-use crate::mesh::{Form, HoleTreatment, RepairExtent};
+use crate::mesh::{Form, HoleTreatment, RepairExtent, Seams};
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
@@ -53,6 +53,9 @@ pub struct ProjectFile {
     /// Whether it is cut open where it is no disk.
     #[serde(default)]
     pub cut: bool,
+    /// Where it is cut before that.
+    #[serde(default, skip_serializing_if = "Seams::is_empty", with = "seam_list")]
+    pub seams: Seams,
     /// The picture.
     #[serde(default)]
     pub picture: Option<ProjectSource>,
@@ -169,7 +172,7 @@ impl ProjectFile {
     /// What is made of the mesh's faces.
     pub fn form(&self) -> Form {
         let holes = self.holes.unwrap_or(if self.cut { HoleTreatment::Cut } else { HoleTreatment::Fill });
-        Form { faces_turned: self.faces_turned, repair: self.repair, holes, cut: self.cut }
+        Form { faces_turned: self.faces_turned, repair: self.repair, holes, cut: self.cut, seams: self.seams.clone() }
     }
 
     /// A project of a mesh, with nothing but settings made of it yet.
@@ -185,6 +188,7 @@ impl ProjectFile {
             repair: RepairExtent::default(),
             holes: Some(HoleTreatment::default()),
             cut: false,
+            seams: Seams::default(),
             picture: None,
             v_axis: VAxis::default(),
             method,
