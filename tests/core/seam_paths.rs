@@ -203,7 +203,7 @@ fn a_stretch_of_a_seam_ends_where_seams_end_or_meet() {
     assert_eq!(through(5), edges(&[[2, 4], [4, 5]]));
     assert_eq!(through(2), edges(&[[0, 1], [1, 2], [2, 3], [2, 4], [4, 5]]), "where seams meet, all that meet");
     assert_eq!(through(7), edges(&[[6, 7], [6, 8], [7, 8]]));
-    assert_eq!(through(9), []);
+    assert!(through(9).is_empty());
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::session::Model;
 
 /// Vertices of a mesh on the screen and of its file. New vertices of a step are of no file.
 #[derive(Debug)]
-pub struct InFile {
+pub(in crate::ui) struct InFile {
     vertex_count: usize,
     /// The file's vertex that each vertex is, and the vertices in the order of these; none where all are the same.
     other: Option<Others>,
