@@ -88,9 +88,7 @@ fn two_clicks_cut_a_barrel_open_and_undo_closes_it() {
     window.settle();
     assert!(window.shows(&format!("Click: cut {ALONG} edges to {}", at(k, ALONG))), "{:?}", window.words());
     let preview = [place(&window, at(k, 2)), place(&window, at(k, 3))];
-    let is_preview = |line: &[Pos2; 2]| {
-        preview.iter().all(|end| line.iter().any(|point| point.distance(*end) < 1.0))
-    };
+    let is_preview = |line: &[Pos2; 2]| preview.iter().all(|end| line.iter().any(|point| point.distance(*end) < 1.0));
     assert!(window.lines().iter().any(is_preview), "the path shows before it is cut");
     click(&mut window, at(k, ALONG), Modifiers::NONE);
     assert_eq!(seams(&window), column(k, 0..ALONG));
@@ -178,10 +176,9 @@ fn a_seam_leads_from_chart_to_chart() {
     // Around the barrel: above and below are charts of their own.
     for step in [0, 4, 8, 12] {
         let around = at((k + step) % AROUND, 3);
-        window.editor_mut().handle(freebound::ui::Request::ClickSeam(freebound::ui::SeamClick {
-            vertex: around,
-            erases: false,
-        }));
+        window
+            .editor_mut()
+            .handle(freebound::ui::Request::ClickSeam(freebound::ui::SeamClick { vertex: around, erases: false }));
         window.settle();
     }
     assert_eq!(seams(&window).len(), AROUND as usize);
@@ -212,9 +209,8 @@ fn a_closed_figure_flattens_once_a_seam_opens_it() {
 #[test]
 fn the_measure_of_paths_is_chosen_by_a_slider() {
     let mut window = window();
-    let slider = |window: &Window| {
-        window.harness.query_by_role_and_label(Role::Slider, "Short ways to creases").is_some()
-    };
+    let slider =
+        |window: &Window| window.harness.query_by_role_and_label(Role::Slider, "Short ways to creases").is_some();
     assert!(slider(&window));
     assert_eq!(window.editor().tools.seam.creases(), 0.5);
     window.harness.get_by_role_and_label(Role::Slider, "Short ways to creases").focus();

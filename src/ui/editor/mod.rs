@@ -183,8 +183,10 @@ impl Editor {
         }
         self.refresh_paints();
         self.host.note_work(self.session.busy().is_some(), Instant::now());
-        let scenes_pending =
-            self.mesh.is_making_scene() || self.plane.is_making_scene() || self.look.is_making_picture() || self.tools.seam.is_busy();
+        let scenes_pending = self.mesh.is_making_scene()
+            || self.plane.is_making_scene()
+            || self.look.is_making_picture()
+            || self.tools.seam.is_busy();
         if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
             self.host.context().request_repaint_after(Duration::from_millis(100));
         }

@@ -7,8 +7,8 @@ use crate::io::OutputFit;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::Hold;
-use crate::ui::panes::inset::InsetPan;
 use crate::ui::editor::seam_tool::SeamClick;
+use crate::ui::panes::inset::InsetPan;
 use crate::ui::{Answer, Purpose, Stage};
 
 /// What the left mouse button does.
