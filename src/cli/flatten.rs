@@ -1,6 +1,7 @@
 //! `freebound flatten`: read, solve, prove, write. And the main job without a screen: the built-in example, flattened
 //! into a folder.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -14,13 +15,14 @@ use super::places::Places;
 use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
 use super::standard::{is_standard, name_of_input, read_model};
+use super::typed::ChartSize;
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
 use crate::io::{
     Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError, WriteError,
 };
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::session::{Document, Model, Surface};
 use crate::solver::{Choice as _, SolveError};
 
@@ -57,6 +59,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let packing = arguments.packing(picture.as_ref());
         let document = Document {
             targets,
+            sizes: sizes(&arguments.chart_size, &model)?,
             settings: arguments.settings(),
             picture: picture.map(Arc::new),
             aspect: arguments.aspect,
@@ -97,6 +100,23 @@ fn check_texture(model: &Model) -> Result<(), Failure> {
         TextureError::None => Failure::Usage(format!("{path}: {error}: leave out --charts uv")),
         TextureError::Missing(_) => Failure::Texture { path, error },
     })
+}
+
+/// How many times as large as the others charts are packed, by their first faces.
+fn sizes(given: &[ChartSize], model: &Model) -> Result<BTreeMap<FaceId, f64>, Failure> {
+    let count = model.chart_count();
+    let first_face = |chart: usize| {
+        let charts = model.chart.as_ref().map(|of| &of.charts).filter(|charts| chart < charts.count());
+        charts.map(|charts| charts.first_face(chart)).ok_or_else(|| {
+            let why = if count == 1 {
+                "one chart, which fills the square".into()
+            } else {
+                format!("charts 0 to {}", count - 1)
+            };
+            Failure::Usage(format!("--chart-size {chart}: the mesh has {why}"))
+        })
+    };
+    given.iter().map(|&ChartSize { chart, size }| Ok((first_face(chart)?, size))).collect()
 }
 
 /// Refuses files that would be written over, by the run itself or as results of one another.

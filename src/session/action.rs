@@ -49,6 +49,13 @@ pub enum Action {
     ShowChart(usize),
     /// Chooses how charts are packed.
     SetPacking(PackingOptions),
+    /// Chooses how many times as large as the others a chart is packed.
+    SetChartSize {
+        /// The chart.
+        chart: usize,
+        /// How many times, within [`PackingOptions::SIZES`].
+        size: f64,
+    },
     /// Places a constraint: pins a vertex, which may be pinned already.
     Place {
         /// The vertex.

@@ -11,7 +11,8 @@ use super::model::ChartOf;
 use super::solving::{Next, Rest, Solving, Task};
 use super::stop::Goal;
 use super::{
-    Background, ChartEdits, Command, Messages, Model, Outcome, Problem, Session, StopConditions, Timeline, Wake,
+    Background, ChartEdits, Command, Messages, Model, Outcome, Problem, Session, StopConditions, TIMELINE_BUDGET,
+    Timeline, Wake,
 };
 use crate::geom::PackingOptions;
 use crate::mesh::Charts;
@@ -48,6 +49,11 @@ struct Other {
     messages: Messages,
 }
 
+/// Bytes that the steps of a chart which is not on the screen may take: together no more than those of the one that is.
+fn share(of: &ChartOf) -> usize {
+    TIMELINE_BUDGET / of.charts.count()
+}
+
 impl OtherCharts {
     pub(super) fn new(wake: &Wake) -> Self {
         Self { wake: Arc::clone(wake), others: BTreeMap::new(), forming: Background::new("chart", wake), asked: None }
@@ -77,11 +83,11 @@ impl OtherCharts {
 
     /// Exchanges the chart on the screen, `model` with its run, for another one, whose run takes its place.
     pub(super) fn exchange(&mut self, model: &Arc<Model>, solving: &mut Solving, number: usize) {
-        let coming = self.others.remove(&number).map(|other| other.solving);
-        let mut coming = coming.unwrap_or_else(|| Solving::new(Arc::clone(&self.wake)));
-        coming.come_on_screen_after(solving);
-        let going = std::mem::replace(solving, coming);
         let Some(of) = &model.chart else { return };
+        let coming = self.others.remove(&number).map(|other| other.solving);
+        let mut coming = coming.unwrap_or_else(|| Solving::new(Arc::clone(&self.wake), TIMELINE_BUDGET));
+        coming.come_on_screen_after(solving, share(of));
+        let going = std::mem::replace(solving, coming);
         let other = Other { model: Arc::clone(model), solving: going, messages: Messages::default() };
         self.others.insert(of.number, other);
     }
@@ -155,6 +161,23 @@ impl Session {
         self.history.apply(Command::SetPacking(options), &mut self.document);
     }
 
+    /// Chooses how large a chart is packed, as an edit. No chart is solved anew for it.
+    pub(super) fn set_chart_size(&mut self, chart: usize, size: f64) {
+        let first_face = self.charts().filter(|charts| chart < charts.count()).map(|charts| charts.first_face(chart));
+        if let Some(first_face) = first_face.filter(|_| PackingOptions::SIZES.contains(&size)) {
+            #[expect(clippy::float_cmp, reason = "the size without an entry")]
+            let size = (size != 1.0).then_some(size);
+            self.history.apply(Command::SetSize { first_face, size }, &mut self.document);
+        }
+    }
+
+    /// How many times as large as the others each chart is packed.
+    pub fn sizes(&self) -> Vec<f64> {
+        let size =
+            |charts: &Arc<Charts>, number| self.document.sizes.get(&charts.first_face(number)).copied().unwrap_or(1.0);
+        self.charts().map(|charts| (0..charts.count()).map(|number| size(charts, number)).collect()).unwrap_or_default()
+    }
+
     /// Solves for what the document wants on the screen, where it is not there, or on its way.
     pub(super) fn follow_chart(&mut self) {
         self.drag.end();
@@ -176,7 +199,7 @@ impl Session {
                 self.charts.asked.take_if(|asked| *asked == number);
             }
             if let Some(model) = formed.ok().filter(|_| of_mesh == revision && number != of.number) {
-                let solving = Solving::new(Arc::clone(&self.charts.wake));
+                let solving = Solving::new(Arc::clone(&self.charts.wake), share(&of));
                 let other = Other { model: Arc::new(model), solving, messages: Messages::default() };
                 self.charts.others.entry(number).or_insert(other);
             }

@@ -105,6 +105,7 @@ impl Files {
         project.targets = model.all_targets(document);
         project.chart = document.chart;
         project.packing = document.packing;
+        project.sizes = document.sizes.iter().map(|(face, &size)| (face.number(), size)).collect();
         let relaxed = document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
         project.relaxed_elsewhere = relaxed.map(|(&chart, edits)| (chart, edits.relaxed)).collect();
         project.view.clone_from(&self.table.view);

@@ -11,7 +11,7 @@ use crate::io::{
     FileStamp, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError,
     RecoveryNote, Target, Targets, material_picture,
 };
-use crate::mesh::{Form, VertexId};
+use crate::mesh::{FaceId, Form, VertexId};
 
 /// Something that was opened, ready to be put on the table.
 #[derive(Debug)]
@@ -120,6 +120,7 @@ impl Opened {
             form,
             chart: project.chart,
             packing: project.packing,
+            sizes: project.sizes.into_iter().map(|(face, size)| (FaceId::new(face), size)).collect(),
             relaxed: project.relaxed,
             ..Document::default()
         };

@@ -91,6 +91,9 @@ pub struct ProjectFile {
     /// How charts are packed.
     #[serde(default)]
     pub packing: PackingOptions,
+    /// How many times as large as the others charts are packed, by their first faces in the file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sizes: BTreeMap<u32, f64>,
     /// The targets of the user's pins.
     #[serde(default, rename = "pins", with = "pin_list")]
     pub targets: Targets,
@@ -202,6 +205,7 @@ impl ProjectFile {
             chart: None,
             relaxed_elsewhere: BTreeMap::new(),
             packing: PackingOptions::default(),
+            sizes: BTreeMap::new(),
             new_vertices: settings.new_vertices,
             targets: Targets::new(),
             view: ProjectView::default(),
