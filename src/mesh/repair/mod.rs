@@ -11,6 +11,7 @@
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
 //! | `borders.rs` | edges that seams follow as a rule: creases, and where faces of two kinds meet |
+//! | `stretches.rs` | seams as lines, from where they end or meet to where they do again |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
 //! | `paths.rs` | shortest paths along edges, for seams that a person draws |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
@@ -29,6 +30,7 @@ mod leave_out;
 mod paths;
 mod seams;
 mod sides;
+mod stretches;
 mod ways;
 
 use std::fmt;
