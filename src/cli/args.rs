@@ -1,12 +1,14 @@
 //! What can be typed. `freebound --help` is made from this.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::{DVec2, UVec2};
 
-use super::typed::{ChartSize, choice, parse_aspect, parse_chart_size, parse_pin, parse_pixels};
+use super::typed::{ChartSize, choice, parse_aspect, parse_chart_size, parse_pin, parse_pixels, parse_seam_kind};
 use crate::geom::PackingOptions;
 use crate::io::{OutputFit, OutputKind, PictureFile, Precision, Target};
 use crate::mesh::{Form, HoleTreatment, RepairExtent, VertexId};
@@ -58,9 +60,15 @@ pub struct FlattenArguments {
     /// What becomes of holes: filled while the surface is flattened, or cut open where a surface is cut.
     #[arg(long, value_enum, default_value_t)]
     pub holes: Holes,
-    /// Whether a surface that is no disk is cut open until it is one.
-    #[arg(long, value_enum, default_value_t)]
+    /// Whether a surface that is no disk (closed, with handles, with one side only) is cut open until it is one: `none` leaves
+    /// it, `auto` cuts along short ways, creases first; a file of edges, lines `a b` of two vertices numbered from 0, is cut along
+    /// first, and then as `auto` does what is no disk yet.
+    #[arg(long, value_name = "none|auto|FILE", default_value = "none", value_parser = OsStringValueParser::new().map(Cut::from))]
     pub cut: Cut,
+    /// Cut along these edges, too: `sharp`, or `sharp=DEGREES`, where faces meet at that angle or more, 30 without a number;
+    /// `materials` and `groups`, where faces of two of them meet. Several with commas between them.
+    #[arg(long, value_name = "sharp[=DEGREES],materials,groups", value_delimiter = ',', value_parser = parse_seam_kind)]
+    pub seams: Vec<SeamKind>,
     /// What the charts of the mesh are, which are flattened each by itself.
     #[arg(long, value_enum, default_value_t)]
     pub charts: ChartsOf,
@@ -172,13 +180,35 @@ pub enum Holes {
 }
 
 /// Whether a surface is cut open, as it is typed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cut {
-    /// No
-    #[default]
+    /// No.
     None,
-    /// Where it is closed, has handles, holes, or one side only: along short ways, creases first
+    /// Where it is no disk.
     Auto,
+    /// Along the edges of a file, and then where it is no disk.
+    Along(PathBuf),
+}
+
+impl From<OsString> for Cut {
+    fn from(text: OsString) -> Self {
+        match text.to_str() {
+            Some("none") => Self::None,
+            Some("auto") => Self::Auto,
+            _ => Self::Along(text.into()),
+        }
+    }
+}
+
+/// Edges to cut along, as they are typed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SeamKind {
+    /// Where faces meet at an angle of so many degrees or more.
+    Sharp(f64),
+    /// Where faces of two materials meet.
+    Materials,
+    /// Where faces of two groups or objects meet.
+    Groups,
 }
 
 /// What the charts of a mesh are, as it is typed.
@@ -199,7 +229,7 @@ pub enum StartOf {
 }
 
 impl FlattenArguments {
-    /// What is to be made of the mesh's faces.
+    /// What is to be made of the mesh's faces, seams along edges of the mesh aside.
     pub fn form(&self) -> Form {
         let repair = match self.repair {
             Extent::Safe => RepairExtent::Safe,
@@ -210,7 +240,7 @@ impl FlattenArguments {
             Holes::Fill => HoleTreatment::Fill,
             Holes::Cut => HoleTreatment::Cut,
         };
-        let mut form = Form { repair, holes, cut: self.cut == Cut::Auto, ..Form::default() };
+        let mut form = Form { repair, holes, cut: self.cut != Cut::None, ..Form::default() };
         form.seams.of_texture = self.charts == ChartsOf::Uv;
         form
     }

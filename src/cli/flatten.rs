@@ -7,13 +7,14 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::FlattenArguments;
+use super::args::{Cut, FlattenArguments};
 use super::exit::conclude;
 use super::failed::await_report;
 use super::job::HeadlessJob;
 use super::places::Places;
 use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
+use super::seams::formed;
 use super::standard::{is_standard, name_of_input, read_model};
 use super::typed::ChartSize;
 use super::{Failure, Status};
@@ -52,8 +53,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = read_model(&arguments.mesh, arguments.form())?;
-        check_texture(&model)?;
+        let model = formed(&read_model(&arguments.mesh)?, arguments)?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
@@ -95,18 +95,6 @@ fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses to cut along texture coordinates that not all corners have.
-fn check_texture(model: &Model) -> Result<(), Failure> {
-    if !model.form.seams.of_texture {
-        return Ok(());
-    }
-    let path = model.path_words();
-    model.source.texture_labels().map(drop).map_err(|error| match error {
-        TextureError::None => Failure::Usage(format!("{path}: {error}: leave out --charts uv")),
-        TextureError::Missing(_) => Failure::Texture { path, error },
-    })
-}
-
 /// How many times as large as the others charts are packed, by their first faces.
 fn sizes(given: &[ChartSize], model: &Model) -> Result<BTreeMap<FaceId, f64>, Failure> {
     let count = model.chart_count();
@@ -128,7 +116,12 @@ fn sizes(given: &[ChartSize], model: &Model) -> Result<BTreeMap<FaceId, f64>, Fa
 fn refuse_clashes(arguments: &FlattenArguments, places: &Places) -> Result<(), Failure> {
     places.keep_apart()?;
     places.spare(&arguments.mesh, "the mesh")?;
-    for (file, what) in [(&arguments.constraints, "the constraints"), (&arguments.picture, "the picture")] {
+    let edges = match &arguments.cut {
+        Cut::Along(path) => Some(path.as_path()),
+        Cut::None | Cut::Auto => None,
+    };
+    let [constraints, picture] = [&arguments.constraints, &arguments.picture].map(Option::as_deref);
+    for (file, what) in [(constraints, "the constraints"), (picture, "the picture"), (edges, "the edges")] {
         if let Some(path) = file {
             places.spare(path, what)?;
         }

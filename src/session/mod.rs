@@ -31,6 +31,7 @@
 //! | `files`         | part: what is open and saved, read and written                             |
 //! | `opened`        | what opening brings                                                        |
 //! | `model`         | a mesh as it was opened                                                    |
+//! | `seam_edges`    | edges of a mesh that seams follow as a rule                                |
 //! | `saving`        | projects on their way to the disk                                          |
 //! | `recovery`      | copies for recovery                                                        |
 //! | `folder`        | shows where a file lies                                                    |
@@ -65,6 +66,7 @@ mod recent;
 mod recovery;
 mod runs;
 mod saving;
+mod seam_edges;
 mod solving;
 mod state;
 mod status;

@@ -81,24 +81,28 @@ impl Model {
     ///
     /// As [`read`](Self::read), and [`ReadError::Cancelled`] where it was to stop.
     pub fn read_until(path: &Path, form: Form, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        Ok(Self::as_in_file(name, Some(path.to_owned()), source).in_form(form))
+        Ok(Self::read_formless(path, is_enough)?.in_form(form))
     }
 
-    /// Reads and diagnoses a stream, looking now and then whether to stop. `name` is what to call it.
+    /// As [`read_until`](Self::read_until), for a form that depends on what is read: until it has one, the mesh has no faces.
     ///
     /// # Errors
     ///
     /// As [`read_until`](Self::read_until).
-    pub fn read_stream(
-        name: &str,
-        stream: impl Read,
-        form: Form,
-        is_enough: &dyn Fn() -> bool,
-    ) -> Result<Self, ReadError> {
+    pub fn read_formless(path: &Path, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
+        let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+        Ok(Self::as_in_file(name, Some(path.to_owned()), source))
+    }
+
+    /// As [`read_formless`](Self::read_formless), of a stream. `name` is what to call it.
+    ///
+    /// # Errors
+    ///
+    /// As [`read_until`](Self::read_until).
+    pub fn read_stream(name: &str, stream: impl Read, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
         let source = read_stream_with(stream, &mut |_| flow(is_enough))?;
-        Ok(Self::as_in_file(name.to_owned(), None, source).in_form(form))
+        Ok(Self::as_in_file(name.to_owned(), None, source))
     }
 
     /// A built-in mesh.
@@ -133,7 +137,8 @@ impl Model {
         let source = if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) };
         let labels = if form.seams.of_texture { source.texture_labels().ok() } else { None };
         let repaired = |form: &Form| form.repaired_along(&source.polygons, labels.as_deref());
-        let has_seams = labels.is_some() || !form.seams.edges().is_empty();
+        let is_cut_along = !form.seams.edges().is_empty() && !is_refused_uncut(&source.polygons, form.repair);
+        let has_seams = labels.is_some() || is_cut_along;
         let found = if has_seams { cut_surface(repaired(&form)) } else { surface_of(&source.polygons, &form) };
         let remedy = match &found.surface {
             Surface::Disk(_) => None,
@@ -167,6 +172,14 @@ impl Model {
     /// Whether it is the chart that is wanted, where the mesh has several.
     pub(super) fn is_chart(&self, wanted: Option<usize>) -> bool {
         self.chart.as_ref().is_none_or(|of| of.number == of.charts.pick(wanted))
+    }
+
+    /// The sides of its edges that are listed as seams, with its own vertices.
+    pub(crate) fn seam_sides(&self) -> Vec<[VertexId; 2]> {
+        match &self.repaired {
+            Some(repaired) => repaired.seam_sides(&self.form.seams, &self.source.polygons),
+            None => self.form.seams.edges().iter().copied().collect(),
+        }
     }
 
     /// How many charts the mesh has.
@@ -294,6 +307,16 @@ fn surface_of(polygons: &PolygonMesh, form: &Form) -> Found {
     }
 }
 
+/// Whether a mesh is refused wherever it is cut: for faults that cutting does not mend.
+fn is_refused_uncut(polygons: &PolygonMesh, extent: RepairExtent) -> bool {
+    let has = |is_fault: &dyn Fn(&Fault) -> bool| diagnose(&polygons.triangulate()).faults.iter().any(is_fault);
+    match extent {
+        RepairExtent::All => false,
+        RepairExtent::Safe => has(&|fault| matches!(fault, Fault::CoincidentVertices(_))),
+        RepairExtent::Nothing => has(&|fault| !(fault.is_cut_open() || fault.is_of_charts())),
+    }
+}
+
 /// What a surface is that is cut along its seams.
 fn cut_surface(repaired: Repaired) -> Found {
     let mesh = repaired.triangulate();
@@ -302,10 +325,11 @@ fn cut_surface(repaired: Repaired) -> Found {
             let repaired = (!repaired.done().is_empty()).then(|| Arc::new(repaired));
             Found { surface: Surface::Disk(Arc::new(disk)), repaired, chart: None }
         }
-        Err(diagnosis) => match Charts::of(repaired).map(Arc::new) {
-            Some(charts) => Found::chart(&charts, charts.largest()),
-            None => {
-                Found { surface: Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)), repaired: None, chart: None }
+        Err(diagnosis) => match Charts::try_of(repaired).map(Arc::new) {
+            Ok(charts) => Found::chart(&charts, charts.largest()),
+            Err(repaired) => {
+                let repaired = (!repaired.done().is_empty()).then(|| Arc::from(repaired));
+                Found { surface: Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)), repaired, chart: None }
             }
         },
     }

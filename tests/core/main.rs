@@ -82,6 +82,8 @@ mod reproduction;
 mod rounding;
 mod schnyder;
 mod seam_paths;
+mod seams;
+mod seams_cli;
 mod session;
 mod session_background;
 mod session_charts;

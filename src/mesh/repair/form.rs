@@ -55,6 +55,10 @@ impl Form {
         }
         let mut repaired = Repaired::new(source, self.repair);
         repaired.cut_along(&self.seams, labels, source);
+        if !self.seams.edges().is_empty() && (self.cut || self.repair == RepairExtent::All) {
+            // A surface with one side has two once it is cut.
+            repaired.turn_faces();
+        }
         repaired.fills = self.holes == HoleTreatment::Fill && self.repair != RepairExtent::Nothing;
         let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
         repaired.fill_holes()

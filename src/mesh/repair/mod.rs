@@ -10,6 +10,8 @@
 //! | `fill.rs` | holes filled with virtual faces |
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
+//! | `borders.rs` | edges that seams follow as a rule: creases, and where faces of two kinds meet |
+//! | `stretches.rs` | seams as lines, from where they end or meet to where they do again |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
 //! | `paths.rs` | shortest paths along edges, for seams that a person draws |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
@@ -18,6 +20,7 @@
 //! an old one does, follow. The file that the mesh came from is never changed but for its texture coordinates, which
 //! [`Repaired::corner_of`] carries back.
 
+mod borders;
 mod charts;
 mod cut;
 mod fill;
@@ -27,6 +30,7 @@ mod leave_out;
 mod paths;
 mod seams;
 mod sides;
+mod stretches;
 mod ways;
 
 use std::fmt;
@@ -37,6 +41,7 @@ use fill::Filling;
 
 use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
+pub use borders::{borders, creases};
 pub use charts::{Chart, Charts};
 pub use form::{Form, HoleTreatment};
 pub use paths::{EdgePaths, PathTree};
@@ -74,6 +79,8 @@ pub enum Repair {
     SplitVertices,
     /// Inner boundary loops are filled with virtual faces, which are of no file.
     FillHoles,
+    /// The surface is cut along seams that were given.
+    CutSeams,
     /// The surface is cut along edges until each part is a disk.
     Cut,
 }
@@ -89,6 +96,7 @@ impl Repair {
             Self::TurnFaces => "turn-faces",
             Self::SplitVertices => "split-vertices",
             Self::FillHoles => "fill-holes",
+            Self::CutSeams => "cut-seams",
             Self::Cut => "cut",
         }
     }
@@ -110,6 +118,7 @@ impl Repair {
                 ["vertex split, one for each fan of faces", "vertices split, one for each fan of faces"]
             }
             Self::FillHoles => ["hole filled while it is flattened", "holes filled while it is flattened"],
+            Self::CutSeams => ["edge cut along a seam", "edges cut along seams"],
             Self::Cut => ["edge cut open", "edges cut open"],
         }
     }
