@@ -8,7 +8,7 @@ use super::StopConditions;
 use crate::examples::Example;
 use crate::geom::{PackingOptions, VAxis};
 use crate::io::{OutputFit, OutputKind, Target};
-use crate::mesh::{Seams, VertexId};
+use crate::mesh::{HoleTreatment, Seams, VertexId};
 use crate::solver::{Hold, Settings};
 
 /// A file to write.
@@ -45,6 +45,10 @@ pub enum Action {
     Mend,
     /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
     SetSeams(Seams),
+    /// Chooses what becomes of the mesh's holes.
+    SetHoles(HoleTreatment),
+    /// Starts from the texture coordinates of the file, cut along their seams, where they have any.
+    TakeLayout,
     /// Puts another chart on the screen, where the mesh has several.
     ShowChart(usize),
     /// Chooses how charts are packed.

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use super::errands::Errand;
-use super::{Command, Session};
-use crate::mesh::{Form, Seams};
+use super::{Command, Place, Session};
+use crate::mesh::{Form, HoleTreatment, Seams};
+use crate::solver::{Family, Method, Settings, Start};
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
 const FORMING: &str = "turning or mending the faces";
@@ -30,6 +31,33 @@ impl Session {
         if self.model().is_some() && seams != self.document.form.seams {
             self.edit(vec![Command::SetForm(Form { seams, ..self.document.form.clone() })]);
         }
+    }
+
+    /// Fills holes while the mesh is flattened, or cuts it open from them to the outside.
+    pub(super) fn set_holes(&mut self, holes: HoleTreatment) {
+        if self.model().is_some() && holes != self.document.form.holes {
+            let form = self.document.form.clone();
+            let cut = form.cut || holes == HoleTreatment::Cut;
+            self.edit(vec![Command::SetForm(Form { holes, cut, ..form })]);
+        }
+    }
+
+    /// Starts from the texture coordinates of the file, and cuts the mesh along their seams, where they have any: one edit.
+    pub(super) fn take_layout(&mut self) {
+        let Some(model) = self.model() else { return };
+        let is_torn = match model.source.has_texture_seams() {
+            Ok(is_torn) => is_torn,
+            Err(error) => return self.messages.fail(Place::Mesh, error.to_string(), None),
+        };
+        let (form, before) = (self.document.form.clone(), self.document.settings);
+        let mut seams = form.seams.clone();
+        seams.of_texture |= is_torn;
+        let method = if before.method.goes_on_from_layout() { before.method } else { Method::Auto };
+        let family = if before.family.power().is_some() { before.family } else { Family::default() };
+        let settings = Settings { method, family, start: Start::File, ..before };
+        let edits = [Command::SetForm(Form { seams, ..form }), Command::SetSettings(settings)];
+        let edits = edits.into_iter().chain(self.drop_relaxing()).collect();
+        self.edit(edits);
     }
 
     /// The seams that the mesh is to be cut along.

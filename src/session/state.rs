@@ -99,6 +99,8 @@ impl Session {
             Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
             Action::Mend => self.mend(),
+            Action::SetHoles(holes) => self.set_holes(holes),
+            Action::TakeLayout => self.take_layout(),
             Action::SetSeams(seams) => self.set_seams(seams),
             Action::ShowChart(number) => self.show_chart(number),
             Action::SetPacking(options) => self.set_packing(options),

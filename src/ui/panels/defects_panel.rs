@@ -3,6 +3,7 @@
 use eframe::egui::{self, Color32, RichText, Role};
 
 use super::diagnosis;
+use super::surface::surface_rows;
 use crate::mesh::VertexId;
 use crate::solver::Verdict;
 use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, theme_of};
@@ -58,6 +59,9 @@ impl Kind {
 pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
     if let Some(model) = editor.session.model() {
+        if model.disk().is_none() {
+            surface_rows(ui, &editor.session, requests);
+        }
         if diagnosis::faults(ui, model, requests) {
             return;
         }
