@@ -45,6 +45,10 @@ pub enum Action {
     Mend,
     /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
     SetSeams(Seams),
+    /// Cuts the mesh along the edges of a file, too.
+    ImportSeams(PathBuf),
+    /// Writes the seams as a file of edges.
+    ExportSeams(PathBuf),
     /// Puts another chart on the screen, where the mesh has several.
     ShowChart(usize),
     /// Chooses how charts are packed.

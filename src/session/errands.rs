@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::edits::Flat;
+use super::seams::Recut;
 use super::{Background, Messages, Model, Place, Wake};
-use crate::io::{Constraints, ConstraintsError, PictureError, PictureFile};
+use crate::io::{Constraints, ConstraintsError, EdgesError, PictureError, PictureFile};
+use crate::mesh::VertexId;
 
 /// What an errand brings back.
 pub(super) enum Errand {
@@ -16,6 +18,10 @@ pub(super) enum Errand {
         path: PathBuf,
         read: Result<Constraints, ConstraintsError>,
     },
+    /// Seams for the open mesh, from a file.
+    Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
+    /// The open mesh, cut along other seams.
+    Recut(Box<Recut>),
     /// The open mesh in another form.
     Formed(Box<Model>),
     /// The open mesh flattened, to fit the targets to.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::errands::Errand;
 use super::{Command, Session};
-use crate::mesh::{Form, Seams};
+use crate::mesh::Form;
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
 const FORMING: &str = "turning or mending the faces";
@@ -23,18 +23,6 @@ impl Session {
         if self.model().is_some_and(|model| model.remedy.is_some()) {
             self.edit(vec![Command::SetForm(self.document.form.mended())]);
         }
-    }
-
-    /// Cuts the mesh along these seams, and no others.
-    pub(super) fn set_seams(&mut self, seams: Seams) {
-        if self.model().is_some() && seams != self.document.form.seams {
-            self.edit(vec![Command::SetForm(Form { seams, ..self.document.form.clone() })]);
-        }
-    }
-
-    /// The seams that the mesh is to be cut along.
-    pub fn seams(&self) -> &Seams {
-        &self.document.form.seams
     }
 
     /// Brings the mesh into the form, and to the chart, that the document wants. Where that takes time, a solve follows by
