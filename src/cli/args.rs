@@ -9,7 +9,7 @@ use glam::{DVec2, UVec2};
 
 use crate::geom::PackingOptions;
 use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Precision, Target};
-use crate::mesh::{Form, HoleTreatment, RepairExtent, VertexId};
+use crate::mesh::{Form, HoleTreatment, Repairs, VertexId, WeldDistance};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
@@ -52,8 +52,13 @@ pub struct FlattenArguments {
     #[arg(short, long, value_name = "MESH|-")]
     pub output: Option<PathBuf>,
     /// What may be repaired before the mesh is flattened: nothing, what changes no visible surface, or all that can be.
-    #[arg(long, value_enum, default_value_t)]
-    pub repair: Extent,
+    /// Any of them by its name does, too, with commas between: drop-repeated-corners, drop-duplicate-faces, weld-vertices,
+    /// split-edges, turn-faces, split-vertices, fill-holes.
+    #[arg(long, value_name = "none|safe|all|LIST", default_value_t)]
+    pub repair: Repairs,
+    /// Join vertices of faces that lie within this distance of each other, in the mesh's units; 0 joins those in one place.
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_weld_distance, allow_negative_numbers = true)]
+    pub weld: Option<WeldDistance>,
     /// What becomes of holes: filled while the surface is flattened, or cut open where a surface is cut.
     #[arg(long, value_enum, default_value_t)]
     pub holes: Holes,
@@ -140,18 +145,6 @@ pub struct FlattenArguments {
     pub threads: Option<u16>,
 }
 
-/// What may be repaired, as it is typed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Extent {
-    /// What changes no visible surface: repeated corners, duplicate faces, fans of faces that only touch
-    #[default]
-    Safe,
-    /// Parts that only touch are welded and edges of three faces split, too, and faces turned to run alike
-    All,
-    /// Nothing: a mesh with any fault is refused
-    None,
-}
-
 /// What becomes of holes, as it is typed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Holes {
@@ -185,11 +178,7 @@ pub enum ChartsOf {
 impl FlattenArguments {
     /// What is to be made of the mesh's faces.
     pub fn form(&self) -> Form {
-        let repair = match self.repair {
-            Extent::Safe => RepairExtent::Safe,
-            Extent::All => RepairExtent::All,
-            Extent::None => RepairExtent::Nothing,
-        };
+        let repair = self.repair.welding(self.weld);
         let holes = match self.holes {
             Holes::Fill => HoleTreatment::Fill,
             Holes::Cut => HoleTreatment::Cut,
@@ -298,6 +287,11 @@ fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
         Some(weight) => Err(ConstraintFault::WeightNotPositive { vertex, weight }.to_string()),
         None => Ok((vertex, target)),
     }
+}
+
+fn parse_weld_distance(text: &str) -> Result<WeldDistance, String> {
+    let parsed = text.trim().parse().ok().and_then(WeldDistance::new);
+    parsed.ok_or_else(|| "write a distance of 0 or more, for example 0.001".to_owned())
 }
 
 /// Width and height of "widthxheight", in pixels.

@@ -95,6 +95,7 @@ impl Files {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
         let Form { faces_turned, repair, holes, cut } = document.form;
         (project.faces_turned, project.repair, project.cut) = (faces_turned, repair, cut);
+        project.weld_distance = repair.weld_distance();
         project.holes = Some(holes);
         project.relaxed = document.relaxed;
         project.picture = match &document.picture {

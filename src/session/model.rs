@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::examples::Example;
 use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, TextureError, read_mesh_with, read_stream_with};
 use crate::mesh::{
-    Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, VertexId, diagnose,
+    Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, Repair, Repaired, TriMesh, VertexId, diagnose,
     relative_volume,
 };
 
@@ -259,6 +259,10 @@ impl Found {
         Self { surface, repaired, chart: Some(ChartOf { charts: Arc::clone(charts), number, chart }) }
     }
 
+    fn disk(disk: DiskMesh, repaired: Option<Repaired>) -> Self {
+        Self { surface: Surface::Disk(Arc::new(disk)), repaired: repaired.map(Arc::new), chart: None }
+    }
+
     /// What is no disk, and is left so.
     fn faulty(polygons: &PolygonMesh, diagnosis: Diagnosis) -> Self {
         let surface = Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(diagnosis));
@@ -269,28 +273,32 @@ impl Found {
 /// What a file's faces are in a form.
 fn surface_of(polygons: &PolygonMesh, form: Form) -> Found {
     let as_given = DiskMesh::try_from(polygons.triangulate()).and_then(|disk| {
-        let diagnosis = match form.repair {
-            RepairExtent::Nothing => diagnose(&polygons.triangulate()),
-            RepairExtent::Safe | RepairExtent::All => Diagnosis::default(),
-        };
+        let diagnosis = if form.repair.is_none() { diagnose(&polygons.triangulate()) } else { Diagnosis::default() };
         if diagnosis.faults.is_empty() { Ok(disk) } else { Err(Box::new(diagnosis)) }
     });
-    let diagnosis = match as_given {
-        Ok(disk) => return Found { surface: Surface::Disk(Arc::new(disk)), repaired: None, chart: None },
-        Err(diagnosis) => *diagnosis,
+    let is_welded = form.repair.weld_distance().is_some();
+    let (as_given, diagnosis) = match as_given {
+        Ok(disk) if is_welded => (Some(disk), Diagnosis::default()),
+        Ok(disk) => return Found::disk(disk, None),
+        Err(diagnosis) => (None, *diagnosis),
     };
     let is_no_fault = |fault: &Fault| fault.is_cut_open() || fault.is_of_charts();
-    if form.repair == RepairExtent::Nothing && !diagnosis.faults.iter().all(is_no_fault) {
+    if form.repair.is_none() && !diagnosis.faults.iter().all(is_no_fault) {
         return Found::faulty(polygons, diagnosis);
     }
     let repaired = form.repaired(polygons);
+    if let Some(disk) = as_given.filter(|_| repaired.done().is_empty()) {
+        return Found::disk(disk, None);
+    }
     if let Ok(disk) = DiskMesh::try_from(repaired.triangulate())
         && !repaired.done().is_empty()
     {
-        return Found { surface: Surface::Disk(Arc::new(disk)), repaired: Some(Arc::new(repaired)), chart: None };
+        return Found::disk(disk, Some(repaired));
     }
     // Parts that lie side by side, vertex on vertex, are as a rule one surface that a program took apart.
-    let is_apart = |fault: &Fault| matches!(fault, Fault::CoincidentVertices(_)) && form.repair != RepairExtent::All;
+    let is_apart = |fault: &Fault| {
+        matches!(fault, Fault::CoincidentVertices(_)) && !form.repair.allows(Repair::WeldVertices) && !is_welded
+    };
     let charts = if diagnosis.faults.iter().any(is_apart) { None } else { Charts::of(repaired) };
     match charts.map(Arc::new) {
         Some(charts) => Found::chart(&charts, charts.largest()),
@@ -303,8 +311,8 @@ fn cut_surface(repaired: Repaired) -> Found {
     let mesh = repaired.triangulate();
     match DiskMesh::try_from(mesh.clone()) {
         Ok(disk) => {
-            let repaired = (!repaired.done().is_empty()).then(|| Arc::new(repaired));
-            Found { surface: Surface::Disk(Arc::new(disk)), repaired, chart: None }
+            let is_repaired = !repaired.done().is_empty();
+            Found::disk(disk, is_repaired.then_some(repaired))
         }
         Err(diagnosis) => match Charts::of(repaired).map(Arc::new) {
             Some(charts) => Found::chart(&charts, charts.largest()),

@@ -110,3 +110,4 @@ mod view_parts;
 mod virtual_boundary;
 mod weighted;
 mod weights;
+mod weld;

@@ -1,5 +1,7 @@
 //! The charts of a repaired mesh: its parts that hang together across edges, where every one of them is a disk.
 
+use std::collections::HashMap;
+
 use super::Repaired;
 use super::fill::Filling;
 use super::sides::Sides;
@@ -76,6 +78,7 @@ impl Charts {
             face_of: self.faces[chart].iter().map(|&face| self.whole.face_of[face as usize]).collect(),
             polygons: part.polygons,
             stand_ins: Vec::new(),
+            joined: HashMap::new(),
             fills: self.whole.fills,
             filling: Filling::default(),
             done: self.whole.done.clone(),
