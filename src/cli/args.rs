@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::{DVec2, UVec2};
 
+use super::typed::{choice, parse_aspect, parse_pin, parse_pixels, parse_weld_distance};
 use crate::geom::PackingOptions;
-use crate::io::{ConstraintFault, OutputFit, OutputKind, PictureFile, Precision, Target};
+use crate::io::{OutputFit, OutputKind, PictureFile, Precision, Target};
 use crate::mesh::{Form, HoleTreatment, Repairs, VertexId, WeldDistance};
-use crate::solver::{BoundaryShape, Choice, Family, Growth, Hold, Method, Settings, Treatment};
+use crate::solver::{BoundaryShape, Choice as _, Family, Growth, Method, Settings, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -262,54 +262,4 @@ pub struct CheckArguments {
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
-}
-
-/// Takes one of a few choices by its name, and lists them with a line on each.
-fn choice<C: Choice>() -> impl TypedValueParser<Value = C> {
-    let values = C::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.words().about));
-    PossibleValuesParser::new(values).map(|name| C::named(&name).expect("only these names pass"))
-}
-
-fn parse_pin(text: &str) -> Result<(VertexId, Target), String> {
-    let parsed = || {
-        let (vertex, place) = text.split_once(':')?;
-        let (place, weight) = place.split_once(':').map_or((place, None), |(place, weight)| (place, Some(weight)));
-        let (u, v) = place.split_once(',')?;
-        let hold = match weight {
-            None => Hold::Hard,
-            Some(weight) => Hold::Weighted(weight.trim().parse().ok()?),
-        };
-        let uv = DVec2::new(u.trim().parse().ok()?, v.trim().parse().ok()?);
-        Some((VertexId::new(vertex.trim().parse().ok()?), Target { uv, hold }))
-    };
-    let (vertex, target) = parsed().ok_or("write VERTEX:U,V or VERTEX:U,V:WEIGHT, for example 12:0.25,0.75")?;
-    match target.hold.invalid_weight() {
-        Some(weight) => Err(ConstraintFault::WeightNotPositive { vertex, weight }.to_string()),
-        None => Ok((vertex, target)),
-    }
-}
-
-fn parse_weld_distance(text: &str) -> Result<WeldDistance, String> {
-    let parsed = text.trim().parse().ok().and_then(WeldDistance::new);
-    parsed.ok_or_else(|| "write a distance of 0 or more, for example 0.001".to_owned())
-}
-
-/// Width and height of "widthxheight", in pixels.
-fn parse_pixels(text: &str) -> Result<UVec2, String> {
-    let parsed = || {
-        let (width, height) = text.split_once(['x', 'X', '×'])?;
-        let size = UVec2::new(width.trim().parse().ok()?, height.trim().parse().ok()?);
-        (size.cmpgt(UVec2::ZERO).all() && size.cmple(UVec2::splat(PackingOptions::LONGEST_SIDE)).all()).then_some(size)
-    };
-    parsed().ok_or_else(|| format!("write WIDTHxHEIGHT, for example 2048x1024, up to {}", PackingOptions::LONGEST_SIDE))
-}
-
-/// Width over height of "width:height".
-fn parse_aspect(text: &str) -> Result<f64, String> {
-    let parsed = || {
-        let (width, height) = text.split_once(':')?;
-        let aspect = width.trim().parse::<f64>().ok()? / height.trim().parse::<f64>().ok()?;
-        (aspect.is_normal() && aspect > 0.0).then_some(aspect)
-    };
-    parsed().ok_or_else(|| "write WIDTH:HEIGHT, for example 16:9".to_owned())
 }

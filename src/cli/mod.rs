@@ -4,6 +4,7 @@
 //! |---------------|------------------------------------------------------------------------|
 //! | `mod`         | runs a command; list of methods and families                           |
 //! | `args`        | what can be typed                                                      |
+//! | `typed`       | what is typed for an option, read                                      |
 //! | `flatten`     | reads, solves, proves and writes; the example where no window opens    |
 //! | `job`         | a flattening of one chart or several, written and summed up            |
 //! | `check`       | diagnosis of a mesh, verdict on its texture coordinates                |
@@ -28,6 +29,7 @@ mod progress;
 mod say;
 mod standard;
 mod summary;
+mod typed;
 
 use std::process::ExitCode;
 

@@ -51,6 +51,9 @@ pub use parts::{Part, parts};
 pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
-pub use repair::{Chart, Charts, Done, Form, HoleTreatment, Repair, Repaired, Repairs, WeldDistance, near_vertices};
+pub use repair::{
+    Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PathTree, Repair, Repaired, Repairs, WeldDistance,
+    near_vertices,
+};
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

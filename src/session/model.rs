@@ -263,6 +263,13 @@ impl Found {
         Self { surface: Surface::Disk(Arc::new(disk)), repaired: repaired.map(Arc::new), chart: None }
     }
 
+    /// What is no disk after its repairs, with the faults that are left.
+    fn left(repaired: Repaired, left: Diagnosis) -> Self {
+        let surface = Surface::Faulty(Arc::new(repaired.triangulate()), Arc::new(left));
+        let is_repaired = !repaired.done().is_empty();
+        Self { surface, repaired: is_repaired.then(|| Arc::new(repaired)), chart: None }
+    }
+
     /// What is no disk, and is left so.
     fn faulty(polygons: &PolygonMesh, diagnosis: Diagnosis) -> Self {
         let surface = Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(diagnosis));
@@ -290,34 +297,34 @@ fn surface_of(polygons: &PolygonMesh, form: Form) -> Found {
     if let Some(disk) = as_given.filter(|_| repaired.done().is_empty()) {
         return Found::disk(disk, None);
     }
-    if let Ok(disk) = DiskMesh::try_from(repaired.triangulate())
-        && !repaired.done().is_empty()
-    {
-        return Found::disk(disk, Some(repaired));
-    }
     // Parts that lie side by side, vertex on vertex, are as a rule one surface that a program took apart.
-    let is_apart = |fault: &Fault| {
-        matches!(fault, Fault::CoincidentVertices(_)) && !form.repair.allows(Repair::WeldVertices) && !is_welded
-    };
-    let charts = if diagnosis.faults.iter().any(is_apart) { None } else { Charts::of(repaired) };
-    match charts.map(Arc::new) {
-        Some(charts) => Found::chart(&charts, charts.largest()),
-        None => Found::faulty(polygons, diagnosis),
+    let lies_apart = diagnosis.faults.iter().any(|fault| matches!(fault, Fault::CoincidentVertices(_)));
+    let is_meant_as_one = lies_apart && !form.repair.allows(Repair::WeldVertices) && !is_welded;
+    match DiskMesh::try_from(repaired.triangulate()) {
+        Err(left) if is_meant_as_one => Found::left(repaired, *left),
+        found => charts_of(repaired, found),
     }
 }
 
 /// What a surface is that is cut along its seams.
 fn cut_surface(repaired: Repaired) -> Found {
-    let mesh = repaired.triangulate();
-    match DiskMesh::try_from(mesh.clone()) {
+    let found = DiskMesh::try_from(repaired.triangulate());
+    charts_of(repaired, found)
+}
+
+/// A disk, or several, or what is left to be mended.
+fn charts_of(repaired: Repaired, found: Result<DiskMesh, Box<Diagnosis>>) -> Found {
+    match found {
         Ok(disk) => {
             let is_repaired = !repaired.done().is_empty();
             Found::disk(disk, is_repaired.then_some(repaired))
         }
-        Err(diagnosis) => match Charts::of(repaired).map(Arc::new) {
-            Some(charts) => Found::chart(&charts, charts.largest()),
-            None => {
-                Found { surface: Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)), repaired: None, chart: None }
+        Err(mut left) => match Charts::try_of(repaired).map(Arc::new) {
+            Ok(charts) => Found::chart(&charts, charts.largest()),
+            Err(repaired) => {
+                // What was split lies in one place, as it is meant to.
+                left.faults.retain(|fault| !matches!(fault, Fault::CoincidentVertices(_)));
+                Found::left(*repaired, *left)
             }
         },
     }

@@ -81,6 +81,7 @@ mod report_schema;
 mod reproduction;
 mod rounding;
 mod schnyder;
+mod seam_paths;
 mod session;
 mod session_background;
 mod session_charts;

@@ -30,14 +30,23 @@ pub struct Chart {
 impl Charts {
     /// The charts of a mesh, in the order of their first faces; none where it is one part, or a part is no disk.
     pub fn of(whole: Repaired) -> Option<Self> {
-        let faces = disks_of(&whole).filter(|faces| faces.len() > 1)?;
+        Self::try_of(whole).ok()
+    }
+
+    /// As [`of`](Self::of), the mesh given back where there are none.
+    ///
+    /// # Errors
+    ///
+    /// The mesh, where it is one part, or a part is no disk.
+    pub fn try_of(whole: Repaired) -> Result<Self, Box<Repaired>> {
+        let Some(faces) = disks_of(&whole).filter(|faces| faces.len() > 1) else { return Err(Box::new(whole)) };
         let mut chart_of_vertex = vec![None; whole.polygons.positions.len()];
         for (number, own) in (0..).zip(&faces) {
             for corner in own.iter().flat_map(|&face| whole.polygons.face(face as usize)) {
                 chart_of_vertex[corner.index()] = Some(number);
             }
         }
-        Some(Self { whole, faces, chart_of_vertex })
+        Ok(Self { whole, faces, chart_of_vertex })
     }
 
     /// The mesh that they are the charts of.

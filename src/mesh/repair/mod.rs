@@ -12,6 +12,7 @@
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
+//! | `paths.rs` | shortest paths along edges, for seams that a person draws |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
 //!
 //! A repair changes connectivity alone: every position stays, and old vertices keep their numbers; new ones, which lie where
@@ -24,6 +25,7 @@ mod fill;
 mod join;
 mod kinds;
 mod leave_out;
+mod paths;
 mod seams;
 mod sides;
 mod ways;
@@ -39,6 +41,7 @@ use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
 pub use charts::{Chart, Charts};
 pub use kinds::{Done, Repair, Repairs};
+pub use paths::{EdgePaths, PathTree};
 pub use weld::{WeldDistance, near_vertices};
 
 /// What is made of a file's faces before they are flattened.

@@ -8,6 +8,8 @@
 //! ```
 //!
 //! with n₁ and n₂ the normals of the edge's faces and n their mean.
+//!
+//! A seam that a person draws has a measure of its own, which `paths.rs` gives.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -20,10 +22,17 @@ use crate::mesh::{PolygonMesh, VertexId};
 /// What is left of the cost of an edge whose faces lie back to back.
 const CREASED: f64 = 0.1;
 
+/// The same for a seam that a person draws along creases alone.
+const CREASED_SEAM: f64 = 0.05;
+
+/// Angle between two faces' normals, in radians, from which on the edge between them is as sharp as can be: 90°.
+const SHARP: f64 = std::f64::consts::FRAC_PI_2;
+
 /// By how much the cost of an edge grows that looks straight to the front.
 const FRONT: f64 = 4.0;
 
 /// Edges as ways between vertices, in the order of the edges of the sides.
+#[derive(Debug)]
 pub(super) struct Ways {
     /// Length and cost of each edge.
     edges: Vec<Edge>,
@@ -34,11 +43,13 @@ pub(super) struct Ways {
 }
 
 /// An edge as a way.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
     pub(super) ends: [VertexId; 2],
     length: f64,
     pub(super) cost: f64,
+    /// How sharp its crease is, from 0 to 1.
+    sharpness: f64,
 }
 
 /// What is sought to be short.
@@ -46,9 +57,22 @@ pub(super) struct Edge {
 pub(super) enum Measure {
     Length,
     Cost,
+    /// Length, less along creases by a share from 0 to 1.
+    Blend(f64),
+}
+
+impl Edge {
+    fn measured(&self, by: Measure) -> f64 {
+        match by {
+            Measure::Length => self.length,
+            Measure::Cost => self.cost,
+            Measure::Blend(creases) => self.length * (1.0 - creases * (1.0 - CREASED_SEAM) * self.sharpness),
+        }
+    }
 }
 
 /// How far vertices are, and the edge towards where the way began; none there, or where no way leads.
+#[derive(Debug)]
 pub(super) struct Reach {
     pub(super) far: Vec<f64>,
     pub(super) back: Vec<Option<u32>>,
@@ -65,7 +89,8 @@ impl Ways {
             let [first, last] = [of(on[0]), of(on[on.len() - 1])];
             let crease = CREASED + (1.0 - CREASED) * f64::midpoint(1.0, first.dot(last));
             let front = (first + last).normalize_or_zero().z.max(0.0);
-            Edge { ends, length, cost: length * crease * (1.0 + FRONT * front) }
+            let cost = length * crease * (1.0 + FRONT * front);
+            Edge { ends, length, cost, sharpness: sharpness(first, last) }
         };
         let edges: Vec<Edge> = sides.table.edges().map(edge).collect();
         let mut starts = vec![0_u32; polygons.positions.len() + 1];
@@ -121,11 +146,7 @@ impl Ways {
                 continue;
             }
             for &edge in self.at(vertex) {
-                let Edge { length, cost, .. } = self.edges[edge as usize];
-                let step = match by {
-                    Measure::Length => length,
-                    Measure::Cost => cost,
-                };
+                let step = self.edges[edge as usize].measured(by);
                 let (to, there) = (self.other_end(edge, vertex), far[vertex.index()] + step);
                 if there < far[to.index()] {
                     far[to.index()] = there;
@@ -160,6 +181,14 @@ impl Reach {
         let farther = |best: usize, v: usize| if score(v) > score(best) { v } else { best };
         VertexId::from_index((0..self.far.len()).fold(0, farther))
     }
+}
+
+/// How sharp the crease between two faces is by their normals: in proportion to the angle, up to 1. A face without area has none.
+fn sharpness(first: DVec3, last: DVec3) -> f64 {
+    if first == DVec3::ZERO || last == DVec3::ZERO {
+        return 0.0;
+    }
+    (first.cross(last).length().atan2(first.dot(last)) / SHARP).min(1.0)
 }
 
 /// The normal of a face, of length 1 or 0.
