@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::{DVec2, UVec2};
 
-use super::typed::{choice, parse_aspect, parse_pin, parse_pixels, parse_weld_distance};
+use super::typed::{ChartSize, choice, parse_aspect, parse_chart_size, parse_pin, parse_pixels, parse_weld_distance};
 use crate::geom::PackingOptions;
 use crate::io::{OutputFit, OutputKind, PictureFile, Precision, Target};
 use crate::mesh::{Form, HoleTreatment, Repairs, VertexId, WeldDistance};
@@ -120,6 +120,10 @@ pub struct FlattenArguments {
     /// The least distance between packed charts, in pixels of that picture.
     #[arg(long, value_name = "PIXELS", default_value_t = PackingOptions::default().gap, value_parser = clap::value_parser!(u32).range(0..=1024))]
     pub gap: u32,
+    /// How many times as large as the others charts are packed: numbers of charts, as the report counts them from 0, each with
+    /// its size, for example `0=2,3=0.5`.
+    #[arg(long, value_name = "CHART=SIZE,…", value_delimiter = ',', value_parser = parse_chart_size)]
+    pub chart_size: Vec<ChartSize>,
     /// How many bits the numbers of texture coordinates have, as they are proved and written. GLB files always hold 32.
     #[arg(long, value_enum, default_value_t)]
     pub precision: Precision,
@@ -183,7 +187,9 @@ impl FlattenArguments {
             Holes::Fill => HoleTreatment::Fill,
             Holes::Cut => HoleTreatment::Cut,
         };
-        Form { repair, holes, cut: self.cut == Cut::Auto, ..Form::default() }
+        let mut form = Form { repair, holes, cut: self.cut == Cut::Auto, ..Form::default() };
+        form.seams.of_texture = self.charts == ChartsOf::Uv;
+        form
     }
 
     /// How several charts are packed, into this picture where there is one.

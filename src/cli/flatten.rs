@@ -1,12 +1,13 @@
 //! `freebound flatten`: read, solve, prove, write. And the main job without a screen: the built-in example, flattened
 //! into a folder.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::{ChartsOf, FlattenArguments};
+use super::args::FlattenArguments;
 use super::exit::conclude;
 use super::failed::await_report;
 use super::job::HeadlessJob;
@@ -14,13 +15,14 @@ use super::places::Places;
 use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
 use super::standard::{is_standard, name_of_input, read_model};
+use super::typed::ChartSize;
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
 use crate::io::{
     Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError, WriteError,
 };
-use crate::mesh::{DiskMesh, VertexId};
+use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::session::{Document, Model, Surface};
 use crate::solver::{Choice as _, SolveError};
 
@@ -46,7 +48,8 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = in_charts(read_model(&arguments.mesh, arguments.form())?, arguments.charts)?;
+        let model = read_model(&arguments.mesh, arguments.form())?;
+        check_texture(&model)?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
@@ -56,6 +59,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let packing = arguments.packing(picture.as_ref());
         let document = Document {
             targets,
+            sizes: sizes(&arguments.chart_size, &model)?,
             settings: arguments.settings(),
             picture: picture.map(Arc::new),
             aspect: arguments.aspect,
@@ -86,16 +90,33 @@ fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The mesh in the charts that are asked for.
-fn in_charts(model: Model, charts: ChartsOf) -> Result<Model, Failure> {
-    if charts == ChartsOf::Parts {
-        return Ok(model);
+/// Refuses to cut along texture coordinates that not all corners have.
+fn check_texture(model: &Model) -> Result<(), Failure> {
+    if !model.form.seams.of_texture {
+        return Ok(());
     }
     let path = model.path_words();
-    model.cut_along_texture().map_err(|error| match error {
+    model.source.texture_labels().map(drop).map_err(|error| match error {
         TextureError::None => Failure::Usage(format!("{path}: {error}: leave out --charts uv")),
         TextureError::Missing(_) => Failure::Texture { path, error },
     })
+}
+
+/// How many times as large as the others charts are packed, by their first faces.
+fn sizes(given: &[ChartSize], model: &Model) -> Result<BTreeMap<FaceId, f64>, Failure> {
+    let count = model.chart_count();
+    let first_face = |chart: usize| {
+        let charts = model.chart.as_ref().map(|of| &of.charts).filter(|charts| chart < charts.count());
+        charts.map(|charts| charts.first_face(chart)).ok_or_else(|| {
+            let why = if count == 1 {
+                "one chart, which fills the square".into()
+            } else {
+                format!("charts 0 to {}", count - 1)
+            };
+            Failure::Usage(format!("--chart-size {chart}: the mesh has {why}"))
+        })
+    };
+    given.iter().map(|&ChartSize { chart, size }| Ok((first_face(chart)?, size))).collect()
 }
 
 /// Refuses files that would be written over, by the run itself or as results of one another.

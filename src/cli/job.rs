@@ -65,7 +65,12 @@ impl HeadlessJob<'_> {
         let charts: Vec<SolvedChart<'_>> = models
             .iter()
             .zip(&solved)
-            .map(|(model, solved)| SolvedChart { model, outcome: &solved.outcome, steps: &solved.records })
+            .map(|(model, solved)| SolvedChart {
+                model,
+                outcome: &solved.outcome,
+                steps: &solved.records,
+                size: model.chart.as_ref().map_or(1.0, |of| self.document.size_of(of)),
+            })
             .collect();
         let before = Instant::now();
         let mut output = atlas(&charts, self.packing);

@@ -158,7 +158,7 @@ pub(super) fn atlas_summary(report: &Report) -> String {
     lines.extend(rounding_words(report));
     let mut charts: Vec<&ChartReport> = report.charts.iter().collect();
     charts.sort_by(|a, b| b.distortion.symmetric_dirichlet.mean.total_cmp(&a.distortion.symmetric_dirichlet.mean));
-    lines.extend(charts.iter().take(NAMED).map(|chart| chart_words(chart)));
+    lines.extend(charts.iter().take(NAMED).map(|chart| chart_words(chart, report.packing)));
     if charts.len() > NAMED {
         lines.push(format!("and {} more charts, less distorted", charts.len() - NAMED));
     }
@@ -172,14 +172,17 @@ pub(super) fn atlas_summary(report: &Report) -> String {
     lines.join("\n")
 }
 
-fn chart_words(chart: &ChartReport) -> String {
+fn chart_words(chart: &ChartReport, packing: Option<PackingReport>) -> String {
     let face = chart.first_face.number();
     let steps = if chart.steps.len() == 1 { "1 step".to_owned() } else { format!("{} steps", chart.steps.len()) };
     let rung = chart.steps.last().map(|step| format!(" ({})", step.rung.as_rung())).unwrap_or_default();
     let faces = if chart.faces == 1 { "1 face".to_owned() } else { format!("{} faces", chart.faces) };
     let energy = chart.distortion.symmetric_dirichlet.mean;
     let pins = pins_words(&chart.pins).map(|words| format!("; {words}")).unwrap_or_default();
-    format!("chart of face {face}: {faces}, {steps}{rung}; symmetric Dirichlet energy {energy:.3}{pins}")
+    // Most charts have the density that all are packed at.
+    let is_own = packing.is_none_or(|packing| (chart.density / packing.density - 1.0).abs() > 1e-6);
+    let density = if is_own { format!("; {:.4} pixels per unit", chart.density) } else { String::new() };
+    format!("chart of face {face}: {faces}, {steps}{rung}; symmetric Dirichlet energy {energy:.3}{density}{pins}")
 }
 
 fn seconds_words(seconds: &Seconds) -> String {

@@ -57,3 +57,23 @@ pub(super) fn parse_weld_distance(text: &str) -> Result<WeldDistance, String> {
     let parsed = text.trim().parse().ok().and_then(WeldDistance::new);
     parsed.ok_or_else(|| "write a distance of 0 or more, for example 0.001".to_owned())
 }
+
+/// How many times as large as the others a chart is packed.
+#[derive(Clone, Copy, Debug)]
+pub struct ChartSize {
+    /// The chart, as the report counts them.
+    pub chart: usize,
+    /// How many times.
+    pub size: f64,
+}
+
+/// Number and size of a chart in "number=size".
+pub(super) fn parse_chart_size(text: &str) -> Result<ChartSize, String> {
+    let parsed = || {
+        let (chart, size) = text.split_once('=')?;
+        let size = size.trim().parse().ok().filter(|size| PackingOptions::SIZES.contains(size))?;
+        Some(ChartSize { chart: chart.trim().parse().ok()?, size })
+    };
+    let [low, high] = [PackingOptions::SIZES.start(), PackingOptions::SIZES.end()];
+    parsed().ok_or_else(|| format!("write CHART=SIZE, for example 0=2, with a size from {low} to {high}"))
+}

@@ -35,6 +35,9 @@ impl PackingOptions {
 
     /// The widest gap, pixels.
     pub const WIDEST_GAP: u32 = 1 << 10;
+
+    /// How many times as large as others a chart may be.
+    pub const SIZES: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 }
 
 impl Default for PackingOptions {

@@ -197,6 +197,8 @@ pub struct ChartReport {
     pub steps: Vec<StepReport>,
     /// Distortion summed up.
     pub distortion: DistortionSummary,
+    /// Pixels of the picture that it is packed into, or held on, per unit of length on the surface, in the mean.
+    pub density: f64,
     /// Vertices that it did not have before.
     pub new_vertices: usize,
 }
@@ -208,7 +210,7 @@ pub struct PackingReport {
     pub picture: [u32; 2],
     /// The least distance between charts, pixels.
     pub gap: u32,
-    /// Pixels per unit of length on the surface, the same for all charts.
+    /// Pixels per unit of length on the surface, for all charts that are given no size of their own.
     pub density: f64,
     /// The share of the picture that the charts cover.
     pub covered: f64,

@@ -52,7 +52,7 @@ pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
 pub use repair::{
-    Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PathTree, Repair, Repaired, Repairs, WeldDistance,
+    Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PathTree, Repair, Repaired, Repairs, Seams, WeldDistance,
     near_vertices,
 };
 pub use triangles::TriMesh;

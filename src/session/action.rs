@@ -8,7 +8,7 @@ use super::StopConditions;
 use crate::examples::Example;
 use crate::geom::{PackingOptions, VAxis};
 use crate::io::{OutputFit, OutputKind, Target};
-use crate::mesh::VertexId;
+use crate::mesh::{Seams, VertexId};
 use crate::solver::{Hold, Settings};
 
 /// A file to write.
@@ -43,10 +43,19 @@ pub enum Action {
     TurnFaces,
     /// Mends what keeps the mesh from being a disk, and cuts it open.
     Mend,
+    /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
+    SetSeams(Seams),
     /// Puts another chart on the screen, where the mesh has several.
     ShowChart(usize),
     /// Chooses how charts are packed.
     SetPacking(PackingOptions),
+    /// Chooses how many times as large as the others a chart is packed.
+    SetChartSize {
+        /// The chart.
+        chart: usize,
+        /// How many times, within [`PackingOptions::SIZES`].
+        size: f64,
+    },
     /// Places a constraint: pins a vertex, which may be pinned already.
     Place {
         /// The vertex.

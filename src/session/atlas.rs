@@ -1,7 +1,7 @@
 //! Charts that are solved, laid beside each other and proved together.
 //!
 //! A chart with pins lies where they hold it. The others are packed into the unit square, all as large on the picture as on the
-//! surface by one factor; to the right of the square where pins hold a chart. Each is turned so that its box is small. Numbers
+//! surface by one factor, times the size that a person gives to each; to the right of the square where pins hold a chart. Each is turned so that its box is small. Numbers
 //! round on the way; where that folds a chart, it is not turned.
 
 use glam::DVec2;
@@ -26,6 +26,8 @@ pub struct SolvedChart<'a> {
     pub outcome: &'a Outcome,
     /// The steps up to it.
     pub steps: &'a [StepReport],
+    /// How many times as large as the others it is packed.
+    pub size: f64,
 }
 
 /// Lays charts out and proves them, each and together. They are those of one mesh, in their order.
@@ -62,7 +64,7 @@ pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Output<
     let packing =
         PackingReport { picture: packing.picture.to_array(), gap: options.gap, density, covered: covered / pixels };
     let coordinates = laid.into_iter().flatten().collect();
-    output(charts, coordinates, (!free.is_empty()).then_some(packing))
+    output(charts, coordinates, (!free.is_empty()).then_some(packing), options)
 }
 
 /// The whole u from which charts lie free of those with pins; 0 where there are none.
@@ -75,12 +77,12 @@ fn pack_boxes(boxes: &[Boxed], options: PackingOptions) -> Packing {
     pack(&boxes.iter().map(|boxed| boxed.bounds.size()).collect::<Vec<_>>(), options)
 }
 
-/// A chart turned so that its box is small, at the size of its surface.
+/// A chart turned so that its box is small, at the size of its surface times that which it is given.
 struct Boxed {
     /// What its embedding is multiplied by, a complex number.
     turn: DVec2,
     bounds: Bounds,
-    /// Area of the surface.
+    /// Area that it takes.
     area: f64,
 }
 
@@ -88,13 +90,11 @@ impl Boxed {
     fn new(chart: &SolvedChart<'_>, is_turned: bool) -> Self {
         let embedding = &chart.outcome.step.solution.embedding;
         let factor = true_area_factor(chart.outcome.step.mesh(chart.disk()), embedding) * chart.disk().unit();
-        let factor = if factor.is_finite() { factor } else { 1.0 };
+        let factor = if factor.is_finite() { factor } else { 1.0 } * chart.size();
         let turn = factor * if is_turned { least_box_turn(embedding) } else { DVec2::X };
         let bounds = Bounds::of(embedding.iter().map(|&z| turn.rotate(z)).filter(|z| z.is_finite()));
         let bounds = if bounds.size().is_finite() { bounds } else { Bounds::at(DVec2::ZERO, DVec2::ZERO) };
-        let mesh = chart.disk().mesh();
-        let areas = chart.disk().real_faces().map(|face| mesh.double_area_vector(face).length() / 2.0);
-        Self { turn, bounds, area: areas.sum::<f64>() * chart.disk().unit().powi(2) }
+        Self { turn, bounds, area: chart.area() * chart.size().powi(2) }
     }
 
     /// Texture coordinates where it is packed as the `k`-th box, moved to the right by `beside`.
@@ -112,6 +112,28 @@ impl Boxed {
 impl SolvedChart<'_> {
     fn disk(&self) -> &crate::mesh::DiskMesh {
         self.model.disk().expect("only a disk has an outcome")
+    }
+
+    /// How many times as large as the others it is packed, within what is allowed.
+    fn size(&self) -> f64 {
+        self.size.clamp(*PackingOptions::SIZES.start(), *PackingOptions::SIZES.end())
+    }
+
+    /// Area of its surface, in the mesh's units.
+    fn area(&self) -> f64 {
+        let (disk, mesh) = (self.disk(), self.disk().mesh());
+        let areas = disk.real_faces().map(|face| mesh.double_area_vector(face).length() / 2.0);
+        areas.sum::<f64>() * disk.unit().powi(2)
+    }
+
+    /// Pixels of a picture per unit of length on its surface, in the mean.
+    fn density(&self, coordinates: &Embedding, picture: DVec2) -> f64 {
+        let mesh = self.outcome.step.mesh(self.disk());
+        let doubled = |face: FaceId| {
+            let [a, b, c] = mesh.mesh().triangles[face.index()].map(|vertex| coordinates[vertex] * picture);
+            (b - a).perp_dot(c - a).abs()
+        };
+        (mesh.real_faces().map(doubled).sum::<f64>() / 2.0 / self.area()).sqrt()
     }
 
     /// Whether pins hold it.
@@ -142,12 +164,12 @@ impl SolvedChart<'_> {
         refinement.map(|refinement| refinement.cut_polygons(self.disk())).unwrap_or_default()
     }
 
-    /// What is reported of it where it is written for a picture of this aspect, width over height.
-    fn report(&self, coordinates: &Embedding, aspect: f64) -> ChartReport {
+    /// What is reported of it where it is written for a picture of this size, pixels.
+    fn report(&self, coordinates: &Embedding, picture: DVec2) -> ChartReport {
         let step = &self.outcome.step;
         let mesh = step.mesh(self.disk());
         let is_held = self.is_held();
-        let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(aspect, 1.0)).collect();
+        let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(picture.x / picture.y, 1.0)).collect();
         let summary = if is_held { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
         // Targets are as the document has them, v up or down.
         let in_document = upright(coordinates, self.outcome.problem.frame.v_axis).filter(|_| is_held);
@@ -161,6 +183,7 @@ impl SolvedChart<'_> {
             placement: if is_held { Placement::Pins } else { Placement::Packed },
             steps: self.steps.to_vec(),
             distortion: summary,
+            density: self.density(coordinates, picture),
             new_vertices: self.outcome.new_vertex_count(),
         }
     }
@@ -172,14 +195,21 @@ fn in_order<T: Ord>(list: impl Iterator<Item = T>) -> Vec<T> {
     all
 }
 
-fn output<'a>(charts: &[SolvedChart<'a>], coordinates: Vec<Embedding>, packing: Option<PackingReport>) -> Output<'a> {
+fn output<'a>(
+    charts: &[SolvedChart<'a>],
+    coordinates: Vec<Embedding>,
+    packing: Option<PackingReport>,
+    options: PackingOptions,
+) -> Output<'a> {
     let model = charts[0].model;
     let of = |model: &'a Model| model.chart.as_ref().expect("one chart of several");
     let whole = of(model).charts.whole();
     let of_frame = charts[0].outcome.problem.frame.aspect;
     let aspect =
         packing.map_or(of_frame, |PackingReport { picture: [width, height], .. }| f64::from(width) / f64::from(height));
-    let reports = charts.par_iter().zip(&coordinates).map(|(chart, laid)| chart.report(laid, aspect)).collect();
+    let [_, height] = packing.map_or(options.picture, |packing| packing.picture).map(f64::from);
+    let picture = DVec2::new(aspect, 1.0) * height;
+    let reports = charts.par_iter().zip(&coordinates).map(|(chart, laid)| chart.report(laid, picture)).collect();
     let written = |(chart, coordinates): (&SolvedChart<'a>, Embedding)| {
         let step = &chart.outcome.step;
         let mesh = step.mesh(chart.model.disk().expect("only a disk has an outcome"));

@@ -22,6 +22,7 @@ struct Solved {
     model: Arc<Model>,
     outcome: Arc<Outcome>,
     steps: Vec<StepReport>,
+    size: f64,
 }
 
 /// The layout as it would be written.
@@ -33,6 +34,8 @@ pub struct AtlasView {
     pub verdict: AtlasVerdict,
     /// How they are packed; none where pins hold them all.
     pub packing: Option<PackingReport>,
+    /// Pixels of the picture per unit of length on the surface, of each chart.
+    pub densities: Vec<f64>,
 }
 
 /// Layouts that are made, by what they are made of.
@@ -47,6 +50,7 @@ pub(super) struct AtlasViews {
 #[derive(Clone, Debug)]
 struct Made {
     outcomes: Vec<Arc<Outcome>>,
+    sizes: Vec<f64>,
     options: PackingOptions,
 }
 
@@ -54,6 +58,7 @@ impl Made {
     fn is(&self, other: &Self) -> bool {
         let mut outcomes = self.outcomes.iter().zip(&other.outcomes);
         self.options == other.options
+            && self.sizes == other.sizes
             && self.outcomes.len() == other.outcomes.len()
             && outcomes.all(|(own, other)| Arc::ptr_eq(own, other))
     }
@@ -61,7 +66,7 @@ impl Made {
 
 impl Solved {
     fn chart(&self) -> SolvedChart<'_> {
-        SolvedChart { model: &self.model, outcome: &self.outcome, steps: &self.steps }
+        SolvedChart { model: &self.model, outcome: &self.outcome, steps: &self.steps, size: self.size }
     }
 }
 
@@ -80,6 +85,7 @@ impl SolvedAtlas {
         AtlasView {
             outlines: output.charts.iter().map(outline).collect(),
             packing: output.report.packing,
+            densities: output.report.charts.iter().map(|chart| chart.density).collect(),
             verdict: output.report.atlas.expect("a layout of charts has a verdict"),
         }
     }
@@ -108,7 +114,8 @@ impl Session {
     pub(super) fn solved_atlas(&self) -> Result<SolvedAtlas, usize> {
         let solved = |(model, outcome, timeline): (&Arc<Model>, Arc<Outcome>, &Timeline)| {
             let steps = timeline.records()[..=outcome.step.index].to_vec();
-            Solved { model: Arc::clone(model), outcome, steps }
+            let size = model.chart.as_ref().map_or(1.0, |of| self.document().size_of(of));
+            Solved { model: Arc::clone(model), outcome, steps, size }
         };
         let charts: Vec<Solved> = self.solved_charts().map(solved).collect();
         match self.charts().map_or(0, |charts| charts.count()) - charts.len() {
@@ -137,7 +144,7 @@ impl Session {
     fn to_be_made(&self) -> Option<Made> {
         let outcomes: Vec<Arc<Outcome>> = self.solved_charts().map(|(_, outcome, _)| outcome).collect();
         let is_whole = self.charts().is_some_and(|charts| charts.count() == outcomes.len());
-        is_whole.then(|| Made { outcomes, options: self.packing() })
+        is_whole.then(|| Made { outcomes, sizes: self.sizes(), options: self.packing() })
     }
 
     /// Has the layout of all charts made, once each is solved.

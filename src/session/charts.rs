@@ -155,6 +155,23 @@ impl Session {
         self.history.apply(Command::SetPacking(options), &mut self.document);
     }
 
+    /// Chooses how large a chart is packed, as an edit. No chart is solved anew for it.
+    pub(super) fn set_chart_size(&mut self, chart: usize, size: f64) {
+        let first_face = self.charts().filter(|charts| chart < charts.count()).map(|charts| charts.first_face(chart));
+        if let Some(first_face) = first_face.filter(|_| PackingOptions::SIZES.contains(&size)) {
+            #[expect(clippy::float_cmp, reason = "the size without an entry")]
+            let size = (size != 1.0).then_some(size);
+            self.history.apply(Command::SetSize { first_face, size }, &mut self.document);
+        }
+    }
+
+    /// How many times as large as the others each chart is packed.
+    pub fn sizes(&self) -> Vec<f64> {
+        let size =
+            |charts: &Arc<Charts>, number| self.document.sizes.get(&charts.first_face(number)).copied().unwrap_or(1.0);
+        self.charts().map(|charts| (0..charts.count()).map(|number| size(charts, number)).collect()).unwrap_or_default()
+    }
+
     /// Solves for what the document wants on the screen, where it is not there, or on its way.
     pub(super) fn follow_chart(&mut self) {
         self.drag.end();

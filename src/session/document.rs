@@ -8,7 +8,7 @@ use super::model::{ChartOf, example_picture};
 use crate::examples::Example;
 use crate::geom::{Bounds, PackingOptions, PictureFrame, VAxis};
 use crate::io::{PictureFile, Target, Targets, hard_targets, pins_in_plane};
-use crate::mesh::{Form, VertexId};
+use crate::mesh::{FaceId, Form, VertexId};
 use crate::solver::{GaugeSize, Pins, Settings};
 
 /// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
@@ -30,6 +30,9 @@ pub struct Document {
     pub chart: Option<usize>,
     /// How several charts are packed, where there is no picture that they go on.
     pub packing: PackingOptions,
+    /// How many times as large as the others charts are packed, by their first faces in the file; 1 without it. Above
+    /// [`PackingOptions::SIZES`] and below, the nearest end of it is taken.
+    pub sizes: BTreeMap<FaceId, f64>,
     /// What the user has edited of charts that are not on the screen.
     pub elsewhere: BTreeMap<usize, ChartEdits>,
     /// Rounds of relaxing that a person has asked for: they follow wherever a run comes to its end, whatever happens to
@@ -86,6 +89,11 @@ impl Document {
         Problem { settings: Settings { size, ..self.settings }, frame, targets }
     }
 
+    /// How many times as large as the others a chart is packed.
+    pub fn size_of(&self, chart: &ChartOf) -> f64 {
+        self.sizes.get(&chart.charts.first_face(chart.number)).copied().unwrap_or(1.0)
+    }
+
     /// Keeps what is edited of a chart that is not on the screen; nothing is no entry.
     pub(super) fn put_elsewhere(&mut self, chart: usize, edits: ChartEdits) {
         if edits != ChartEdits::default() {
@@ -130,6 +138,13 @@ pub enum Command {
     },
     /// Chooses how charts are packed.
     SetPacking(PackingOptions),
+    /// Chooses how large a chart is packed, by its first face in the file.
+    SetSize {
+        /// The face.
+        first_face: FaceId,
+        /// How many times as large as the others; none for as large.
+        size: Option<f64>,
+    },
     /// Changes what is edited of a chart that is not on the screen.
     SetElsewhere {
         /// The chart.
@@ -166,6 +181,13 @@ impl Command {
                 Self::ShowChart { to: from, from: to, chart: std::mem::replace(&mut document.chart, chart) }
             }
             Self::SetPacking(options) => Self::SetPacking(std::mem::replace(&mut document.packing, options)),
+            Self::SetSize { first_face, size } => {
+                let before = match size {
+                    Some(size) => document.sizes.insert(first_face, size),
+                    None => document.sizes.remove(&first_face),
+                };
+                Self::SetSize { first_face, size: before }
+            }
             Self::SetElsewhere { chart, edits } => {
                 let before = document.elsewhere.remove(&chart).unwrap_or_default();
                 document.put_elsewhere(chart, edits);

@@ -189,7 +189,7 @@ impl Session {
             return self.complain(text, Some("place another constraint"));
         }
         let model = self.model();
-        let Some((disk, form)) = model.and_then(|model| Some((model.disk()?.clone(), model.form))) else {
+        let Some((disk, form)) = model.and_then(|model| Some((model.disk()?.clone(), model.form.clone()))) else {
             return self.complain("a mesh with faults has nothing to fit to", None);
         };
         let (frame, chart) = (self.document.frame(), self.chart_on_screen());

@@ -93,8 +93,8 @@ impl Files {
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
-        let Form { faces_turned, repair, holes, cut } = document.form;
-        (project.faces_turned, project.repair, project.cut) = (faces_turned, repair, cut);
+        let Form { faces_turned, repair, holes, cut, seams } = document.form.clone();
+        (project.faces_turned, project.repair, project.cut, project.seams) = (faces_turned, repair, cut, seams);
         project.weld_distance = repair.weld_distance();
         project.holes = Some(holes);
         project.relaxed = document.relaxed;
@@ -106,6 +106,7 @@ impl Files {
         project.targets = model.all_targets(document);
         project.chart = document.chart;
         project.packing = document.packing;
+        project.sizes = document.sizes.iter().map(|(face, &size)| (face.number(), size)).collect();
         let relaxed = document.elsewhere.iter().filter(|(_, edits)| edits.relaxed > 0);
         project.relaxed_elsewhere = relaxed.map(|(&chart, edits)| (chart, edits.relaxed)).collect();
         project.view.clone_from(&self.table.view);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, TextureError, read_mesh_with, read_stream_with};
+use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
 use crate::mesh::{
     Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, Repair, Repaired, TriMesh, VertexId, diagnose,
     relative_volume,
@@ -125,34 +125,20 @@ impl Model {
     }
 
     /// The same mesh in another form: the order of its faces stays, and so does every vertex of the file, with its number.
+    /// Along texture coordinates it is cut where all corners have some.
     #[must_use = "the mesh itself stays as it is"]
     pub fn in_form(&self, form: Form) -> Self {
         let is_turned = form.faces_turned != self.form.faces_turned;
         let source = if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) };
-        let found = surface_of(&source.polygons, form);
+        let labels = if form.seams.of_texture { source.texture_labels().ok() } else { None };
+        let repaired = |form: &Form| form.repaired_along(&source.polygons, labels.as_deref());
+        let has_seams = labels.is_some() || !form.seams.edges().is_empty();
+        let found = if has_seams { cut_surface(repaired(&form)) } else { surface_of(&source.polygons, &form) };
         let remedy = match &found.surface {
             Surface::Disk(_) => None,
-            Surface::Faulty(..) => {
-                Some(form.mended().repaired(&source.polygons)).filter(Repaired::flattens).map(Arc::new)
-            }
+            Surface::Faulty(..) => Some(repaired(&form.mended())).filter(Repaired::flattens).map(Arc::new),
         };
         Self { form, source, remedy, ..self.clone() }.with(found)
-    }
-
-    /// The same mesh cut along the seams of the file's texture coordinates: its charts are theirs.
-    ///
-    /// # Errors
-    ///
-    /// Where not all corners have texture coordinates.
-    pub fn cut_along_texture(&self) -> Result<Self, TextureError> {
-        let labels = self.source.texture_labels()?;
-        let cut = |form: Form| form.repaired_along(&self.source.polygons, Some(&labels));
-        let found = cut_surface(cut(self.form));
-        let remedy = match &found.surface {
-            Surface::Disk(_) => None,
-            Surface::Faulty(..) => Some(cut(self.form.mended())).filter(Repaired::flattens).map(Arc::new),
-        };
-        Ok(Self { remedy, ..self.clone() }.with(found))
     }
 
     /// The chart that is wanted, where the mesh has several.
@@ -278,7 +264,7 @@ impl Found {
 }
 
 /// What a file's faces are in a form.
-fn surface_of(polygons: &PolygonMesh, form: Form) -> Found {
+fn surface_of(polygons: &PolygonMesh, form: &Form) -> Found {
     let as_given = DiskMesh::try_from(polygons.triangulate()).and_then(|disk| {
         let diagnosis = if form.repair.is_none() { diagnose(&polygons.triangulate()) } else { Diagnosis::default() };
         if diagnosis.faults.is_empty() { Ok(disk) } else { Err(Box::new(diagnosis)) }

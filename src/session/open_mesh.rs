@@ -27,8 +27,8 @@ impl OpenMesh {
 
     /// Shows the mesh in another form, or another chart of it. Returns the one that was there before; none where the one
     /// wanted is not at hand.
-    pub(super) fn change(&mut self, form: Form, chart: Option<usize>) -> Option<Arc<Model>> {
-        let other = self.other.take_if(|other| other.form == form && other.is_chart(chart))?;
+    pub(super) fn change(&mut self, form: &Form, chart: Option<usize>) -> Option<Arc<Model>> {
+        let other = self.other.take_if(|other| other.form == *form && other.is_chart(chart))?;
         self.other = self.model.replace(other);
         self.revision += 1;
         self.other.clone()

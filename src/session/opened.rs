@@ -11,7 +11,7 @@ use crate::io::{
     FileStamp, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError,
     RecoveryNote, Target, Targets, material_picture,
 };
-use crate::mesh::{Form, VertexId};
+use crate::mesh::{FaceId, Form, VertexId};
 
 /// Something that was opened, ready to be put on the table.
 #[derive(Debug)]
@@ -108,7 +108,7 @@ impl Opened {
     fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
         let form = project.form();
-        let model = project_mesh(&project.mesh, form, &mut remarks)?.with_chart(project.chart);
+        let model = project_mesh(&project.mesh, form.clone(), &mut remarks)?.with_chart(project.chart);
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);
@@ -120,6 +120,7 @@ impl Opened {
             form,
             chart: project.chart,
             packing: project.packing,
+            sizes: project.sizes.into_iter().map(|(face, size)| (FaceId::new(face), size)).collect(),
             relaxed: project.relaxed,
             ..Document::default()
         };

@@ -122,6 +122,40 @@ fn charts_are_packed_into_the_picture_with_their_gap_at_one_density() {
     assert_apart(&file, &pixels, 10.0);
 }
 
+#[test]
+fn a_chart_is_packed_as_many_times_as_large_as_is_asked_for() {
+    let program = Program::new();
+    let parts = [grid(4, 4), grid(2, 6), grid(1, 1)].map(|mesh| PolygonMesh::from(&mesh));
+    program.write("in.obj", &obj_text(&interleaved(&parts, &mut Random(3))));
+    let arguments = ["flatten", "in.obj", "-o", "out.obj", "--report", "-", "--pack", "600x300"];
+    let run = program.run(&[&arguments[..], &["--chart-size", "0=0.5,2=3"]].concat()).expect(0);
+    let report = run.json();
+    let density = report["packing"]["density"].as_f64().expect("a number");
+    let file = read_mesh(&program.path("out.obj")).expect("written");
+    let mut sizes: Vec<f64> = Vec::new();
+    for (triangle, corners) in triangles(&file).into_iter().enumerate() {
+        let [a, b, c] = corners.map(|uv| uv * DVec2::new(600.0, 300.0));
+        let part = file.polygons.positions[file.polygons.corners[3 * triangle].index()].x / 100.0;
+        let size = ((b - a).perp_dot(c - a)).sqrt() / density;
+        sizes.resize(3, 1.0);
+        sizes[part as usize] = size;
+    }
+    let given = report["charts"].as_array().expect("charts").iter().map(|chart| {
+        let first = chart["first_face"].as_u64().expect("a face") as usize;
+        let part = file.polygons.positions[file.polygons.face(first)[0].index()].x / 100.0;
+        (part as usize, chart["density"].as_f64().expect("a number") / density)
+    });
+    for ((part, reported), asked) in given.zip([0.5, 1.0, 3.0]) {
+        assert!((sizes[part] / asked - 1.0).abs() < 1e-9, "chart with {} is {} as large", asked, sizes[part]);
+        assert!((reported / asked - 1.0).abs() < 1e-9, "{reported} {asked}");
+    }
+    let other = program.run(&[&arguments[..], &["--chart-size", "3=2"]].concat()).expect(2);
+    assert!(other.stderr.contains("--chart-size 3: the mesh has charts 0 to 2"), "{}", other.stderr);
+    for wrong in ["0", "0=0", "0=-1", "0=nan", "x=1", "0=1000"] {
+        program.run(&[&arguments[..], &["--chart-size", wrong]].concat()).expect(2);
+    }
+}
+
 /// Asserts that corners of different charts are at least so far apart: those of squares, of which corners tell.
 fn assert_apart(file: &MeshFile, pixels: &[[DVec2; 3]], gap: f64) {
     let part =

@@ -226,7 +226,7 @@ fn holes_stay_where_nothing_may_be_repaired_or_they_are_to_be_cut_and_where_ther
     let cut = Form { holes: HoleTreatment::Cut, ..Form::default() };
     for form in [none, cut] {
         assert_eq!(form.repaired(&ring).done(), [], "{form:?}");
-        let opened = Form { cut: true, ..form }.repaired(&ring);
+        let opened = Form { cut: true, ..form.clone() }.repaired(&ring);
         assert!(opened.flattens() && opened.done()[0].repair == Repair::Cut, "{form:?}");
     }
     let fill_and_cut = Form { cut: true, ..Form::default() }.repaired(&ring);

@@ -95,6 +95,7 @@ mod session_mend;
 mod session_projects;
 mod session_recovery;
 mod session_run;
+mod session_seams;
 mod session_timeline;
 mod session_wishes;
 mod shapes;

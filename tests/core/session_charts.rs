@@ -162,6 +162,7 @@ fn a_project_brings_chart_pins_and_packing_back() {
     settled(&mut session, Action::ShowChart(second));
     pin(&mut session, DVec2::splat(0.6));
     settled(&mut session, Action::SetPacking(PackingOptions { picture: [512, 256], gap: 7, turns: true }));
+    settled(&mut session, Action::SetChartSize { chart: (first + 1) % 5, size: 2.5 });
     let path = file(&folder, "work.freebound");
     settled(&mut session, Action::SaveProject(path.clone()));
     let of_file = ProjectFile::read(&path).unwrap();
@@ -179,6 +180,32 @@ fn a_project_brings_chart_pins_and_packing_back() {
     for chart in 0..5 {
         assert_eq!(solved(&again, chart).step.solution.embedding, solved(&session, chart).step.solution.embedding);
     }
+}
+
+#[test]
+fn a_chart_gets_more_of_the_picture_without_being_solved_again() {
+    let (_folder, mut session) = with_disks();
+    until_laid_out(&mut session);
+    let densities = |session: &Session| session.atlas().unwrap().densities.clone();
+    let before = densities(&session);
+    let steps: Vec<_> = (0..5).map(|chart| solved(&session, chart)).collect();
+    settled(&mut session, Action::SetChartSize { chart: 3, size: 2.0 });
+    until_laid_out(&mut session);
+    let after = densities(&session);
+    for chart in 0..5 {
+        let ratio = after[chart] / after[0];
+        let expected = before[chart] / before[0] * if chart == 3 { 2.0 } else { 1.0 };
+        assert!((ratio / expected - 1.0).abs() < 1e-9, "chart {chart}: {ratio} {expected}");
+        assert!(Arc::ptr_eq(&steps[chart], &solved(&session, chart)));
+    }
+    settled(&mut session, Action::Undo);
+    until_laid_out(&mut session);
+    assert_eq!(densities(&session), before);
+    for refused in [0.0, -1.0, f64::NAN, 1e9] {
+        settled(&mut session, Action::SetChartSize { chart: 3, size: refused });
+    }
+    settled(&mut session, Action::SetChartSize { chart: 5, size: 2.0 });
+    assert_eq!(session.sizes(), vec![1.0; 5]);
 }
 
 #[test]

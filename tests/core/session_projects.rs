@@ -66,7 +66,7 @@ fn everything_in_a_project_comes_back_bit_for_bit() {
     assert!(after.messages().is_empty(), "{:?}", after.messages());
     let (a, b) = (before.document(), after.document());
     assert_eq!(a.settings, b.settings);
-    assert_eq!((a.v_axis, a.form), (b.v_axis, b.form));
+    assert_eq!((a.v_axis, &a.form), (b.v_axis, &b.form));
     assert_eq!(a.picture.as_ref().map(|p| (&p.name, &p.pixels)), b.picture.as_ref().map(|p| (&p.name, &p.pixels)));
     let bits = |session: &Session| -> Vec<_> {
         let pins = session.document().targets.iter();

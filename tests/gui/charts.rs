@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use eframe::egui;
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use freebound::mesh::{TriMesh, VertexId};
 use freebound::session::ChartState;
@@ -80,6 +81,21 @@ fn a_click_in_the_list_and_the_page_keys_lead_from_chart_to_chart() {
     }
     window.press(Modifiers::COMMAND, Key::Z);
     assert_eq!(chart(&window), Some(0));
+}
+
+#[test]
+fn the_chart_on_the_screen_is_packed_larger_by_a_typed_size() {
+    let mut window = with_sheets();
+    let densities = |window: &Window| window.editor().session.atlas().expect("laid out").densities.clone();
+    assert!((densities(&window)[2] / densities(&window)[0] - 1.0).abs() < 1e-9);
+    window.fill_in(Role::SpinButton, "Size of the chart on the screen", "2.5");
+    until_laid_out(&mut window);
+    assert!((densities(&window)[2] / densities(&window)[0] - 2.5).abs() < 1e-9, "{:?}", densities(&window));
+    let words = format!("{:.4} pixels per unit of length", densities(&window)[2]);
+    assert!(window.shows(&words), "{words}: {:?}", window.words());
+    window.press(Modifiers::COMMAND, Key::Z);
+    until_laid_out(&mut window);
+    assert!((densities(&window)[2] / densities(&window)[0] - 1.0).abs() < 1e-9);
 }
 
 #[test]

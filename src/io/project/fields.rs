@@ -1,4 +1,4 @@
-//! How sources and pins stand in a project file.
+//! How sources, seams and pins stand in a project file.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::ProjectSource;
 use crate::io::{FileStamp, Target, Targets};
-use crate::mesh::VertexId;
+use crate::mesh::{Seams, VertexId};
 use crate::solver::{Hold, Pin};
 
 /// A mesh or a picture: of an example or of a file, perhaps with its stamp.
@@ -86,6 +86,55 @@ impl PinFields {
             HoldName::Weighted => Hold::Weighted(self.weight.unwrap_or(Pin::DEFAULT_WEIGHT)),
         };
         Target { uv: DVec2::new(self.u, self.v), hold }
+    }
+}
+
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+struct SeamFields {
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    of_texture: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    edges: Vec<EdgeText>,
+}
+
+/// An edge as the numbers of its vertices, so that each takes one line.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+struct EdgeText([VertexId; 2]);
+
+impl TryFrom<String> for EdgeText {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let ends = text.split_once(' ').and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
+        match ends {
+            Some([a, b]) if a != b => Ok(Self([a, b].map(VertexId::new))),
+            _ => Err(format!("\"{text}\" is no edge: write the numbers of two vertices, for example \"3 17\"")),
+        }
+    }
+}
+
+impl From<EdgeText> for String {
+    fn from(EdgeText([a, b]): EdgeText) -> Self {
+        format!("{} {}", a.number(), b.number())
+    }
+}
+
+/// Seams: whether they are those of texture coordinates, and the edges as a list.
+pub(super) mod seam_list {
+    use super::{Deserialize, Deserializer, EdgeText, SeamFields, Seams, Serialize as _, Serializer};
+
+    pub(in super::super) fn serialize<S: Serializer>(seams: &Seams, serializer: S) -> Result<S::Ok, S::Error> {
+        let edges = seams.edges().iter().copied().map(EdgeText).collect();
+        SeamFields { of_texture: seams.of_texture, edges }.serialize(serializer)
+    }
+
+    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Seams, D::Error> {
+        let SeamFields { of_texture, edges } = SeamFields::deserialize(deserializer)?;
+        let mut seams = Seams::default().with(edges.into_iter().map(|EdgeText(ends)| ends));
+        seams.of_texture = of_texture;
+        Ok(seams)
     }
 }
 

@@ -4,7 +4,7 @@
 //! |----------|--------------------------------------------------|
 //! | `mod`    | a project, read and written; paths in it         |
 //! | `error`  | why a file did not become a project              |
-//! | `fields` | how sources and pins stand in the file           |
+//! | `fields` | how sources, seams and pins stand in the file    |
 //!
 //! A project names mesh and picture and holds everything else. Fields that this version does not know are ignored, so
 //! that a later version can add some; one that changes what fields mean takes the next [`PROJECT_VERSION`].
@@ -19,12 +19,12 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 pub use self::error::ProjectError;
-use self::fields::{SourceFields, pin_list};
+use self::fields::{SourceFields, pin_list, seam_list};
 use super::door::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::{PackingOptions, VAxis};
-use crate::mesh::{Form, HoleTreatment, Repairs, WeldDistance};
+use crate::mesh::{Form, HoleTreatment, Repairs, Seams, WeldDistance};
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
@@ -56,6 +56,9 @@ pub struct ProjectFile {
     /// Whether it is cut open where it is no disk.
     #[serde(default)]
     pub cut: bool,
+    /// Where it is cut before that.
+    #[serde(default, skip_serializing_if = "Seams::is_empty", with = "seam_list")]
+    pub seams: Seams,
     /// The picture.
     #[serde(default)]
     pub picture: Option<ProjectSource>,
@@ -91,6 +94,9 @@ pub struct ProjectFile {
     /// How charts are packed.
     #[serde(default)]
     pub packing: PackingOptions,
+    /// How many times as large as the others charts are packed, by their first faces in the file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sizes: BTreeMap<u32, f64>,
     /// The targets of the user's pins.
     #[serde(default, rename = "pins", with = "pin_list")]
     pub targets: Targets,
@@ -172,7 +178,13 @@ impl ProjectFile {
     /// What is made of the mesh's faces.
     pub fn form(&self) -> Form {
         let holes = self.holes.unwrap_or(if self.cut { HoleTreatment::Cut } else { HoleTreatment::Fill });
-        Form { faces_turned: self.faces_turned, repair: self.repair.welding(self.weld_distance), holes, cut: self.cut }
+        Form {
+            faces_turned: self.faces_turned,
+            repair: self.repair.welding(self.weld_distance),
+            holes,
+            cut: self.cut,
+            seams: self.seams.clone(),
+        }
     }
 
     /// A project of a mesh, with nothing but settings made of it yet.
@@ -189,6 +201,7 @@ impl ProjectFile {
             weld_distance: None,
             holes: Some(HoleTreatment::default()),
             cut: false,
+            seams: Seams::default(),
             picture: None,
             v_axis: VAxis::default(),
             method,
@@ -202,6 +215,7 @@ impl ProjectFile {
             chart: None,
             relaxed_elsewhere: BTreeMap::new(),
             packing: PackingOptions::default(),
+            sizes: BTreeMap::new(),
             new_vertices: settings.new_vertices,
             targets: Targets::new(),
             view: ProjectView::default(),

@@ -6,7 +6,7 @@ use super::Repaired;
 use super::fill::Filling;
 use super::sides::Sides;
 use crate::mesh::union::DisjointSets;
-use crate::mesh::{PolygonMesh, VertexId, parts};
+use crate::mesh::{FaceId, PolygonMesh, VertexId, parts};
 
 /// A mesh of several charts.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +62,11 @@ impl Charts {
     /// The faces of a chart, of the whole, ascending.
     pub fn faces(&self, chart: usize) -> &[u32] {
         &self.faces[chart]
+    }
+
+    /// The first face of a chart, as the mesh as given numbers it.
+    pub fn first_face(&self, chart: usize) -> FaceId {
+        FaceId::new(self.whole.face_of[self.faces[chart][0] as usize])
     }
 
     /// The chart of a vertex of the whole.

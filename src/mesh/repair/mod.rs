@@ -2,8 +2,9 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | what is made of a mesh, and a mesh with some repairs done |
+//! | `mod.rs` | a mesh with some repairs done |
 //! | `kinds.rs` | the repairs by name, and sets of them |
+//! | `form.rs` | what is wanted of a file's faces |
 //! | `sides.rs` | sides of polygons, and which lie on one edge |
 //! | `leave_out.rs` | repeated corners and duplicate faces left out |
 //! | `weld.rs` | vertices near each other made one |
@@ -22,6 +23,7 @@
 mod charts;
 mod cut;
 mod fill;
+mod form;
 mod join;
 mod kinds;
 mod leave_out;
@@ -33,72 +35,16 @@ mod weld;
 
 use std::collections::HashMap;
 
-use serde::{Deserialize, Serialize};
-
 use fill::Filling;
 
 use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
 pub use charts::{Chart, Charts};
+pub use form::{Form, HoleTreatment};
 pub use kinds::{Done, Repair, Repairs};
 pub use paths::{EdgePaths, PathTree};
+pub use seams::Seams;
 pub use weld::{WeldDistance, near_vertices};
-
-/// What is made of a file's faces before they are flattened.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Form {
-    /// Whether all faces are turned around: the other side is the outside.
-    pub faces_turned: bool,
-    /// What may be repaired.
-    pub repair: Repairs,
-    /// What becomes of holes.
-    pub holes: HoleTreatment,
-    /// Whether parts that are no disks are cut open.
-    pub cut: bool,
-}
-
-/// What becomes of inner boundary loops.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum HoleTreatment {
-    /// They are filled with virtual faces, unless nothing may be repaired.
-    #[default]
-    Fill,
-    /// They are cut open to the outside, where a surface is cut at all.
-    Cut,
-}
-
-impl Form {
-    /// All that can be done to make disks.
-    #[must_use]
-    pub const fn mended(self) -> Self {
-        Self { repair: self.repair.and(Repairs::ALL), cut: true, ..self }
-    }
-
-    /// The repairs of a mesh, whose faces are turned already: the same as before they were, so that every vertex keeps its
-    /// number when they are turned.
-    pub fn repaired(self, source: &PolygonMesh) -> Repaired {
-        self.repaired_along(source, None)
-    }
-
-    /// As [`repaired`](Self::repaired), the surface cut at edges that have different labels on their sides: there is one for each
-    /// corner of `source`.
-    pub fn repaired_along(self, source: &PolygonMesh, labels: Option<&[u32]>) -> Repaired {
-        if self.faces_turned {
-            let before = source.turned();
-            let labels = labels.map(|labels| source.turned_at_corners(labels));
-            let form = Self { faces_turned: false, ..self };
-            return form.repaired_along(&before, labels.as_deref()).turned(&before);
-        }
-        let mut repaired = Repaired::new(source, self.repair);
-        if let Some(labels) = labels {
-            repaired.cut_along(labels);
-        }
-        repaired.fills = self.holes == HoleTreatment::Fill && self.repair.allows(Repair::FillHoles);
-        let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
-        repaired.fill_holes()
-    }
-}
 
 /// A mesh with repairs done, and where each part of it comes from.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,19 +1,72 @@
-//! A surface cut along edges whose two sides differ: the seams of its texture coordinates.
+//! A surface cut along seams: edges that are listed, and edges whose two sides have different texture coordinates.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::sides::Sides;
 use super::{Repair, Repaired};
+use crate::mesh::{PolygonMesh, VertexId};
+
+/// Where a surface is cut besides what makes disks of it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Seams {
+    /// Along the seams of the file's texture coordinates, where all corners have some.
+    pub of_texture: bool,
+    /// Along these edges: the file's vertices, the smaller number first.
+    edges: Arc<BTreeSet<[VertexId; 2]>>,
+}
+
+impl Seams {
+    /// The edges that are listed: the file's vertices at their ends, the smaller number first.
+    pub fn edges(&self) -> &BTreeSet<[VertexId; 2]> {
+        &self.edges
+    }
+
+    /// The same with these edges, too, whose ends may come in any order. What has one vertex at both ends is none.
+    #[must_use = "the seams themselves stay as they are"]
+    pub fn with(&self, edges: impl IntoIterator<Item = [VertexId; 2]>) -> Self {
+        let fresh = edges.into_iter().filter(|[a, b]| a != b).map(ordered);
+        Self { edges: Arc::new(self.edges.iter().copied().chain(fresh).collect()), ..self.clone() }
+    }
+
+    /// The same without these edges.
+    #[must_use = "the seams themselves stay as they are"]
+    pub fn without(&self, edges: impl IntoIterator<Item = [VertexId; 2]>) -> Self {
+        let gone: BTreeSet<[VertexId; 2]> = edges.into_iter().map(ordered).collect();
+        Self { edges: Arc::new(self.edges.difference(&gone).copied().collect()), ..self.clone() }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        !self.of_texture && self.edges.is_empty()
+    }
+}
+
+/// An edge's ends, the smaller number first.
+fn ordered([a, b]: [VertexId; 2]) -> [VertexId; 2] {
+    [a.min(b), a.max(b)]
+}
 
 impl Repaired {
-    /// Cuts each edge at whose ends the faces there have different labels. `labels` has one for each corner of the mesh as
-    /// given.
-    pub(super) fn cut_along(&mut self, labels: &[u32]) {
-        if !self.is_sound() {
+    /// Cuts each edge that is listed, or at whose ends the faces there have different labels. `labels` has one for each corner of
+    /// the mesh as given, `source`. Of edges that became one, any is enough.
+    pub(super) fn cut_along(&mut self, seams: &Seams, labels: Option<&[u32]>, source: &PolygonMesh) {
+        if !self.is_sound() || (labels.is_none() && seams.edges.is_empty()) {
             return;
         }
-        let label = |corner: u32| labels[self.corner_of[corner as usize] as usize];
         let sides = Sides::new(&self.polygons);
-        let is_alike = |pair: &[u32]| sides.across(pair[0], pair[1]).iter().all(|[a, b]| label(*a) == label(*b));
-        let is_whole = |on: &[u32]| on.windows(2).all(is_alike);
+        let of = |corner: u32| self.corner_of[corner as usize] as usize;
+        let is_listed = |side: u32| {
+            let ends = [side, sides.next(side)].map(|corner| source.corners[of(corner)]);
+            seams.edges.contains(&ordered(ends))
+        };
+        let is_alike = |pair: &[u32]| {
+            labels.is_none_or(|labels| {
+                sides.across(pair[0], pair[1]).iter().all(|[a, b]| labels[of(*a)] == labels[of(*b)])
+            })
+        };
+        let is_whole =
+            |on: &[u32]| on.len() == 1 || (on.windows(2).all(is_alike) && !on.iter().any(|&side| is_listed(side)));
         let count = sides.table.edges().filter(|on| !is_whole(on)).count();
         if count > 0 {
             let fans = sides.fans(is_whole);

@@ -53,6 +53,7 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     layout(ui, session, side, requests);
     verdict(ui, session, &rows);
     packing(ui, session, requests);
+    size(ui, session, requests);
     ui.separator();
     list(ui, session, &rows, requests);
 }
@@ -191,6 +192,37 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
     } else if options != before {
         ui.data_mut(|data| data.insert_temp(kept, options));
     }
+}
+
+/// How large the chart on the screen is packed, and how many pixels it gets. What is dragged or typed counts at its end.
+fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
+    let Some(chart) = session.chart_on_screen() else { return };
+    let kept = ui.scope_id().with(("size", chart));
+    let before = session.sizes().get(chart).copied().unwrap_or(1.0);
+    let mut size: f64 = ui.data(|data| data.get_temp(kept)).unwrap_or(before);
+    let is_held = !session.document().targets.is_empty();
+    let tip = if is_held {
+        "Pins hold this chart: it is not packed"
+    } else {
+        "How many times as large as the others it is packed"
+    };
+    ui.horizontal_wrapped(|ui| {
+        ui.label(format!("Chart {chart}"));
+        let value = DragValue::new(&mut size).range(PackingOptions::SIZES).speed(0.01).max_decimals(2).suffix("×");
+        let field = ui.add_enabled(!is_held, value).named(Role::SpinButton, "Size of the chart on the screen");
+        let field = field.on_hover_text(tip).on_disabled_hover_text(tip);
+        if let Some(density) = session.atlas().and_then(|atlas| atlas.densities.get(chart)) {
+            remark(ui, format!("{density:.4} pixels per unit of length"));
+        }
+        if field.has_ended() {
+            ui.data_mut(|data| data.remove::<f64>(kept));
+            if size.to_bits() != before.to_bits() {
+                requests.push(Action::SetChartSize { chart, size }.into());
+            }
+        } else if size.to_bits() != before.to_bits() {
+            ui.data_mut(|data| data.insert_temp(kept, size));
+        }
+    });
 }
 
 /// The list, the worst first.

@@ -1,0 +1,62 @@
+//! What is wanted of a file's faces, and the mesh that comes of it.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Repair, Repaired, Repairs, Seams};
+use crate::mesh::PolygonMesh;
+
+/// What is made of a file's faces before they are flattened.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Whether all faces are turned around: the other side is the outside.
+    pub faces_turned: bool,
+    /// What may be repaired.
+    pub repair: Repairs,
+    /// What becomes of holes.
+    pub holes: HoleTreatment,
+    /// Whether parts that are no disks are cut open.
+    pub cut: bool,
+    /// Where the surface is cut before that.
+    pub seams: Seams,
+}
+
+/// What becomes of inner boundary loops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HoleTreatment {
+    /// They are filled with virtual faces, unless nothing may be repaired.
+    #[default]
+    Fill,
+    /// They are cut open to the outside, where a surface is cut at all.
+    Cut,
+}
+
+impl Form {
+    /// All that can be done to make disks.
+    #[must_use]
+    pub fn mended(&self) -> Self {
+        Self { repair: self.repair.and(Repairs::ALL), cut: true, ..self.clone() }
+    }
+
+    /// The repairs of a mesh, whose faces are turned already: the same as before they were, so that every vertex keeps its
+    /// number when they are turned. Seams of texture coordinates are for [`repaired_along`](Self::repaired_along).
+    pub fn repaired(&self, source: &PolygonMesh) -> Repaired {
+        self.repaired_along(source, None)
+    }
+
+    /// As [`repaired`](Self::repaired), the surface cut at edges, too, that have different labels on their sides: there is one for
+    /// each corner of `source`.
+    pub fn repaired_along(&self, source: &PolygonMesh, labels: Option<&[u32]>) -> Repaired {
+        if self.faces_turned {
+            let before = source.turned();
+            let labels = labels.map(|labels| source.turned_at_corners(labels));
+            let form = Self { faces_turned: false, ..self.clone() };
+            return form.repaired_along(&before, labels.as_deref()).turned(&before);
+        }
+        let mut repaired = Repaired::new(source, self.repair);
+        repaired.cut_along(&self.seams, labels, source);
+        repaired.fills = self.holes == HoleTreatment::Fill && self.repair.allows(Repair::FillHoles);
+        let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
+        repaired.fill_holes()
+    }
+}
