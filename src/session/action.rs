@@ -8,7 +8,7 @@ use super::StopConditions;
 use crate::examples::Example;
 use crate::geom::{PackingOptions, VAxis};
 use crate::io::{OutputFit, OutputKind, Target};
-use crate::mesh::{Seams, VertexId};
+use crate::mesh::{Repair, Seams, VertexId, WeldDistance};
 use crate::solver::{Hold, Settings};
 
 /// A file to write.
@@ -45,6 +45,12 @@ pub enum Action {
     Mend,
     /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
     SetSeams(Seams),
+    /// Mends one kind of fault of the mesh.
+    AllowRepair(Repair),
+    /// Joins vertices of the mesh that lie within a distance, or does not any more.
+    Weld(Option<WeldDistance>),
+    /// Counts the vertices that a distance would join.
+    CountNear(WeldDistance),
     /// Puts another chart on the screen, where the mesh has several.
     ShowChart(usize),
     /// Chooses how charts are packed.

@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 use super::edits::Flat;
 use super::{Background, Messages, Model, Place, Wake};
 use crate::io::{Constraints, ConstraintsError, PictureError, PictureFile};
+use crate::mesh::WeldDistance;
 
 /// What an errand brings back.
 pub(super) enum Errand {
@@ -15,6 +16,11 @@ pub(super) enum Errand {
     Constraints {
         path: PathBuf,
         read: Result<Constraints, ConstraintsError>,
+    },
+    /// So many vertices of the open mesh lie within a distance of another.
+    Near {
+        distance: WeldDistance,
+        count: usize,
     },
     /// The open mesh in another form.
     Formed(Box<Model>),

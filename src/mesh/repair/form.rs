@@ -38,6 +38,26 @@ impl Form {
         Self { repair: self.repair.and(Repairs::ALL), cut: true, ..self.clone() }
     }
 
+    /// Whether a repair may be done.
+    pub fn allows(&self, repair: Repair) -> bool {
+        match repair {
+            Repair::Cut => self.cut,
+            Repair::FillHoles => self.holes == HoleTreatment::Fill && self.repair.allows(repair),
+            _ => self.repair.allows(repair),
+        }
+    }
+
+    /// The same where a repair may be done, too.
+    #[must_use]
+    pub fn allowing(&self, repair: Repair) -> Self {
+        let form = self.clone();
+        match repair {
+            Repair::Cut => Self { cut: true, ..form },
+            Repair::FillHoles => Self { holes: HoleTreatment::Fill, repair: form.repair.with(repair), ..form },
+            _ => Self { repair: form.repair.with(repair), ..form },
+        }
+    }
+
     /// The repairs of a mesh, whose faces are turned already: the same as before they were, so that every vertex keeps its
     /// number when they are turned. Seams of texture coordinates are for [`repaired_along`](Self::repaired_along).
     pub fn repaired(&self, source: &PolygonMesh) -> Repaired {
@@ -55,7 +75,7 @@ impl Form {
         }
         let mut repaired = Repaired::new(source, self.repair);
         repaired.cut_along(&self.seams, labels, source);
-        repaired.fills = self.holes == HoleTreatment::Fill && self.repair.allows(Repair::FillHoles);
+        repaired.fills = self.allows(Repair::FillHoles);
         let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
         repaired.fill_holes()
     }

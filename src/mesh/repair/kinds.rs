@@ -184,6 +184,31 @@ impl Repair {
         }
     }
 
+    /// What a person is offered, and what comes of it.
+    pub const fn offer(self) -> [&'static str; 2] {
+        match self {
+            Self::DropRepeatedCorners => [
+                "Leave out corners",
+                "Corners that repeat a vertex leave their face; a face with fewer than three left goes",
+            ],
+            Self::DropDuplicateFaces => ["Leave out duplicates", "Of faces with the same vertices the first stays"],
+            Self::WeldVertices => ["Weld", "Vertices of different parts that lie in one place become one"],
+            Self::SplitEdges => {
+                ["Split edges", "Faces at edges of three or more get edges of their own: sheets come apart there"]
+            }
+            Self::TurnFaces => {
+                ["Turn faces over", "The fewer faces of each part turn over, so that all run around alike"]
+            }
+            Self::SplitVertices => ["Split vertices", "Fans of faces that meet in nothing but a vertex get one each"],
+            Self::FillHoles => {
+                ["Fill holes", "Holes are filled while the mesh is flattened, with faces that no file gets"]
+            }
+            Self::Cut => {
+                ["Cut open", "Parts that are no disks are cut along short ways, creases first, until they are"]
+            }
+        }
+    }
+
     /// What was done, for one element and for several.
     const fn words(self) -> [&'static str; 2] {
         match self {
