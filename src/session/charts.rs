@@ -11,7 +11,8 @@ use super::model::ChartOf;
 use super::solving::{Next, Rest, Solving, Task};
 use super::stop::Goal;
 use super::{
-    Background, ChartEdits, Command, Messages, Model, Outcome, Problem, Session, StopConditions, Timeline, Wake,
+    Background, ChartEdits, Command, Messages, Model, Outcome, Problem, Session, StopConditions, TIMELINE_BUDGET,
+    Timeline, Wake,
 };
 use crate::geom::PackingOptions;
 use crate::mesh::Charts;
@@ -48,6 +49,11 @@ struct Other {
     messages: Messages,
 }
 
+/// Bytes that the steps of a chart which is not on the screen may take: together no more than those of the one that is.
+fn share(of: &ChartOf) -> usize {
+    TIMELINE_BUDGET / of.charts.count()
+}
+
 impl OtherCharts {
     pub(super) fn new(wake: &Wake) -> Self {
         Self { wake: Arc::clone(wake), others: BTreeMap::new(), forming: Background::new("chart", wake), asked: None }
@@ -77,11 +83,11 @@ impl OtherCharts {
 
     /// Exchanges the chart on the screen, `model` with its run, for another one, whose run takes its place.
     pub(super) fn exchange(&mut self, model: &Arc<Model>, solving: &mut Solving, number: usize) {
-        let coming = self.others.remove(&number).map(|other| other.solving);
-        let mut coming = coming.unwrap_or_else(|| Solving::new(Arc::clone(&self.wake)));
-        coming.come_on_screen_after(solving);
-        let going = std::mem::replace(solving, coming);
         let Some(of) = &model.chart else { return };
+        let coming = self.others.remove(&number).map(|other| other.solving);
+        let mut coming = coming.unwrap_or_else(|| Solving::new(Arc::clone(&self.wake), TIMELINE_BUDGET));
+        coming.come_on_screen_after(solving, share(of));
+        let going = std::mem::replace(solving, coming);
         let other = Other { model: Arc::clone(model), solving: going, messages: Messages::default() };
         self.others.insert(of.number, other);
     }
@@ -193,7 +199,7 @@ impl Session {
                 self.charts.asked.take_if(|asked| *asked == number);
             }
             if let Some(model) = formed.ok().filter(|_| of_mesh == revision && number != of.number) {
-                let solving = Solving::new(Arc::clone(&self.charts.wake));
+                let solving = Solving::new(Arc::clone(&self.charts.wake), share(&of));
                 let other = Other { model: Arc::new(model), solving, messages: Messages::default() };
                 self.charts.others.entry(number).or_insert(other);
             }

@@ -168,6 +168,14 @@ impl Model {
         self.chart.as_ref().is_none_or(|of| of.number == of.charts.pick(wanted))
     }
 
+    /// The sides of its edges that are listed as seams, with its own vertices.
+    pub(crate) fn seam_sides(&self) -> Vec<[VertexId; 2]> {
+        match &self.repaired {
+            Some(repaired) => repaired.seam_sides(&self.form.seams, &self.source.polygons),
+            None => self.form.seams.edges().iter().copied().collect(),
+        }
+    }
+
     /// How many charts the mesh has.
     pub fn chart_count(&self) -> usize {
         self.chart.as_ref().map_or(1, |of| of.charts.count())

@@ -11,7 +11,7 @@ use super::open_mesh::OpenMesh;
 use super::solving::Solving;
 use super::target_checks::TargetChecks;
 use super::v_axis::TurnedV;
-use super::{Action, Command, Document, History, Messages, RecentFiles, Wake};
+use super::{Action, Command, Document, History, Messages, RecentFiles, TIMELINE_BUDGET, Wake};
 
 /// One open document and the work on it.
 pub struct Session {
@@ -51,7 +51,7 @@ impl Session {
             files: Files::new(&wake, recent),
             messages: Messages::default(),
             turned_v: TurnedV::default(),
-            solving: Solving::new(wake),
+            solving: Solving::new(wake, TIMELINE_BUDGET),
         }
     }
 

@@ -71,6 +71,18 @@ impl Timeline {
         }
     }
 
+    /// From now on keeps `budget` bytes of steps whole.
+    pub fn set_budget(&mut self, budget: usize) {
+        self.budget = budget;
+        self.thin();
+    }
+
+    /// A timeline without steps and with the same budget.
+    #[must_use]
+    pub fn begun_anew(&self) -> Self {
+        Self::with_budget(self.budget)
+    }
+
     /// The numbers of every step.
     pub fn records(&self) -> &[StepReport] {
         &self.records

@@ -27,10 +27,8 @@ mod typed;
 mod window;
 
 pub use controls::sentence;
-use controls::{
-    Control, Offer, close_button, counted, figures, five_digits, heads, list, number, pairs, remark, tip_with_keys,
-};
-pub use editor::{Defect, Editor, Pane, Request, Shading, Stage, StepTarget, Tab, Tool};
+use controls::{Control, Offer, close_button, counted, figures, five_digits, heads, list, number, pairs, remark, tip_with_keys};
+pub use editor::{Defect, Editor, Pane, Request, SeamClick, Shading, Stage, StepTarget, Tab, Tool};
 use editor::{Element, HullScene, Purpose};
 use keys::keys_of;
 pub use keys::{BINDINGS, Binding};

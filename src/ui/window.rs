@@ -57,6 +57,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Not before: the pane drawn first shows what the pointer found in the other.
         editor.pointer.set_vertex(None);
+        editor.tools.seam.set_under(None);
     }
     constrain::line_across(ui, editor);
     floating::floating_windows(ui.ctx(), editor, &mut requests);

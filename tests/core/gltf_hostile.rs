@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use freebound::io::{ReadError, read_stream};
+use freebound::io::{ReadError, read_mesh, read_stream};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -167,6 +167,30 @@ fn few_bytes_shown_many_times_are_refused_before_they_are_made() {
     maker.push("meshes", json!({"primitives": vec![primitive; 3_000]}));
     let error = fault(&maker.glb());
     assert!(matches!(error, ReadError::TooManyCopies { .. }), "{error}");
+}
+
+#[test]
+fn parts_without_faces_that_are_shown_many_times_are_refused_before_they_are_made() {
+    let mut maker = GlbMaker::new();
+    maker.view(&[0; 40], None);
+    maker.push("accessors", json!({"componentType": 5126, "count": 0, "type": "VEC3"}));
+    let primitive = json!({"attributes": {"POSITION": 0}});
+    maker.push("meshes", json!({"primitives": vec![primitive; 3_000]}));
+    maker.json["nodes"] = (0..6_000).map(|_| json!({"mesh": 0})).collect();
+    let error = fault(&maker.glb());
+    assert!(matches!(error, ReadError::TooManyCopies { shown: 18_000_000 }), "{error}");
+}
+
+#[test]
+fn one_file_is_not_read_for_any_number_of_buffers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("a.bin"), [0; 100]).expect("written");
+    let mut json = plain(2, U16).finished(Some("a.bin".to_owned()));
+    json["buffers"] = vec![json!({"uri": "a.bin", "byteLength": 100}); 17].into();
+    let path = folder.path().join("a.gltf");
+    std::fs::write(&path, json.to_string()).expect("written");
+    let error = read_mesh(&path).expect_err("it is wrong").to_string();
+    assert!(error.starts_with("buffer 16: a.bin cannot be read: more than 16 buffers have it"), "{error}");
 }
 
 /// A path through JSON to one of its values, chosen by numbers.

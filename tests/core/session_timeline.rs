@@ -58,6 +58,21 @@ fn the_numbers_of_every_step_stay_and_whole_steps_within_the_budget() {
 }
 
 #[test]
+fn a_budget_that_shrinks_lets_steps_go_at_once_and_stays_for_the_next_run() {
+    let mut timeline = with_room_for(40, vec![5; 30]);
+    assert_eq!(kept(&timeline).len(), 30);
+    timeline.set_budget(10 * (first().bytes() + 64));
+    assert!((6..=10).contains(&kept(&timeline).len()), "{:?}", kept(&timeline));
+    assert_eq!(timeline.records().len(), 30);
+    let mut next = timeline.begun_anew();
+    assert_eq!(next.records().len(), 0);
+    for index in 0..30 {
+        next.push(like(&first(), index, 5));
+    }
+    assert!((6..=10).contains(&kept(&next).len()), "{:?}", kept(&next));
+}
+
+#[test]
 fn what_is_kept_is_even() {
     for count in [30, 64, 100, 333, 1000] {
         let timeline = with_room_for(12, vec![5; count]);

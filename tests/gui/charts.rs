@@ -89,6 +89,7 @@ fn the_chart_on_the_screen_is_packed_larger_by_a_typed_size() {
     let densities = |window: &Window| window.editor().session.atlas().expect("laid out").densities.clone();
     assert!((densities(&window)[2] / densities(&window)[0] - 1.0).abs() < 1e-9);
     window.fill_in(Role::SpinButton, "Size of the chart on the screen", "2.5");
+    window.press(Modifiers::NONE, Key::Enter);
     until_laid_out(&mut window);
     assert!((densities(&window)[2] / densities(&window)[0] - 2.5).abs() < 1e-9, "{:?}", densities(&window));
     let words = format!("{:.4} pixels per unit of length", densities(&window)[2]);

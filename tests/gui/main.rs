@@ -35,6 +35,7 @@ mod presses;
 mod render;
 mod render_work;
 mod screens;
+mod seams;
 mod shaders;
 mod shortcuts;
 mod timeline;

@@ -1,5 +1,6 @@
 //! A glTF file taken apart: its JSON, and the bytes of all its buffers, one behind another.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::ops::Range;
@@ -25,6 +26,9 @@ pub(super) const CHUNK_HEAD: usize = 8;
 
 /// Buffers begin at multiples of so many bytes.
 pub(super) const ALIGNMENT: usize = 8;
+
+/// The most buffers that one file is read for.
+const NAMED: usize = 16;
 
 /// Takes what base64 there is, with its last signs or without.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -98,11 +102,20 @@ impl Buffers {
     pub(super) fn of(document: &Document, binary: Vec<u8>, folder: Option<&Path>) -> Result<Self, ReadError> {
         let (mut bytes, mut starts) = (Vec::new(), Vec::new());
         let mut binary = Some(binary);
+        let mut names: HashMap<&str, usize> = HashMap::new();
         for (index, buffer) in document.buffers.iter().enumerate() {
             let found = match &buffer.uri {
                 // The first buffer without a name is the chunk.
                 None => binary.take().filter(|chunk| index == 0 && !chunk.is_empty()),
-                Some(uri) => Some(of_uri(uri, buffer, index, folder)?),
+                Some(uri) => {
+                    let times = names.entry(uri).or_default();
+                    *times += 1;
+                    if *times > NAMED {
+                        let error = Error::new(ErrorKind::InvalidData, format!("more than {NAMED} buffers have it"));
+                        return Err(beside_fault(uri, index, error));
+                    }
+                    Some(of_uri(uri, buffer, index, folder)?)
+                }
             };
             let missing = || ReadError::Beside {
                 buffer: index,
@@ -130,11 +143,12 @@ impl Buffers {
     }
 }
 
+fn beside_fault(uri: &str, buffer: usize, source: Error) -> ReadError {
+    ReadError::Beside { buffer, uri: uri.chars().take(80).collect(), source }
+}
+
 fn of_uri(uri: &str, buffer: &Buffer, index: usize, folder: Option<&Path>) -> Result<Vec<u8>, ReadError> {
-    let fault = |source: Error| {
-        let shown: String = uri.chars().take(80).collect();
-        ReadError::Beside { buffer: index, uri: shown, source }
-    };
+    let fault = |source: Error| beside_fault(uri, index, source);
     if let Some(data) = uri.strip_prefix("data:") {
         let text = data.split_once(";base64,").map(|(_, text)| text);
         let text = text.ok_or_else(|| fault(Error::new(ErrorKind::InvalidData, "no base64")))?;

@@ -12,7 +12,7 @@ use super::container::Buffers;
 use super::document::{Attributes, Document, Topology};
 use crate::io::mesh_file::{ParseFaultKind, ReadError, fault_in};
 
-/// A few bytes may be shown as so many corners and vertices, times the bytes of the file, or as `FEW` at least.
+/// A few bytes may be shown as so many parts, corners and vertices, times the bytes of the file, or as `FEW` at least.
 const COPIES: u64 = 16;
 const FEW: u64 = 1 << 24;
 
@@ -82,7 +82,12 @@ impl Shown {
     /// Finds what a file shows.
     pub(super) fn of(document: &Document, buffers: &Buffers) -> Result<Self, ReadError> {
         let mut own = Self { instances: instances(document)?, ..Self::default() };
-        let mut corners = 0;
+        let most = (COPIES * buffers.bytes.len() as u64).max(FEW).min(u64::from(u32::MAX));
+        let part_count = |instance: &Instance| document.meshes[instance.mesh].primitives.len() as u64;
+        let mut shown: u64 = own.instances.iter().map(part_count).sum();
+        if shown > most {
+            return Err(ReadError::TooManyCopies { shown });
+        }
         for (instance, Instance { mesh, .. }) in own.instances.iter().enumerate() {
             let mut set_of: BTreeMap<(&Attributes, &Vec<Attributes>), usize> = BTreeMap::new();
             for (primitive, found) in document.meshes[*mesh].primitives.iter().enumerate() {
@@ -102,10 +107,9 @@ impl Shown {
                 };
                 let vertices = own.sets[set].range.len();
                 let listed = found.indices.map_or(Ok(vertices), count_of)?;
-                corners += 3 * topology.count(listed as u64);
-                let most = (COPIES * buffers.bytes.len() as u64).max(FEW).min(u64::from(u32::MAX));
-                if corners + own.sets[set].range.end as u64 > most {
-                    return Err(ReadError::TooManyCopies { corners });
+                shown += 3 * topology.count(listed as u64);
+                if shown + own.sets[set].range.end as u64 > most {
+                    return Err(ReadError::TooManyCopies { shown });
                 }
                 own.parts.push(Part { instance, primitive, set, first_face: 0 });
             }

@@ -70,10 +70,10 @@ pub enum ReadError {
         source: std::io::Error,
     },
     /// Few bytes that are shown as many triangles.
-    #[error("its nodes and meshes show {corners} corners of triangles, many times what the file holds")]
+    #[error("its nodes and meshes show {shown} corners of triangles, or parts, many times what the file holds")]
     TooManyCopies {
-        /// How many.
-        corners: u64,
+        /// How many corners or parts.
+        shown: u64,
     },
     /// The file has no face.
     #[error("the file has no faces{}", if *vertices == 0 { String::new() } else { format!(", only {vertices} vertices") })]

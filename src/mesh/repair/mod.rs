@@ -12,6 +12,7 @@
 //! | `fill.rs` | holes filled with virtual faces |
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
+//! | `stretches.rs` | seams as lines, from where they end or meet to where they do again |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
 //! | `paths.rs` | shortest paths along edges, for seams that a person draws |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
@@ -30,6 +31,7 @@ mod leave_out;
 mod paths;
 mod seams;
 mod sides;
+mod stretches;
 mod ways;
 mod weld;
 

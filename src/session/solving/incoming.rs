@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Solving;
 use super::running::{Delivery, News, Next, Rest, Resting, Running};
 use crate::session::stop::Goal;
-use crate::session::{Message, Messages, Place, Timeline};
+use crate::session::{Message, Messages, Place};
 use crate::solver::{Ending, Ladder, SolveError};
 
 impl Solving {
@@ -53,7 +53,7 @@ impl Solving {
             // What was written no longer shows what is on the screen.
             messages.forget_notes();
             self.kept.prepared.clone_from(&outcome.step.prepared);
-            self.timeline = Timeline::default();
+            self.timeline = self.timeline.begun_anew();
         }
         if let Some(start) = &outcome.step.planar_start {
             self.kept.planar_start = Some(Arc::clone(start));

@@ -29,7 +29,8 @@ use self::rounds::Rounds;
 pub(super) use self::running::{Next, Rest, Task};
 use self::running::{Resting, Running, Shared, take_steps};
 use super::stop::Goal;
-use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Timeline, Wake};
+use super::timeline::{TIMELINE_BUDGET, Timeline};
+use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Wake};
 use crate::solver::{Ending, Kept, Ladder, Method, Phase, Prepared};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
@@ -62,10 +63,10 @@ pub(super) struct Solving {
 
 /// What is asked.
 impl Solving {
-    pub(super) fn new(wake: Wake) -> Self {
+    pub(super) fn new(wake: Wake, budget: usize) -> Self {
         Self {
             wake,
-            timeline: Timeline::default(),
+            timeline: Timeline::with_budget(budget),
             outcome_revision: 0,
             ending: None,
             stop: StopConditions::default(),
@@ -79,7 +80,7 @@ impl Solving {
         }
     }
 
-    /// The steps that there are.
+    /// The steps.
     pub(super) fn timeline(&self) -> &Timeline {
         &self.timeline
     }
@@ -279,12 +280,14 @@ impl Solving {
     pub(super) fn forget(&mut self, messages: &mut Messages) {
         self.give_up_all();
         self.forget_message(messages);
-        (self.timeline, self.ending, self.kept) = (Timeline::default(), None, Kept::default());
+        (self.timeline, self.ending, self.kept) = (self.timeline.begun_anew(), None, Kept::default());
         self.outcome_revision += 1;
     }
 
-    /// Comes on the screen where `before` was.
-    pub(super) fn come_on_screen_after(&mut self, before: &Self) {
+    /// Comes on the screen where `before` was, which keeps so many bytes of steps whole from now on.
+    pub(super) fn come_on_screen_after(&mut self, before: &mut Self, bytes: usize) {
+        before.timeline.set_budget(bytes);
+        self.timeline.set_budget(TIMELINE_BUDGET);
         self.stop = before.stop;
         self.outcome_revision = self.outcome_revision.max(before.outcome_revision) + 1;
         self.message = None;

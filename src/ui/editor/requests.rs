@@ -25,6 +25,10 @@ impl Editor {
             Request::TogglePlay => self.toggle_play(),
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
             Request::SetTool(tool) => self.tools.take_up(tool),
+            Request::ClickSeam(click) => self.take_seam_click(click),
+            Request::EndSeam => drop(self.tools.seam.end()),
+            Request::SetCreases(share) => self.tools.seam.set_creases(share),
+            Request::ToggleErasing => self.tools.seam.toggle_erases(),
             Request::TakeVertex(vertex) => self.take_vertex(vertex),
             Request::SetShading(shading) => self.shade(shading),
             Request::SetPaneShading(pane, shading) => self.shade_pane(pane, shading),
@@ -170,6 +174,7 @@ impl Editor {
         } else if self.pointer.end_box() {
         } else if self.tools.pair().is_some() {
             self.tools.set_pair(None);
+        } else if self.tools.seam.end() {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
         } else {

@@ -5,9 +5,10 @@ use std::time::{Duration, SystemTime};
 
 use eframe::egui::{self, Label, Rect, RichText, Sense, Vec2};
 
+use super::seam;
 use crate::session::{Action, Message, Place, Severity, named};
 use crate::ui::icons::{self, Sign};
-use crate::ui::{Control, Editor, Offer, Pane, Request, Tab, counted, sentence, theme_of};
+use crate::ui::{Control, Editor, Offer, Pane, Request, Tab, Tool, counted, sentence, theme_of};
 
 /// Shows the bars at the upper edge of a pane.
 pub(super) fn over(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
@@ -70,6 +71,9 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
         warning(ui, words, offers, requests);
     }
     message_bars(ui, editor, place, requests);
+    if pane == Pane::Mesh && editor.tools.tool() == Tool::Seam && session.model().is_some() {
+        seam::strip(ui, editor, requests);
+    }
 }
 
 /// How long ago something was, in words.
