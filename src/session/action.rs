@@ -22,11 +22,26 @@ pub struct SaveRequest {
     pub fit: OutputFit,
 }
 
+/// Files that are opened together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Together {
+    /// The mesh, or the project.
+    pub mesh: PathBuf,
+    /// A picture for it.
+    pub picture: Option<PathBuf>,
+    /// Constraints on it.
+    pub constraints: Vec<PathBuf>,
+    /// Files that are not opened, for there is one mesh at a time, with one picture.
+    pub left: Vec<PathBuf>,
+}
+
 /// One request.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     /// Opens a mesh file, or a project.
     Open(PathBuf),
+    /// Opens a mesh file or a project, and what belongs to it.
+    OpenTogether(Together),
     /// Opens a built-in mesh.
     OpenExample(Example),
     /// Forgets the files opened last.

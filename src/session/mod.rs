@@ -73,7 +73,7 @@ mod target_checks;
 mod timeline;
 mod v_axis;
 
-pub use action::{Action, SaveRequest};
+pub use action::{Action, SaveRequest, Together};
 pub use atlas::{SolvedChart, atlas};
 pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};

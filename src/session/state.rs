@@ -69,6 +69,7 @@ impl Session {
     pub fn handle(&mut self, action: Action) {
         match action {
             Action::Open(path) => self.files.open(path),
+            Action::OpenTogether(files) => self.files.open_together(files),
             Action::OpenExample(example) => self.files.open_example(example),
             Action::Recover(path) => self.files.recover(path, &mut self.messages),
             Action::DiscardRecovery(path) => self.files.autosave.discard(&path),

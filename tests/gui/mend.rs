@@ -2,6 +2,7 @@
 
 use eframe::egui;
 use egui::{Key, Modifiers, Role};
+use egui_kittest::kittest::Queryable as _;
 use freebound::mesh::{TriMesh, VertexId};
 use glam::DVec3;
 
@@ -92,7 +93,8 @@ fn vertices_within_a_distance_are_counted_before_they_are_welded() {
     let mut window = Window::with_mesh("halves.obj", &TriMesh { positions, triangles, ..TriMesh::default() });
     assert_eq!(window.editor().session.charts().map(|charts| charts.count()), Some(2));
     window.click("Defects");
-    window.click("Weld within a distance");
+    window.harness.get_by_label("Weld within a distance").click();
+    window.settle();
     let field = "Distance of vertices to weld, in the mesh's units";
     window.fill_in(Role::SpinButton, field, "0.0005");
     assert!(window.shows("No vertices lie so near each other"), "{:?}", window.words());
