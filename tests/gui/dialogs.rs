@@ -202,7 +202,7 @@ fn files_dropped_together_are_sorted_by_their_kinds_and_a_second_mesh_is_named()
     std::fs::write(window.path("a.txt"), "0 0.25 0.5\n24 0.75 0.5\n").expect("written");
     std::fs::write(window.path("a.mtl"), "newmtl skin\n").expect("written");
     let picture = std::fs::File::create(window.path("a.png")).expect("a file");
-    Picture { width: 2, height: 1, pixels: vec![[255; 4]; 2] }.write_png(picture).expect("written");
+    Picture { width: 2, height: 1, pixels: vec![255; 8] }.write_png(picture).expect("written");
     let names = ["a.txt", "a.png", "a.mtl", "a.obj", "b.obj"];
     let files = names.map(|name| dropped(window.path(name)));
     window.harness.input_mut().dropped_files.extend(files);
