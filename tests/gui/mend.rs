@@ -97,9 +97,11 @@ fn vertices_within_a_distance_are_counted_before_they_are_welded() {
     window.settle();
     let field = "Distance of vertices to weld, in the mesh's units";
     window.fill_in(Role::SpinButton, field, "0.0005");
+    window.settle();
     assert!(window.shows("No vertices lie so near each other"), "{:?}", window.words());
     assert!(!window.is_enabled("Weld vertices"));
     window.fill_in(Role::SpinButton, field, "0.4");
+    window.settle();
     assert!(window.words().iter().any(|words| words.ends_with("vertices join others")), "{:?}", window.words());
     window.click("Weld vertices");
     assert!(window.editor().session.charts().is_none() && window.is_proved(), "{}", window.verdict());
