@@ -27,6 +27,7 @@ mod job;
 mod places;
 mod progress;
 mod say;
+mod seams;
 mod standard;
 mod summary;
 mod typed;

@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec2, UVec2};
 
+use super::args::SeamKind;
 use crate::geom::PackingOptions;
 use crate::io::{ConstraintFault, Target};
 use crate::mesh::{VertexId, WeldDistance};
@@ -76,4 +77,22 @@ pub(super) fn parse_chart_size(text: &str) -> Result<ChartSize, String> {
     };
     let [low, high] = [PackingOptions::SIZES.start(), PackingOptions::SIZES.end()];
     parsed().ok_or_else(|| format!("write CHART=SIZE, for example 0=2, with a size from {low} to {high}"))
+}
+
+/// The angle of creases where none is typed, degrees: as modelling programs choose it.
+const SHARP_DEGREES: f64 = 30.0;
+
+/// "sharp", "sharp=degrees", "materials" or "groups".
+pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
+    let parsed = || match text.split_once('=') {
+        Some(("sharp", degrees)) => {
+            let degrees: f64 = degrees.trim().parse().ok()?;
+            (degrees > 0.0 && degrees <= 180.0).then_some(SeamKind::Sharp(degrees))
+        }
+        None if text == "sharp" => Some(SeamKind::Sharp(SHARP_DEGREES)),
+        None if text == "materials" => Some(SeamKind::Materials),
+        None if text == "groups" => Some(SeamKind::Groups),
+        _ => None,
+    };
+    parsed().ok_or_else(|| "write sharp, sharp=DEGREES (above 0, up to 180), materials or groups".to_owned())
 }

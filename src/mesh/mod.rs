@@ -53,7 +53,7 @@ pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
 pub use repair::{
     Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PathTree, Repair, Repaired, Repairs, Seams, WeldDistance,
-    near_vertices,
+    borders, creases, near_vertices,
 };
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

@@ -31,6 +31,7 @@
 //! | `files`         | part: what is open and saved, read and written                             |
 //! | `opened`        | what opening brings                                                        |
 //! | `model`         | a mesh as it was opened                                                    |
+//! | `seam_edges`    | edges of a mesh that seams follow as a rule                                |
 //! | `saving`        | projects on their way to the disk                                          |
 //! | `recovery`      | copies for recovery                                                        |
 //! | `folder`        | shows where a file lies                                                    |
@@ -65,6 +66,7 @@ mod recent;
 mod recovery;
 mod runs;
 mod saving;
+mod seam_edges;
 mod solving;
 mod state;
 mod status;
@@ -74,7 +76,7 @@ mod timeline;
 mod v_axis;
 
 pub use action::{Action, SaveRequest, Together};
-pub use atlas::{SolvedChart, atlas};
+pub use atlas::{Arrangement, SolvedChart, atlas};
 pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
 pub use charts::ChartState;

@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
+use crate::io::{FileStamp, LayoutError, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
 use crate::mesh::{
-    Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, Repair, Repaired, TriMesh, VertexId, diagnose,
-    relative_volume,
+    Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, Repair, Repaired, Repairs, TriMesh, VertexId,
+    diagnose, relative_volume,
 };
+use crate::solver::Embedding;
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
 /// it is high.
@@ -80,24 +81,28 @@ impl Model {
     ///
     /// As [`read`](Self::read), and [`ReadError::Cancelled`] where it was to stop.
     pub fn read_until(path: &Path, form: Form, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        Ok(Self::as_in_file(name, Some(path.to_owned()), source).in_form(form))
+        Ok(Self::read_formless(path, is_enough)?.in_form(form))
     }
 
-    /// Reads and diagnoses a stream, looking now and then whether to stop. `name` is what to call it.
+    /// As [`read_until`](Self::read_until), for a form that depends on what is read: until it has one, the mesh has no faces.
     ///
     /// # Errors
     ///
     /// As [`read_until`](Self::read_until).
-    pub fn read_stream(
-        name: &str,
-        stream: impl Read,
-        form: Form,
-        is_enough: &dyn Fn() -> bool,
-    ) -> Result<Self, ReadError> {
+    pub fn read_formless(path: &Path, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
+        let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+        Ok(Self::as_in_file(name, Some(path.to_owned()), source))
+    }
+
+    /// As [`read_formless`](Self::read_formless), of a stream. `name` is what to call it.
+    ///
+    /// # Errors
+    ///
+    /// As [`read_until`](Self::read_until).
+    pub fn read_stream(name: &str, stream: impl Read, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
         let source = read_stream_with(stream, &mut |_| flow(is_enough))?;
-        Ok(Self::as_in_file(name.to_owned(), None, source).in_form(form))
+        Ok(Self::as_in_file(name.to_owned(), None, source))
     }
 
     /// A built-in mesh.
@@ -132,7 +137,8 @@ impl Model {
         let source = if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) };
         let labels = if form.seams.of_texture { source.texture_labels().ok() } else { None };
         let repaired = |form: &Form| form.repaired_along(&source.polygons, labels.as_deref());
-        let has_seams = labels.is_some() || !form.seams.edges().is_empty();
+        let is_cut_along = !form.seams.edges().is_empty() && !is_refused_uncut(&source.polygons, form.repair);
+        let has_seams = labels.is_some() || is_cut_along;
         let found = if has_seams { cut_surface(repaired(&form)) } else { surface_of(&source.polygons, &form) };
         let remedy = match &found.surface {
             Surface::Disk(_) => None,
@@ -217,6 +223,15 @@ impl Model {
         polygons.positions.len()
     }
 
+    /// The texture coordinates of the file as an embedding of this mesh or chart.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError`] where they are not all there, or a vertex has several.
+    pub fn layout(&self) -> Result<Embedding, LayoutError> {
+        self.source.layout(self.repaired.as_deref(), self.mesh())
+    }
+
     /// The disk, where it is one.
     pub fn disk(&self) -> Option<&Arc<DiskMesh>> {
         match &self.surface {
@@ -298,6 +313,16 @@ fn surface_of(polygons: &PolygonMesh, form: &Form) -> Found {
         Err(left) if is_meant_as_one => Found::left(repaired, *left),
         found => charts_of(repaired, found),
     }
+}
+
+/// Whether a mesh is refused wherever it is cut: for faults that cutting does not mend.
+fn is_refused_uncut(polygons: &PolygonMesh, repairs: Repairs) -> bool {
+    let has = |is_fault: &dyn Fn(&Fault) -> bool| diagnose(&polygons.triangulate()).faults.iter().any(is_fault);
+    if repairs.is_none() {
+        return has(&|fault| !(fault.is_cut_open() || fault.is_of_charts()));
+    }
+    let is_welded = repairs.allows(Repair::WeldVertices) || repairs.weld_distance().is_some();
+    !is_welded && has(&|fault| matches!(fault, Fault::CoincidentVertices(_)))
 }
 
 /// What a surface is that is cut along its seams.

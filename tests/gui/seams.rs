@@ -220,3 +220,35 @@ fn the_measure_of_paths_is_chosen_by_a_slider() {
     window.key(Key::V);
     assert!(!slider(&window), "the strip is the tool's");
 }
+
+#[test]
+fn a_click_beside_a_seam_pins_the_side_under_the_pointer_and_its_pin_says_which_that_is() {
+    let mut window = window();
+    let k = front(&window);
+    for row in [0, ALONG] {
+        click(&mut window, at(k, row), Modifiers::NONE);
+    }
+    window.key(Key::P);
+    let on_seam = place(&window, at(k, 3));
+    let mut pinned = Vec::new();
+    for side in [k + AROUND - 1, k + 1] {
+        let beside = place(&window, at(side % AROUND, 3));
+        let towards = (beside - on_seam).normalized() * 4.0;
+        window.click_at(on_seam + towards, Modifiers::NONE);
+        let targets = &window.editor().session.document().targets;
+        let fresh: Vec<VertexId> = targets.keys().copied().filter(|vertex| !pinned.contains(vertex)).collect();
+        assert_eq!(fresh.len(), 1, "another vertex than that of the other side");
+        pinned.extend(&fresh);
+        // A face at the pinned vertex reaches to the vertex beside it.
+        let outcome_mesh = window.editor().mesh_scene().expect("a mesh shows").mesh();
+        let position =
+            window.editor().session.model().expect("open").source.polygons.positions[at(side % AROUND, 3).index()];
+        let reaches = |triangle: &&[VertexId; 3]| {
+            triangle.contains(&fresh[0]) && triangle.iter().any(|v| outcome_mesh.positions[v.index()] == position)
+        };
+        assert!(outcome_mesh.triangles.iter().any(|triangle| reaches(&triangle)), "{} beside {side}", fresh[0]);
+        window.click("Vertex");
+        let words = format!("{} of the file, on a seam: the side of face ", at(k, 3));
+        assert!(window.shows(&words), "{:?}", window.words());
+    }
+}

@@ -42,6 +42,7 @@ impl Form {
     pub fn allows(&self, repair: Repair) -> bool {
         match repair {
             Repair::Cut => self.cut,
+            Repair::CutSeams => !self.seams.is_empty(),
             Repair::FillHoles => self.holes == HoleTreatment::Fill && self.repair.allows(repair),
             _ => self.repair.allows(repair),
         }
@@ -53,6 +54,8 @@ impl Form {
         let form = self.clone();
         match repair {
             Repair::Cut => Self { cut: true, ..form },
+            // Which seams, a repair does not say.
+            Repair::CutSeams => form,
             Repair::FillHoles => Self { holes: HoleTreatment::Fill, repair: form.repair.with(repair), ..form },
             _ => Self { repair: form.repair.with(repair), ..form },
         }
@@ -75,6 +78,10 @@ impl Form {
         }
         let mut repaired = Repaired::new(source, self.repair);
         repaired.cut_along(&self.seams, labels, source);
+        if !self.seams.edges().is_empty() && (self.cut || self.repair.allows(Repair::TurnFaces)) {
+            // A surface with one side has two once it is cut.
+            repaired.turn_faces();
+        }
         repaired.fills = self.allows(Repair::FillHoles);
         let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
         repaired.fill_holes()

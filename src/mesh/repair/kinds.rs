@@ -15,7 +15,7 @@ use super::WeldDistance;
 #[serde(try_from = "String", into = "String")]
 pub struct Repairs {
     /// A bit for each kind.
-    kinds: u8,
+    kinds: u16,
     weld: Option<WeldDistance>,
 }
 
@@ -149,6 +149,8 @@ pub enum Repair {
     SplitVertices,
     /// Inner boundary loops are filled with virtual faces, which are of no file.
     FillHoles,
+    /// The surface is cut along seams that were given.
+    CutSeams,
     /// The surface is cut along edges until each part is a disk.
     Cut,
 }
@@ -166,8 +168,8 @@ impl Repair {
     ];
 
     /// Its place in a set.
-    const fn bit(self) -> u8 {
-        1 << self as u8
+    const fn bit(self) -> u16 {
+        1 << self as u16
     }
 
     /// A fixed lower-case name, as reports have it.
@@ -180,6 +182,7 @@ impl Repair {
             Self::TurnFaces => "turn-faces",
             Self::SplitVertices => "split-vertices",
             Self::FillHoles => "fill-holes",
+            Self::CutSeams => "cut-seams",
             Self::Cut => "cut",
         }
     }
@@ -224,6 +227,7 @@ impl Repair {
                 ["vertex split, one for each fan of faces", "vertices split, one for each fan of faces"]
             }
             Self::FillHoles => ["hole filled while it is flattened", "holes filled while it is flattened"],
+            Self::CutSeams => ["edge cut along a seam", "edges cut along seams"],
             Self::Cut => ["edge cut open", "edges cut open"],
         }
     }

@@ -12,6 +12,7 @@
 //! | `fill.rs` | holes filled with virtual faces |
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
+//! | `borders.rs` | edges that seams follow as a rule: creases, and where faces of two kinds meet |
 //! | `stretches.rs` | seams as lines, from where they end or meet to where they do again |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
 //! | `paths.rs` | shortest paths along edges, for seams that a person draws |
@@ -21,6 +22,7 @@
 //! an old one does, follow. The file that the mesh came from is never changed but for its texture coordinates, which
 //! [`Repaired::corner_of`] carries back.
 
+mod borders;
 mod charts;
 mod cut;
 mod fill;
@@ -41,6 +43,7 @@ use fill::Filling;
 
 use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
+pub use borders::{borders, creases};
 pub use charts::{Chart, Charts};
 pub use form::{Form, HoleTreatment};
 pub use kinds::{Done, Repair, Repairs};

@@ -10,6 +10,7 @@
 //! | `scene.rs` | what the panes draw and pick in |
 //! | `paint.rs` | faces coloured by a shading |
 //! | `in_file.rs` | vertices of what is on the screen as those of the file |
+//! | `sides.rs` | which side of a seam a vertex is on |
 //! | `seam_tool.rs` | the seam that is being drawn, and the shortest paths from where it has got to |
 //! | `element.rs` | parts of the mesh by their names |
 //! | `around.rs` | the charts around the one that is worked on |
@@ -42,6 +43,7 @@ mod requests;
 pub(super) mod scene;
 pub(super) mod seam_tool;
 mod selection;
+mod sides;
 pub(super) mod views;
 
 pub(super) use element::Element;

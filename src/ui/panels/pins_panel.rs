@@ -104,7 +104,9 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     let selected = editor.selection.vertices().contains(&vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
     label.context_menu(|ui| vertex_menu(ui, editor, vertex, requests));
-    let label = label.on_hover_text("Select; Shift selects all up to it, Ctrl adds it, a double click shows it");
+    let tip = "Select; Shift selects all up to it, Ctrl adds it, a double click shows it";
+    let side = editor.mesh_scene().and_then(|scene| scene.side_of(vertex));
+    let label = label.on_hover_text(side.map_or_else(|| tip.to_owned(), |side| format!("{side}\n{tip}")));
     if label.double_clicked() {
         requests.push(Request::GoTo(vec![vertex]));
     } else if label.clicked() {

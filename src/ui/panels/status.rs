@@ -56,6 +56,7 @@ fn numbers(editor: &Editor) -> String {
     if let (Some(vertex), Some(scene)) = (editor.pointer.vertex(), editor.mesh_scene()) {
         parts.push(vertex.to_string());
         parts.extend(scene.new_vertex(vertex).map(new_vertex_words));
+        parts.extend(scene.side_of(vertex).map(|side| side.to_string()));
         if let Some(x) = scene.mesh().positions.get(vertex.index()) {
             parts.push(format!("({}, {}, {})", short(x.x), short(x.y), short(x.z)));
         }

@@ -27,6 +27,10 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
         Pane::Mesh => Place::Mesh,
         Pane::Plane => Place::Embedding,
     };
+    if pane == Pane::Mesh && editor.tools.tool() == Tool::Seam && session.model().is_some() {
+        // Before the others, which come and go.
+        seam::strip(ui, editor, requests);
+    }
     for left in session.recoverable().iter().filter(|_| pane == Pane::Mesh) {
         let since = SystemTime::now().duration_since(left.time).unwrap_or_default();
         let words = format!("Work on {} was not saved when the program ended. Its copy: {}", left.name, ago(since));
@@ -71,9 +75,6 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
         warning(ui, words, offers, requests);
     }
     message_bars(ui, editor, place, requests);
-    if pane == Pane::Mesh && editor.tools.tool() == Tool::Seam && session.model().is_some() {
-        seam::strip(ui, editor, requests);
-    }
 }
 
 /// How long ago something was, in words.

@@ -50,7 +50,8 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     if let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(rect, at)) {
         let pick = scene.picker.nearest_vertex(&camera, editor.mesh.pane.size(), pointer, Visibility::Visible);
         let pick = pick.filter(|_| editor.is_of_session(&scene));
-        editor.pointer.over_mesh(pick.map(|pick| pick.vertex));
+        let ray = camera.ray(pointer, editor.mesh.pane.size());
+        editor.pointer.over_mesh(pick.map(|pick| scene.on_side_at(pick.vertex, ray)));
         if editor.tools.tool() == Tool::Seam {
             editor.look_for_seam(&scene, &camera, pointer);
         }

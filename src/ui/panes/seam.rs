@@ -16,8 +16,11 @@ const HIDDEN: f32 = 0.4;
 /// Edges of a path of which it is looked whether the mesh hides them; the others show.
 const LOOKED_AT: usize = 2000;
 
-/// Width of a path that a click would cut, points.
-const WIDTH: f32 = 3.0;
+/// Width of a path that a click would cut, points: less than that of a seam.
+const CUT_WIDTH: f32 = 2.0;
+
+/// Width of dashes over a seam that a click would close, points.
+const CLOSE_WIDTH: f32 = 3.0;
 
 impl Editor {
     /// Takes in the vertex of the file that is under the pointer in the mesh's pane: of all charts.
@@ -91,9 +94,9 @@ fn line(painter: &egui::Painter, ends: [Pos2; 2], theme: &Theme, look: Look) {
     let strong = if look.closes { theme.text } else { seam };
     let colour = if look.is_seen { strong } else { strong.gamma_multiply(HIDDEN) };
     if look.closes {
-        painter.add(Shape::dashed_line(&ends, Stroke::new(WIDTH, colour), 4.0, 3.0));
+        painter.add(Shape::dashed_line(&ends, Stroke::new(CLOSE_WIDTH, colour), 4.0, 3.0));
     } else {
-        painter.line_segment(ends, Stroke::new(WIDTH, colour));
+        painter.line_segment(ends, Stroke::new(CUT_WIDTH, colour));
     }
 }
 
@@ -166,13 +169,13 @@ pub(super) fn strip(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
                        before. Shift does the same for one click";
             let erase = ui.selectable_label(editor.tools.seam.erases(), "Erase").on_hover_text(tip);
             erase.asks(Request::ToggleErasing, requests);
+            let tip = "Close all seams that were drawn or chosen; undo takes it back";
+            let clear = Offer::new("Clear seams", tip, Action::SetSeams(editor.without_seams()));
+            clear.when(!editor.session.seams().edges().is_empty()).show(ui, requests);
             if editor.tools.seam.last().is_some() {
                 let tip = tip_with_keys(ui, "The seam is as it should be: the next click begins another", &Request::EndSeam);
                 ui.button("End seam").on_hover_text(tip).asks(Request::EndSeam, requests);
             }
-            let tip = "Close all seams that were drawn or chosen; undo takes it back";
-            let clear = Offer::new("Clear seams", tip, Action::SetSeams(editor.without_seams()));
-            clear.when(!editor.session.seams().edges().is_empty()).show(ui, requests);
         });
     });
 }
