@@ -31,6 +31,7 @@
 //! | `files`         | part: what is open and saved, read and written                             |
 //! | `opened`        | what opening brings                                                        |
 //! | `model`         | a mesh as it was opened                                                    |
+//! | `surface`       | what comes of its faces in a form: a disk, several, or faults              |
 //! | `seam_edges`    | edges of a mesh that seams follow as a rule                                |
 //! | `saving`        | projects on their way to the disk                                          |
 //! | `recovery`      | copies for recovery                                                        |
@@ -71,6 +72,7 @@ mod solving;
 mod state;
 mod status;
 mod stop;
+mod surface;
 mod target_checks;
 mod timeline;
 mod v_axis;

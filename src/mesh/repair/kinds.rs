@@ -206,6 +206,7 @@ impl Repair {
             Self::FillHoles => {
                 ["Fill holes", "Holes are filled while the mesh is flattened, with faces that no file gets"]
             }
+            Self::CutSeams => ["Cut along seams", "The surface is cut along the seams that were drawn"],
             Self::Cut => {
                 ["Cut open", "Parts that are no disks are cut along short ways, creases first, until they are"]
             }
