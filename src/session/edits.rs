@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::errands::Errand;
+use super::open_mesh::Near;
 use super::{ChartEdits, Command, Document, Message, Place, Session};
 use crate::geom::{Bounds, PictureFrame, Similarity};
 use crate::io::{Constraints, ConstraintsError, PictureFile, Target, Targets};
@@ -268,6 +269,7 @@ impl Session {
                     self.take_constraints(constraints.targets);
                 }
                 Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
+                Errand::Near { distance, count } => self.mesh.take_near(Near { distance, count }),
                 Errand::Flat(flat) => self.take_flat(&flat),
                 Errand::Seams(read) => self.take_seams(read),
                 Errand::Recut(recut) => self.take_recut(*recut),

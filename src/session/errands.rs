@@ -8,7 +8,7 @@ use super::edits::Flat;
 use super::seams::Recut;
 use super::{Background, Messages, Model, Place, Wake};
 use crate::io::{Constraints, ConstraintsError, EdgesError, PictureError, PictureFile};
-use crate::mesh::VertexId;
+use crate::mesh::{VertexId, WeldDistance};
 
 /// What an errand brings back.
 pub(super) enum Errand {
@@ -22,6 +22,11 @@ pub(super) enum Errand {
     Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
     /// The open mesh, cut along other seams.
     Recut(Box<Recut>),
+    /// So many vertices of the open mesh lie within a distance of another.
+    Near {
+        distance: WeldDistance,
+        count: usize,
+    },
     /// The open mesh in another form.
     Formed(Box<Model>),
     /// The open mesh flattened, to fit the targets to.

@@ -32,6 +32,7 @@
 //! | `files`         | part: what is open and saved, read and written                             |
 //! | `opened`        | what opening brings                                                        |
 //! | `model`         | a mesh as it was opened                                                    |
+//! | `surface`       | what comes of its faces in a form: a disk, several, or faults              |
 //! | `seam_edges`    | edges of a mesh that seams follow as a rule                                |
 //! | `saving`        | projects on their way to the disk                                          |
 //! | `recovery`      | copies for recovery                                                        |
@@ -73,12 +74,13 @@ mod solving;
 mod state;
 mod status;
 mod stop;
+mod surface;
 mod target_checks;
 mod timeline;
 mod v_axis;
 
-pub use action::{Action, SaveRequest};
-pub use atlas::{SolvedChart, atlas};
+pub use action::{Action, SaveRequest, Together};
+pub use atlas::{Arrangement, SolvedChart, atlas};
 pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
 pub use charts::ChartState;

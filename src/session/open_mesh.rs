@@ -3,7 +3,14 @@
 use std::sync::Arc;
 
 use super::{Model, Session};
-use crate::mesh::{DiskMesh, Form, Seams};
+use crate::mesh::{DiskMesh, Form, Seams, WeldDistance};
+
+/// How many vertices of the mesh lie within a distance of another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    pub(super) distance: WeldDistance,
+    pub(super) count: usize,
+}
 
 /// The open mesh.
 #[derive(Debug, Default)]
@@ -13,6 +20,8 @@ pub(super) struct OpenMesh {
     other: Option<Arc<Model>>,
     /// Seams that a person asked for, while the mesh is cut along them.
     wanted_seams: Option<Seams>,
+    /// The vertices near each other that were counted last.
+    near: Option<Near>,
     /// Counts the meshes opened, and their changes of form.
     revision: u64,
 }
@@ -30,6 +39,14 @@ impl OpenMesh {
     /// Notes seams that a person asks for; or that none are asked for any more.
     pub(super) fn want_seams(&mut self, seams: Option<Seams>) {
         self.wanted_seams = seams;
+    }
+
+    pub(super) fn near(&self) -> Option<Near> {
+        self.near
+    }
+
+    pub(super) fn take_near(&mut self, near: Near) {
+        self.near = Some(near);
     }
 
     /// Takes in the mesh in another form, for [`change`](Self::change).

@@ -69,6 +69,7 @@ impl Session {
     pub fn handle(&mut self, action: Action) {
         match action {
             Action::Open(path) => self.files.open(path),
+            Action::OpenTogether(files) => self.files.open_together(files),
             Action::OpenExample(example) => self.files.open_example(example),
             Action::Recover(path) => self.files.recover(path, &mut self.messages),
             Action::DiscardRecovery(path) => self.files.autosave.discard(&path),
@@ -99,6 +100,9 @@ impl Session {
             Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
             Action::Mend => self.mend(),
+            Action::AllowRepair(repair) => self.want_form(self.document.form.allowing(repair)),
+            Action::Weld(within) => self.weld(within),
+            Action::CountNear(distance) => self.count_near(distance),
             Action::SetSeams(seams) => self.set_seams(seams),
             Action::ImportSeams(path) => self.import_seams(path),
             Action::ExportSeams(path) => self.export_seams(path),

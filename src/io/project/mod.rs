@@ -24,8 +24,8 @@ use super::door::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::{PackingOptions, VAxis};
-use crate::mesh::{Form, HoleTreatment, RepairExtent, Seams};
-use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
+use crate::mesh::{Form, HoleTreatment, Repairs, Seams, WeldDistance};
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Start, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
 pub const PROJECT_VERSION: u64 = 1;
@@ -46,7 +46,10 @@ pub struct ProjectFile {
     pub faces_turned: bool,
     /// What may be repaired of it.
     #[serde(default)]
-    pub repair: RepairExtent,
+    pub repair: Repairs,
+    /// The distance within which vertices of it are joined.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weld_distance: Option<WeldDistance>,
     /// What becomes of its holes; of older projects they are cut where the mesh is.
     #[serde(default)]
     pub holes: Option<HoleTreatment>,
@@ -82,6 +85,9 @@ pub struct ProjectFile {
     pub relaxed: usize,
     #[serde(default = "default_new_vertices")]
     new_vertices: bool,
+    /// What the first step is.
+    #[serde(default)]
+    start: Start,
     /// The chart on the screen, where the mesh has several; the largest without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chart: Option<usize>,
@@ -175,7 +181,13 @@ impl ProjectFile {
     /// What is made of the mesh's faces.
     pub fn form(&self) -> Form {
         let holes = self.holes.unwrap_or(if self.cut { HoleTreatment::Cut } else { HoleTreatment::Fill });
-        Form { faces_turned: self.faces_turned, repair: self.repair, holes, cut: self.cut, seams: self.seams.clone() }
+        Form {
+            faces_turned: self.faces_turned,
+            repair: self.repair.welding(self.weld_distance),
+            holes,
+            cut: self.cut,
+            seams: self.seams.clone(),
+        }
     }
 
     /// A project of a mesh, with nothing but settings made of it yet.
@@ -188,7 +200,8 @@ impl ProjectFile {
             freebound_project: PROJECT_VERSION,
             mesh,
             faces_turned: false,
-            repair: RepairExtent::default(),
+            repair: Repairs::default(),
+            weld_distance: None,
             holes: Some(HoleTreatment::default()),
             cut: false,
             seams: Seams::default(),
@@ -207,6 +220,7 @@ impl ProjectFile {
             packing: PackingOptions::default(),
             sizes: BTreeMap::new(),
             new_vertices: settings.new_vertices,
+            start: settings.start,
             targets: Targets::new(),
             view: ProjectView::default(),
             recovery: None,
@@ -227,6 +241,7 @@ impl ProjectFile {
             size: GaugeSize::default(),
             relax_rounds: self.relax_rounds,
             new_vertices: self.new_vertices,
+            start: self.start,
         }
     }
 
