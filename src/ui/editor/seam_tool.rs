@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 use super::Tool;
 use super::making::Making;
 use crate::io::MeshFile;
-use crate::mesh::{EdgePaths, PathTree, RepairExtent, Seams, VertexId};
+use crate::mesh::{EdgePaths, PathTree, Repairs, Seams, VertexId};
 use crate::session::{Action, Failure, Model, Session, Wake};
 use crate::ui::Editor;
 use crate::view::{OrbitCamera, SurfacePicker, Visibility};
@@ -41,7 +41,7 @@ pub(in crate::ui) struct SeamGround {
 struct GroundKey {
     /// What is open, by the session's count.
     opening: u64,
-    repair: RepairExtent,
+    repair: Repairs,
     scale: f64,
 }
 

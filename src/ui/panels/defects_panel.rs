@@ -3,7 +3,11 @@
 use eframe::egui::{self, Color32, RichText, Role};
 
 use super::diagnosis;
+<<<<<<< HEAD
 use super::surface::surface_rows;
+=======
+use super::welding::welding;
+>>>>>>> main
 use crate::mesh::VertexId;
 use crate::solver::Verdict;
 use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, theme_of};
@@ -58,14 +62,21 @@ impl Kind {
 
 pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
+    if diagnosis::faults(ui, &editor.session, requests) {
+        return;
+    }
     if let Some(model) = editor.session.model() {
+<<<<<<< HEAD
         if model.disk().is_none() {
             surface_rows(ui, &editor.session, requests);
         }
         if diagnosis::faults(ui, model, requests) {
             return;
         }
+=======
+>>>>>>> main
         diagnosis::notes(ui, model);
+        welding(ui, &editor.session, requests);
     }
     let Some(outcome) = editor.step_on_screen().cloned() else {
         ui.label("Nothing is solved yet.");
