@@ -8,11 +8,7 @@ use super::StopConditions;
 use crate::examples::Example;
 use crate::geom::{PackingOptions, VAxis};
 use crate::io::{OutputFit, OutputKind, Target};
-<<<<<<< HEAD
-use crate::mesh::{HoleTreatment, Seams, VertexId};
-=======
-use crate::mesh::{Repair, Seams, VertexId, WeldDistance};
->>>>>>> main
+use crate::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
 use crate::solver::{Hold, Settings};
 
 /// A file to write.
@@ -64,12 +60,10 @@ pub enum Action {
     Mend,
     /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
     SetSeams(Seams),
-<<<<<<< HEAD
     /// Chooses what becomes of the mesh's holes.
     SetHoles(HoleTreatment),
     /// Starts from the texture coordinates of the file, cut along their seams, where they have any.
     TakeLayout,
-=======
     /// Cuts the mesh along the edges of a file, too.
     ImportSeams(PathBuf),
     /// Writes the seams as a file of edges.
@@ -80,7 +74,6 @@ pub enum Action {
     Weld(Option<WeldDistance>),
     /// Counts the vertices that a distance would join.
     CountNear(WeldDistance),
->>>>>>> main
     /// Puts another chart on the screen, where the mesh has several.
     ShowChart(usize),
     /// Chooses how charts are packed.

@@ -3,14 +3,9 @@
 use std::sync::Arc;
 
 use super::errands::Errand;
-<<<<<<< HEAD
 use super::{Command, Place, Session};
-use crate::mesh::{Form, HoleTreatment, Seams};
+use crate::mesh::{Form, HoleTreatment, WeldDistance, near_vertices};
 use crate::solver::{Family, Method, Settings, Start};
-=======
-use super::{Command, Session};
-use crate::mesh::{Form, WeldDistance, near_vertices};
->>>>>>> main
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
 const FORMING: &str = "turning or mending the faces";
@@ -41,17 +36,17 @@ impl Session {
         }
     }
 
-<<<<<<< HEAD
     /// Fills holes while the mesh is flattened, or cuts it open from them to the outside.
     pub(super) fn set_holes(&mut self, holes: HoleTreatment) {
-        if self.model().is_some() && holes != self.document.form.holes {
-            let form = self.document.form.clone();
+        let form = self.document.form.clone();
+        if holes != form.holes {
             let cut = form.cut || holes == HoleTreatment::Cut;
-            self.edit(vec![Command::SetForm(Form { holes, cut, ..form })]);
+            self.want_form(Form { holes, cut, ..form });
         }
     }
 
-    /// Starts from the texture coordinates of the file, and cuts the mesh along their seams, where they have any: one edit.
+    /// Starts from the texture coordinates of the file, and cuts the mesh along their seams, where they have any: one edit. Where there
+    /// are pins, which go along with the cut, it is an edit of its own that follows.
     pub(super) fn take_layout(&mut self) {
         let Some(model) = self.model() else { return };
         let is_torn = match model.source.has_texture_seams() {
@@ -64,15 +59,13 @@ impl Session {
         let method = if before.method.goes_on_from_layout() { before.method } else { Method::Auto };
         let family = if before.family.power().is_some() { before.family } else { Family::default() };
         let settings = Settings { method, family, start: Start::File, ..before };
-        let edits = [Command::SetForm(Form { seams, ..form }), Command::SetSettings(settings)];
-        let edits = edits.into_iter().chain(self.drop_relaxing()).collect();
-        self.edit(edits);
+        if !self.is_bare() {
+            self.choose(settings);
+            return self.set_seams(seams);
+        }
+        self.edit(vec![Command::SetForm(Form { seams, ..form }), Command::SetSettings(settings)]);
     }
 
-    /// The seams that the mesh is to be cut along.
-    pub fn seams(&self) -> &Seams {
-        &self.document.form.seams
-=======
     /// Joins vertices that lie within a distance; or does not.
     pub(super) fn weld(&mut self, within: Option<WeldDistance>) {
         let form = self.document.form.clone();
@@ -91,7 +84,6 @@ impl Session {
     /// How many vertices a distance would join, where that was counted last.
     pub fn near_count(&self, distance: WeldDistance) -> Option<usize> {
         self.mesh.near().filter(|near| near.distance == distance).map(|near| near.count)
->>>>>>> main
     }
 
     /// Brings the mesh into the form, and to the chart, that the document wants. Where that takes time, a solve follows by

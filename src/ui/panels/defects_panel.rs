@@ -3,11 +3,7 @@
 use eframe::egui::{self, Color32, RichText, Role};
 
 use super::diagnosis;
-<<<<<<< HEAD
-use super::surface::surface_rows;
-=======
 use super::welding::welding;
->>>>>>> main
 use crate::mesh::VertexId;
 use crate::solver::Verdict;
 use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, theme_of};
@@ -66,15 +62,6 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
         return;
     }
     if let Some(model) = editor.session.model() {
-<<<<<<< HEAD
-        if model.disk().is_none() {
-            surface_rows(ui, &editor.session, requests);
-        }
-        if diagnosis::faults(ui, model, requests) {
-            return;
-        }
-=======
->>>>>>> main
         diagnosis::notes(ui, model);
         welding(ui, &editor.session, requests);
     }
