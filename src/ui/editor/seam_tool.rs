@@ -8,6 +8,7 @@
 //! One function says what a click would do; the preview, the words in the status bar and the click itself all ask it.
 
 use std::collections::VecDeque;
+use std::fmt;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -79,7 +80,6 @@ pub(in crate::ui) enum SeamIntent {
     Wait,
 }
 
-#[derive(Debug)]
 pub struct SeamTool {
     /// Share of creases in the measure of paths, 0 to 1.
     creases: f64,
@@ -97,6 +97,15 @@ pub struct SeamTool {
     ground_job: Making<GroundKey, SeamGround>,
     tree: Option<(TreeKey, PathTree)>,
     tree_job: Making<TreeKey, PathTree>,
+}
+
+/// Without what was found: that is as large as the mesh.
+impl fmt::Debug for SeamTool {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut state = f.debug_struct("SeamTool");
+        state.field("last", &self.last).field("clicks", &self.clicks).field("is_busy", &self.is_busy());
+        state.finish_non_exhaustive()
+    }
 }
 
 impl SeamGround {
@@ -185,6 +194,7 @@ impl SeamTool {
     pub(super) fn end(&mut self) -> bool {
         self.trail.clear();
         self.clicks.clear();
+        self.tree_job.cancel();
         self.last.take().is_some()
     }
 
@@ -192,7 +202,6 @@ impl SeamTool {
     pub(super) fn put_away(&mut self) {
         self.end();
         self.ground_job.cancel();
-        self.tree_job.cancel();
         (self.ground, self.tree) = (None, None);
     }
 
@@ -227,7 +236,7 @@ impl SeamTool {
 
     /// Takes in what was found, and has found what is missing.
     fn refresh(&mut self, session: &Session) {
-        let Some(model) = session.model() else { return };
+        let Some(model) = session.model() else { return self.put_away() };
         let key = GroundKey::of(session, model);
         if self.ground.as_ref().is_some_and(|(of, _)| of.opening != key.opening) {
             self.end();
