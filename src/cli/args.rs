@@ -12,7 +12,8 @@ use super::typed::{ChartSize, choice, parse_aspect, parse_chart_size, parse_pin,
 use crate::geom::PackingOptions;
 use crate::io::{OutputFit, OutputKind, PictureFile, Precision, Target};
 use crate::mesh::{Form, HoleTreatment, RepairExtent, VertexId};
-use crate::solver::{BoundaryShape, Choice as _, Family, Growth, Method, Settings, Treatment};
+use crate::session::Arrangement;
+use crate::solver::{BoundaryShape, Choice as _, Family, Growth, Method, Settings, Start, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -71,6 +72,9 @@ pub struct FlattenArguments {
     /// What the charts of the mesh are, which are flattened each by itself.
     #[arg(long, value_enum, default_value_t)]
     pub charts: ChartsOf,
+    /// What the first step is, where it is not a map of the surface alone: proved as it is, and the method goes on from it.
+    #[arg(long, value_enum)]
+    pub start: Option<StartOf>,
     /// How to flatten.
     #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
     pub method: Method,
@@ -114,9 +118,10 @@ pub struct FlattenArguments {
     /// How the virtual boundary pins more of the boundary while it crosses itself, for `auto` and `virtual-boundary`.
     #[arg(long, value_parser = choice::<Growth>())]
     pub growth: Option<Growth>,
-    /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface.
-    #[arg(long, value_enum, default_value_t = OutputFit::Unit)]
-    pub fit: OutputFit,
+    /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface; into the unit square
+    /// without it. With `--start uv` the embedding stays as large as it was, and where it was, without it.
+    #[arg(long, value_enum)]
+    pub fit: Option<OutputFit>,
     /// Size of the picture that several charts are packed into, in pixels; without it that of `--picture`, or 1024x1024.
     #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with_all = ["aspect", "picture"])]
     pub pack: Option<UVec2>,
@@ -216,6 +221,13 @@ pub enum ChartsOf {
     Uv,
 }
 
+/// Where the first step comes from, as it is typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StartOf {
+    /// The texture coordinates of the mesh file
+    Uv,
+}
+
 impl FlattenArguments {
     /// What is to be made of the mesh's faces, seams along edges of the mesh aside.
     pub fn form(&self) -> Form {
@@ -245,6 +257,11 @@ impl FlattenArguments {
         PackingOptions { picture, ..options }
     }
 
+    /// Where charts go: they stay where the file has them, where nothing else is asked for.
+    pub fn arrangement(&self) -> Arrangement {
+        if self.start.is_some() && self.pack.is_none() { Arrangement::AsGiven } else { Arrangement::Packed }
+    }
+
     /// The files to write, apart from the report.
     pub fn outputs(&self) -> Vec<(OutputKind, &Path)> {
         // The mesh comes last, so that what it names is there.
@@ -265,6 +282,7 @@ impl FlattenArguments {
             growth: self.growth.unwrap_or_default(),
             relax_rounds: self.relax,
             new_vertices: !self.no_new_vertices,
+            start: if self.start.is_some() { Start::File } else { Start::Afresh },
             ..Settings::new(method, self.family.unwrap_or_default())
         }
     }
@@ -288,6 +306,12 @@ impl FlattenArguments {
             (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
             (self.max_steps.is_some(), method.iterates(), "--max-steps", "only auto and iterate do iterate"),
             (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
+            (
+                self.start.is_some(),
+                method.goes_on_from_layout(),
+                "--start",
+                "it computes its map from the surface alone",
+            ),
             (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary pin more"),
         ];
         cases.into_iter().find(|(given, applies, ..)| *given && !applies).map(|(_, _, option, why)| (option, why))

@@ -20,9 +20,12 @@ use super::typed::ChartSize;
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
-use crate::io::{Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, WriteError};
+use crate::io::{
+    Constraints, LayoutError, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError,
+    WriteError,
+};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::session::{Document, Model, Surface};
+use crate::session::{Arrangement, Document, Model, Surface};
 use crate::solver::{Choice as _, SolveError};
 
 /// Folder that the example is written into, in the current one.
@@ -33,10 +36,13 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let name = arguments.settings().method.name();
         return Err(Failure::Usage(format!("--method {name} takes no {option}: {why}")));
     }
-    if arguments.fit == OutputFit::True && (arguments.aspect.is_some() || arguments.picture.is_some()) {
+    if arguments.fit == Some(OutputFit::True) && (arguments.aspect.is_some() || arguments.picture.is_some()) {
         return Err(Failure::Usage(
             "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
         ));
+    }
+    if arguments.start.is_some() && arguments.fit == Some(OutputFit::Unit) {
+        return Err(Failure::Usage("--start uv keeps the place of the file's layout: leave out --fit unit".into()));
     }
     refuse_unwritten_formats(arguments.output.as_deref())?;
     let places = Places::of_flatten(arguments);
@@ -65,9 +71,10 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         };
         let job = HeadlessJob {
             document,
-            fit: arguments.fit,
-            svg_fit: arguments.svg_scale.unwrap_or(arguments.fit),
+            fit: arguments.fit.unwrap_or_default(),
+            svg_fit: arguments.svg_scale.or(arguments.fit).unwrap_or_default(),
             packing,
+            arrangement: arguments.arrangement(),
             outputs: arguments.outputs(),
             precision: arguments.precision,
             materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
@@ -143,6 +150,7 @@ fn flatten_example() -> Result<Status, Failure> {
         fit: OutputFit::Unit,
         svg_fit: OutputFit::Unit,
         packing: PackingOptions::default(),
+        arrangement: Arrangement::Packed,
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
         precision: Precision::default(),
         materials: Materials::Stay,
@@ -207,6 +215,20 @@ fn in_the_way(targets: &Targets, target: &Target) -> Option<VertexId> {
 /// An error where the user asked to stop.
 pub(super) fn go_on() -> Result<(), SolveError> {
     if is_interrupted() { Err(SolveError::Cancelled) } else { Ok(()) }
+}
+
+/// Why a mesh or chart cannot be started from its file's layout, and what to do.
+pub(super) fn failure_of_layout(model: &Model, error: LayoutError) -> Failure {
+    let path = model.path_words();
+    match error {
+        LayoutError::Texture(error @ TextureError::Missing(_)) => Failure::Texture { path, error },
+        LayoutError::Texture(error) => Failure::Usage(format!("{path}: {error}: leave out --start uv")),
+        LayoutError::Torn { .. } => {
+            let remedy =
+                "cut the surface along the seams of its texture coordinates with --charts uv, or leave out --start uv";
+            Failure::Usage(format!("{path}: {error}: {remedy}"))
+        }
+    }
 }
 
 /// The disk, or everything that keeps the mesh from being one.

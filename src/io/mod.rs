@@ -59,9 +59,9 @@ pub use edges::{EdgeFault, EdgesError, parse_edges, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use gltf::write_glb;
 pub use mesh_file::{
-    LabelError, MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError, Refined,
-    RefinedChart, Source, Statement, Texture, TextureError, TextureMesh, read_mesh, read_mesh_with, read_stream,
-    read_stream_with,
+    LabelError, LayoutError, MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError,
+    Refined, RefinedChart, Source, Statement, Texture, TextureError, TextureMesh, read_mesh, read_mesh_with,
+    read_stream, read_stream_with,
 };
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};

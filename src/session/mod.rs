@@ -76,7 +76,7 @@ mod timeline;
 mod v_axis;
 
 pub use action::{Action, SaveRequest};
-pub use atlas::{SolvedChart, atlas};
+pub use atlas::{Arrangement, SolvedChart, atlas};
 pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
 pub use charts::ChartState;

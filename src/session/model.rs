@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::examples::Example;
-use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
+use crate::io::{FileStamp, LayoutError, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
 use crate::mesh::{
     Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, VertexId, diagnose,
     relative_volume,
 };
+use crate::solver::Embedding;
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
 /// it is high.
@@ -220,6 +221,15 @@ impl Model {
     pub fn vertex_count(&self) -> usize {
         let polygons = self.repaired.as_ref().map_or(&self.source.polygons, |repaired| repaired.polygons());
         polygons.positions.len()
+    }
+
+    /// The texture coordinates of the file as an embedding of this mesh or chart.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError`] where they are not all there, or a vertex has several.
+    pub fn layout(&self) -> Result<Embedding, LayoutError> {
+        self.source.layout(self.repaired.as_deref(), self.mesh())
     }
 
     /// The disk, where it is one.

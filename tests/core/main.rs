@@ -102,6 +102,8 @@ mod session_timeline;
 mod session_wishes;
 mod shapes;
 mod signals;
+mod start;
+mod start_cli;
 mod steps;
 mod upright;
 mod verdict;

@@ -25,7 +25,7 @@ use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::{PackingOptions, VAxis};
 use crate::mesh::{Form, HoleTreatment, RepairExtent, Seams};
-use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Start, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
 pub const PROJECT_VERSION: u64 = 1;
@@ -82,6 +82,9 @@ pub struct ProjectFile {
     pub relaxed: usize,
     #[serde(default = "default_new_vertices")]
     new_vertices: bool,
+    /// What the first step is.
+    #[serde(default)]
+    start: Start,
     /// The chart on the screen, where the mesh has several; the largest without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chart: Option<usize>,
@@ -207,6 +210,7 @@ impl ProjectFile {
             packing: PackingOptions::default(),
             sizes: BTreeMap::new(),
             new_vertices: settings.new_vertices,
+            start: settings.start,
             targets: Targets::new(),
             view: ProjectView::default(),
             recovery: None,
@@ -227,6 +231,7 @@ impl ProjectFile {
             size: GaugeSize::default(),
             relax_rounds: self.relax_rounds,
             new_vertices: self.new_vertices,
+            start: self.start,
         }
     }
 
