@@ -15,6 +15,7 @@ use glam::{DVec2, DVec3};
 
 use super::Tool;
 use super::making::Making;
+use super::seam_rules::SeamRules;
 use crate::io::MeshFile;
 use crate::mesh::{EdgePaths, PathTree, RepairExtent, Seams, VertexId};
 use crate::session::{Action, Failure, Model, Session, Wake};
@@ -81,6 +82,8 @@ pub(in crate::ui) enum SeamIntent {
 }
 
 pub struct SeamTool {
+    /// Seams by a rule.
+    pub(in crate::ui) rules: SeamRules,
     /// Share of creases in the measure of paths, 0 to 1.
     creases: f64,
     /// Whether clicks take seams away.
@@ -139,6 +142,7 @@ impl SeamGround {
 impl SeamTool {
     pub(super) fn new(wake: &Wake) -> Self {
         Self {
+            rules: SeamRules::new(wake),
             creases: CREASES,
             erases: false,
             last: None,
@@ -187,7 +191,7 @@ impl SeamTool {
 
     /// Whether paths are being found, or clicks wait for them.
     pub fn is_busy(&self) -> bool {
-        self.ground_job.is_busy() || self.tree_job.is_busy() || !self.clicks.is_empty()
+        self.rules.is_busy() || self.ground_job.is_busy() || self.tree_job.is_busy() || !self.clicks.is_empty()
     }
 
     /// Ends the seam that is being drawn. Returns whether there was one.
@@ -206,7 +210,7 @@ impl SeamTool {
     }
 
     pub(super) fn take_failure(&mut self) -> Option<Failure> {
-        let failure = self.ground_job.take_failure().or(self.tree_job.take_failure());
+        let failure = self.ground_job.take_failure().or(self.tree_job.take_failure()).or(self.rules.take_failure());
         if failure.is_some() {
             self.clicks.clear();
         }
@@ -296,6 +300,7 @@ impl Editor {
     }
 
     pub(super) fn take_seam_click(&mut self, click: SeamClick) {
+        self.tools.seam.rules.forget_said();
         self.tools.seam.clicks.push_back(click);
         self.go_on_with_seam();
     }
