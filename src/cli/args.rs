@@ -8,10 +8,12 @@ use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::{DVec2, UVec2};
 
-use super::typed::{ChartSize, choice, parse_aspect, parse_chart_size, parse_pin, parse_pixels, parse_seam_kind};
+use super::typed::{
+    ChartSize, choice, parse_aspect, parse_chart_size, parse_pin, parse_pixels, parse_seam_kind, parse_weld_distance,
+};
 use crate::geom::PackingOptions;
 use crate::io::{OutputFit, OutputKind, PictureFile, Precision, Target};
-use crate::mesh::{Form, HoleTreatment, RepairExtent, VertexId};
+use crate::mesh::{Form, HoleTreatment, Repairs, VertexId, WeldDistance};
 use crate::session::Arrangement;
 use crate::solver::{BoundaryShape, Choice as _, Family, Growth, Method, Settings, Start, Treatment};
 
@@ -55,8 +57,13 @@ pub struct FlattenArguments {
     #[arg(short, long, value_name = "MESH|-")]
     pub output: Option<PathBuf>,
     /// What may be repaired before the mesh is flattened: nothing, what changes no visible surface, or all that can be.
-    #[arg(long, value_enum, default_value_t)]
-    pub repair: Extent,
+    /// Any of them by its name does, too, with commas between: drop-repeated-corners, drop-duplicate-faces, weld-vertices,
+    /// split-edges, turn-faces, split-vertices, fill-holes.
+    #[arg(long, value_name = "none|safe|all|LIST", default_value_t)]
+    pub repair: Repairs,
+    /// Join vertices of faces that lie within this distance of each other, in the mesh's units; 0 joins those in one place.
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_weld_distance, allow_negative_numbers = true)]
+    pub weld: Option<WeldDistance>,
     /// What becomes of holes: filled while the surface is flattened, or cut open where a surface is cut.
     #[arg(long, value_enum, default_value_t)]
     pub holes: Holes,
@@ -157,18 +164,6 @@ pub struct FlattenArguments {
     pub threads: Option<u16>,
 }
 
-/// What may be repaired, as it is typed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Extent {
-    /// What changes no visible surface: repeated corners, duplicate faces, fans of faces that only touch
-    #[default]
-    Safe,
-    /// Parts that only touch are welded and edges of three faces split, too, and faces turned to run alike
-    All,
-    /// Nothing: a mesh with any fault is refused
-    None,
-}
-
 /// What becomes of holes, as it is typed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Holes {
@@ -231,11 +226,7 @@ pub enum StartOf {
 impl FlattenArguments {
     /// What is to be made of the mesh's faces, seams along edges of the mesh aside.
     pub fn form(&self) -> Form {
-        let repair = match self.repair {
-            Extent::Safe => RepairExtent::Safe,
-            Extent::All => RepairExtent::All,
-            Extent::None => RepairExtent::Nothing,
-        };
+        let repair = self.repair.welding(self.weld);
         let holes = match self.holes {
             Holes::Fill => HoleTreatment::Fill,
             Holes::Cut => HoleTreatment::Cut,

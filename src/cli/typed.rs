@@ -6,7 +6,7 @@ use glam::{DVec2, UVec2};
 use super::args::SeamKind;
 use crate::geom::PackingOptions;
 use crate::io::{ConstraintFault, Target};
-use crate::mesh::VertexId;
+use crate::mesh::{VertexId, WeldDistance};
 use crate::solver::{Choice, Hold};
 
 /// Takes one of a few choices by its name, and lists them with a line on each.
@@ -52,6 +52,11 @@ pub(super) fn parse_aspect(text: &str) -> Result<f64, String> {
         (aspect.is_normal() && aspect > 0.0).then_some(aspect)
     };
     parsed().ok_or_else(|| "write WIDTH:HEIGHT, for example 16:9".to_owned())
+}
+
+pub(super) fn parse_weld_distance(text: &str) -> Result<WeldDistance, String> {
+    let parsed = text.trim().parse().ok().and_then(WeldDistance::new);
+    parsed.ok_or_else(|| "write a distance of 0 or more, for example 0.001".to_owned())
 }
 
 /// How many times as large as the others a chart is packed.

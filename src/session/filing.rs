@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::action::Together;
 use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
@@ -34,10 +35,26 @@ impl Session {
         for remark in remarks {
             self.messages.say(remark);
         }
+        let together = self.files.take_together();
         if waits {
             self.begin(Goal::Steps(1));
         } else {
             self.solve();
+        }
+        if let Some(together) = together {
+            self.open_beside(together);
+        }
+    }
+
+    /// Opens what belongs to the mesh that was opened, and says what is not opened.
+    fn open_beside(&mut self, Together { picture, constraints, left, .. }: Together) {
+        picture.into_iter().for_each(|path| self.open_picture(path));
+        constraints.into_iter().for_each(|path| self.import_constraints(path));
+        if !left.is_empty() {
+            let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let names: Vec<String> = left.iter().map(name).collect();
+            let text = format!("one mesh is open at a time, with one picture; not opened: {}", names.join(", "));
+            self.messages.say(Message::error(Place::Mesh, text).with_remedy("drop it by itself to open it"));
         }
     }
 

@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use super::errands::Errand;
 use super::{Command, Session};
-use crate::mesh::{Form, Seams};
+use crate::mesh::{Form, WeldDistance, near_vertices};
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
 const FORMING: &str = "turning or mending the faces";
+
+/// The errand that counts vertices near each other.
+const COUNTING: &str = "counting near vertices";
 
 impl Session {
     /// Turns the faces around.
@@ -25,16 +28,31 @@ impl Session {
         }
     }
 
-    /// Cuts the mesh along these seams, and no others.
-    pub(super) fn set_seams(&mut self, seams: Seams) {
-        if self.model().is_some() && seams != self.document.form.seams {
-            self.edit(vec![Command::SetForm(Form { seams, ..self.document.form.clone() })]);
+    /// Takes the mesh in another form, as an edit.
+    pub(super) fn want_form(&mut self, form: Form) {
+        if self.model().is_some() && form != self.document.form {
+            self.edit(vec![Command::SetForm(form)]);
         }
     }
 
-    /// The seams that the mesh is to be cut along.
-    pub fn seams(&self) -> &Seams {
-        &self.document.form.seams
+    /// Joins vertices that lie within a distance; or does not.
+    pub(super) fn weld(&mut self, within: Option<WeldDistance>) {
+        let form = self.document.form.clone();
+        self.want_form(Form { repair: form.repair.welding(within), ..form });
+    }
+
+    /// Counts the vertices that a distance would join, in the background: one distance at a time.
+    pub(super) fn count_near(&mut self, distance: WeldDistance) {
+        let Some(source) = self.model().map(|model| Arc::clone(&model.source)) else { return };
+        if self.near_count(distance).is_none() && !self.errands.is_under_way(COUNTING) {
+            let count = move || near_vertices(&source.polygons, distance).len();
+            self.errands.send(COUNTING, move |_| Errand::Near { distance, count: count() });
+        }
+    }
+
+    /// How many vertices a distance would join, where that was counted last.
+    pub fn near_count(&self, distance: WeldDistance) -> Option<usize> {
+        self.mesh.near().filter(|near| near.distance == distance).map(|near| near.count)
     }
 
     /// Brings the mesh into the form, and to the chart, that the document wants. Where that takes time, a solve follows by

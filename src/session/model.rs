@@ -5,12 +5,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::surface::{Found, cut_surface, is_refused_uncut, surface_of};
 use crate::examples::Example;
 use crate::io::{FileStamp, LayoutError, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
-use crate::mesh::{
-    Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, VertexId, diagnose,
-    relative_volume,
-};
+use crate::mesh::{Chart, Charts, Diagnosis, DiskMesh, Form, Repaired, TriMesh, VertexId, relative_volume};
 use crate::solver::Embedding;
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
@@ -244,94 +242,6 @@ impl Model {
 impl Default for Surface {
     fn default() -> Self {
         Self::Faulty(Arc::default(), Arc::default())
-    }
-}
-
-/// What a file's faces are in a form.
-struct Found {
-    surface: Surface,
-    /// The repairs that this took.
-    repaired: Option<Arc<Repaired>>,
-    chart: Option<ChartOf>,
-}
-
-impl Found {
-    /// One chart of several.
-    fn chart(charts: &Arc<Charts>, number: usize) -> Self {
-        let chart = Arc::new(charts.chart(number));
-        let mesh = chart.repaired.triangulate();
-        let surface = match DiskMesh::try_from(mesh.clone()) {
-            Ok(disk) => Surface::Disk(Arc::new(disk)),
-            Err(diagnosis) => Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)),
-        };
-        let repaired = Some(Arc::new(chart.repaired.clone()));
-        Self { surface, repaired, chart: Some(ChartOf { charts: Arc::clone(charts), number, chart }) }
-    }
-
-    /// What is no disk, and is left so.
-    fn faulty(polygons: &PolygonMesh, diagnosis: Diagnosis) -> Self {
-        let surface = Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(diagnosis));
-        Self { surface, repaired: None, chart: None }
-    }
-}
-
-/// What a file's faces are in a form.
-fn surface_of(polygons: &PolygonMesh, form: &Form) -> Found {
-    let as_given = DiskMesh::try_from(polygons.triangulate()).and_then(|disk| {
-        let diagnosis = match form.repair {
-            RepairExtent::Nothing => diagnose(&polygons.triangulate()),
-            RepairExtent::Safe | RepairExtent::All => Diagnosis::default(),
-        };
-        if diagnosis.faults.is_empty() { Ok(disk) } else { Err(Box::new(diagnosis)) }
-    });
-    let diagnosis = match as_given {
-        Ok(disk) => return Found { surface: Surface::Disk(Arc::new(disk)), repaired: None, chart: None },
-        Err(diagnosis) => *diagnosis,
-    };
-    let is_no_fault = |fault: &Fault| fault.is_cut_open() || fault.is_of_charts();
-    if form.repair == RepairExtent::Nothing && !diagnosis.faults.iter().all(is_no_fault) {
-        return Found::faulty(polygons, diagnosis);
-    }
-    let repaired = form.repaired(polygons);
-    if let Ok(disk) = DiskMesh::try_from(repaired.triangulate())
-        && !repaired.done().is_empty()
-    {
-        return Found { surface: Surface::Disk(Arc::new(disk)), repaired: Some(Arc::new(repaired)), chart: None };
-    }
-    // Parts that lie side by side, vertex on vertex, are as a rule one surface that a program took apart.
-    let is_apart = |fault: &Fault| matches!(fault, Fault::CoincidentVertices(_)) && form.repair != RepairExtent::All;
-    let charts = if diagnosis.faults.iter().any(is_apart) { None } else { Charts::of(repaired) };
-    match charts.map(Arc::new) {
-        Some(charts) => Found::chart(&charts, charts.largest()),
-        None => Found::faulty(polygons, diagnosis),
-    }
-}
-
-/// Whether a mesh is refused wherever it is cut: for faults that cutting does not mend.
-fn is_refused_uncut(polygons: &PolygonMesh, extent: RepairExtent) -> bool {
-    let has = |is_fault: &dyn Fn(&Fault) -> bool| diagnose(&polygons.triangulate()).faults.iter().any(is_fault);
-    match extent {
-        RepairExtent::All => false,
-        RepairExtent::Safe => has(&|fault| matches!(fault, Fault::CoincidentVertices(_))),
-        RepairExtent::Nothing => has(&|fault| !(fault.is_cut_open() || fault.is_of_charts())),
-    }
-}
-
-/// What a surface is that is cut along its seams.
-fn cut_surface(repaired: Repaired) -> Found {
-    let mesh = repaired.triangulate();
-    match DiskMesh::try_from(mesh.clone()) {
-        Ok(disk) => {
-            let repaired = (!repaired.done().is_empty()).then(|| Arc::new(repaired));
-            Found { surface: Surface::Disk(Arc::new(disk)), repaired, chart: None }
-        }
-        Err(diagnosis) => match Charts::try_of(repaired).map(Arc::new) {
-            Ok(charts) => Found::chart(&charts, charts.largest()),
-            Err(repaired) => {
-                let repaired = (!repaired.done().is_empty()).then(|| Arc::from(repaired));
-                Found { surface: Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)), repaired, chart: None }
-            }
-        },
     }
 }
 

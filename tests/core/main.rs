@@ -116,3 +116,4 @@ mod view_parts;
 mod virtual_boundary;
 mod weighted;
 mod weights;
+mod weld;

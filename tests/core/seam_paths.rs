@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use freebound::mesh::{EdgePaths, PathTree, PolygonMesh, RepairExtent, Seams, TriMesh, VertexId};
+use freebound::mesh::{EdgePaths, PathTree, PolygonMesh, Repairs, Seams, TriMesh, VertexId};
 use glam::DVec3;
 
 use crate::makers::{Random, grid, quad_sheet, tetrahedron};
@@ -64,7 +64,7 @@ fn distances(mesh: &PolygonMesh, costs: &BTreeMap<Edge, f64>, from: VertexId) ->
 }
 
 fn tree(mesh: &PolygonMesh, from: VertexId, creases: f64) -> PathTree {
-    PathTree::new(&Arc::new(EdgePaths::new(mesh, RepairExtent::Safe)), from, creases)
+    PathTree::new(&Arc::new(EdgePaths::new(mesh, Repairs::SAFE)), from, creases)
 }
 
 /// Asserts that edges lead without a gap from one vertex back to another.
@@ -166,9 +166,9 @@ fn a_path_crosses_where_the_repair_joins_two_sheets_and_not_where_it_does_not() 
     };
     let mesh = PolygonMesh::from(&both);
     let [from, to] = [0, 2 * count - 1].map(VertexId::new);
-    let path = |extent: RepairExtent| PathTree::new(&Arc::new(EdgePaths::new(&mesh, extent)), from, 0.0).path_to(to);
-    assert_eq!(path(RepairExtent::Safe), None);
-    let path = path(RepairExtent::All).expect("welded, they are one");
+    let path = |repairs: Repairs| PathTree::new(&Arc::new(EdgePaths::new(&mesh, repairs)), from, 0.0).path_to(to);
+    assert_eq!(path(Repairs::SAFE), None);
+    let path = path(Repairs::ALL).expect("welded, they are one");
     let real: Vec<Edge> = costs(&mesh, 0.0).into_keys().collect();
     assert!(path.iter().all(|&edge| real.contains(&ordered(edge))), "edges are the file's: {path:?}");
     let places: Vec<[DVec3; 2]> = path.iter().map(|edge| edge.map(|v| mesh.positions[v.index()])).collect();

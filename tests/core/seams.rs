@@ -3,8 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use freebound::mesh::{
-    Charts, DiskMesh, Form, HoleTreatment, PolygonMesh, Repair, RepairExtent, Repaired, Seams, VertexId, borders,
-    creases,
+    Charts, DiskMesh, Form, HoleTreatment, PolygonMesh, Repair, Repaired, Repairs, Seams, VertexId, borders, creases,
 };
 use glam::DVec3;
 
@@ -106,7 +105,7 @@ fn a_mobius_strip_cut_across_is_a_disk_of_faces_that_run_alike() {
     // Each edge that has two faces goes from one side of the strip to the other.
     let between = all_edges(&source).into_iter().filter(|(_, faces)| faces.len() == 2);
     for (across, _) in between {
-        let form = Form { repair: RepairExtent::All, ..only([across]) };
+        let form = Form { repair: Repairs::ALL, ..only([across]) };
         let cut = form.repaired(&source);
         DiskMesh::try_from(cut.triangulate()).expect("a disk");
         assert_eq!(cuts(&cut)[0], (Repair::CutSeams, 1));
@@ -161,11 +160,11 @@ fn after_welding_a_seam_of_either_part_is_cut() {
     let places = vec![at(0., 0.), at(1., 0.), at(1., 1.), at(0., 1.), at(1., 0.), at(2., 0.), at(2., 1.), at(1., 1.)];
     let source = polygons(places, &[&[0, 1, 2, 3], &[4, 5, 6, 7]]);
     for seam in [edge(1, 2), edge(7, 4)] {
-        let form = Form { repair: RepairExtent::All, ..only([seam]) };
+        let form = Form { repair: Repairs::ALL, ..only([seam]) };
         assert_eq!(cuts(&form.repaired(&source)), [(Repair::WeldVertices, 2), (Repair::CutSeams, 1)]);
     }
-    assert_eq!(borders(&source, RepairExtent::All, &[4, 5]), [edge(1, 2)], "faces that are joined are neighbours");
-    assert!(borders(&source, RepairExtent::Safe, &[4, 5]).is_empty());
+    assert_eq!(borders(&source, Repairs::ALL, &[4, 5]), [edge(1, 2)], "faces that are joined are neighbours");
+    assert!(borders(&source, Repairs::SAFE, &[4, 5]).is_empty());
 }
 
 /// Every edge with the places of its sides: face and first corner.
@@ -246,18 +245,18 @@ fn random_seams_part_the_corners_that_no_whole_edge_joins() {
 #[test]
 fn creases_are_edges_of_faces_at_an_angle() {
     let mut cube = cube();
-    assert_eq!(creases(&cube, RepairExtent::Safe, 90.0).len(), 12);
-    assert!(creases(&cube, RepairExtent::Safe, 90.001).is_empty());
+    assert_eq!(creases(&cube, Repairs::SAFE, 90.0).len(), 12);
+    assert!(creases(&cube, Repairs::SAFE, 90.001).is_empty());
     // A face that runs around the other way is no crease by itself.
     cube.corners[4..8].reverse();
-    assert_eq!(creases(&cube, RepairExtent::Safe, 90.0).len(), 12);
-    assert!(creases(&cube, RepairExtent::Safe, 90.001).is_empty());
+    assert_eq!(creases(&cube, Repairs::SAFE, 90.0).len(), 12);
+    assert!(creases(&cube, Repairs::SAFE, 90.001).is_empty());
     // Of a prism with eight sides, upright edges have 45 degrees.
     let prism = cylinder(8, 2);
     let upright: Vec<_> = (0..16).map(|v| edge(v, v + 8)).collect();
-    assert_eq!(creases(&prism, RepairExtent::Safe, 45.0), upright);
-    assert!(creases(&prism, RepairExtent::Safe, 46.0).is_empty());
-    assert!(creases(&(&grid(3, 3)).into(), RepairExtent::Safe, 0.5).is_empty());
+    assert_eq!(creases(&prism, Repairs::SAFE, 45.0), upright);
+    assert!(creases(&prism, Repairs::SAFE, 46.0).is_empty());
+    assert!(creases(&(&grid(3, 3)).into(), Repairs::SAFE, 0.5).is_empty());
 }
 
 #[test]

@@ -24,7 +24,7 @@ use super::door::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::{PackingOptions, VAxis};
-use crate::mesh::{Form, HoleTreatment, RepairExtent, Seams};
+use crate::mesh::{Form, HoleTreatment, Repairs, Seams, WeldDistance};
 use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Start, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
@@ -46,7 +46,10 @@ pub struct ProjectFile {
     pub faces_turned: bool,
     /// What may be repaired of it.
     #[serde(default)]
-    pub repair: RepairExtent,
+    pub repair: Repairs,
+    /// The distance within which vertices of it are joined.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weld_distance: Option<WeldDistance>,
     /// What becomes of its holes; of older projects they are cut where the mesh is.
     #[serde(default)]
     pub holes: Option<HoleTreatment>,
@@ -178,7 +181,13 @@ impl ProjectFile {
     /// What is made of the mesh's faces.
     pub fn form(&self) -> Form {
         let holes = self.holes.unwrap_or(if self.cut { HoleTreatment::Cut } else { HoleTreatment::Fill });
-        Form { faces_turned: self.faces_turned, repair: self.repair, holes, cut: self.cut, seams: self.seams.clone() }
+        Form {
+            faces_turned: self.faces_turned,
+            repair: self.repair.welding(self.weld_distance),
+            holes,
+            cut: self.cut,
+            seams: self.seams.clone(),
+        }
     }
 
     /// A project of a mesh, with nothing but settings made of it yet.
@@ -191,7 +200,8 @@ impl ProjectFile {
             freebound_project: PROJECT_VERSION,
             mesh,
             faces_turned: false,
-            repair: RepairExtent::default(),
+            repair: Repairs::default(),
+            weld_distance: None,
             holes: Some(HoleTreatment::default()),
             cut: false,
             seams: Seams::default(),

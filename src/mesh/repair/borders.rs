@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::sides::Sides;
 use super::ways::normal;
-use super::{RepairExtent, Repaired};
+use super::{Repaired, Repairs};
 use crate::mesh::{PolygonMesh, VertexId};
 
 /// By how much an angle may be smaller, in radians, and still be as large as is asked for: a box has creases of 90 degrees.
@@ -13,8 +13,8 @@ const SLACK: f64 = 1e-9;
 
 /// The edges at which faces meet at an angle of so many degrees or more between their normals: 0 where they lie in one plane. A
 /// face without area has no angle to its neighbours.
-pub fn creases(source: &PolygonMesh, extent: RepairExtent, degrees: f64) -> Vec<[VertexId; 2]> {
-    let repaired = Repaired::new(source, extent);
+pub fn creases(source: &PolygonMesh, repairs: Repairs, degrees: f64) -> Vec<[VertexId; 2]> {
+    let repaired = Repaired::new(source, repairs);
     let least = degrees.to_radians() - SLACK;
     let normals: Vec<DVec3> = if has_faces(&repaired) {
         (0..repaired.face_of.len()).map(|face| normal(&repaired.polygons, face)).collect()
@@ -30,8 +30,8 @@ pub fn creases(source: &PolygonMesh, extent: RepairExtent, degrees: f64) -> Vec<
 }
 
 /// The edges at which faces with different labels meet. There is a label for each face of the file.
-pub fn borders(source: &PolygonMesh, extent: RepairExtent, labels: &[u32]) -> Vec<[VertexId; 2]> {
-    let repaired = Repaired::new(source, extent);
+pub fn borders(source: &PolygonMesh, repairs: Repairs, labels: &[u32]) -> Vec<[VertexId; 2]> {
+    let repaired = Repaired::new(source, repairs);
     edges_between(source, &repaired, |sides, pair| {
         let [a, b] = pair.map(|side| labels[repaired.face_of[sides.face[side as usize] as usize] as usize]);
         a != b

@@ -1,5 +1,7 @@
 //! The charts of a repaired mesh: its parts that hang together across edges, where every one of them is a disk.
 
+use std::collections::HashMap;
+
 use super::Repaired;
 use super::fill::Filling;
 use super::sides::Sides;
@@ -35,7 +37,7 @@ impl Charts {
     ///
     /// # Errors
     ///
-    /// The mesh.
+    /// The mesh, where it is one part, or a part is no disk.
     pub fn try_of(whole: Repaired) -> Result<Self, Box<Repaired>> {
         let Some(faces) = disks_of(&whole).filter(|faces| faces.len() > 1) else { return Err(Box::new(whole)) };
         let mut chart_of_vertex = vec![None; whole.polygons.positions.len()];
@@ -67,6 +69,11 @@ impl Charts {
         FaceId::new(self.whole.face_of[self.faces[chart][0] as usize])
     }
 
+    /// The chart of a face of the whole.
+    pub fn chart_of_face(&self, face: u32) -> Option<usize> {
+        self.faces.iter().position(|own| own.binary_search(&face).is_ok())
+    }
+
     /// The chart of a vertex of the whole.
     pub fn chart_of_vertex(&self, vertex: VertexId) -> Option<usize> {
         self.chart_of_vertex.get(vertex.index()).copied().flatten().map(|chart| chart as usize)
@@ -90,6 +97,7 @@ impl Charts {
             face_of: self.faces[chart].iter().map(|&face| self.whole.face_of[face as usize]).collect(),
             polygons: part.polygons,
             stand_ins: Vec::new(),
+            joined: HashMap::new(),
             fills: self.whole.fills,
             filling: Filling::default(),
             done: self.whole.done.clone(),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{RepairExtent, Repaired, Seams};
+use super::{Repair, Repaired, Repairs, Seams};
 use crate::mesh::PolygonMesh;
 
 /// What is made of a file's faces before they are flattened.
@@ -11,7 +11,7 @@ pub struct Form {
     /// Whether all faces are turned around: the other side is the outside.
     pub faces_turned: bool,
     /// What may be repaired.
-    pub repair: RepairExtent,
+    pub repair: Repairs,
     /// What becomes of holes.
     pub holes: HoleTreatment,
     /// Whether parts that are no disks are cut open.
@@ -35,7 +35,30 @@ impl Form {
     /// All that can be done to make disks.
     #[must_use]
     pub fn mended(&self) -> Self {
-        Self { repair: RepairExtent::All, cut: true, ..self.clone() }
+        Self { repair: self.repair.and(Repairs::ALL), cut: true, ..self.clone() }
+    }
+
+    /// Whether a repair may be done.
+    pub fn allows(&self, repair: Repair) -> bool {
+        match repair {
+            Repair::Cut => self.cut,
+            Repair::CutSeams => !self.seams.is_empty(),
+            Repair::FillHoles => self.holes == HoleTreatment::Fill && self.repair.allows(repair),
+            _ => self.repair.allows(repair),
+        }
+    }
+
+    /// The same where a repair may be done, too.
+    #[must_use]
+    pub fn allowing(&self, repair: Repair) -> Self {
+        let form = self.clone();
+        match repair {
+            Repair::Cut => Self { cut: true, ..form },
+            // Which seams, a repair does not say.
+            Repair::CutSeams => form,
+            Repair::FillHoles => Self { holes: HoleTreatment::Fill, repair: form.repair.with(repair), ..form },
+            _ => Self { repair: form.repair.with(repair), ..form },
+        }
     }
 
     /// The repairs of a mesh, whose faces are turned already: the same as before they were, so that every vertex keeps its
@@ -55,11 +78,11 @@ impl Form {
         }
         let mut repaired = Repaired::new(source, self.repair);
         repaired.cut_along(&self.seams, labels, source);
-        if !self.seams.edges().is_empty() && (self.cut || self.repair == RepairExtent::All) {
+        if !self.seams.edges().is_empty() && (self.cut || self.repair.allows(Repair::TurnFaces)) {
             // A surface with one side has two once it is cut.
             repaired.turn_faces();
         }
-        repaired.fills = self.holes == HoleTreatment::Fill && self.repair != RepairExtent::Nothing;
+        repaired.fills = self.allows(Repair::FillHoles);
         let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
         repaired.fill_holes()
     }

@@ -17,7 +17,7 @@ use super::Tool;
 use super::making::Making;
 use super::seam_rules::SeamRules;
 use crate::io::MeshFile;
-use crate::mesh::{EdgePaths, PathTree, RepairExtent, Seams, VertexId};
+use crate::mesh::{EdgePaths, PathTree, Repairs, Seams, VertexId};
 use crate::session::{Action, Failure, Model, Session, Wake};
 use crate::ui::Editor;
 use crate::view::{OrbitCamera, SurfacePicker, Visibility};
@@ -43,7 +43,7 @@ pub(in crate::ui) struct SeamGround {
 struct GroundKey {
     /// What is open, by the session's count.
     opening: u64,
-    repair: RepairExtent,
+    repair: Repairs,
     scale: f64,
 }
 
