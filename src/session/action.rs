@@ -60,6 +60,10 @@ pub enum Action {
     Mend,
     /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
     SetSeams(Seams),
+    /// Cuts the mesh along the edges of a file, too.
+    ImportSeams(PathBuf),
+    /// Writes the seams as a file of edges.
+    ExportSeams(PathBuf),
     /// Mends one kind of fault of the mesh.
     AllowRepair(Repair),
     /// Joins vertices of the mesh that lie within a distance, or does not any more.

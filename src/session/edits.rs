@@ -271,6 +271,8 @@ impl Session {
                 Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
                 Errand::Near { distance, count } => self.mesh.take_near(Near { distance, count }),
                 Errand::Flat(flat) => self.take_flat(&flat),
+                Errand::Seams(read) => self.take_seams(read),
+                Errand::Recut(recut) => self.take_recut(*recut),
                 Errand::Formed(model) => {
                     self.mesh.take_other(Arc::from(model));
                     if !self.has_form_as_wanted() {
@@ -279,6 +281,7 @@ impl Session {
                 }
             }
         }
+        self.follow_seams();
     }
 
     /// Says why a constraint file is not used, and shows the vertices that it is about.

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::edits::Flat;
+use super::seams::Recut;
 use super::{Background, Messages, Model, Place, Wake};
-use crate::io::{Constraints, ConstraintsError, PictureError, PictureFile};
-use crate::mesh::WeldDistance;
+use crate::io::{Constraints, ConstraintsError, EdgesError, PictureError, PictureFile};
+use crate::mesh::{VertexId, WeldDistance};
 
 /// What an errand brings back.
 pub(super) enum Errand {
@@ -17,6 +18,10 @@ pub(super) enum Errand {
         path: PathBuf,
         read: Result<Constraints, ConstraintsError>,
     },
+    /// Seams for the open mesh, from a file.
+    Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
+    /// The open mesh, cut along other seams.
+    Recut(Box<Recut>),
     /// So many vertices of the open mesh lie within a distance of another.
     Near {
         distance: WeldDistance,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::errands::Errand;
 use super::{Command, Session};
-use crate::mesh::{Form, Seams, WeldDistance, near_vertices};
+use crate::mesh::{Form, WeldDistance, near_vertices};
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
 const FORMING: &str = "turning or mending the faces";
@@ -53,18 +53,6 @@ impl Session {
     /// How many vertices a distance would join, where that was counted last.
     pub fn near_count(&self, distance: WeldDistance) -> Option<usize> {
         self.mesh.near().filter(|near| near.distance == distance).map(|near| near.count)
-    }
-
-    /// Cuts the mesh along these seams, and no others.
-    pub(super) fn set_seams(&mut self, seams: Seams) {
-        if self.model().is_some() && seams != self.document.form.seams {
-            self.edit(vec![Command::SetForm(Form { seams, ..self.document.form.clone() })]);
-        }
-    }
-
-    /// The seams that the mesh is to be cut along.
-    pub fn seams(&self) -> &Seams {
-        &self.document.form.seams
     }
 
     /// Brings the mesh into the form, and to the chart, that the document wants. Where that takes time, a solve follows by

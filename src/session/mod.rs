@@ -10,6 +10,7 @@
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
 //! | `forming`       | the form that the mesh is to have, and its chart on the screen             |
+//! | `seams`         | the mesh cut along other seams, with the pins that it has                  |
 //! | `v_axis`        | where v = 0 is on the picture                                              |
 //! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
@@ -68,6 +69,7 @@ mod recovery;
 mod runs;
 mod saving;
 mod seam_edges;
+mod seams;
 mod solving;
 mod state;
 mod status;
@@ -82,7 +84,7 @@ pub use atlas::{Arrangement, SolvedChart, atlas};
 pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
 pub use charts::ChartState;
-pub use document::{ChartEdits, Command, Document};
+pub use document::{ChartEdits, Command, Document, Shape};
 pub use drag::Preview;
 pub use history::History;
 pub use messages::{Message, Place, Severity, named};

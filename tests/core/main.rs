@@ -23,6 +23,7 @@ mod disk_oracle;
 mod distortion;
 mod endless;
 mod examples;
+mod face_labels;
 mod failed_runs;
 mod figures;
 mod flat;

@@ -69,6 +69,11 @@ impl Charts {
         FaceId::new(self.whole.face_of[self.faces[chart][0] as usize])
     }
 
+    /// The chart of a face of the whole.
+    pub fn chart_of_face(&self, face: u32) -> Option<usize> {
+        self.faces.iter().position(|own| own.binary_search(&face).is_ok())
+    }
+
     /// The chart of a vertex of the whole.
     pub fn chart_of_vertex(&self, vertex: VertexId) -> Option<usize> {
         self.chart_of_vertex.get(vertex.index()).copied().flatten().map(|chart| chart as usize)
