@@ -66,6 +66,7 @@ mod obj_texture;
 mod obj_write;
 mod odd_obj;
 mod packing;
+mod parts_cli;
 mod pins;
 mod pipes;
 mod places;
