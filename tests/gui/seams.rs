@@ -252,3 +252,31 @@ fn a_click_beside_a_seam_pins_the_side_under_the_pointer_and_its_pin_says_which_
         assert!(window.shows(&words), "{:?}", window.words());
     }
 }
+
+/// A box of twelve triangles.
+fn cube() -> TriMesh {
+    let positions = (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2))).collect();
+    let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles: Vec<[u32; 3]> = squares.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    TriMesh::new(positions, &triangles)
+}
+
+#[test]
+fn a_box_is_cut_along_its_sharp_edges_by_one_click_and_says_where_there_are_no_materials() {
+    let mut window = Window::with_mesh("box.obj", &cube());
+    window.key(Key::X);
+    let charts = |window: &Window| window.editor().session.charts().map(|charts| charts.count());
+    window.menu(&["Cut along", "Borders of materials"]);
+    assert!(seams(&window).is_empty() && window.shows("no materials"), "{:?}", window.words());
+    window.click("Sharp edges");
+    assert_eq!((seams(&window).len(), charts(&window)), (12, Some(6)));
+    assert!(window.is_proved(), "{}", window.verdict());
+    assert!(window.shows("12 edges more"), "{:?}", window.words());
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert!(seams(&window).is_empty());
+    window.key(Key::V);
+    window.menu(&["Edit", "Seams", "Cut along sharp edges: 60° or more"]);
+    assert_eq!((seams(&window).len(), charts(&window)), (12, Some(6)));
+    window.menu(&["Edit", "Seams", "Clear seams"]);
+    assert!(seams(&window).is_empty());
+}

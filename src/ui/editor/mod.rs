@@ -10,6 +10,7 @@
 //! | `scene.rs` | what the panes draw and pick in |
 //! | `paint.rs` | faces coloured by a shading |
 //! | `in_file.rs` | vertices of what is on the screen as those of the file |
+//! | `seam_rules.rs` | seams at sharp edges, or where materials or groups meet |
 //! | `sides.rs` | which side of a seam a vertex is on |
 //! | `seam_tool.rs` | the seam that is being drawn, and the shortest paths from where it has got to |
 //! | `element.rs` | parts of the mesh by their names |
@@ -41,6 +42,7 @@ pub(super) mod purpose;
 mod request;
 mod requests;
 pub(super) mod scene;
+pub(super) mod seam_rules;
 pub(super) mod seam_tool;
 mod selection;
 mod sides;
@@ -51,6 +53,7 @@ pub(super) use plane::HullScene;
 pub use plane::Stage;
 pub(super) use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
+pub use seam_rules::SeamRule;
 pub use seam_tool::SeamClick;
 pub use views::Defect;
 
@@ -166,6 +169,7 @@ impl Editor {
         self.go_on_after_saving();
         self.go_on_playing();
         self.go_on_with_seam();
+        self.take_seams_by_rule();
         if self.mesh.poll(&self.session) {
             self.begin_with_mesh();
         }

@@ -7,6 +7,7 @@ use crate::io::OutputFit;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::Hold;
+use crate::ui::editor::seam_rules::SeamRule;
 use crate::ui::editor::seam_tool::SeamClick;
 use crate::ui::panes::inset::InsetPan;
 use crate::ui::{Answer, Purpose, Stage};
@@ -195,6 +196,10 @@ pub enum Request {
     TakeVertex(VertexId),
     /// The seam tool clicks a vertex.
     ClickSeam(SeamClick),
+    /// Cuts along the edges of a rule.
+    CutByRule(SeamRule),
+    /// Chooses from which angle on edges are sharp, degrees.
+    SetSharp(f64),
     /// The next click of the seam tool begins another seam.
     EndSeam,
     /// Chooses what the paths of seams follow: from 0, the shortest, to 1, creases.

@@ -30,6 +30,8 @@ impl Editor {
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
             Request::SetTool(tool) => self.tools.take_up(tool),
             Request::ClickSeam(click) => self.take_seam_click(click),
+            Request::CutByRule(rule) => self.cut_by_rule(rule),
+            Request::SetSharp(degrees) => self.tools.seam.rules.degrees = degrees.clamp(0.0, 180.0),
             Request::EndSeam => drop(self.tools.seam.end()),
             Request::SetCreases(share) => self.tools.seam.set_creases(share),
             Request::ToggleErasing => self.tools.seam.toggle_erases(),

@@ -8,12 +8,14 @@
 //! One function says what a click would do; the preview, the words in the status bar and the click itself all ask it.
 
 use std::collections::VecDeque;
+use std::fmt;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::Tool;
 use super::making::Making;
+use super::seam_rules::SeamRules;
 use crate::io::MeshFile;
 use crate::mesh::{EdgePaths, PathTree, Repairs, Seams, VertexId};
 use crate::session::{Action, Failure, Model, Session, Wake};
@@ -79,8 +81,9 @@ pub(in crate::ui) enum SeamIntent {
     Wait,
 }
 
-#[derive(Debug)]
 pub struct SeamTool {
+    /// Seams by a rule.
+    pub(in crate::ui) rules: SeamRules,
     /// Share of creases in the measure of paths, 0 to 1.
     creases: f64,
     /// Whether clicks take seams away.
@@ -97,6 +100,15 @@ pub struct SeamTool {
     ground_job: Making<GroundKey, SeamGround>,
     tree: Option<(TreeKey, PathTree)>,
     tree_job: Making<TreeKey, PathTree>,
+}
+
+/// Without what was found: that is as large as the mesh.
+impl fmt::Debug for SeamTool {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut state = f.debug_struct("SeamTool");
+        state.field("last", &self.last).field("clicks", &self.clicks).field("is_busy", &self.is_busy());
+        state.finish_non_exhaustive()
+    }
 }
 
 impl SeamGround {
@@ -130,6 +142,7 @@ impl SeamGround {
 impl SeamTool {
     pub(super) fn new(wake: &Wake) -> Self {
         Self {
+            rules: SeamRules::new(wake),
             creases: CREASES,
             erases: false,
             last: None,
@@ -178,13 +191,14 @@ impl SeamTool {
 
     /// Whether paths are being found, or clicks wait for them.
     pub fn is_busy(&self) -> bool {
-        self.ground_job.is_busy() || self.tree_job.is_busy() || !self.clicks.is_empty()
+        self.rules.is_busy() || self.ground_job.is_busy() || self.tree_job.is_busy() || !self.clicks.is_empty()
     }
 
     /// Ends the seam that is being drawn. Returns whether there was one.
     pub(super) fn end(&mut self) -> bool {
         self.trail.clear();
         self.clicks.clear();
+        self.tree_job.cancel();
         self.last.take().is_some()
     }
 
@@ -192,12 +206,11 @@ impl SeamTool {
     pub(super) fn put_away(&mut self) {
         self.end();
         self.ground_job.cancel();
-        self.tree_job.cancel();
         (self.ground, self.tree) = (None, None);
     }
 
     pub(super) fn take_failure(&mut self) -> Option<Failure> {
-        let failure = self.ground_job.take_failure().or(self.tree_job.take_failure());
+        let failure = self.ground_job.take_failure().or(self.tree_job.take_failure()).or(self.rules.take_failure());
         if failure.is_some() {
             self.clicks.clear();
         }
@@ -227,7 +240,7 @@ impl SeamTool {
 
     /// Takes in what was found, and has found what is missing.
     fn refresh(&mut self, session: &Session) {
-        let Some(model) = session.model() else { return };
+        let Some(model) = session.model() else { return self.put_away() };
         let key = GroundKey::of(session, model);
         if self.ground.as_ref().is_some_and(|(of, _)| of.opening != key.opening) {
             self.end();
@@ -287,6 +300,7 @@ impl Editor {
     }
 
     pub(super) fn take_seam_click(&mut self, click: SeamClick) {
+        self.tools.seam.rules.forget_said();
         self.tools.seam.clicks.push_back(click);
         self.go_on_with_seam();
     }

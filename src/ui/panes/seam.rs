@@ -7,7 +7,10 @@ use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
 use crate::ui::editor::seam_tool::{CREASES, Edge, SeamIntent};
-use crate::ui::{Control, Editor, Offer, Request, Theme, Tool, theme::on_screen, theme_of, tip_with_keys};
+use crate::ui::theme::on_screen;
+use crate::ui::timeline::lasting_menu;
+use crate::ui::typed::Typed;
+use crate::ui::{Control, Editor, Offer, Request, SeamRule, Theme, Tool, counted, theme_of, tip_with_keys};
 use crate::view::{OrbitCamera, PlaneCamera};
 
 /// Opacity of what the mesh hides.
@@ -45,7 +48,7 @@ impl Editor {
     /// What the seam tool does, in words.
     pub(in crate::ui) fn seam_words(&self, has_shift: bool) -> String {
         let seam = &self.tools.seam;
-        let edges = |edges: &[Edge]| crate::ui::counted(edges.len(), "edge", "edges");
+        let edges = |edges: &[Edge]| counted(edges.len(), "edge", "edges");
         match (self.seam_intent(has_shift), seam.under(), seam.last()) {
             (Some(SeamIntent::Begin), Some(vertex), _) => format!("Click: the seam begins at {vertex}."),
             (Some(SeamIntent::Add(path)), Some(vertex), _) => {
@@ -169,6 +172,7 @@ pub(super) fn strip(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
                        before. Shift does the same for one click";
             let erase = ui.selectable_label(editor.tools.seam.erases(), "Erase").on_hover_text(tip);
             erase.asks(Request::ToggleErasing, requests);
+            rules(ui, editor, requests);
             let tip = "Close all seams that were drawn or chosen; undo takes it back";
             let clear = Offer::new("Clear seams", tip, Action::SetSeams(editor.without_seams()));
             clear.when(!editor.session.seams().edges().is_empty()).show(ui, requests);
@@ -178,6 +182,44 @@ pub(super) fn strip(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
             }
         });
     });
+}
+
+/// Seams by a rule, in a menu that stays open while an angle is typed; and what came of the last one.
+fn rules(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let rules = &editor.tools.seam.rules;
+    let menu = lasting_menu(ui, "Cut along", |ui| {
+        ui.horizontal(|ui| {
+            let sharp = Offer::new(
+                "Sharp edges",
+                "Cut where faces meet at this angle or more",
+                by(SeamRule::Sharp(rules.degrees)),
+            );
+            sharp.show(ui, requests);
+            let mut degrees = rules.degrees;
+            let typed = Typed::new("an angle", 0.0..=180.0);
+            let drag = egui::DragValue::new(&mut degrees).range(0.0..=180.0).suffix("°").fixed_decimals(0);
+            let field = ui.add(drag.custom_parser(|text| typed.number(text)));
+            let field = typed.name(ui, field, "Least angle of sharp edges");
+            if field.changed() {
+                requests.push(Request::SetSharp(degrees));
+            }
+            field.on_hover_text("Between the normals of the two faces, degrees: 0 in one plane, 90 at a box's edge");
+        });
+        let materials =
+            Offer::new("Borders of materials", "Cut where faces of two materials meet", by(SeamRule::Materials));
+        materials.show(ui, requests);
+        let groups =
+            Offer::new("Borders of groups", "Cut where faces of two groups or objects meet", by(SeamRule::Groups));
+        groups.show(ui, requests);
+    });
+    menu.on_hover_text("Cut along edges that follow a rule, all at once");
+    if let Some(said) = rules.said() {
+        ui.weak(said);
+    }
+}
+
+fn by(rule: SeamRule) -> Request {
+    Request::CutByRule(rule)
 }
 
 /// What paths follow: from the shortest to creases.
