@@ -9,7 +9,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::{DVec2, UVec2};
 
 use super::typed::{
-    ChartSize, choice, parse_aspect, parse_chart_size, parse_pin, parse_pixels, parse_seam_kind, parse_weld_distance,
+    ChartSize, Parts, choice, parse_aspect, parse_chart_size, parse_parts, parse_pin, parse_pixels, parse_seam_kind,
+    parse_weld_distance,
 };
 use crate::geom::PackingOptions;
 use crate::io::{OutputFit, OutputKind, PictureFile, Precision, Target};
@@ -76,6 +77,10 @@ pub struct FlattenArguments {
     /// `materials` and `groups`, where faces of two of them meet. Several with commas between them.
     #[arg(long, value_name = "sharp[=DEGREES],materials,groups", value_delimiter = ',', value_parser = parse_seam_kind)]
     pub seams: Vec<SeamKind>,
+    /// The parts of the mesh that are flattened, numbered from 0 in the order of their first faces, with commas between; or the
+    /// largest alone. The others stay as they are.
+    #[arg(long, value_name = "LIST|largest", value_parser = parse_parts)]
+    pub parts: Option<Parts>,
     /// What the charts of the mesh are, which are flattened each by itself.
     #[arg(long, value_enum, default_value_t)]
     pub charts: ChartsOf,

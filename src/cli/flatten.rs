@@ -11,6 +11,7 @@ use super::args::{Cut, FlattenArguments};
 use super::exit::conclude;
 use super::failed::await_report;
 use super::job::HeadlessJob;
+use super::parts::with_parts;
 use super::places::Places;
 use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
@@ -53,7 +54,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = formed(&read_model(&arguments.mesh)?, arguments)?;
+        let model = with_parts(formed(&read_model(&arguments.mesh)?, arguments)?, arguments.parts.as_ref())?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;

@@ -1,5 +1,7 @@
 //! What is typed for an option, read.
 
+use std::collections::BTreeSet;
+
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec2, UVec2};
 
@@ -95,4 +97,24 @@ pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
         _ => None,
     };
     parsed().ok_or_else(|| "write sharp, sharp=DEGREES (above 0, up to 180), materials or groups".to_owned())
+}
+
+/// Which parts of a mesh are flattened.
+#[derive(Clone, Debug)]
+pub enum Parts {
+    /// The one with the most faces.
+    Largest,
+    /// Those with these numbers.
+    Numbered(BTreeSet<usize>),
+}
+
+/// Numbers of parts, with commas between.
+pub(super) fn parse_parts(text: &str) -> Result<Parts, String> {
+    if text.trim() == "largest" {
+        return Ok(Parts::Largest);
+    }
+    let numbers: Result<BTreeSet<usize>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    numbers
+        .map(Parts::Numbered)
+        .map_err(|_| "write numbers with commas between, for example 0,2, or largest".to_owned())
 }

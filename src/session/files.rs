@@ -97,7 +97,8 @@ impl Files {
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
-        let Form { faces_turned, repair, holes, cut, seams } = document.form.clone();
+        let Form { faces_turned, repair, holes, cut, seams, left_out } = document.form.clone();
+        project.left_out_parts = left_out.iter().copied().collect();
         (project.faces_turned, project.repair, project.cut, project.seams) = (faces_turned, repair, cut, seams);
         project.weld_distance = repair.weld_distance();
         project.holes = Some(holes);

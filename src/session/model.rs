@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::surface::{Found, cut_surface, is_refused_uncut, surface_of};
 use crate::examples::Example;
 use crate::io::{FileStamp, LayoutError, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
-use crate::mesh::{Chart, Charts, Diagnosis, DiskMesh, Form, Repaired, TriMesh, VertexId, relative_volume};
+use crate::mesh::{Chart, Charts, Diagnosis, DiskMesh, Form, PartFaces, Repaired, TriMesh, VertexId, relative_volume};
 use crate::solver::Embedding;
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
@@ -145,6 +145,12 @@ impl Model {
         Self { form, source, remedy, ..self.clone() }.with(found)
     }
 
+    /// Its parts, those that are left out among them.
+    pub fn parts(&self) -> Vec<PartFaces> {
+        let labels = if self.form.seams.of_texture { self.source.texture_labels().ok() } else { None };
+        self.form.parts(&self.source.polygons, labels.as_deref())
+    }
+
     /// The chart that is wanted, where the mesh has several.
     pub(super) fn with_chart(self, wanted: Option<usize>) -> Self {
         match self.chart.as_ref().map(|of| of.charts.pick(wanted)) {
@@ -173,7 +179,7 @@ impl Model {
     }
 
     /// The sides of its edges that are listed as seams, with its own vertices.
-    pub(crate) fn seam_sides(&self) -> Vec<[VertexId; 2]> {
+    pub fn seam_sides(&self) -> Vec<[VertexId; 2]> {
         match &self.repaired {
             Some(repaired) => repaired.seam_sides(&self.form.seams, &self.source.polygons),
             None => self.form.seams.edges().iter().copied().collect(),

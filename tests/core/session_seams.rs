@@ -183,3 +183,37 @@ fn seams_are_written_to_a_file_and_read_from_it() {
     assert_eq!(said.expect("it is told").vertices.len(), 2);
     assert_eq!(session.seams().edges().len(), 3);
 }
+
+#[test]
+fn a_project_keeps_pins_on_both_sides_of_a_seam() {
+    let (folder, mut session) = with_sheet();
+    settled(&mut session, Action::SetSeams(across()));
+    pin(&folder, &mut session, &[2, 15, 4]);
+    let path = folder.path().join("sheet.freebound");
+    settled(&mut session, Action::SaveProject(path.clone()));
+    let mut again = crate::session::session();
+    settled(&mut again, Action::Open(path));
+    assert!(again.messages().is_empty(), "{:?}", again.messages());
+    assert_eq!(again.document(), session.document());
+    assert_eq!(pins(&folder, &mut again).len(), 3);
+}
+
+#[test]
+fn seams_of_texture_coordinates_are_an_edit_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("two.obj");
+    // Two squares that have other coordinates at their common side.
+    let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n\
+                vt 0 0\nvt .3 0\nvt .3 1\nvt 0 1\nvt .6 0\nvt .9 0\nvt .9 1\nvt .6 1\n\
+                f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/7 5/8\n";
+    std::fs::write(&path, text).expect("written");
+    let mut session = session();
+    settled(&mut session, Action::Open(path));
+    assert_eq!(chart_count(&session), 1);
+    let mut seams = Seams::default();
+    seams.of_texture = true;
+    settled(&mut session, Action::SetSeams(seams));
+    assert_eq!(chart_count(&session), 2);
+    settled(&mut session, Action::Undo);
+    assert_eq!(chart_count(&session), 1);
+}

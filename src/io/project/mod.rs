@@ -15,6 +15,7 @@ mod fields;
 use std::collections::BTreeMap;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -59,6 +60,9 @@ pub struct ProjectFile {
     /// Where it is cut before that.
     #[serde(default, skip_serializing_if = "Seams::is_empty", with = "seam_list")]
     pub seams: Seams,
+    /// Parts of it that are left out, by the numbers of their first faces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_out_parts: Vec<u32>,
     /// The picture.
     #[serde(default)]
     pub picture: Option<ProjectSource>,
@@ -187,6 +191,7 @@ impl ProjectFile {
             holes,
             cut: self.cut,
             seams: self.seams.clone(),
+            left_out: Arc::new(self.left_out_parts.iter().copied().collect()),
         }
     }
 
@@ -205,6 +210,7 @@ impl ProjectFile {
             holes: Some(HoleTreatment::default()),
             cut: false,
             seams: Seams::default(),
+            left_out_parts: Vec::new(),
             picture: None,
             v_axis: VAxis::default(),
             method,

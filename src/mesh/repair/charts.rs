@@ -100,6 +100,7 @@ impl Charts {
             joined: HashMap::new(),
             fills: self.whole.fills,
             filling: Filling::default(),
+            left_out: Vec::new(),
             done: self.whole.done.clone(),
         };
         let repaired = repaired.filled();

@@ -1,8 +1,11 @@
 //! What is wanted of a file's faces, and the mesh that comes of it.
 
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use super::{Repair, Repaired, Repairs, Seams};
+use super::{PartFaces, Repair, Repaired, Repairs, Seams};
 use crate::mesh::PolygonMesh;
 
 /// What is made of a file's faces before they are flattened.
@@ -18,6 +21,8 @@ pub struct Form {
     pub cut: bool,
     /// Where the surface is cut before that.
     pub seams: Seams,
+    /// Parts of the surface that are left out, by the file's numbers of their first faces.
+    pub left_out: Arc<BTreeSet<u32>>,
 }
 
 /// What becomes of inner boundary loops.
@@ -42,6 +47,7 @@ impl Form {
     pub fn allows(&self, repair: Repair) -> bool {
         match repair {
             Repair::Cut => self.cut,
+            Repair::LeaveOutParts => !self.left_out.is_empty(),
             Repair::CutSeams => !self.seams.is_empty(),
             Repair::FillHoles => self.holes == HoleTreatment::Fill && self.repair.allows(repair),
             _ => self.repair.allows(repair),
@@ -54,6 +60,8 @@ impl Form {
         let form = self.clone();
         match repair {
             Repair::Cut => Self { cut: true, ..form },
+            // Which parts, a repair does not say.
+            Repair::LeaveOutParts => form,
             // Which seams, a repair does not say.
             Repair::CutSeams => form,
             Repair::FillHoles => Self { holes: HoleTreatment::Fill, repair: form.repair.with(repair), ..form },
@@ -67,6 +75,13 @@ impl Form {
         self.repaired_along(source, None)
     }
 
+    /// The parts that are left out where their first faces are named: those of the mesh repaired, cut along its seams. `labels`
+    /// are as in [`repaired_along`](Self::repaired_along).
+    pub fn parts(&self, source: &PolygonMesh, labels: Option<&[u32]>) -> Vec<PartFaces> {
+        let form = Self { left_out: Arc::default(), cut: false, holes: HoleTreatment::Cut, ..self.clone() };
+        form.repaired_along(source, labels).parts()
+    }
+
     /// As [`repaired`](Self::repaired), the surface cut at edges, too, that have different labels on their sides: there is one for
     /// each corner of `source`.
     pub fn repaired_along(&self, source: &PolygonMesh, labels: Option<&[u32]>) -> Repaired {
@@ -78,6 +93,7 @@ impl Form {
         }
         let mut repaired = Repaired::new(source, self.repair);
         repaired.cut_along(&self.seams, labels, source);
+        repaired.leave_parts_out(&self.left_out);
         if !self.seams.edges().is_empty() && (self.cut || self.repair.allows(Repair::TurnFaces)) {
             // A surface with one side has two once it is cut.
             repaired.turn_faces();

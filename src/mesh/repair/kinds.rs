@@ -153,6 +153,8 @@ pub enum Repair {
     CutSeams,
     /// The surface is cut along edges until each part is a disk.
     Cut,
+    /// Parts that are not wanted are not flattened.
+    LeaveOutParts,
 }
 
 impl Repair {
@@ -184,6 +186,7 @@ impl Repair {
             Self::FillHoles => "fill-holes",
             Self::CutSeams => "cut-seams",
             Self::Cut => "cut",
+            Self::LeaveOutParts => "leave-out-parts",
         }
     }
 
@@ -206,6 +209,7 @@ impl Repair {
             Self::FillHoles => {
                 ["Fill holes", "Holes are filled while the mesh is flattened, with faces that no file gets"]
             }
+            Self::LeaveOutParts => ["Leave out parts", "Parts that are not wanted stay in the file as they are"],
             Self::CutSeams => ["Cut along seams", "The surface is cut along the seams that were drawn"],
             Self::Cut => {
                 ["Cut open", "Parts that are no disks are cut along short ways, creases first, until they are"]
@@ -230,6 +234,7 @@ impl Repair {
             Self::FillHoles => ["hole filled while it is flattened", "holes filled while it is flattened"],
             Self::CutSeams => ["edge cut along a seam", "edges cut along seams"],
             Self::Cut => ["edge cut open", "edges cut open"],
+            Self::LeaveOutParts => ["part left out", "parts left out"],
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Repair, Repaired, Repairs};
 use crate::mesh::VertexId;
 
 /// What becomes of the corners of a face.
-enum Fate {
+pub(super) enum Fate {
     /// Those at these places stay.
     Keep(Vec<usize>),
     /// It goes. At each corner the corner of another face that stands for it, where there is one.
@@ -57,7 +57,7 @@ impl Repaired {
     }
 
     /// Decides on each face, by its vertices and by the corners of the mesh as given that they are.
-    fn decide(&mut self, mut fate: impl FnMut(&[VertexId], &[u32]) -> Fate) {
+    pub(super) fn decide(&mut self, mut fate: impl FnMut(&[VertexId], &[u32]) -> Fate) {
         let (mut corners, mut corner_of, mut face_of) = (Vec::new(), Vec::new(), Vec::new());
         let mut starts = vec![0];
         for (face, &of) in self.face_of.iter().enumerate() {

@@ -9,6 +9,7 @@
 //! | `leave_out.rs` | repeated corners and duplicate faces left out |
 //! | `weld.rs` | vertices near each other made one |
 //! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
+//! | `kept.rs` | parts that are wanted, and parts that are left out |
 //! | `fill.rs` | holes filled with virtual faces |
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
@@ -28,6 +29,7 @@ mod cut;
 mod fill;
 mod form;
 mod join;
+mod kept;
 mod kinds;
 mod leave_out;
 mod paths;
@@ -46,6 +48,7 @@ use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 pub use borders::{borders, creases};
 pub use charts::{Chart, Charts};
 pub use form::{Form, HoleTreatment};
+pub use kept::PartFaces;
 pub use kinds::{Done, Repair, Repairs};
 pub use paths::{EdgePaths, PathTree};
 pub use seams::Seams;
@@ -67,6 +70,8 @@ pub struct Repaired {
     fills: bool,
     /// What fills them, where it is one part. Positions beyond those of the polygons are the filling's.
     filling: Filling,
+    /// The faces of parts that were left out, by their numbers in the mesh as given.
+    left_out: Vec<u32>,
     done: Vec<Done>,
 }
 
@@ -109,6 +114,7 @@ impl Repaired {
             joined: HashMap::new(),
             fills: false,
             filling: Filling::default(),
+            left_out: Vec::new(),
             done: Vec::new(),
         }
     }
@@ -161,7 +167,7 @@ impl Repaired {
     }
 
     /// The vertex at each corner of the mesh as given; at corners that were left out that of the corner that stands for
-    /// them, or any in their place. None where there is none in their place.
+    /// them, or any in their place. None where there is none in their place, and in parts that were left out.
     pub fn vertices_at_corners(&self, source: &PolygonMesh) -> Vec<Option<VertexId>> {
         let mut vertices = vec![None; source.corners.len()];
         let mut in_place = vec![None; source.positions.len()];
@@ -175,6 +181,9 @@ impl Repaired {
         for (vertex, of) in vertices.iter_mut().zip(&source.corners).filter(|(vertex, _)| vertex.is_none()) {
             let stands_for = self.joined.get(of).unwrap_or(of);
             *vertex = [of, stands_for].iter().find_map(|of| in_place.get(of.index()).copied().flatten());
+        }
+        for &face in &self.left_out {
+            vertices[source.corner_range(face as usize)].fill(None);
         }
         vertices
     }
