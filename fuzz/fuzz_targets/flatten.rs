@@ -10,7 +10,8 @@ use libfuzzer_sys::fuzz_target;
 const MOST_FACES: usize = 120;
 
 fuzz_target!(|bytes: &[u8]| {
-    let Ok(model) = Model::read_stream("bytes", bytes, Form::default().mended(), &|| false) else { return };
+    let Ok(model) = Model::read_stream("bytes", bytes, &|| false) else { return };
+    let model = model.in_form(Form::default().mended());
     if model.source.polygons.corners.len() > 3 * MOST_FACES {
         return;
     }

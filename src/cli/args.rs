@@ -1,16 +1,22 @@
 //! What can be typed. `freebound --help` is made from this.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::{DVec2, UVec2};
 
-use super::typed::{ChartSize, choice, parse_aspect, parse_chart_size, parse_pin, parse_pixels};
+use super::typed::{
+    ChartSize, Parts, choice, parse_aspect, parse_chart_size, parse_parts, parse_pin, parse_pixels, parse_seam_kind,
+    parse_weld_distance,
+};
 use crate::geom::PackingOptions;
 use crate::io::{OutputFit, OutputKind, PictureFile, Precision, Target};
-use crate::mesh::{Form, HoleTreatment, RepairExtent, VertexId};
-use crate::solver::{BoundaryShape, Choice as _, Family, Growth, Method, Settings, Treatment};
+use crate::mesh::{Form, HoleTreatment, Repairs, VertexId, WeldDistance};
+use crate::session::Arrangement;
+use crate::solver::{BoundaryShape, Choice as _, Family, Growth, Method, Settings, Start, Treatment};
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -52,17 +58,35 @@ pub struct FlattenArguments {
     #[arg(short, long, value_name = "MESH|-")]
     pub output: Option<PathBuf>,
     /// What may be repaired before the mesh is flattened: nothing, what changes no visible surface, or all that can be.
-    #[arg(long, value_enum, default_value_t)]
-    pub repair: Extent,
+    /// Any of them by its name does, too, with commas between: drop-repeated-corners, drop-duplicate-faces, weld-vertices,
+    /// split-edges, turn-faces, split-vertices, fill-holes.
+    #[arg(long, value_name = "none|safe|all|LIST", default_value_t)]
+    pub repair: Repairs,
+    /// Join vertices of faces that lie within this distance of each other, in the mesh's units; 0 joins those in one place.
+    #[arg(long, value_name = "DISTANCE", value_parser = parse_weld_distance, allow_negative_numbers = true)]
+    pub weld: Option<WeldDistance>,
     /// What becomes of holes: filled while the surface is flattened, or cut open where a surface is cut.
     #[arg(long, value_enum, default_value_t)]
     pub holes: Holes,
-    /// Whether a surface that is no disk is cut open until it is one.
-    #[arg(long, value_enum, default_value_t)]
+    /// Whether a surface that is no disk (closed, with handles, with one side only) is cut open until it is one: `none` leaves
+    /// it, `auto` cuts along short ways, creases first; a file of edges, lines `a b` of two vertices numbered from 0, is cut along
+    /// first, and then as `auto` does what is no disk yet.
+    #[arg(long, value_name = "none|auto|FILE", default_value = "none", value_parser = OsStringValueParser::new().map(Cut::from))]
     pub cut: Cut,
+    /// Cut along these edges, too: `sharp`, or `sharp=DEGREES`, where faces meet at that angle or more, 30 without a number;
+    /// `materials` and `groups`, where faces of two of them meet. Several with commas between them.
+    #[arg(long, value_name = "sharp[=DEGREES],materials,groups", value_delimiter = ',', value_parser = parse_seam_kind)]
+    pub seams: Vec<SeamKind>,
+    /// The parts of the mesh that are flattened, numbered from 0 in the order of their first faces, with commas between; or the
+    /// largest alone. The others stay as they are.
+    #[arg(long, value_name = "LIST|largest", value_parser = parse_parts)]
+    pub parts: Option<Parts>,
     /// What the charts of the mesh are, which are flattened each by itself.
     #[arg(long, value_enum, default_value_t)]
     pub charts: ChartsOf,
+    /// What the first step is, where it is not a map of the surface alone: proved as it is, and the method goes on from it.
+    #[arg(long, value_enum)]
+    pub start: Option<StartOf>,
     /// How to flatten.
     #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
     pub method: Method,
@@ -106,9 +130,10 @@ pub struct FlattenArguments {
     /// How the virtual boundary pins more of the boundary while it crosses itself, for `auto` and `virtual-boundary`.
     #[arg(long, value_parser = choice::<Growth>())]
     pub growth: Option<Growth>,
-    /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface.
-    #[arg(long, value_enum, default_value_t = OutputFit::Unit)]
-    pub fit: OutputFit,
+    /// Size of an embedding without pins: fit into the unit square, or keep the area of the surface; into the unit square
+    /// without it. With `--start uv` the embedding stays as large as it was, and where it was, without it.
+    #[arg(long, value_enum)]
+    pub fit: Option<OutputFit>,
     /// Size of the picture that several charts are packed into, in pixels; without it that of `--picture`, or 1024x1024.
     #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with_all = ["aspect", "picture"])]
     pub pack: Option<UVec2>,
@@ -144,18 +169,6 @@ pub struct FlattenArguments {
     pub threads: Option<u16>,
 }
 
-/// What may be repaired, as it is typed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Extent {
-    /// What changes no visible surface: repeated corners, duplicate faces, fans of faces that only touch
-    #[default]
-    Safe,
-    /// Parts that only touch are welded and edges of three faces split, too, and faces turned to run alike
-    All,
-    /// Nothing: a mesh with any fault is refused
-    None,
-}
-
 /// What becomes of holes, as it is typed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Holes {
@@ -167,13 +180,35 @@ pub enum Holes {
 }
 
 /// Whether a surface is cut open, as it is typed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cut {
-    /// No
-    #[default]
+    /// No.
     None,
-    /// Where it is closed, has handles, holes, or one side only: along short ways, creases first
+    /// Where it is no disk.
     Auto,
+    /// Along the edges of a file, and then where it is no disk.
+    Along(PathBuf),
+}
+
+impl From<OsString> for Cut {
+    fn from(text: OsString) -> Self {
+        match text.to_str() {
+            Some("none") => Self::None,
+            Some("auto") => Self::Auto,
+            _ => Self::Along(text.into()),
+        }
+    }
+}
+
+/// Edges to cut along, as they are typed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SeamKind {
+    /// Where faces meet at an angle of so many degrees or more.
+    Sharp(f64),
+    /// Where faces of two materials meet.
+    Materials,
+    /// Where faces of two groups or objects meet.
+    Groups,
 }
 
 /// What the charts of a mesh are, as it is typed.
@@ -186,19 +221,22 @@ pub enum ChartsOf {
     Uv,
 }
 
+/// Where the first step comes from, as it is typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StartOf {
+    /// The texture coordinates of the mesh file
+    Uv,
+}
+
 impl FlattenArguments {
-    /// What is to be made of the mesh's faces.
+    /// What is to be made of the mesh's faces, seams along edges of the mesh aside.
     pub fn form(&self) -> Form {
-        let repair = match self.repair {
-            Extent::Safe => RepairExtent::Safe,
-            Extent::All => RepairExtent::All,
-            Extent::None => RepairExtent::Nothing,
-        };
+        let repair = self.repair.welding(self.weld);
         let holes = match self.holes {
             Holes::Fill => HoleTreatment::Fill,
             Holes::Cut => HoleTreatment::Cut,
         };
-        let mut form = Form { repair, holes, cut: self.cut == Cut::Auto, ..Form::default() };
+        let mut form = Form { repair, holes, cut: self.cut != Cut::None, ..Form::default() };
         form.seams.of_texture = self.charts == ChartsOf::Uv;
         form
     }
@@ -213,6 +251,11 @@ impl FlattenArguments {
         let of_aspect = of_aspect.map(|size| size.round().max(DVec2::ONE).as_u64vec2().as_uvec2());
         let picture = self.pack.or(of_picture).or(of_aspect).map_or(options.picture, |size| size.to_array());
         PackingOptions { picture, ..options }
+    }
+
+    /// Where charts go: they stay where the file has them, where nothing else is asked for.
+    pub fn arrangement(&self) -> Arrangement {
+        if self.start.is_some() && self.pack.is_none() { Arrangement::AsGiven } else { Arrangement::Packed }
     }
 
     /// The files to write, apart from the report.
@@ -235,6 +278,7 @@ impl FlattenArguments {
             growth: self.growth.unwrap_or_default(),
             relax_rounds: self.relax,
             new_vertices: !self.no_new_vertices,
+            start: if self.start.is_some() { Start::File } else { Start::Afresh },
             ..Settings::new(method, self.family.unwrap_or_default())
         }
     }
@@ -258,6 +302,12 @@ impl FlattenArguments {
             (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
             (self.max_steps.is_some(), method.iterates(), "--max-steps", "only auto and iterate do iterate"),
             (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
+            (
+                self.start.is_some(),
+                method.goes_on_from_layout(),
+                "--start",
+                "it computes its map from the surface alone",
+            ),
             (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary pin more"),
         ];
         cases.into_iter().find(|(given, applies, ..)| *given && !applies).map(|(_, _, option, why)| (option, why))

@@ -18,7 +18,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let places = Places::of_check(arguments);
     places.spare(&arguments.mesh, "the mesh")?;
     await_report(arguments.report.as_deref());
-    let model = read_model(&arguments.mesh, Form::default())?;
+    let model = read_model(&arguments.mesh)?.in_form(Form::default());
     places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
     let mut texture = match model.source.texture_mesh() {

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use super::failed::Subject;
 use super::say::warn;
 use super::standard::name_of_input;
-use crate::io::{ConstraintsError, PictureError, ReadError, TextureError, WriteError};
+use crate::io::{ConstraintsError, EdgesError, PictureError, ReadError, TextureError, WriteError};
 use crate::mesh::{Diagnosis, Done};
 use crate::solver::{Choice as _, Method, SolveError};
 
@@ -55,6 +55,9 @@ pub enum Failure {
     /// The constraint file cannot be used.
     #[error("{0}")]
     Constraints(#[from] ConstraintsError),
+    /// The file of edges cannot be used.
+    #[error("{0}")]
+    Edges(#[from] EdgesError),
     /// The picture cannot be read.
     #[error("{0}")]
     Picture(#[from] PictureError),
@@ -124,6 +127,7 @@ impl Failure {
             Self::Read { error: ReadError::Cancelled, .. } => INTERRUPTED,
             Self::Read { .. }
             | Self::Constraints(_)
+            | Self::Edges(_)
             | Self::Picture(_)
             | Self::Texture { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,

@@ -84,6 +84,7 @@ fn remedy_and_faults(failure: &Failure) -> (Option<&'static str>, Vec<FaultRepor
     match failure {
         Failure::Read { error, .. } => (Some(error.remedy()), FaultReport::of_file(error)),
         Failure::Constraints(error) => (None, FaultReport::of_constraints(error)),
+        Failure::Edges(error) => (None, FaultReport::of_edges(error)),
         Failure::Texture { error, .. } => (Some(TEXTURE_REMEDY), FaultReport::of_texture(error)),
         Failure::NotADisk { diagnosis, .. } => (None, FaultReport::of_diagnosis(diagnosis)),
         Failure::Method { .. } => (Some(METHOD_REMEDY), Vec::new()),
@@ -102,6 +103,7 @@ fn kind_of(failure: &Failure) -> &'static str {
             _ => "not-understood",
         },
         Failure::Constraints(_) => "constraints",
+        Failure::Edges(_) => "edges",
         Failure::Picture(_) => "picture",
         Failure::Texture { .. } => "texture-coordinates",
         Failure::NotADisk { .. } => "not-a-disk",

@@ -7,23 +7,26 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::FlattenArguments;
+use super::args::{Cut, FlattenArguments};
 use super::exit::conclude;
 use super::failed::await_report;
 use super::job::HeadlessJob;
+use super::parts::with_parts;
 use super::places::Places;
 use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
+use super::seams::formed;
 use super::standard::{is_standard, name_of_input, read_model};
 use super::typed::ChartSize;
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
 use crate::io::{
-    Constraints, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError, WriteError,
+    Constraints, LayoutError, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError,
+    WriteError,
 };
 use crate::mesh::{DiskMesh, FaceId, VertexId};
-use crate::session::{Document, Model, Surface};
+use crate::session::{Arrangement, Document, Model, Surface};
 use crate::solver::{Choice as _, SolveError};
 
 /// Folder that the example is written into, in the current one.
@@ -34,10 +37,13 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         let name = arguments.settings().method.name();
         return Err(Failure::Usage(format!("--method {name} takes no {option}: {why}")));
     }
-    if arguments.fit == OutputFit::True && (arguments.aspect.is_some() || arguments.picture.is_some()) {
+    if arguments.fit == Some(OutputFit::True) && (arguments.aspect.is_some() || arguments.picture.is_some()) {
         return Err(Failure::Usage(
             "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
         ));
+    }
+    if arguments.start.is_some() && arguments.fit == Some(OutputFit::Unit) {
+        return Err(Failure::Usage("--start uv keeps the place of the file's layout: leave out --fit unit".into()));
     }
     refuse_unwritten_formats(arguments.output.as_deref())?;
     let places = Places::of_flatten(arguments);
@@ -48,8 +54,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = read_model(&arguments.mesh, arguments.form())?;
-        check_texture(&model)?;
+        let model = with_parts(formed(&read_model(&arguments.mesh)?, arguments)?, arguments.parts.as_ref())?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
@@ -67,9 +72,10 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         };
         let job = HeadlessJob {
             document,
-            fit: arguments.fit,
-            svg_fit: arguments.svg_scale.unwrap_or(arguments.fit),
+            fit: arguments.fit.unwrap_or_default(),
+            svg_fit: arguments.svg_scale.or(arguments.fit).unwrap_or_default(),
             packing,
+            arrangement: arguments.arrangement(),
             outputs: arguments.outputs(),
             precision: arguments.precision,
             materials: if arguments.copy_materials { Materials::Copied } else { Materials::Stay },
@@ -88,18 +94,6 @@ fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
         return Err(Failure::Usage(text));
     }
     Ok(())
-}
-
-/// Refuses to cut along texture coordinates that not all corners have.
-fn check_texture(model: &Model) -> Result<(), Failure> {
-    if !model.form.seams.of_texture {
-        return Ok(());
-    }
-    let path = model.path_words();
-    model.source.texture_labels().map(drop).map_err(|error| match error {
-        TextureError::None => Failure::Usage(format!("{path}: {error}: leave out --charts uv")),
-        TextureError::Missing(_) => Failure::Texture { path, error },
-    })
 }
 
 /// How many times as large as the others charts are packed, by their first faces.
@@ -123,7 +117,12 @@ fn sizes(given: &[ChartSize], model: &Model) -> Result<BTreeMap<FaceId, f64>, Fa
 fn refuse_clashes(arguments: &FlattenArguments, places: &Places) -> Result<(), Failure> {
     places.keep_apart()?;
     places.spare(&arguments.mesh, "the mesh")?;
-    for (file, what) in [(&arguments.constraints, "the constraints"), (&arguments.picture, "the picture")] {
+    let edges = match &arguments.cut {
+        Cut::Along(path) => Some(path.as_path()),
+        Cut::None | Cut::Auto => None,
+    };
+    let [constraints, picture] = [&arguments.constraints, &arguments.picture].map(Option::as_deref);
+    for (file, what) in [(constraints, "the constraints"), (picture, "the picture"), (edges, "the edges")] {
         if let Some(path) = file {
             places.spare(path, what)?;
         }
@@ -152,6 +151,7 @@ fn flatten_example() -> Result<Status, Failure> {
         fit: OutputFit::Unit,
         svg_fit: OutputFit::Unit,
         packing: PackingOptions::default(),
+        arrangement: Arrangement::Packed,
         outputs: vec![(OutputKind::Obj, &mesh), (OutputKind::Png, &picture)],
         precision: Precision::default(),
         materials: Materials::Stay,
@@ -216,6 +216,20 @@ fn in_the_way(targets: &Targets, target: &Target) -> Option<VertexId> {
 /// An error where the user asked to stop.
 pub(super) fn go_on() -> Result<(), SolveError> {
     if is_interrupted() { Err(SolveError::Cancelled) } else { Ok(()) }
+}
+
+/// Why a mesh or chart cannot be started from its file's layout, and what to do.
+pub(super) fn failure_of_layout(model: &Model, error: LayoutError) -> Failure {
+    let path = model.path_words();
+    match error {
+        LayoutError::Texture(error @ TextureError::Missing(_)) => Failure::Texture { path, error },
+        LayoutError::Texture(error) => Failure::Usage(format!("{path}: {error}: leave out --start uv")),
+        LayoutError::Torn { .. } => {
+            let remedy =
+                "cut the surface along the seams of its texture coordinates with --charts uv, or leave out --start uv";
+            Failure::Usage(format!("{path}: {error}: {remedy}"))
+        }
+    }
 }
 
 /// The disk, or everything that keeps the mesh from being one.

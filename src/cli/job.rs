@@ -5,14 +5,14 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::flatten::{disk_of, go_on};
+use super::flatten::{disk_of, failure_of_layout, go_on};
 use super::progress::{INTERRUPTED, Progress};
 use super::standard::is_standard;
 use super::summary::{atlas_summary, deliver, ending_words, put_report, step_words, summary, warn_of};
 use super::{Failure, Status};
 use crate::geom::PackingOptions;
 use crate::io::{Materials, Output, OutputFit, OutputKind, Precision, StepReport, StepsFolder, Targets};
-use crate::session::{Document, Model, Outcome, Problem, SolvedChart, atlas};
+use crate::session::{Arrangement, Document, Model, Outcome, Problem, SolvedChart, atlas};
 use crate::solver::{Conflict, Control, Ending, Phase, SolveError, Step, conflicts};
 
 /// A flattening without a screen, the mesh already read.
@@ -25,6 +25,8 @@ pub(super) struct HeadlessJob<'a> {
     pub(super) svg_fit: OutputFit,
     /// How several charts are packed.
     pub(super) packing: PackingOptions,
+    /// Whether they are packed at all.
+    pub(super) arrangement: Arrangement,
     pub(super) outputs: Vec<(OutputKind, &'a Path)>,
     pub(super) precision: Precision,
     pub(super) materials: Materials,
@@ -73,7 +75,7 @@ impl HeadlessJob<'_> {
             })
             .collect();
         let before = Instant::now();
-        let mut output = atlas(&charts, self.packing);
+        let mut output = atlas(&charts, self.packing, self.arrangement);
         output.report.seconds.read = read;
         output.report.seconds.verify = before.elapsed().as_secs_f64();
         self.write(&mut output, None, start, progress)?;
@@ -183,7 +185,7 @@ fn solve(
     let report_phase = |phase: Phase| progress.enter(phase.words());
     let control = Control::new(&INTERRUPTED, &report_phase);
     let method = problem.settings.method;
-    let mut run = problem.ladder();
+    let mut run = problem.ladder_on(model).map_err(|error| failure_of_layout(model, error))?;
     let placed = |step: Step| Outcome::new(mesh, problem, step);
     let mut records: Vec<StepReport> = Vec::new();
     let mut last: Option<Step> = None;

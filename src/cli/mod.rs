@@ -12,6 +12,7 @@
 //! | `progress`    | the line that follows the work, and Ctrl-C                             |
 //! | `summary`     | the lines that sum a run up, and where its report goes                 |
 //! | `failed`      | the report of a run that came to nothing                               |
+//! | `parts`       | the parts of a mesh that are flattened                                 |
 //! | `places`      | files of a run that must not be one another                            |
 //! | `standard`    | `-` as a file: standard input and output                               |
 //! | `say`         | words on standard output and standard error                            |
@@ -24,9 +25,11 @@ mod failed;
 mod figures;
 mod flatten;
 mod job;
+mod parts;
 mod places;
 mod progress;
 mod say;
+mod seams;
 mod standard;
 mod summary;
 mod typed;

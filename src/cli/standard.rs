@@ -9,7 +9,6 @@ use std::time::Duration;
 use super::Failure;
 use super::progress::is_interrupted;
 use crate::io::ReadError;
-use crate::mesh::Form;
 use crate::session::Model;
 
 /// What a mesh from standard input is called.
@@ -31,15 +30,14 @@ pub(super) fn name_of_input(path: &Path) -> String {
     if is_standard(path) { STANDARD_INPUT.to_owned() } else { path.display().to_string() }
 }
 
-/// Reads a mesh from a file or from standard input.
-pub(super) fn read_model(path: &Path, form: Form) -> Result<Model, Failure> {
-    let read =
-        if is_standard(path) { read_standard_input(form) } else { Model::read_until(path, form, &is_interrupted) };
+/// Reads a mesh from a file or from standard input. It has no form yet.
+pub(super) fn read_model(path: &Path) -> Result<Model, Failure> {
+    let read = if is_standard(path) { read_standard_input() } else { Model::read_formless(path, &is_interrupted) };
     read.map_err(|error| Failure::Read { path: name_of_input(path), error })
 }
 
-fn read_standard_input(form: Form) -> Result<Model, ReadError> {
-    let read = Model::read_stream(STANDARD_INPUT, Input::begin()?, form, &is_interrupted);
+fn read_standard_input() -> Result<Model, ReadError> {
+    let read = Model::read_stream(STANDARD_INPUT, Input::begin()?, &is_interrupted);
     // An interrupted stream ends early: what came of it is not the mesh.
     if is_interrupted() { Err(ReadError::Cancelled) } else { read }
 }

@@ -1,11 +1,14 @@
 //! What is typed for an option, read.
 
+use std::collections::BTreeSet;
+
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::{DVec2, UVec2};
 
+use super::args::SeamKind;
 use crate::geom::PackingOptions;
 use crate::io::{ConstraintFault, Target};
-use crate::mesh::VertexId;
+use crate::mesh::{VertexId, WeldDistance};
 use crate::solver::{Choice, Hold};
 
 /// Takes one of a few choices by its name, and lists them with a line on each.
@@ -53,6 +56,11 @@ pub(super) fn parse_aspect(text: &str) -> Result<f64, String> {
     parsed().ok_or_else(|| "write WIDTH:HEIGHT, for example 16:9".to_owned())
 }
 
+pub(super) fn parse_weld_distance(text: &str) -> Result<WeldDistance, String> {
+    let parsed = text.trim().parse().ok().and_then(WeldDistance::new);
+    parsed.ok_or_else(|| "write a distance of 0 or more, for example 0.001".to_owned())
+}
+
 /// How many times as large as the others a chart is packed.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartSize {
@@ -71,4 +79,42 @@ pub(super) fn parse_chart_size(text: &str) -> Result<ChartSize, String> {
     };
     let [low, high] = [PackingOptions::SIZES.start(), PackingOptions::SIZES.end()];
     parsed().ok_or_else(|| format!("write CHART=SIZE, for example 0=2, with a size from {low} to {high}"))
+}
+
+/// The angle of creases where none is typed, degrees: as modelling programs choose it.
+const SHARP_DEGREES: f64 = 30.0;
+
+/// "sharp", "sharp=degrees", "materials" or "groups".
+pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
+    let parsed = || match text.split_once('=') {
+        Some(("sharp", degrees)) => {
+            let degrees: f64 = degrees.trim().parse().ok()?;
+            (degrees > 0.0 && degrees <= 180.0).then_some(SeamKind::Sharp(degrees))
+        }
+        None if text == "sharp" => Some(SeamKind::Sharp(SHARP_DEGREES)),
+        None if text == "materials" => Some(SeamKind::Materials),
+        None if text == "groups" => Some(SeamKind::Groups),
+        _ => None,
+    };
+    parsed().ok_or_else(|| "write sharp, sharp=DEGREES (above 0, up to 180), materials or groups".to_owned())
+}
+
+/// Which parts of a mesh are flattened.
+#[derive(Clone, Debug)]
+pub enum Parts {
+    /// The one with the most faces.
+    Largest,
+    /// Those with these numbers.
+    Numbered(BTreeSet<usize>),
+}
+
+/// Numbers of parts, with commas between.
+pub(super) fn parse_parts(text: &str) -> Result<Parts, String> {
+    if text.trim() == "largest" {
+        return Ok(Parts::Largest);
+    }
+    let numbers: Result<BTreeSet<usize>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    numbers
+        .map(Parts::Numbered)
+        .map_err(|_| "write numbers with commas between, for example 0,2, or largest".to_owned())
 }

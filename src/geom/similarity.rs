@@ -27,9 +27,7 @@ impl Similarity {
     /// The similarity without reflection that takes the first of each pair nearest to the second, in the sum of squares;
     /// `None` where there is none, or where it would take all to one place.
     pub fn fitting(pairs: &[[DVec2; 2]]) -> Option<Self> {
-        let count = pairs.len() as f64;
-        let from = pairs.iter().map(|[a, _]| *a).sum::<DVec2>() / count;
-        let to = pairs.iter().map(|[_, b]| *b).sum::<DVec2>() / count;
+        let [from, to] = middles(pairs);
         let (mut product, mut square) = (DVec2::ZERO, 0.0);
         for [a, b] in pairs.iter().map(|[a, b]| [*a - from, *b - to]) {
             // The conjugate of a, times b.
@@ -40,11 +38,33 @@ impl Similarity {
         (turn.is_finite() && turn != DVec2::ZERO).then_some(Self { turn, from, to })
     }
 
+    /// The similarity without reflection that lays the first of each pair over the second: of all that make them spread as far
+    /// as these do, in the sum of squares about their middle, the one that takes them nearest. `None` where either are in
+    /// one place. Unlike the one that fits best it makes nothing small that fits badly.
+    pub fn laying_over(pairs: &[[DVec2; 2]]) -> Option<Self> {
+        let [from, to] = middles(pairs);
+        let turn = Self::fitting(pairs).map_or(DVec2::X, |fitting| fitting.turn.normalize_or(DVec2::X));
+        let spread = |k: usize, middle: DVec2| pairs.iter().map(|pair| pair[k].distance_squared(middle)).sum::<f64>();
+        let factor = (spread(1, to) / spread(0, from)).sqrt();
+        (factor.is_finite() && factor > 0.0).then_some(Self { turn: turn * factor, from, to })
+    }
+
+    /// The same turn and size, with the first of two points taken to the second.
+    #[must_use]
+    pub fn moved(self, [from, to]: [DVec2; 2]) -> Self {
+        Self { from, to, ..self }
+    }
+
     /// Root of the mean squared distance that it leaves between pairs.
     pub fn error(&self, pairs: &[[DVec2; 2]]) -> f64 {
         let sum: f64 = pairs.iter().map(|[a, b]| self.apply(*a).distance_squared(*b)).sum();
         (sum / pairs.len() as f64).sqrt()
     }
+}
+
+/// The middle of the first of each pair, and that of the second.
+fn middles(pairs: &[[DVec2; 2]]) -> [DVec2; 2] {
+    [0, 1].map(|k| pairs.iter().map(|pair| pair[k]).sum::<DVec2>() / pairs.len() as f64)
 }
 
 /// Whether a reflection takes the first of each pair much nearer to the second than a rotation does.

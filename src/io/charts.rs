@@ -100,13 +100,44 @@ pub(super) fn textured<'a>(
         return (Cow::Borrowed(source), Texture::per_vertex(&source.polygons, coordinates));
     }
     if let Some(repaired) = repaired.filter(|_| charts.iter().all(|chart| chart.refinement.is_none())) {
-        return (Cow::Borrowed(source), texture_of_repaired(charts, &source.polygons, repaired));
+        let texture = texture_of_repaired(charts, &source.polygons, repaired);
+        let left_out = repaired.left_out().iter().map(|&face| LeftOut { face: face as usize, in_file: face as usize });
+        return (Cow::Borrowed(source), beside_own(texture, source, &source.polygons, left_out));
     }
     let parts: Vec<RefinedChart<'_>> = charts.iter().map(OutputChart::refined).collect();
     let refined = Refined::of_charts(source, repaired, &parts);
     let coordinates: Embedding = charts.iter().flat_map(|chart| chart.coordinates.iter().copied()).collect();
     let texture = refined.texture(&coordinates);
+    let left_out: HashSet<u32> = repaired.into_iter().flat_map(Repaired::left_out).copied().collect();
+    let faces = refined.face_of.iter().enumerate().filter(|(_, of)| left_out.contains(of));
+    let faces = faces.map(|(face, &of)| LeftOut { face, in_file: of as usize });
+    let texture = beside_own(texture, source, &refined.mesh.polygons, faces);
     (Cow::Owned(refined.mesh), texture)
+}
+
+/// A face of a part that was left out, as it is written and as the file has it.
+struct LeftOut {
+    face: usize,
+    in_file: usize,
+}
+
+/// Texture coordinates beside those that faces of parts that were left out have in their file. These come first, so that they
+/// keep their numbers.
+fn beside_own(
+    new: Texture,
+    source: &MeshFile,
+    written: &PolygonMesh,
+    left_out: impl Iterator<Item = LeftOut>,
+) -> Texture {
+    let mut left_out = left_out.peekable();
+    let Some(own) = source.texture.as_ref().filter(|_| left_out.peek().is_some()) else { return new };
+    let first = u32::try_from(own.coordinates.len()).expect("fewer than 2^32 coordinates");
+    let moved = |&number: &u32| if number == NO_TEXTURE { NO_TEXTURE } else { number + first };
+    let mut corners: Vec<u32> = new.corners.iter().map(moved).collect();
+    for LeftOut { face, in_file } in left_out {
+        corners[written.corner_range(face)].copy_from_slice(&own.corners[source.polygons.corner_range(in_file)]);
+    }
+    Texture { coordinates: [&own.coordinates[..], &new.coordinates].concat(), corners }
 }
 
 fn texture_of_repaired(charts: &[OutputChart<'_>], source: &PolygonMesh, repaired: &Repaired) -> Texture {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::report::REPORT_SCHEMA;
-use super::{ConstraintsError, ParseFault, ReadError, TextureError};
+use super::{ConstraintsError, EdgesError, ParseFault, ReadError, TextureError};
 use crate::mesh::{Diagnosis, Elements, Fault, VertexId};
 
 /// Everything that is reported of a run without a result. Field names are part of the interface.
@@ -118,6 +118,14 @@ impl FaultReport {
         match error {
             ConstraintsError::Line { line, kind, .. } => vec![Self::of_line(*line, kind.to_string())],
             ConstraintsError::File { .. } => Vec::new(),
+        }
+    }
+
+    /// The fault of a file of edges.
+    pub fn of_edges(error: &EdgesError) -> Vec<Self> {
+        match error {
+            EdgesError::Line { line, kind, .. } => vec![Self::of_line(*line, kind.to_string())],
+            EdgesError::File { .. } | EdgesError::TooLong { .. } => Vec::new(),
         }
     }
 

@@ -8,6 +8,7 @@
 //! | `gltf`        | glTF files, as text and binary (GLB)                                       |
 //! | `targets`     | the user's pins in texture coordinates                                     |
 //! | `constraints` | constraint files: a pinned vertex a line                                   |
+//! | `edges`       | edges files: an edge of a seam a line                                      |
 //! | `project`     | project files: what a person has made of a mesh (JSON)                     |
 //! | `picture`     | pictures in (PNG, JPEG)                                                    |
 //! | `output`      | the table of formats; a finished flattening written in any of them         |
@@ -30,6 +31,7 @@ mod atomic;
 mod charts;
 mod constraints;
 mod door;
+mod edges;
 mod error_report;
 pub mod figure;
 mod gltf;
@@ -53,11 +55,13 @@ mod unfinished;
 pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
 pub use charts::{OutputChart, Together, proved_together, together};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
+pub use edges::{EdgeFault, EdgesError, parse_edges, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use gltf::write_glb;
 pub use mesh_file::{
-    MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError, Refined, RefinedChart,
-    Source, Statement, Texture, TextureError, TextureMesh, read_mesh, read_mesh_with, read_stream, read_stream_with,
+    LabelError, LayoutError, MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError,
+    Refined, RefinedChart, Source, Statement, Texture, TextureError, TextureMesh, read_mesh, read_mesh_with,
+    read_stream, read_stream_with,
 };
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};

@@ -108,6 +108,8 @@ pub enum Placement {
     True,
     /// Scaled by a power of two and not moved, because the numbers of the unit square would fold it.
     Unmoved,
+    /// Where the file had its texture coordinates.
+    File,
     /// Packed into a picture with other charts.
     Packed,
 }

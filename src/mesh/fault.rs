@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display};
 
-use super::{FaceId, TriMesh, VertexId};
+use super::{FaceId, Repair, TriMesh, VertexId};
 
 /// How many elements a message lists before it only counts the rest.
 const LISTED: usize = 5;
@@ -139,6 +139,26 @@ impl Fault {
     /// Whether it is none where each part of the surface is flattened by itself.
     pub const fn is_of_charts(&self) -> bool {
         matches!(self, Self::SeveralComponents { .. })
+    }
+
+    /// The repairs that mend it, each by itself; none where nothing does.
+    pub const fn repairs(&self) -> &'static [Repair] {
+        match self {
+            Self::RepeatedVertices(_) => &[Repair::DropRepeatedCorners],
+            Self::DuplicateFaces(_) => &[Repair::DropDuplicateFaces],
+            Self::NonManifoldEdges(_) => &[Repair::SplitEdges],
+            Self::NonManifoldVertices(_) => &[Repair::SplitVertices],
+            Self::MixedOrientation { .. } => &[Repair::TurnFaces],
+            Self::CoincidentVertices(_) => &[Repair::WeldVertices],
+            Self::SeveralBoundaryLoops(_) => &[Repair::FillHoles, Repair::Cut],
+            Self::NonOrientable(_) | Self::Closed { .. } | Self::Handles { .. } => &[Repair::Cut],
+            Self::NoFaces
+            | Self::MissingVertices(_)
+            | Self::NotFinite(_)
+            | Self::UnreferencedVertices(_)
+            | Self::ZeroArea(_)
+            | Self::SeveralComponents { .. } => &[],
+        }
     }
 
     /// A fixed lower-case name, for reports and tests.

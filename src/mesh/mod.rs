@@ -52,7 +52,8 @@ pub use polygon::PolygonMesh;
 pub use polygons::Polygon;
 pub use refinement::{NewVertex, Refinement};
 pub use repair::{
-    Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PathTree, Repair, RepairExtent, Repaired, Seams,
+    Chart, Charts, Done, EdgePaths, Form, HoleTreatment, PartFaces, PathTree, Repair, Repaired, Repairs, Seams,
+    WeldDistance, borders, creases, near_vertices,
 };
 pub use triangles::TriMesh;
 pub use volume::relative_volume;

@@ -139,6 +139,8 @@ pub struct MeshFrame {
     pub paint: Option<Arc<FacePaint>>,
     /// Lines, the later over the earlier.
     pub lines: Vec<LineLayer>,
+    /// Lines on what stands around the mesh.
+    pub around_lines: Vec<LineLayer>,
     /// The picture for [`Shading::Picture`].
     pub picture: Option<PictureLayer>,
     /// From where it is seen.

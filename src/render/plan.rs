@@ -127,7 +127,9 @@ impl Planner<'_> {
         for (mesh, plane, paint) in [(mesh, frame.plane.as_ref(), frame.paint.as_ref())].into_iter().chain(around) {
             plan.faces.push(Faces { draw: self.mesh_faces(mesh, plane, paint), opacity: 1.0 });
         }
-        for layer in &frame.lines {
+        let around_lines =
+            frame.around.iter().flat_map(|around| frame.around_lines.iter().map(|layer| (&around.mesh, layer)));
+        for (mesh, layer) in frame.lines.iter().map(|layer| (mesh, layer)).chain(around_lines) {
             let key = Key::MeshLines(mesh.revision, layer.edges.revision);
             self.ensure_with(key, || segments(&mesh.points, vertex_pairs(&layer.edges)));
             plan.push(Shape::Line, self.draw_of(key, MESH_LINE_STRIDE), self.line(layer, LIFT));

@@ -8,7 +8,7 @@ use super::StopConditions;
 use crate::examples::Example;
 use crate::geom::{PackingOptions, VAxis};
 use crate::io::{OutputFit, OutputKind, Target};
-use crate::mesh::{Seams, VertexId};
+use crate::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
 use crate::solver::{Hold, Settings};
 
 /// A file to write.
@@ -22,11 +22,26 @@ pub struct SaveRequest {
     pub fit: OutputFit,
 }
 
+/// Files that are opened together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Together {
+    /// The mesh, or the project.
+    pub mesh: PathBuf,
+    /// A picture for it.
+    pub picture: Option<PathBuf>,
+    /// Constraints on it.
+    pub constraints: Vec<PathBuf>,
+    /// Files that are not opened, for there is one mesh at a time, with one picture.
+    pub left: Vec<PathBuf>,
+}
+
 /// One request.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     /// Opens a mesh file, or a project.
     Open(PathBuf),
+    /// Opens a mesh file or a project, and what belongs to it.
+    OpenTogether(Together),
     /// Opens a built-in mesh.
     OpenExample(Example),
     /// Forgets the files opened last.
@@ -45,6 +60,20 @@ pub enum Action {
     Mend,
     /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
     SetSeams(Seams),
+    /// Chooses what becomes of the mesh's holes.
+    SetHoles(HoleTreatment),
+    /// Starts from the texture coordinates of the file, cut along their seams, where they have any.
+    TakeLayout,
+    /// Cuts the mesh along the edges of a file, too.
+    ImportSeams(PathBuf),
+    /// Writes the seams as a file of edges.
+    ExportSeams(PathBuf),
+    /// Mends one kind of fault of the mesh.
+    AllowRepair(Repair),
+    /// Joins vertices of the mesh that lie within a distance, or does not any more.
+    Weld(Option<WeldDistance>),
+    /// Counts the vertices that a distance would join.
+    CountNear(WeldDistance),
     /// Puts another chart on the screen, where the mesh has several.
     ShowChart(usize),
     /// Chooses how charts are packed.

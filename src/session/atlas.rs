@@ -2,7 +2,8 @@
 //!
 //! A chart with pins lies where they hold it. The others are packed into the unit square, all as large on the picture as on the
 //! surface by one factor, times the size that a person gives to each; to the right of the square where pins hold a chart. Each is turned so that its box is small. Numbers
-//! round on the way; where that folds a chart, it is not turned.
+//! round on the way; where that folds a chart, it is not turned. Charts that went on from the layout of their file may stay where that has
+//! them instead.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -16,6 +17,15 @@ use crate::io::{
 };
 use crate::mesh::{FaceId, VertexId};
 use crate::solver::{Embedding, distortion, true_area_factor, verdict};
+
+/// Where charts go that no pins hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrangement {
+    /// They are packed.
+    Packed,
+    /// They stay where the layout has them that they started from, unless they lie over each other there or one has a size of its own.
+    AsGiven,
+}
 
 /// A chart that is solved.
 #[derive(Clone, Copy, Debug)]
@@ -35,9 +45,22 @@ pub struct SolvedChart<'a> {
 /// # Panics
 ///
 /// If there is no chart, or one is no chart of several, or no disk.
-pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Output<'a> {
+pub fn atlas<'a>(charts: &[SolvedChart<'a>], options: PackingOptions, arrangement: Arrangement) -> Output<'a> {
+    let is_placed =
+        |chart: &SolvedChart<'_>| chart.is_held() || (chart.outcome.step.lies_as_given && chart.has_usual_size());
+    if arrangement == Arrangement::AsGiven && charts.iter().all(is_placed) {
+        let laid = charts.par_iter().map(SolvedChart::in_place).collect();
+        let in_place = output(charts, laid, None, options);
+        if in_place.report.atlas.as_ref().is_some_and(|atlas| atlas.overlapping_faces.is_empty()) {
+            return in_place;
+        }
+    }
+    packed(charts, options)
+}
+
+fn packed<'a>(charts: &[SolvedChart<'a>], options: PackingOptions) -> Output<'a> {
     let mut laid: Vec<Option<Embedding>> =
-        charts.iter().map(|chart| chart.is_held().then(|| chart.as_pinned())).collect();
+        charts.iter().map(|chart| chart.is_held().then(|| chart.in_place())).collect();
     let beside = first_column_beside(&laid);
     let free: Vec<usize> = (0..charts.len()).filter(|&chart| laid[chart].is_none()).collect();
     let mut boxes: Vec<Boxed> = free.par_iter().map(|&chart| Boxed::new(&charts[chart], true)).collect();
@@ -136,13 +159,18 @@ impl SolvedChart<'_> {
         (mesh.real_faces().map(doubled).sum::<f64>() / 2.0 / self.area()).sqrt()
     }
 
+    /// Whether nobody gave it a size of its own.
+    fn has_usual_size(&self) -> bool {
+        self.size.to_bits() == 1.0_f64.to_bits()
+    }
+
     /// Whether pins hold it.
     fn is_held(&self) -> bool {
         self.outcome.targets_in_use().next().is_some()
     }
 
-    /// Its coordinates where its pins hold it, as files have them.
-    fn as_pinned(&self) -> Embedding {
+    /// Its coordinates where its pins hold it, or the layout has it that it started from, as files have them.
+    fn in_place(&self) -> Embedding {
         let (coordinates, ..) = self.outcome.output(self.disk(), OutputFit::Unit);
         upright(&coordinates, self.outcome.problem.frame.v_axis).unwrap_or(coordinates)
     }
@@ -165,14 +193,15 @@ impl SolvedChart<'_> {
     }
 
     /// What is reported of it where it is written for a picture of this size, pixels.
-    fn report(&self, coordinates: &Embedding, picture: DVec2) -> ChartReport {
+    fn report(&self, coordinates: &Embedding, picture: DVec2, placement: Placement) -> ChartReport {
         let step = &self.outcome.step;
         let mesh = step.mesh(self.disk());
-        let is_held = self.is_held();
+        let is_in_place = placement != Placement::Packed;
         let on_picture = || coordinates.iter().map(|uv| *uv * DVec2::new(picture.x / picture.y, 1.0)).collect();
-        let summary = if is_held { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
+        let summary =
+            if is_in_place { self.outcome.distortion.summary } else { distortion(mesh, &on_picture()).summary };
         // Targets are as the document has them, v up or down.
-        let in_document = upright(coordinates, self.outcome.problem.frame.v_axis).filter(|_| is_held);
+        let in_document = upright(coordinates, self.outcome.problem.frame.v_axis).filter(|_| is_in_place);
         let pins = pins_report(self.outcome, in_document.as_ref().unwrap_or(coordinates));
         let pins = pins.renumbered(|vertex| self.model.vertex_in_file(vertex));
         ChartReport {
@@ -180,7 +209,7 @@ impl SolvedChart<'_> {
             faces: mesh.mesh().real_face_count(),
             pins,
             boundary: if step.has_convex_boundary() { "convex" } else { "free" },
-            placement: if is_held { Placement::Pins } else { Placement::Packed },
+            placement,
             steps: self.steps.to_vec(),
             distortion: summary,
             density: self.density(coordinates, picture),
@@ -209,7 +238,13 @@ fn output<'a>(
         packing.map_or(of_frame, |PackingReport { picture: [width, height], .. }| f64::from(width) / f64::from(height));
     let [_, height] = packing.map_or(options.picture, |packing| packing.picture).map(f64::from);
     let picture = DVec2::new(aspect, 1.0) * height;
-    let reports = charts.par_iter().zip(&coordinates).map(|(chart, laid)| chart.report(laid, picture)).collect();
+    let placement = |chart: &SolvedChart<'_>| match packing {
+        _ if chart.is_held() => Placement::Pins,
+        Some(_) => Placement::Packed,
+        None => Placement::File,
+    };
+    let report = |(chart, laid): (&SolvedChart<'_>, &Embedding)| chart.report(laid, picture, placement(chart));
+    let reports = charts.par_iter().zip(&coordinates).map(report).collect();
     let written = |(chart, coordinates): (&SolvedChart<'a>, Embedding)| {
         let step = &chart.outcome.step;
         let mesh = step.mesh(chart.model.disk().expect("only a disk has an outcome"));

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Background, ChartState, Model, Outcome, Session, SolvedChart, Timeline, Wake, atlas};
+use super::{Arrangement, Background, ChartState, Model, Outcome, Session, SolvedChart, Timeline, Wake, atlas};
 use crate::geom::PackingOptions;
 use crate::io::{Output, PackingReport, StepReport};
 use crate::solver::AtlasVerdict;
@@ -14,6 +14,7 @@ use crate::solver::AtlasVerdict;
 pub(super) struct SolvedAtlas {
     charts: Vec<Solved>,
     options: PackingOptions,
+    arrangement: Arrangement,
 }
 
 /// One of them.
@@ -74,7 +75,7 @@ impl SolvedAtlas {
     /// The layout, proved as it is written.
     pub(super) fn output(&self) -> Output<'_> {
         let charts: Vec<SolvedChart<'_>> = self.charts.iter().map(Solved::chart).collect();
-        atlas(&charts, self.options)
+        atlas(&charts, self.options, self.arrangement)
     }
 
     fn view(&self) -> AtlasView {
@@ -119,7 +120,7 @@ impl Session {
         };
         let charts: Vec<Solved> = self.solved_charts().map(solved).collect();
         match self.charts().map_or(0, |charts| charts.count()) - charts.len() {
-            0 => Ok(SolvedAtlas { charts, options: self.packing() }),
+            0 => Ok(SolvedAtlas { charts, options: self.packing(), arrangement: Arrangement::AsGiven }),
             missing => Err(missing),
         }
     }

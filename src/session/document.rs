@@ -50,6 +50,30 @@ pub struct ChartEdits {
     pub relaxed: usize,
 }
 
+/// What is made of the mesh's faces, with all that is edited of vertices and charts, whose numbers belong to it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shape {
+    /// As [`Document::form`].
+    pub form: Form,
+    /// As [`Document::chart`].
+    pub chart: Option<usize>,
+    /// What is edited of the chart on the screen, or of the mesh.
+    pub shown: ChartEdits,
+    /// As [`Document::elsewhere`].
+    pub elsewhere: BTreeMap<usize, ChartEdits>,
+}
+
+impl Shape {
+    /// Takes the place of the document's, which it becomes.
+    fn exchange(&mut self, document: &mut Document) {
+        std::mem::swap(&mut self.form, &mut document.form);
+        std::mem::swap(&mut self.chart, &mut document.chart);
+        std::mem::swap(&mut self.shown.targets, &mut document.targets);
+        std::mem::swap(&mut self.shown.relaxed, &mut document.relaxed);
+        std::mem::swap(&mut self.elsewhere, &mut document.elsewhere);
+    }
+}
+
 impl Document {
     /// A built-in mesh's landmarks as constraints, on the picture that belongs to it.
     pub fn of_example(example: Example) -> Self {
@@ -125,6 +149,8 @@ pub enum Command {
     SetVAxis(VAxis),
     /// Takes the mesh's faces in another form.
     SetForm(Form),
+    /// Takes the mesh in another form, with all that is edited of its vertices.
+    Reshape(Box<Shape>),
     /// Chooses how many rounds of relaxing follow a run.
     SetRelaxed(usize),
     /// Puts another chart on the screen.
@@ -172,6 +198,10 @@ impl Command {
             Self::SetPicture(picture) => Self::SetPicture(std::mem::replace(&mut document.picture, picture)),
             Self::SetVAxis(v_axis) => Self::SetVAxis(std::mem::replace(&mut document.v_axis, v_axis)),
             Self::SetForm(form) => Self::SetForm(std::mem::replace(&mut document.form, form)),
+            Self::Reshape(mut shape) => {
+                shape.exchange(document);
+                Self::Reshape(shape)
+            }
             Self::SetRelaxed(rounds) => Self::SetRelaxed(std::mem::replace(&mut document.relaxed, rounds)),
             Self::ShowChart { to, from, chart } => {
                 let coming = document.elsewhere.remove(&to).unwrap_or_default();

@@ -129,7 +129,7 @@ impl Drag {
 
     /// Solves for base and column in the background.
     fn solve_column(&mut self, task: Task, dragged: Vec<VertexId>, prepared: Option<Arc<Prepared>>) {
-        let Task { mesh, problem } = task;
+        let Task { mesh, problem, .. } = task;
         let wanted = Wanted { problem: problem.clone(), dragged: dragged.clone() };
         self.following.start(wanted, move |cancel| {
             let control = Control::new(cancel, &|_| {});

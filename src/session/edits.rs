@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::errands::Errand;
+use super::open_mesh::Near;
 use super::{ChartEdits, Command, Document, Message, Place, Session};
 use crate::geom::{Bounds, PictureFrame, Similarity};
 use crate::io::{Constraints, ConstraintsError, PictureFile, Target, Targets};
@@ -268,7 +269,10 @@ impl Session {
                     self.take_constraints(constraints.targets);
                 }
                 Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
+                Errand::Near { distance, count } => self.mesh.take_near(Near { distance, count }),
                 Errand::Flat(flat) => self.take_flat(&flat),
+                Errand::Seams(read) => self.take_seams(read),
+                Errand::Recut(recut) => self.take_recut(*recut),
                 Errand::Formed(model) => {
                     self.mesh.take_other(Arc::from(model));
                     if !self.has_form_as_wanted() {
@@ -277,6 +281,7 @@ impl Session {
                 }
             }
         }
+        self.follow_seams();
     }
 
     /// Says why a constraint file is not used, and shows the vertices that it is about.

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::edits::Flat;
+use super::seams::Recut;
 use super::{Background, Messages, Model, Place, Wake};
-use crate::io::{Constraints, ConstraintsError, PictureError, PictureFile};
+use crate::io::{Constraints, ConstraintsError, EdgesError, PictureError, PictureFile};
+use crate::mesh::{VertexId, WeldDistance};
 
 /// What an errand brings back.
 pub(super) enum Errand {
@@ -15,6 +17,15 @@ pub(super) enum Errand {
     Constraints {
         path: PathBuf,
         read: Result<Constraints, ConstraintsError>,
+    },
+    /// Seams for the open mesh, from a file.
+    Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
+    /// The open mesh, cut along other seams.
+    Recut(Box<Recut>),
+    /// So many vertices of the open mesh lie within a distance of another.
+    Near {
+        distance: WeldDistance,
+        count: usize,
     },
     /// The open mesh in another form.
     Formed(Box<Model>),

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use super::action::Together;
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
 use super::saving::{ProjectSaves, Request, picture_source, source_of};
@@ -38,6 +39,8 @@ pub(super) struct Files {
     table: OnTable,
     /// What is being opened, by the file that is to be remembered once it is open.
     loading: Background<Option<PathBuf>, Result<Opened, OpenError>>,
+    /// What follows once that is open.
+    together: Option<Together>,
     /// Results being written.
     outputs: Background<(), Result<Written, WriteError>>,
     projects: ProjectSaves,
@@ -52,6 +55,7 @@ impl Files {
         Self {
             table: OnTable::default(),
             loading: Background::new("load", wake),
+            together: None,
             outputs: Background::new("save", wake),
             projects: ProjectSaves::new(wake),
             shown: Background::new("folder", wake),
@@ -93,8 +97,10 @@ impl Files {
     /// The document as a project file holds it.
     pub(super) fn project_file(&self, model: &Model, document: &Document) -> Option<ProjectFile> {
         let mut project = ProjectFile::new(source_of(model)?, &document.settings);
-        let Form { faces_turned, repair, holes, cut, seams } = document.form.clone();
+        let Form { faces_turned, repair, holes, cut, seams, left_out } = document.form.clone();
+        project.left_out_parts = left_out.iter().copied().collect();
         (project.faces_turned, project.repair, project.cut, project.seams) = (faces_turned, repair, cut, seams);
+        project.weld_distance = repair.weld_distance();
         project.holes = Some(holes);
         project.relaxed = document.relaxed;
         project.picture = match &document.picture {
@@ -117,17 +123,26 @@ impl Files {
 impl Files {
     /// Opens a mesh file or a project.
     pub(super) fn open(&mut self, path: PathBuf) {
+        self.together = None;
         self.loading.start(Some(path.clone()), move |_| Opened::read(&path));
+    }
+
+    /// Opens a mesh or a project; what belongs to it follows.
+    pub(super) fn open_together(&mut self, files: Together) {
+        self.open(files.mesh.clone());
+        self.together = Some(files);
     }
 
     /// Opens a built-in mesh.
     pub(super) fn open_example(&mut self, example: Example) {
+        self.together = None;
         self.loading.start(None, move |_| Ok(Opened::example(example)));
     }
 
     /// Opens what a session before has left. It belongs to this session from now on.
     pub(super) fn recover(&mut self, path: PathBuf, messages: &mut Messages) {
         if self.autosave.claim(&path) {
+            self.together = None;
             self.loading.start(None, move |_| Opened::recovered(&path));
         } else {
             let text = format!("another session works with it already, or it is gone: {}", path.display());
@@ -154,8 +169,14 @@ impl Files {
             Ok(Err(error)) => messages.fail(Place::Mesh, error.to_string(), Some(error.remedy())),
             Err(failure) => messages.fail_background(Place::Mesh, "loading", &failure),
         }
+        self.together = None;
         self.autosave.give_up_claim();
         None
+    }
+
+    /// What is to follow what was opened.
+    pub(super) fn take_together(&mut self) -> Option<Together> {
+        self.together.take()
     }
 
     /// Puts what was opened on the table, in the place of what was there.

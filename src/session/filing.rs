@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use super::action::Together;
 use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
 use crate::io::{EXTENSIONS, OutputFit, OutputKind, Precision, write_atomically, write_constraints, write_durably};
+use crate::solver::{Settings, Start};
 
 /// The most faults with a bar each, where all can be mended.
 const FAULTS_TOLD: usize = 2;
@@ -17,7 +19,8 @@ impl Session {
     pub(super) fn take_opened(&mut self, mut opened: Opened) {
         let is_mesh = matches!(opened.origin, Origin::Mesh);
         if is_mesh {
-            opened.document.settings = self.document.settings;
+            // A layout to start from was one of the mesh before.
+            opened.document.settings = Settings { start: Start::Afresh, ..self.document.settings };
         }
         self.files.put_on_table(&opened);
         let Opened { model, document, remarks, .. } = opened;
@@ -34,10 +37,26 @@ impl Session {
         for remark in remarks {
             self.messages.say(remark);
         }
+        let together = self.files.take_together();
         if waits {
             self.begin(Goal::Steps(1));
         } else {
             self.solve();
+        }
+        if let Some(together) = together {
+            self.open_beside(together);
+        }
+    }
+
+    /// Opens what belongs to the mesh that was opened, and says what is not opened.
+    fn open_beside(&mut self, Together { picture, constraints, left, .. }: Together) {
+        picture.into_iter().for_each(|path| self.open_picture(path));
+        constraints.into_iter().for_each(|path| self.import_constraints(path));
+        if !left.is_empty() {
+            let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let names: Vec<String> = left.iter().map(name).collect();
+            let text = format!("one mesh is open at a time, with one picture; not opened: {}", names.join(", "));
+            self.messages.say(Message::error(Place::Mesh, text).with_remedy("drop it by itself to open it"));
         }
     }
 

@@ -3,11 +3,15 @@
 use std::sync::Arc;
 
 use super::errands::Errand;
-use super::{Command, Session};
-use crate::mesh::{Form, Seams};
+use super::{Command, Place, Session};
+use crate::mesh::{Form, HoleTreatment, WeldDistance, near_vertices};
+use crate::solver::{Family, Method, Settings, Start};
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
 const FORMING: &str = "turning or mending the faces";
+
+/// The errand that counts vertices near each other.
+const COUNTING: &str = "counting near vertices";
 
 impl Session {
     /// Turns the faces around.
@@ -25,16 +29,61 @@ impl Session {
         }
     }
 
-    /// Cuts the mesh along these seams, and no others.
-    pub(super) fn set_seams(&mut self, seams: Seams) {
-        if self.model().is_some() && seams != self.document.form.seams {
-            self.edit(vec![Command::SetForm(Form { seams, ..self.document.form.clone() })]);
+    /// Takes the mesh in another form, as an edit.
+    pub(super) fn want_form(&mut self, form: Form) {
+        if self.model().is_some() && form != self.document.form {
+            self.edit(vec![Command::SetForm(form)]);
         }
     }
 
-    /// The seams that the mesh is to be cut along.
-    pub fn seams(&self) -> &Seams {
-        &self.document.form.seams
+    /// Fills holes while the mesh is flattened, or cuts it open from them to the outside.
+    pub(super) fn set_holes(&mut self, holes: HoleTreatment) {
+        let form = self.document.form.clone();
+        if holes != form.holes {
+            let cut = form.cut || holes == HoleTreatment::Cut;
+            self.want_form(Form { holes, cut, ..form });
+        }
+    }
+
+    /// Starts from the texture coordinates of the file, and cuts the mesh along their seams, where they have any: one edit. Where there
+    /// are pins, which go along with the cut, it is an edit of its own that follows.
+    pub(super) fn take_layout(&mut self) {
+        let Some(model) = self.model() else { return };
+        let is_torn = match model.source.has_texture_seams() {
+            Ok(is_torn) => is_torn,
+            Err(error) => return self.messages.fail(Place::Mesh, error.to_string(), None),
+        };
+        let (form, before) = (self.document.form.clone(), self.document.settings);
+        let mut seams = form.seams.clone();
+        seams.of_texture |= is_torn;
+        let method = if before.method.goes_on_from_layout() { before.method } else { Method::Auto };
+        let family = if before.family.power().is_some() { before.family } else { Family::default() };
+        let settings = Settings { method, family, start: Start::File, ..before };
+        if !self.is_bare() {
+            self.choose(settings);
+            return self.set_seams(seams);
+        }
+        self.edit(vec![Command::SetForm(Form { seams, ..form }), Command::SetSettings(settings)]);
+    }
+
+    /// Joins vertices that lie within a distance; or does not.
+    pub(super) fn weld(&mut self, within: Option<WeldDistance>) {
+        let form = self.document.form.clone();
+        self.want_form(Form { repair: form.repair.welding(within), ..form });
+    }
+
+    /// Counts the vertices that a distance would join, in the background: one distance at a time.
+    pub(super) fn count_near(&mut self, distance: WeldDistance) {
+        let Some(source) = self.model().map(|model| Arc::clone(&model.source)) else { return };
+        if self.near_count(distance).is_none() && !self.errands.is_under_way(COUNTING) {
+            let count = move || near_vertices(&source.polygons, distance).len();
+            self.errands.send(COUNTING, move |_| Errand::Near { distance, count: count() });
+        }
+    }
+
+    /// How many vertices a distance would join, where that was counted last.
+    pub fn near_count(&self, distance: WeldDistance) -> Option<usize> {
+        self.mesh.near().filter(|near| near.distance == distance).map(|near| near.count)
     }
 
     /// Brings the mesh into the form, and to the chart, that the document wants. Where that takes time, a solve follows by

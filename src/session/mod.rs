@@ -10,6 +10,7 @@
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
 //! | `forming`       | the form that the mesh is to have, and its chart on the screen             |
+//! | `seams`         | the mesh cut along other seams, with the pins that it has                  |
 //! | `v_axis`        | where v = 0 is on the picture                                              |
 //! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
@@ -31,6 +32,8 @@
 //! | `files`         | part: what is open and saved, read and written                             |
 //! | `opened`        | what opening brings                                                        |
 //! | `model`         | a mesh as it was opened                                                    |
+//! | `surface`       | what comes of its faces in a form: a disk, several, or faults              |
+//! | `seam_edges`    | edges of a mesh that seams follow as a rule                                |
 //! | `saving`        | projects on their way to the disk                                          |
 //! | `recovery`      | copies for recovery                                                        |
 //! | `folder`        | shows where a file lies                                                    |
@@ -65,20 +68,23 @@ mod recent;
 mod recovery;
 mod runs;
 mod saving;
+mod seam_edges;
+mod seams;
 mod solving;
 mod state;
 mod status;
 mod stop;
+mod surface;
 mod target_checks;
 mod timeline;
 mod v_axis;
 
-pub use action::{Action, SaveRequest};
-pub use atlas::{SolvedChart, atlas};
+pub use action::{Action, SaveRequest, Together};
+pub use atlas::{Arrangement, SolvedChart, atlas};
 pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
 pub use charts::ChartState;
-pub use document::{ChartEdits, Command, Document};
+pub use document::{ChartEdits, Command, Document, Shape};
 pub use drag::Preview;
 pub use history::History;
 pub use messages::{Message, Place, Severity, named};

@@ -5,12 +5,11 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::surface::{Found, cut_surface, is_refused_uncut, surface_of};
 use crate::examples::Example;
-use crate::io::{FileStamp, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
-use crate::mesh::{
-    Chart, Charts, Diagnosis, DiskMesh, Fault, Form, PolygonMesh, RepairExtent, Repaired, TriMesh, VertexId, diagnose,
-    relative_volume,
-};
+use crate::io::{FileStamp, LayoutError, MeshFile, PictureFile, ReadError, read_mesh_with, read_stream_with};
+use crate::mesh::{Chart, Charts, Diagnosis, DiskMesh, Form, PartFaces, Repaired, TriMesh, VertexId, relative_volume};
+use crate::solver::Embedding;
 
 /// Relative volume below which nobody can say which side of a surface is the outside: that of a cap 28 times as wide as
 /// it is high.
@@ -80,24 +79,28 @@ impl Model {
     ///
     /// As [`read`](Self::read), and [`ReadError::Cancelled`] where it was to stop.
     pub fn read_until(path: &Path, form: Form, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
-        let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
-        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        Ok(Self::as_in_file(name, Some(path.to_owned()), source).in_form(form))
+        Ok(Self::read_formless(path, is_enough)?.in_form(form))
     }
 
-    /// Reads and diagnoses a stream, looking now and then whether to stop. `name` is what to call it.
+    /// As [`read_until`](Self::read_until), for a form that depends on what is read: until it has one, the mesh has no faces.
     ///
     /// # Errors
     ///
     /// As [`read_until`](Self::read_until).
-    pub fn read_stream(
-        name: &str,
-        stream: impl Read,
-        form: Form,
-        is_enough: &dyn Fn() -> bool,
-    ) -> Result<Self, ReadError> {
+    pub fn read_formless(path: &Path, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
+        let source = read_mesh_with(path, &mut |_| flow(is_enough))?;
+        let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+        Ok(Self::as_in_file(name, Some(path.to_owned()), source))
+    }
+
+    /// As [`read_formless`](Self::read_formless), of a stream. `name` is what to call it.
+    ///
+    /// # Errors
+    ///
+    /// As [`read_until`](Self::read_until).
+    pub fn read_stream(name: &str, stream: impl Read, is_enough: &dyn Fn() -> bool) -> Result<Self, ReadError> {
         let source = read_stream_with(stream, &mut |_| flow(is_enough))?;
-        Ok(Self::as_in_file(name.to_owned(), None, source).in_form(form))
+        Ok(Self::as_in_file(name.to_owned(), None, source))
     }
 
     /// A built-in mesh.
@@ -132,13 +135,20 @@ impl Model {
         let source = if is_turned { Arc::new(self.source.turned()) } else { Arc::clone(&self.source) };
         let labels = if form.seams.of_texture { source.texture_labels().ok() } else { None };
         let repaired = |form: &Form| form.repaired_along(&source.polygons, labels.as_deref());
-        let has_seams = labels.is_some() || !form.seams.edges().is_empty();
+        let is_cut_along = !form.seams.edges().is_empty() && !is_refused_uncut(&source.polygons, form.repair);
+        let has_seams = labels.is_some() || is_cut_along;
         let found = if has_seams { cut_surface(repaired(&form)) } else { surface_of(&source.polygons, &form) };
         let remedy = match &found.surface {
             Surface::Disk(_) => None,
             Surface::Faulty(..) => Some(repaired(&form.mended())).filter(Repaired::flattens).map(Arc::new),
         };
         Self { form, source, remedy, ..self.clone() }.with(found)
+    }
+
+    /// Its parts, those that are left out among them.
+    pub fn parts(&self) -> Vec<PartFaces> {
+        let labels = if self.form.seams.of_texture { self.source.texture_labels().ok() } else { None };
+        self.form.parts(&self.source.polygons, labels.as_deref())
     }
 
     /// The chart that is wanted, where the mesh has several.
@@ -166,6 +176,14 @@ impl Model {
     /// Whether it is the chart that is wanted, where the mesh has several.
     pub(super) fn is_chart(&self, wanted: Option<usize>) -> bool {
         self.chart.as_ref().is_none_or(|of| of.number == of.charts.pick(wanted))
+    }
+
+    /// The sides of its edges that are listed as seams, with its own vertices.
+    pub fn seam_sides(&self) -> Vec<[VertexId; 2]> {
+        match &self.repaired {
+            Some(repaired) => repaired.seam_sides(&self.form.seams, &self.source.polygons),
+            None => self.form.seams.edges().iter().copied().collect(),
+        }
     }
 
     /// How many charts the mesh has.
@@ -209,6 +227,15 @@ impl Model {
         polygons.positions.len()
     }
 
+    /// The texture coordinates of the file as an embedding of this mesh or chart.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError`] where they are not all there, or a vertex has several.
+    pub fn layout(&self) -> Result<Embedding, LayoutError> {
+        self.source.layout(self.repaired.as_deref(), self.mesh())
+    }
+
     /// The disk, where it is one.
     pub fn disk(&self) -> Option<&Arc<DiskMesh>> {
         match &self.surface {
@@ -221,83 +248,6 @@ impl Model {
 impl Default for Surface {
     fn default() -> Self {
         Self::Faulty(Arc::default(), Arc::default())
-    }
-}
-
-/// What a file's faces are in a form.
-struct Found {
-    surface: Surface,
-    /// The repairs that this took.
-    repaired: Option<Arc<Repaired>>,
-    chart: Option<ChartOf>,
-}
-
-impl Found {
-    /// One chart of several.
-    fn chart(charts: &Arc<Charts>, number: usize) -> Self {
-        let chart = Arc::new(charts.chart(number));
-        let mesh = chart.repaired.triangulate();
-        let surface = match DiskMesh::try_from(mesh.clone()) {
-            Ok(disk) => Surface::Disk(Arc::new(disk)),
-            Err(diagnosis) => Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)),
-        };
-        let repaired = Some(Arc::new(chart.repaired.clone()));
-        Self { surface, repaired, chart: Some(ChartOf { charts: Arc::clone(charts), number, chart }) }
-    }
-
-    /// What is no disk, and is left so.
-    fn faulty(polygons: &PolygonMesh, diagnosis: Diagnosis) -> Self {
-        let surface = Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(diagnosis));
-        Self { surface, repaired: None, chart: None }
-    }
-}
-
-/// What a file's faces are in a form.
-fn surface_of(polygons: &PolygonMesh, form: &Form) -> Found {
-    let as_given = DiskMesh::try_from(polygons.triangulate()).and_then(|disk| {
-        let diagnosis = match form.repair {
-            RepairExtent::Nothing => diagnose(&polygons.triangulate()),
-            RepairExtent::Safe | RepairExtent::All => Diagnosis::default(),
-        };
-        if diagnosis.faults.is_empty() { Ok(disk) } else { Err(Box::new(diagnosis)) }
-    });
-    let diagnosis = match as_given {
-        Ok(disk) => return Found { surface: Surface::Disk(Arc::new(disk)), repaired: None, chart: None },
-        Err(diagnosis) => *diagnosis,
-    };
-    let is_no_fault = |fault: &Fault| fault.is_cut_open() || fault.is_of_charts();
-    if form.repair == RepairExtent::Nothing && !diagnosis.faults.iter().all(is_no_fault) {
-        return Found::faulty(polygons, diagnosis);
-    }
-    let repaired = form.repaired(polygons);
-    if let Ok(disk) = DiskMesh::try_from(repaired.triangulate())
-        && !repaired.done().is_empty()
-    {
-        return Found { surface: Surface::Disk(Arc::new(disk)), repaired: Some(Arc::new(repaired)), chart: None };
-    }
-    // Parts that lie side by side, vertex on vertex, are as a rule one surface that a program took apart.
-    let is_apart = |fault: &Fault| matches!(fault, Fault::CoincidentVertices(_)) && form.repair != RepairExtent::All;
-    let charts = if diagnosis.faults.iter().any(is_apart) { None } else { Charts::of(repaired) };
-    match charts.map(Arc::new) {
-        Some(charts) => Found::chart(&charts, charts.largest()),
-        None => Found::faulty(polygons, diagnosis),
-    }
-}
-
-/// What a surface is that is cut along its seams.
-fn cut_surface(repaired: Repaired) -> Found {
-    let mesh = repaired.triangulate();
-    match DiskMesh::try_from(mesh.clone()) {
-        Ok(disk) => {
-            let repaired = (!repaired.done().is_empty()).then(|| Arc::new(repaired));
-            Found { surface: Surface::Disk(Arc::new(disk)), repaired, chart: None }
-        }
-        Err(diagnosis) => match Charts::of(repaired).map(Arc::new) {
-            Some(charts) => Found::chart(&charts, charts.largest()),
-            None => {
-                Found { surface: Surface::Faulty(Arc::new(mesh), Arc::new(*diagnosis)), repaired: None, chart: None }
-            }
-        },
     }
 }
 

@@ -3,7 +3,14 @@
 use std::sync::Arc;
 
 use super::{Model, Session};
-use crate::mesh::{DiskMesh, Form};
+use crate::mesh::{DiskMesh, Form, Seams, WeldDistance};
+
+/// How many vertices of the mesh lie within a distance of another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    pub(super) distance: WeldDistance,
+    pub(super) count: usize,
+}
 
 /// The open mesh.
 #[derive(Debug, Default)]
@@ -11,13 +18,35 @@ pub(super) struct OpenMesh {
     model: Option<Arc<Model>>,
     /// The same mesh in the form that was wanted before, or is wanted next; or another chart of it.
     other: Option<Arc<Model>>,
+    /// Seams that a person asked for, while the mesh is cut along them.
+    wanted_seams: Option<Seams>,
+    /// The vertices near each other that were counted last.
+    near: Option<Near>,
     /// Counts the meshes opened, and their changes of form.
     revision: u64,
 }
 
 impl OpenMesh {
     pub(super) fn open(&mut self, model: Model) {
-        *self = Self { model: Some(Arc::new(model)), other: None, revision: self.revision + 1 };
+        *self = Self { model: Some(Arc::new(model)), revision: self.revision + 1, ..Self::default() };
+    }
+
+    /// Seams that a person asked for, while the mesh is cut along them.
+    pub(super) fn wanted_seams(&self) -> Option<&Seams> {
+        self.wanted_seams.as_ref()
+    }
+
+    /// Notes seams that a person asks for; or that none are asked for any more.
+    pub(super) fn want_seams(&mut self, seams: Option<Seams>) {
+        self.wanted_seams = seams;
+    }
+
+    pub(super) fn near(&self) -> Option<Near> {
+        self.near
+    }
+
+    pub(super) fn take_near(&mut self, near: Near) {
+        self.near = Some(near);
     }
 
     /// Takes in the mesh in another form, for [`change`](Self::change).

@@ -1,5 +1,6 @@
 //! A step with its proof: what the screen shows and what files say. And the problem that it solves.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use glam::DVec2;
@@ -7,13 +8,13 @@ use glam::DVec2;
 use super::Model;
 use crate::geom::{PictureFrame, VAxis};
 use crate::io::{
-    Materials, MeshReport, Output, OutputChart, OutputFit, PinsReport, Placement, Report, Seconds, StepReport, Target,
-    Targets, WeightedPinReport, pins_in_plane, verdict_as_in_file,
+    LayoutError, Materials, MeshReport, Output, OutputChart, OutputFit, PinsReport, Placement, Report, Seconds,
+    StepReport, Target, Targets, WeightedPinReport, pins_in_plane, verdict_as_in_file,
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Candidate, Distortion, Embedding, GaugeSize, Hold, Ladder, Pins, Settings, Sheet, Step, Verdict, are_held_alike,
-    distortion, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, verdict,
+    Candidate, Distortion, Embedding, GaugeSize, Hold, Ladder, Pins, Settings, Sheet, Start, Step, Verdict,
+    are_held_alike, distortion, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor, verdict,
 };
 
 /// What a run is to solve.
@@ -31,6 +32,24 @@ impl Problem {
     /// The pins in the plane.
     pub fn pins(&self) -> Pins {
         pins_in_plane(&self.targets, self.frame)
+    }
+
+    /// The steps that solve it on a mesh or chart, from the layout of its file on where that is wanted.
+    ///
+    /// # Errors
+    ///
+    /// [`LayoutError`] where it is wanted and is not there.
+    pub fn ladder_on(&self, model: &Model) -> Result<Ladder, LayoutError> {
+        Ok(match self.settings.start {
+            Start::File => self.ladder().starting_from(Arc::new(self.in_plane(&model.layout()?))),
+            Start::Afresh => self.ladder(),
+        })
+    }
+
+    /// The layout of a file, where v runs up, in the plane.
+    fn in_plane(&self, layout: &Embedding) -> Embedding {
+        let upright = upright(layout, self.frame.v_axis);
+        upright.as_ref().unwrap_or(layout).iter().map(|&uv| self.frame.plane_from_uv(uv)).collect()
     }
 
     /// The steps that solve it, each proved in the numbers that are written of it.
@@ -115,6 +134,9 @@ impl Outcome {
         if self.targets_in_use().next().is_some() {
             return self.as_it_lies(mesh, Placement::Pins);
         }
+        if self.step.lies_as_given && fit == OutputFit::Unit {
+            return self.as_it_lies(mesh, Placement::File);
+        }
         if self.problem.settings.size != GaugeSize::TrueArea {
             return self.as_it_lies(mesh, Placement::Picture);
         }
@@ -143,7 +165,8 @@ impl Outcome {
 
     /// The embedding as large as the surface in its file, and the verdict on it. `mesh` is the step's own.
     fn at_true_size(&self, mesh: &DiskMesh) -> (Embedding, Placement, Verdict) {
-        let (embedding, unit) = (&self.step.solution.embedding, mesh.unit());
+        let embedding = &self.step.solution.embedding;
+        let unit = mesh.unit() * if self.step.lies_as_given { true_area_factor(mesh, embedding) } else { 1.0 };
         if unit.to_bits() == 1.0_f64.to_bits() {
             return (embedding.clone(), Placement::True, self.step.verdict.clone());
         }
@@ -207,7 +230,7 @@ impl Outcome {
         let (Problem { settings, frame, .. }, step) = (&self.problem, &self.step);
         let (coordinates, placement, of_coordinates) = self.output(given, fit);
         let mesh = step.mesh(given);
-        let is_on_picture = matches!(placement, Placement::Pins | Placement::Picture);
+        let is_on_picture = matches!(placement, Placement::Pins | Placement::Picture | Placement::File);
         let is_as_solved = is_on_picture || coordinates == step.solution.embedding;
         let summary = if is_as_solved { self.distortion.summary } else { distortion(mesh, &coordinates).summary };
         let pins = pins_report(self, &coordinates);

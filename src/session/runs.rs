@@ -13,7 +13,7 @@ impl Session {
     pub(super) fn task(&mut self) -> Option<Task> {
         let has_form = self.bring_form();
         let mesh = self.disk().filter(|_| has_form)?.clone();
-        Some(Task { mesh, problem: self.document.problem() })
+        Some(Task { model: self.model()?.clone(), mesh, problem: self.document.problem() })
     }
 
     /// Begins a run of the document as it is now. While a gesture goes on it takes only its first step, which is

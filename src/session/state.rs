@@ -69,6 +69,7 @@ impl Session {
     pub fn handle(&mut self, action: Action) {
         match action {
             Action::Open(path) => self.files.open(path),
+            Action::OpenTogether(files) => self.files.open_together(files),
             Action::OpenExample(example) => self.files.open_example(example),
             Action::Recover(path) => self.files.recover(path, &mut self.messages),
             Action::DiscardRecovery(path) => self.files.autosave.discard(&path),
@@ -91,7 +92,7 @@ impl Session {
             Action::Compare(index) => self.solving.compare(index),
             Action::SetStop(stop) => self.solving.set_stop(stop),
             Action::GiveUpGesture => self.travel(History::give_up_gesture),
-            Action::Undo => self.travel(History::undo),
+            Action::Undo => self.undo(),
             Action::Redo => self.travel(History::redo),
             Action::Fix(vertices) => self.fix(&vertices),
             Action::OpenPicture(path) => self.open_picture(path),
@@ -99,7 +100,14 @@ impl Session {
             Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
             Action::Mend => self.mend(),
+            Action::SetHoles(holes) => self.set_holes(holes),
+            Action::TakeLayout => self.take_layout(),
+            Action::AllowRepair(repair) => self.want_form(self.document.form.allowing(repair)),
+            Action::Weld(within) => self.weld(within),
+            Action::CountNear(distance) => self.count_near(distance),
             Action::SetSeams(seams) => self.set_seams(seams),
+            Action::ImportSeams(path) => self.import_seams(path),
+            Action::ExportSeams(path) => self.export_seams(path),
             Action::ShowChart(number) => self.show_chart(number),
             Action::SetPacking(options) => self.set_packing(options),
             Action::SetChartSize { chart, size } => self.set_chart_size(chart, size),
@@ -139,6 +147,15 @@ impl Session {
         self.files.poll_copies(now, model.as_deref(), &self.document, &mut self.messages);
     }
 
+    /// Takes back the last edit: seams that the mesh is only being cut along, where there are some.
+    fn undo(&mut self) {
+        if self.mesh.wanted_seams().is_some() {
+            self.mesh.want_seams(None);
+        } else {
+            self.travel(History::undo);
+        }
+    }
+
     /// Goes to another state of the document, and solves where there is one.
     fn travel(&mut self, to: impl FnOnce(&mut History, &mut Document) -> bool) {
         let before = self.document.chart;
@@ -151,6 +168,7 @@ impl Session {
         self.files.cancel_loading();
         self.drag.stop_following();
         self.errands.forget();
+        self.mesh.want_seams(None);
         self.charts.forget_asked();
         self.solving.pause();
     }

@@ -30,6 +30,8 @@ pub enum Method {
     Relax,
     /// Polygons that cannot be convex, cut into triangles. A rung only, too.
     Cut,
+    /// The layout that was given to start from, as it is. A rung only, too.
+    Given,
 }
 
 impl Method {
@@ -51,6 +53,19 @@ impl Method {
     /// Whether it keeps every step one-to-one on the way to the constraints.
     pub const fn is_one_to_one(self) -> bool {
         matches!(self, Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut)
+    }
+
+    /// Whether it can go on from a layout that is there.
+    pub const fn goes_on_from_layout(self) -> bool {
+        matches!(
+            self,
+            Self::Auto | Self::Iterate | Self::VirtualBoundary | Self::Continuation | Self::Matchmaker | Self::Relax
+        )
+    }
+
+    /// Whether it can do so only where that is one-to-one.
+    pub const fn needs_one_to_one_start(self) -> bool {
+        self.goes_on_from_layout() && !matches!(self, Self::Iterate | Self::VirtualBoundary)
     }
 
     /// Whether it may bend the boundary, so that the growth of the pinned vertices matters.
@@ -76,6 +91,7 @@ impl Method {
             Self::Levy => Err(NoEquation::OfTriangles),
             Self::Schnyder => Err(NoEquation::OnGrid),
             Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut => Err(NoEquation::OfEnergy),
+            Self::Given => Err(NoEquation::OfFile),
         }
     }
 
@@ -97,13 +113,14 @@ impl Method {
             Self::Schnyder => "grid",
             Self::Relax => "relaxed",
             Self::Cut => "cut polygons",
+            Self::Given => "file's layout",
             other => other.name(),
         }
     }
 }
 
-/// A convex boundary stands for all shapes, which are a choice of their own. Relaxing and cutting cannot be chosen: they are
-/// rungs only.
+/// A convex boundary stands for all shapes, which are a choice of their own. Relaxing, cutting and a layout that was given
+/// cannot be chosen: they are rungs only.
 impl Choice for Method {
     const ALL: &'static [Self] = &[
         Self::Auto,
@@ -161,6 +178,9 @@ impl Choice for Method {
             Self::Cut => Words::new("cut", "Cut polygons")
                 .about("polygons that cannot be convex, cut into triangles")
                 .source("ours"),
+            Self::Given => {
+                Words::new("given", "File's layout").about("the texture coordinates of the mesh file, as they are")
+            }
         }
     }
 }

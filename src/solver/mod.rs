@@ -87,7 +87,7 @@ pub use placing::{to_true_area, to_unit_box, to_unit_square, to_unit_square_by_p
 pub use prepared::{Prepared, solve_once};
 pub use rounding::{Grid, Rounded, rounded};
 pub use schnyder::schnyder;
-pub use settings::{GaugeSize, Growth, Settings, Treatment};
+pub use settings::{GaugeSize, Growth, Settings, Start, Treatment};
 pub use shape_preserving::shape_preserving;
 pub use sheet::Sheet;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};

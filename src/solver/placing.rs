@@ -77,6 +77,20 @@ impl Placing {
         Self { ways: Similarity::fitting(&pairs).into_iter().chain(shifts).collect(), anchors: Vec::new() }
     }
 
+    /// Over another embedding of the same vertices, as large and turned as it is; a pin moves it from there onto its target.
+    pub(super) fn over(embedding: &Embedding, other: &Embedding, pins: &Pins) -> Self {
+        let pairs: Vec<[DVec2; 2]> = embedding.iter().zip(other.iter()).map(|(a, b)| [*a, *b]).collect();
+        let stays = Similarity::new(DVec2::X, DVec2::ZERO, DVec2::ZERO);
+        let over = Similarity::laying_over(&pairs).unwrap_or(stays);
+        match pins.iter().next() {
+            Some((&vertex, pin)) => {
+                let ways = [over, stays].map(|way| way.moved([embedding[vertex], pin.target]));
+                Self { ways: ways.into(), anchors: vec![(vertex, pin.target)] }
+            }
+            None => Self { ways: vec![over, stays], anchors: Vec::new() },
+        }
+    }
+
     /// The embedding in the place that is wished for.
     pub(super) fn as_wished(&self, embedding: &Embedding) -> Embedding {
         self.along(&self.ways[0], embedding)

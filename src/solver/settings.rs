@@ -1,5 +1,7 @@
 //! Everything about a solve but the mesh and the pins.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Choice, Family, Hold, Method, Pin, Pins, Words};
 use crate::geom::Bounds;
 
@@ -66,6 +68,30 @@ pub enum GaugeSize {
     Within(Bounds),
 }
 
+/// What the first step is of methods that can go on from a layout.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// A map computed from the surface alone.
+    #[default]
+    Afresh,
+    /// The texture coordinates of the mesh file, as they are.
+    File,
+}
+
+impl Choice for Start {
+    const ALL: &'static [Self] = &[Self::Afresh, Self::File];
+
+    fn words(self) -> Words {
+        match self {
+            Self::Afresh => Words::new("afresh", "Afresh").about("the map is computed from the surface alone"),
+            Self::File => Words::new("file", "File's layout").about(
+                "the texture coordinates of the file are the first step, as they are, and the method goes on from them",
+            ),
+        }
+    }
+}
+
 /// Everything about a solve but the mesh and the pins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -86,6 +112,8 @@ pub struct Settings {
     pub relax_rounds: Option<usize>,
     /// Whether edges may be split where the constraints cannot be met otherwise.
     pub new_vertices: bool,
+    /// What the first step is.
+    pub start: Start,
 }
 
 impl Default for Settings {
@@ -99,6 +127,7 @@ impl Default for Settings {
             size: GaugeSize::default(),
             relax_rounds: None,
             new_vertices: true,
+            start: Start::default(),
         }
     }
 }

@@ -86,6 +86,8 @@ pub enum NoEquation {
     OfEnergy,
     /// The step counts vertices.
     OnGrid,
+    /// The step is the layout of the file.
+    OfFile,
 }
 
 impl NoEquation {
@@ -96,6 +98,7 @@ impl NoEquation {
             Self::OfTriangles => "Lévy's equations belong to triangles: they have no barycentre.",
             Self::StepBeforeMissing => "Its weights come from the step before, of which only the numbers were kept.",
             Self::OtherWeights => "Its weights are a last resort against rounding, not those of an embedding.",
+            Self::OfFile => "This step is the layout of the file: nothing was solved for it.",
             Self::OnGrid => "This step is a drawing on a grid: its coordinates count vertices.",
             Self::OfEnergy => "This step minimises an energy of whole faces: vertices have no equations of their own.",
         }

@@ -129,6 +129,15 @@ pub(in crate::ui) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
+/// A number of 0 or more with the five digits that mean something.
+pub(in crate::ui) fn five_digits(number: f64) -> String {
+    if number != 0.0 && !(1e-3..1e5).contains(&number) {
+        return format!("{number:.1e}");
+    }
+    let unit = 10_f64.powf((4.0 - number.log10().floor()).clamp(0.0, 4.0));
+    ((number * unit).round() / unit).to_string()
+}
+
 /// The words with a capital at the beginning.
 pub fn sentence(words: &str) -> String {
     // A message begins with the file's name where it has one, and that is spelt as it is.

@@ -11,7 +11,8 @@ fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {
     points.iter().map(|&(x, y)| rect.min + egui::vec2(x, y) * scale).collect()
 }
 
-/// Draws a tool into a square: an arrow as the mouse has it; a drawing pin; a dot, and a diamond that it is joined with.
+/// Draws a tool into a square: an arrow as the mouse has it; a drawing pin; a dot, and a diamond that it is joined with; a
+/// path with stitches across.
 pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Color32) {
     let stroke = Stroke::new(1.6, colour);
     let outline: &[(f32, f32)] = match tool {
@@ -20,18 +21,25 @@ pub(super) fn tool(painter: &egui::Painter, rect: Rect, tool: Tool, colour: Colo
         }
         Tool::Fix => &[(9.0, 5.0), (15.0, 5.0), (14.2, 11.0), (16.6, 13.6), (7.4, 13.6), (9.8, 11.0)],
         Tool::Constrain => &[(16.5, 4.5), (20.0, 8.0), (16.5, 11.5), (13.0, 8.0)],
+        Tool::Seam => &[],
     };
     painter.add(Shape::closed_line(on_grid(rect, outline), stroke));
     let line: &[(f32, f32)] = match tool {
         Tool::Select => &[],
         Tool::Fix => &[(12.0, 13.6), (12.0, 19.5)],
         Tool::Constrain => &[(7.5, 16.5), (14.2, 10.0)],
+        Tool::Seam => &[(5.0, 19.0), (9.0, 14.5), (15.0, 9.5), (19.0, 5.0)],
     };
     let line = on_grid(rect, line);
     if tool == Tool::Constrain {
         painter.circle_filled(line[0], 2.8 * rect.width() / 24.0, colour);
     }
     painter.add(Shape::line(line, stroke));
+    if tool == Tool::Seam {
+        for stitch in [[(4.6, 14.2), (9.4, 19.4)], [(9.6, 9.4), (14.4, 14.6)], [(14.6, 4.6), (19.4, 9.8)]] {
+            painter.add(Shape::line(on_grid(rect, &stitch), stroke));
+        }
+    }
 }
 
 /// What a sign says at a glance. Good, bad and doubtful differ in form too, so that colour is never the only difference.

@@ -71,6 +71,8 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::V, Tool::Select.words()[2], || Request::SetTool(Tool::Select)),
     bind(NONE, Key::P, Tool::Fix.words()[2], || Request::SetTool(Tool::Fix)),
     bind(NONE, Key::C, Tool::Constrain.words()[2], || Request::SetTool(Tool::Constrain)),
+    bind(NONE, Key::X, Tool::Seam.words()[2], || Request::SetTool(Tool::Seam)),
+    bind(NONE, Key::Enter, "End the seam that is being drawn", || Request::EndSeam),
     bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::Backspace, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::F, "Frame the selection, or all", || Request::Frame),
@@ -165,7 +167,9 @@ impl Keyboard {
             Key::Escape => self.menu_open,
             // Once a control has the keyboard, Tab walks on to the next.
             Key::Tab => self.focus != Focus::Nothing,
-            Key::Space => self.menu_open || self.focus == Focus::Clickable,
+            Key::Space | Key::Enter if !binding.shortcut.modifiers.command => {
+                self.menu_open || self.focus == Focus::Clickable
+            }
             Key::ArrowLeft | Key::ArrowRight | Key::Home | Key::End => self.menu_open || self.focus != Focus::Nothing,
             _ => false,
         };

@@ -27,8 +27,10 @@ mod typed;
 mod window;
 
 pub use controls::sentence;
-use controls::{Control, Offer, close_button, counted, figures, heads, list, number, pairs, remark, tip_with_keys};
-pub use editor::{Defect, Editor, Pane, Request, Shading, Stage, StepTarget, Tab, Tool};
+use controls::{
+    Control, Offer, close_button, counted, figures, five_digits, heads, list, number, pairs, remark, tip_with_keys,
+};
+pub use editor::{Defect, Editor, Pane, Request, SeamClick, SeamRule, Shading, Stage, StepTarget, Tab, Tool};
 use editor::{Element, HullScene, Purpose};
 use keys::keys_of;
 pub use keys::{BINDINGS, Binding};

@@ -53,6 +53,8 @@ pub struct Theme {
     pub separator: Color32,
     /// The boundary's line.
     pub boundary: Srgb,
+    /// Where the mesh is cut along seams.
+    pub seam: Srgb,
     /// The outline of a step that is compared.
     pub ghost: Srgb,
     /// The hull of a virtual boundary.
@@ -137,6 +139,7 @@ const fn theme(tone: Column) -> Theme {
         weak_text: tone.colour(0x006A_6D70, 0x009B_9EA3),
         separator: tone.colour(0x00DD_DDD9, 0x0038_3A3F),
         boundary: tone.srgb(0x003A_3A38, 0x00EC_ECE8),
+        seam: tone.srgb(0x00B0_006D, 0x00FF_6FB5),
         ghost: tone.srgb(0x006F_8CE4, 0x006F_8BEA),
         hull: tone.srgb(0x00C9_3A3A, 0x00FF_7070),
         pocket: pocket.with_alpha(tone.of(170, 110)),

@@ -5,7 +5,6 @@ use eframe::egui::{self, Frame, Margin, Panel, Rect, Sense, Vec2};
 use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTHS, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
 use super::{Editor, Intent, Pane, Request};
-use crate::session::Action;
 use crate::ui::panels::{self, floating, menu, status, unsaved};
 use crate::ui::panes::constrain;
 use crate::ui::panes::mesh_pane::mesh_pane_ui;
@@ -57,6 +56,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
     if editor.pointer.pane().is_none() && editor.tools.dragged().is_none() {
         // Not before: the pane drawn first shows what the pointer found in the other.
         editor.pointer.set_vertex(None);
+        editor.tools.seam.set_under(None);
     }
     constrain::line_across(ui, editor);
     floating::floating_windows(ui.ctx(), editor, &mut requests);
@@ -121,12 +121,8 @@ fn splitter(ui: &egui::Ui, editor: &mut Editor, all: Rect, middle: f32) {
     ui.painter().vline(middle, all.y_range(), egui::Stroke::new(1.0, colour));
 }
 
-/// Files dropped on the window are opened: a mesh or project alone, since the others would belong to the one before.
+/// Files dropped on the window are opened.
 fn dropped_files(ui: &egui::Ui) -> Vec<Request> {
-    let dropped = |input: &egui::InputState| {
-        input.raw.dropped_files.iter().map(|file| Editor::dropped(file.path().to_owned())).collect()
-    };
-    let asked: Vec<Request> = ui.input(dropped);
-    let open = asked.iter().find(|request| matches!(request, Request::Do(Action::Open(_)))).cloned();
-    open.map_or(asked, |open| vec![open])
+    let paths = |input: &egui::InputState| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect();
+    Editor::dropped(ui.input(paths))
 }

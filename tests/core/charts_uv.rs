@@ -10,7 +10,7 @@ use crate::many_parts::{interleaved, torus};
 use crate::program::Program;
 
 /// A mesh whose faces are in groups: corners have one coordinate where they have one vertex and one group.
-fn grouped(polygons: PolygonMesh, group: impl Fn(usize) -> usize) -> MeshFile {
+pub(crate) fn grouped(polygons: PolygonMesh, group: impl Fn(usize) -> usize) -> MeshFile {
     let count = polygons.positions.len();
     let groups = (0..polygons.face_count()).map(&group).max().map_or(0, |most| most + 1);
     let coordinates = (0..groups * count).map(|k| DVec2::new((k % count) as f64, (k / count) as f64)).collect();
@@ -19,7 +19,7 @@ fn grouped(polygons: PolygonMesh, group: impl Fn(usize) -> usize) -> MeshFile {
     MeshFile { texture: Some(Texture { coordinates, corners }), polygons, ..MeshFile::default() }
 }
 
-fn write(program: &Program, name: &str, file: &MeshFile) {
+pub(crate) fn write(program: &Program, name: &str, file: &MeshFile) {
     let mut bytes = Vec::new();
     write_obj(&mut bytes, file, file.texture.as_ref().unwrap_or(&Texture::default())).expect("memory");
     program.write(name, std::str::from_utf8(&bytes).expect("text"));

@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use freebound::mesh::{
-    DiskMesh, FIRST_HOLE, Form, HoleTreatment, PolygonMesh, Repair, RepairExtent, Repaired, TriMesh, VertexId,
-    diagnose, parts,
+    DiskMesh, FIRST_HOLE, Form, HoleTreatment, PolygonMesh, Repair, Repaired, Repairs, TriMesh, VertexId, diagnose,
+    parts,
 };
 use freebound::solver::{
     AtlasVerdict, Choice as _, Control, Embedding, Ending, Family, Ladder, Method, Pin, Pins, Settings, SolveError,
@@ -222,7 +222,7 @@ fn the_longest_loop_is_the_outer_one() {
 #[test]
 fn holes_stay_where_nothing_may_be_repaired_or_they_are_to_be_cut_and_where_there_are_handles() {
     let ring = PolygonMesh::from(&band(8, 0));
-    let none = Form { repair: RepairExtent::Nothing, ..Form::default() };
+    let none = Form { repair: Repairs::NONE, ..Form::default() };
     let cut = Form { holes: HoleTreatment::Cut, ..Form::default() };
     for form in [none, cut] {
         assert_eq!(form.repaired(&ring).done(), [], "{form:?}");

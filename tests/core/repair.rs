@@ -1,6 +1,6 @@
 //! Repairs: each by itself, where every corner comes from, and surfaces of all kinds cut open to disks.
 
-use freebound::mesh::{DiskMesh, PolygonMesh, Repair, RepairExtent, Repaired, TriMesh, VertexId, diagnose};
+use freebound::mesh::{DiskMesh, PolygonMesh, Repair, Repaired, Repairs, TriMesh, VertexId, diagnose};
 use glam::DVec3;
 
 use crate::common::manifest;
@@ -52,8 +52,8 @@ fn assert_comes_from(source: &PolygonMesh, repaired: &Repaired) {
     }
 }
 
-fn repaired(source: &PolygonMesh, extent: RepairExtent) -> Repaired {
-    let repaired = Repaired::new(source, extent);
+fn repaired(source: &PolygonMesh, repairs: Repairs) -> Repaired {
+    let repaired = Repaired::new(source, repairs);
     assert_comes_from(source, &repaired);
     repaired
 }
@@ -65,8 +65,8 @@ fn is_disk(repaired: &Repaired) -> bool {
 #[test]
 fn nothing_is_done_to_a_disk() {
     let source = PolygonMesh::from(&grid(3, 2));
-    for extent in [RepairExtent::Nothing, RepairExtent::Safe, RepairExtent::All] {
-        let repaired = repaired(&source, extent);
+    for repairs in [Repairs::NONE, Repairs::SAFE, Repairs::ALL] {
+        let repaired = repaired(&source, repairs);
         assert_eq!((done(&repaired), repaired.polygons()), (vec![], &source));
     }
 }
@@ -74,7 +74,7 @@ fn nothing_is_done_to_a_disk() {
 #[test]
 fn a_quad_that_names_a_vertex_twice_becomes_a_triangle() {
     let source = polygons(4, &[&[0, 1, 1, 2], &[2, 3, 0]]);
-    let repaired = repaired(&source, RepairExtent::Safe);
+    let repaired = repaired(&source, Repairs::SAFE);
     assert_eq!(done(&repaired), [(Repair::DropRepeatedCorners, 1)]);
     assert_eq!(faces(&repaired), [[0, 1, 2], [2, 3, 0]]);
     assert!(is_disk(&repaired));
@@ -83,7 +83,7 @@ fn a_quad_that_names_a_vertex_twice_becomes_a_triangle() {
 #[test]
 fn faces_that_cannot_keep_three_corners_go() {
     let source = polygons(5, &[&[0, 1, 2], &[1, 1, 2], &[2, 0, 2, 0], &[0, 2, 3, 4], &[3, 0, 3, 2, 4]]);
-    let repaired = repaired(&source, RepairExtent::Safe);
+    let repaired = repaired(&source, Repairs::SAFE);
     assert_eq!(done(&repaired), [(Repair::DropRepeatedCorners, 3)]);
     assert_eq!(faces(&repaired), [vec![0, 1, 2], vec![0, 2, 3, 4]]);
 }
@@ -91,7 +91,7 @@ fn faces_that_cannot_keep_three_corners_go() {
 #[test]
 fn a_face_that_is_there_again_goes_however_it_runs() {
     let source = polygons(4, &[&[0, 1, 2, 3], &[2, 1, 0, 3], &[3, 0, 1, 2]]);
-    let repaired = repaired(&source, RepairExtent::Safe);
+    let repaired = repaired(&source, Repairs::SAFE);
     assert_eq!(done(&repaired), [(Repair::DropDuplicateFaces, 2)]);
     assert_eq!(faces(&repaired), [[0, 1, 2, 3]]);
 }
@@ -101,7 +101,7 @@ fn fans_that_meet_in_a_vertex_get_one_each() {
     // Two sheets of one surface, which meets itself at vertex 0 of its boundary.
     let source = polygons(6, &[&[0, 1, 2], &[1, 3, 2], &[3, 4, 2], &[4, 5, 2], &[4, 0, 5]]);
     assert!(!diagnose(&source.triangulate()).is_disk());
-    let repaired = repaired(&source, RepairExtent::Safe);
+    let repaired = repaired(&source, Repairs::SAFE);
     assert_eq!(done(&repaired), [(Repair::SplitVertices, 1)]);
     assert_eq!(faces(&repaired)[4], [4, 6, 5]);
     assert!(is_disk(&repaired));
@@ -117,8 +117,8 @@ fn soup_is_welded_and_turned_where_all_is_allowed() {
         face.reverse();
     }
     let source = PolygonMesh { positions, corners, starts: None };
-    assert!(!is_disk(&repaired(&source, RepairExtent::Safe)));
-    let all = repaired(&source, RepairExtent::All);
+    assert!(!is_disk(&repaired(&source, Repairs::SAFE)));
+    let all = repaired(&source, Repairs::ALL);
     assert!(is_disk(&all));
     let used: std::collections::BTreeSet<VertexId> = all.polygons().corners.iter().copied().collect();
     assert_eq!(used.len(), sheet.vertex_count());
@@ -129,7 +129,7 @@ fn soup_is_welded_and_turned_where_all_is_allowed() {
 #[test]
 fn an_edge_of_three_faces_is_split_where_all_is_allowed() {
     let source = polygons(5, &[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4]]);
-    let all = repaired(&source, RepairExtent::All);
+    let all = repaired(&source, Repairs::ALL);
     assert_eq!(done(&all), [(Repair::SplitEdges, 1)]);
     assert_eq!(faces(&all), [[0, 1, 2], [5, 6, 3], [7, 8, 4]]);
 }
@@ -176,7 +176,7 @@ fn with_holes(mut mesh: TriMesh, holes: &[usize]) -> TriMesh {
 /// Cuts a surface open and returns how many edges that took.
 fn assert_cut(name: &str, mesh: &TriMesh) -> usize {
     let source = PolygonMesh::from(mesh);
-    let cut = repaired(&source, RepairExtent::All).cut_to_disks();
+    let cut = repaired(&source, Repairs::ALL).cut_to_disks();
     assert_comes_from(&source, &cut);
     assert!(is_disk(&cut), "{name}: {}", diagnose(&cut.triangulate()));
     assert_eq!(cut.polygons().face_count(), mesh.face_count(), "{name}");
@@ -232,7 +232,7 @@ fn polygons_are_cut_along_their_own_edges() {
         let turn = std::f64::consts::TAU * (k % columns as usize) as f64 / 12.0;
         *p = DVec3::new(turn.cos(), turn.sin(), p.y);
     }
-    let cut = repaired(&sheet, RepairExtent::Safe).cut_to_disks();
+    let cut = repaired(&sheet, Repairs::SAFE).cut_to_disks();
     assert_comes_from(&sheet, &cut);
     let disk = DiskMesh::try_from(cut.triangulate()).expect("a disk");
     assert_eq!(disk.polygons().count(), 72, "no quad is cut through");
@@ -242,7 +242,7 @@ fn polygons_are_cut_along_their_own_edges() {
 #[test]
 fn a_closed_head_is_cut_behind_its_face() {
     let head = head(20);
-    let cut = repaired(&head, RepairExtent::Safe).cut_to_disks();
+    let cut = repaired(&head, Repairs::SAFE).cut_to_disks();
     let disk = DiskMesh::try_from(cut.triangulate()).expect("a disk");
     assert_eq!(disk.polygons().count(), 6 * 20 * 20);
     let is_of_face = |at: DVec3| at.z > 0.45 && at.x.abs() < 0.5 && at.y.abs() < 0.6;
@@ -258,7 +258,7 @@ fn several_parts_are_left_as_they_are() {
     two.positions.extend(other.positions.iter().map(|p| *p + 9.0 * DVec3::X));
     two.triangles.extend(other.triangles.iter().map(|t| t.map(|v| VertexId::from_index(v.index() + offset))));
     let source = PolygonMesh::from(&two);
-    let whole = repaired(&source, RepairExtent::All);
+    let whole = repaired(&source, Repairs::ALL);
     assert_eq!(whole.clone().cut_to_disks(), whole);
 }
 
@@ -267,9 +267,24 @@ fn bad_files_of_one_part_become_disks() {
     let mut seen = 0;
     let wanted = ["closed_fish", "degenerate_capsule", "holes_plane", "moebius", "torus_one_hole"];
     for entry in manifest().iter().filter(|entry| wanted.iter().any(|name| entry.file == format!("bad/{name}.obj"))) {
-        let cut = Repaired::new(&entry.read().polygons, RepairExtent::All).cut_to_disks();
+        let cut = Repaired::new(&entry.read().polygons, Repairs::ALL).cut_to_disks();
         assert!(is_disk(&cut), "{}: {}", entry.file, diagnose(&cut.triangulate()));
         seen += 1;
     }
     assert!(seen == wanted.len() || manifest().is_empty());
+}
+
+#[test]
+fn repairs_are_the_same_after_they_were_written_and_read() {
+    for bits in 0..1_u8 << Repair::CHOSEN.len() {
+        let chosen = Repair::CHOSEN.into_iter().enumerate().filter(|(place, _)| bits >> place & 1 == 1);
+        let repairs = chosen.clone().fold(Repairs::NONE, |repairs, (_, repair)| repairs.with(repair));
+        assert!(Repair::CHOSEN.into_iter().enumerate().all(|(k, r)| repairs.allows(r) == (bits >> k & 1 == 1)));
+        assert_eq!(repairs.to_string().parse(), Ok(repairs), "{repairs}");
+        assert_eq!(serde_json::from_str::<Repairs>(&format!("\"{repairs}\"")).expect("a set"), repairs);
+    }
+    let names = [Repairs::NONE, Repairs::SAFE, Repairs::ALL, Repairs::SAFE.with(Repair::TurnFaces)];
+    assert_eq!(names.map(|repairs| repairs.to_string()), ["none", "safe", "all", "safe,turn-faces"]);
+    let fewer = Repairs::NONE.with(Repair::WeldVertices).with(Repair::SplitEdges);
+    assert_eq!(fewer.to_string(), "weld-vertices,split-edges");
 }

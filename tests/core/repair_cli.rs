@@ -111,3 +111,43 @@ fn check_names_faces_as_the_file_counts_them() {
     let run = program.run(&["check", "in.obj"]).expect(4);
     assert!(run.stdout.contains("1 pair of faces of different charts overlaps (0 and 1)"), "{}", run.stdout);
 }
+
+/// Two triangles side by side, their common edge taken apart by a little; the second one runs the other way.
+const APART: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.001 0 0\nv 0.001 1 0\nv 1 1 .3\nf 1 2 3\nf 4 5 6\n";
+
+#[test]
+fn vertices_are_welded_within_the_distance_that_is_asked_for_and_the_file_keeps_its_positions() {
+    let program = Program::new();
+    program.write("apart.obj", APART);
+    let report = |options: &[&str]| {
+        let arguments = ["flatten", "apart.obj", "--report", "-", "--output", "out.obj"];
+        program.run(&[&arguments[..], options].concat()).expect(0).json()
+    };
+    assert_eq!(report(&["--weld", "0.0009"])["charts"].as_array().map(Vec::len), Some(2));
+    let welded = report(&["--weld", "0.002", "--repair", "safe,turn-faces"]);
+    let expected = json!([{"repair": "weld-vertices", "count": 2}, {"repair": "turn-faces", "count": 1}]);
+    assert_eq!((repairs(&welded), &welded["verdict"]["planar"]), (&expected, &json!(true)));
+    let written = std::fs::read_to_string(program.path("out.obj")).expect("written");
+    let kept = |text: &str| text.lines().filter(|line| line.starts_with("v ")).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(kept(&written), kept(APART));
+    // Both sides of the common edge have the same coordinates.
+    let texture = read_mesh(&program.path("out.obj")).expect("a mesh").texture.expect("coordinates");
+    let at = |corner: usize| texture.coordinates[texture.corners[corner] as usize];
+    assert_eq!([at(1), at(2)], [at(3), at(4)]);
+}
+
+#[test]
+fn repairs_are_chosen_one_by_one_and_an_unknown_one_is_refused_with_the_names_of_all() {
+    let program = Program::new();
+    program.write("apart.obj", APART);
+    // Welded, but not turned: the faces clash.
+    let refused = program.run(&["flatten", "apart.obj", "--weld", "0.002", "--repair", "none"]).expect(3);
+    assert!(refused.stderr.contains("mixed-orientation"), "{}", refused.stderr);
+    program.run(&["flatten", "apart.obj", "--weld", "0.002", "--repair", "turn-faces"]).expect(0);
+    let unknown = program.run(&["flatten", "apart.obj", "--repair", "safe,turn"]).expect(2);
+    assert!(unknown.stderr.contains("no repair \"turn\": name some of none, safe, all, drop-"), "{}", unknown.stderr);
+    for odd in ["-1", "nan", "inf", "1cm"] {
+        let refused = program.run(&["flatten", "apart.obj", "--weld", odd]).expect(2);
+        assert!(refused.stderr.contains("write a distance of 0 or more"), "{odd}: {}", refused.stderr);
+    }
+}

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use freebound::mesh::{EdgePaths, PathTree, PolygonMesh, RepairExtent, TriMesh, VertexId};
+use freebound::mesh::{EdgePaths, PathTree, PolygonMesh, Repairs, Seams, TriMesh, VertexId};
 use glam::DVec3;
 
 use crate::makers::{Random, grid, quad_sheet, tetrahedron};
@@ -64,7 +64,7 @@ fn distances(mesh: &PolygonMesh, costs: &BTreeMap<Edge, f64>, from: VertexId) ->
 }
 
 fn tree(mesh: &PolygonMesh, from: VertexId, creases: f64) -> PathTree {
-    PathTree::new(&Arc::new(EdgePaths::new(mesh, RepairExtent::Safe)), from, creases)
+    PathTree::new(&Arc::new(EdgePaths::new(mesh, Repairs::SAFE)), from, creases)
 }
 
 /// Asserts that edges lead without a gap from one vertex back to another.
@@ -166,9 +166,9 @@ fn a_path_crosses_where_the_repair_joins_two_sheets_and_not_where_it_does_not() 
     };
     let mesh = PolygonMesh::from(&both);
     let [from, to] = [0, 2 * count - 1].map(VertexId::new);
-    let path = |extent: RepairExtent| PathTree::new(&Arc::new(EdgePaths::new(&mesh, extent)), from, 0.0).path_to(to);
-    assert_eq!(path(RepairExtent::Safe), None);
-    let path = path(RepairExtent::All).expect("welded, they are one");
+    let path = |repairs: Repairs| PathTree::new(&Arc::new(EdgePaths::new(&mesh, repairs)), from, 0.0).path_to(to);
+    assert_eq!(path(Repairs::SAFE), None);
+    let path = path(Repairs::ALL).expect("welded, they are one");
     let real: Vec<Edge> = costs(&mesh, 0.0).into_keys().collect();
     assert!(path.iter().all(|&edge| real.contains(&ordered(edge))), "edges are the file's: {path:?}");
     let places: Vec<[DVec3; 2]> = path.iter().map(|edge| edge.map(|v| mesh.positions[v.index()])).collect();
@@ -187,4 +187,31 @@ fn there_are_no_paths_where_corners_are_missing_or_to_a_vertex_that_is_not_there
     assert_eq!(there(&mesh, 8), None);
     let stroke = PolygonMesh { corners: vec![VertexId::new(0); 2], starts: Some(vec![0, 2]), ..mesh };
     assert_eq!(there(&stroke, 8), None);
+}
+
+fn edges(of: &[[u32; 2]]) -> Vec<Edge> {
+    of.iter().map(|edge| edge.map(VertexId::new)).collect()
+}
+
+#[test]
+fn a_stretch_of_a_seam_ends_where_seams_end_or_meet() {
+    // A line 0–1–2–3 with a branch 2–4–5, and a ring 6–7–8.
+    let seams = Seams::default().with(edges(&[[0, 1], [2, 1], [2, 3], [2, 4], [5, 4], [6, 7], [7, 8], [8, 6]]));
+    let through = |vertex: u32| seams.stretches_through(VertexId::new(vertex));
+    assert_eq!(through(1), edges(&[[0, 1], [1, 2]]));
+    assert_eq!(through(0), through(1));
+    assert_eq!(through(5), edges(&[[2, 4], [4, 5]]));
+    assert_eq!(through(2), edges(&[[0, 1], [1, 2], [2, 3], [2, 4], [4, 5]]), "where seams meet, all that meet");
+    assert_eq!(through(7), edges(&[[6, 7], [6, 8], [7, 8]]));
+    assert!(through(9).is_empty());
+}
+
+#[test]
+fn a_way_along_seams_takes_the_fewest_edges() {
+    let seams = Seams::default().with(edges(&[[0, 1], [1, 2], [2, 3], [3, 0], [3, 4], [7, 8]]));
+    let way = |from: u32, to: u32| seams.way(VertexId::new(from), VertexId::new(to));
+    assert_eq!(way(0, 4), Some(edges(&[[0, 3], [3, 4]])));
+    assert_eq!(way(4, 1).map(|way| way.len()), Some(3));
+    assert_eq!(way(2, 2), Some(Vec::new()));
+    assert_eq!((way(0, 8), way(0, 9)), (None, None));
 }

@@ -1,7 +1,7 @@
 //! A mesh that is no disk, mended in a session: undone, repeated, saved and opened again.
 
 use freebound::io::read_mesh;
-use freebound::mesh::{Form, PolygonMesh, Repair};
+use freebound::mesh::{Form, PolygonMesh, Repair, Repairs, WeldDistance};
 use freebound::session::{Action, Place, Session, Surface};
 use tempfile::TempDir;
 
@@ -113,4 +113,60 @@ fn what_is_harmless_is_mended_without_a_question_and_the_file_keeps_its_faces() 
     let model = session.model().expect("open");
     assert_eq!(model.repaired.as_ref().expect("repaired").done()[0].repair, Repair::DropDuplicateFaces);
     assert_eq!(*model.source, read_mesh(&path).expect("a mesh"));
+}
+
+#[test]
+fn a_single_remedy_is_an_edit_that_leaves_the_other_faults_and_is_kept_in_a_project() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("odd.obj");
+    let mut mesh = tetrahedron();
+    mesh.triangles[2].swap(0, 1);
+    write_obj(&path, &mesh);
+    let mut session = session();
+    settled(&mut session, Action::Open(path));
+    settled(&mut session, Action::AllowRepair(Repair::TurnFaces));
+    let faults = |session: &Session| match &session.model().expect("open").surface {
+        Surface::Faulty(_, diagnosis) => diagnosis.faults.iter().map(|fault| fault.name()).collect(),
+        Surface::Disk(_) => Vec::new(),
+    };
+    assert_eq!(faults(&session), ["closed"]);
+    let project = folder.path().join("odd.freebound");
+    settled(&mut session, Action::SaveProject(project.clone()));
+    let mut again = crate::session::session();
+    settled(&mut again, Action::Open(project));
+    assert_eq!(again.document().form.repair, Repairs::SAFE.with(Repair::TurnFaces));
+    assert_eq!(faults(&again), ["closed"]);
+    settled(&mut again, Action::AllowRepair(Repair::Cut));
+    assert!(again.outcome().expect("solved").step.verdict.planar);
+    settled(&mut again, Action::Undo);
+    assert_eq!(faults(&again), ["closed"]);
+    settled(&mut session, Action::Undo);
+    assert_eq!(faults(&session), ["mixed-orientation", "closed"]);
+}
+
+#[test]
+fn the_distance_of_welding_is_kept_in_a_project_and_older_projects_have_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("sheet.obj");
+    write_obj(&path, &crate::makers::grid(3, 2));
+    let mut session = session();
+    settled(&mut session, Action::Open(path));
+    let within = WeldDistance::new(1e-3).expect("a distance");
+    assert_eq!(session.near_count(within), None);
+    settled(&mut session, Action::CountNear(within));
+    assert_eq!(session.near_count(within), Some(0));
+    settled(&mut session, Action::Weld(Some(within)));
+    assert!(session.is_current(), "nothing is near: the sheet is as it was");
+    let project = folder.path().join("sheet.freebound");
+    settled(&mut session, Action::SaveProject(project.clone()));
+    let mut again = crate::session::session();
+    settled(&mut again, Action::Open(project.clone()));
+    assert_eq!(again.document().form.repair, Repairs::SAFE.welding(Some(within)));
+    let text = std::fs::read_to_string(&project).expect("written");
+    let older: String =
+        text.lines().filter(|line| !line.contains("weld_distance")).map(|line| line.to_owned() + "\n").collect();
+    assert_ne!(older, text);
+    std::fs::write(&project, older).expect("written");
+    settled(&mut again, Action::Open(project));
+    assert_eq!(again.document().form.repair, Repairs::SAFE);
 }

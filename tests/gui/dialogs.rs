@@ -8,6 +8,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use freebound::app::Start;
+use freebound::geom::Picture;
 use freebound::io::read_mesh;
 use freebound::session::Severity;
 
@@ -190,6 +191,34 @@ fn a_file_dropped_on_the_window_opens() {
     window.settle();
     assert_eq!(name(&window), "dropped.obj");
     assert!(window.is_proved(), "{}", window.verdict());
+}
+
+#[test]
+fn files_dropped_together_are_sorted_by_their_kinds_and_a_second_mesh_is_named() {
+    let mut window = window();
+    for name in ["b.obj", "a.obj"] {
+        write_obj(&window.path(name), &sheet(4, 0.0));
+    }
+    std::fs::write(window.path("a.txt"), "0 0.25 0.5\n24 0.75 0.5\n").expect("written");
+    std::fs::write(window.path("a.mtl"), "newmtl skin\n").expect("written");
+    let picture = std::fs::File::create(window.path("a.png")).expect("a file");
+    Picture { width: 2, height: 1, pixels: vec![255; 8] }.write_png(picture).expect("written");
+    let names = ["a.txt", "a.png", "a.mtl", "a.obj", "b.obj"];
+    let files = names.map(|name| dropped(window.path(name)));
+    window.harness.input_mut().dropped_files.extend(files);
+    window.settle();
+    assert_eq!(name(&window), "a.obj");
+    assert!(window.editor().has_picture());
+    assert_eq!(window.editor().session.document().targets.len(), 2);
+    let said: Vec<&str> = window.editor().session.messages().iter().map(|message| &*message.text).collect();
+    assert_eq!(said, ["one mesh is open at a time, with one picture; not opened: b.obj"]);
+    // What was to follow a mesh that cannot be opened follows no other.
+    std::fs::write(window.path("broken.obj"), "f 1 2 3\n").expect("written");
+    let files = ["broken.obj", "a.txt"].map(|name| dropped(window.path(name)));
+    window.harness.input_mut().dropped_files.extend(files);
+    window.settle();
+    window.open(&window.path("b.obj"));
+    assert!(window.editor().session.document().targets.is_empty());
 }
 
 #[test]

@@ -150,6 +150,7 @@ impl Window {
             && editor.plane.hull_is_drawn()
             && !editor.plane.is_easing()
             && !editor.look.is_making_picture()
+            && !editor.tools.seam.is_busy()
             && !editor.host.has_presses_waiting();
         session.busy().is_none() && !session.is_following() && scenes_drawn
     }

@@ -1,8 +1,10 @@
 //! A mesh that is no disk, mended in the window.
 
 use eframe::egui;
-use egui::{Key, Modifiers};
+use egui::{Key, Modifiers, Role};
+use egui_kittest::kittest::Queryable as _;
 use freebound::mesh::{TriMesh, VertexId};
+use glam::DVec3;
 
 use crate::harness::{Window, sheet};
 use crate::makers::tetrahedron;
@@ -58,4 +60,52 @@ fn what_is_harmless_is_told_beside_the_verdict() {
     window.click("Defects");
     assert!(window.shows("Mesh: 1 vertex of no face"), "{:?}", window.words());
     assert!(window.words().iter().any(|words| words.starts_with("Mesh: faces without area")), "{:?}", window.words());
+}
+
+#[test]
+fn each_fault_has_a_remedy_of_its_own_and_what_is_left_is_told() {
+    let mut mesh = tetrahedron();
+    mesh.triangles[2].swap(0, 1);
+    let mut window = Window::with_mesh("odd.obj", &mesh);
+    window.click("Defects");
+    assert!(window.has_button("Turn faces over") && window.has_button("Cut open"), "{:?}", window.words());
+    window.click("Turn faces over");
+    assert!(window.shows("Mesh: 1 face turned over"), "{:?}", window.words());
+    assert!(!window.has_button("Turn faces over") && !window.is_proved(), "{:?}", window.words());
+    window.click("Cut open");
+    assert!(window.is_proved(), "{}", window.verdict());
+    for _ in 0..2 {
+        window.press(Modifiers::COMMAND, Key::Z);
+    }
+    assert!(window.has_button("Turn faces over") && window.has_button("Cut open"), "{:?}", window.words());
+}
+
+#[test]
+fn vertices_within_a_distance_are_counted_before_they_are_welded() {
+    let left = sheet(6, 0.3);
+    let width = left.positions.iter().map(|place| place.x).fold(f64::MIN, f64::max)
+        - left.positions.iter().map(|place| place.x).fold(f64::MAX, f64::min);
+    let count = left.vertex_count();
+    let right = left.positions.iter().map(|place| *place + DVec3::X * (width + 1e-3));
+    let moved = left.triangles.iter().map(|face| face.map(|v| VertexId::from_index(v.index() + count)));
+    let triangles = left.triangles.iter().copied().chain(moved).collect();
+    let positions = left.positions.iter().copied().chain(right).collect();
+    let mut window = Window::with_mesh("halves.obj", &TriMesh { positions, triangles, ..TriMesh::default() });
+    assert_eq!(window.editor().session.charts().map(|charts| charts.count()), Some(2));
+    window.click("Defects");
+    window.harness.get_by_label("Weld within a distance").click();
+    window.settle();
+    let field = "Distance of vertices to weld, in the mesh's units";
+    window.fill_in(Role::SpinButton, field, "0.0005");
+    window.settle();
+    assert!(window.shows("No vertices lie so near each other"), "{:?}", window.words());
+    assert!(!window.is_enabled("Weld vertices"));
+    window.fill_in(Role::SpinButton, field, "0.4");
+    window.settle();
+    assert!(window.words().iter().any(|words| words.ends_with("vertices join others")), "{:?}", window.words());
+    window.click("Weld vertices");
+    assert!(window.editor().session.charts().is_none() && window.is_proved(), "{}", window.verdict());
+    assert!(window.shows("Welded within 0.4"), "{:?}", window.words());
+    window.click("Do not weld");
+    assert_eq!(window.editor().session.charts().map(|charts| charts.count()), Some(2));
 }

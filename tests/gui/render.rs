@@ -93,6 +93,7 @@ pub(crate) fn camera_in_front() -> OrbitCamera {
 pub(crate) fn mesh_frame() -> MeshFrame {
     let (positions, triangles) = sheet();
     MeshFrame {
+        around_lines: Vec::new(),
         around: None,
         mesh: Arc::new(MeshArrays::new(&positions, &triangles)),
         plane: None,

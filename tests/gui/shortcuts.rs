@@ -6,7 +6,7 @@ use egui::{Key, Modifiers, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Document};
-use freebound::ui::{BINDINGS, Pane, Request, Shading, StepTarget, Tool};
+use freebound::ui::{BINDINGS, Pane, Request, SeamClick, Shading, StepTarget, Tool};
 
 use crate::harness::{Window, sheet};
 
@@ -68,6 +68,12 @@ fn shortcuts_do_what_the_table_says() {
         if request == Request::SetTool(Tool::Fix) {
             window.editor_mut().tools.take_up(Tool::Select);
         }
+        if request == Request::EndSeam {
+            window.editor_mut().tools.take_up(Tool::Seam);
+            let click = SeamClick { vertex: VertexId::new(0), erases: false };
+            window.editor_mut().handle(Request::ClickSeam(click));
+            assert_eq!(window.editor().tools.seam.last(), Some(VertexId::new(0)));
+        }
         window.press(binding.shortcut.modifiers, binding.shortcut.logical_key);
         let editor = window.editor();
         let done = match request {
@@ -89,6 +95,7 @@ fn shortcuts_do_what_the_table_says() {
             // The mesh is one chart.
             Request::StepChart(_) => editor.session.chart_on_screen().is_none(),
             Request::SetTool(tool) => editor.tools.tool() == tool,
+            Request::EndSeam => editor.tools.seam.last().is_none() && editor.tools.tool() == Tool::Seam,
             Request::UnpinSelected => document(&window).targets.len() == pins - 1,
             Request::Frame => editor.mesh.pane.camera() != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),

@@ -78,6 +78,33 @@ pub(super) struct VertexSet {
     pub(super) range: Range<usize>,
 }
 
+impl Scene {
+    /// A label for each of so many faces, the same where they have the same material; none where no primitive has one.
+    pub(in crate::io) fn material_labels(&self, face_count: usize) -> Option<Vec<u32>> {
+        let json: serde_json::Value = serde_json::from_slice(&self.json).ok()?;
+        let material = |part: &Part| {
+            let mesh = self.shown.instances[part.instance].mesh;
+            json["meshes"][mesh]["primitives"][part.primitive]["material"].as_u64()
+        };
+        let materials: Vec<Option<u64>> = self.shown.parts.iter().map(material).collect();
+        let mut numbers: Vec<Option<u64>> = materials.clone();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let label = |part: usize| numbers.binary_search(&materials[part]).expect("each material is in the list");
+        materials.iter().any(Option::is_some).then(|| self.labels(face_count, label))
+    }
+
+    /// A label for each of so many faces, the same where one node shows them.
+    pub(in crate::io) fn node_labels(&self, face_count: usize) -> Vec<u32> {
+        self.labels(face_count, |part| self.shown.parts[part].instance)
+    }
+
+    fn labels(&self, face_count: usize, of_part: impl Fn(usize) -> usize) -> Vec<u32> {
+        let label = |face: usize| u32::try_from(of_part(self.shown.part_of(face))).expect("fewer than 2^32 parts");
+        (0..face_count).map(label).collect()
+    }
+}
+
 impl Shown {
     /// Finds what a file shows.
     pub(super) fn of(document: &Document, buffers: &Buffers) -> Result<Self, ReadError> {

@@ -7,7 +7,9 @@
 //! | `format`  | the formats, told by a file's beginning and by its name                              |
 //! | `source`  | the bytes that a mesh was read from, and how the mesh has changed since              |
 //! | `error`   | what can be wrong with a file, with line or byte, fault and remedy                   |
+//! | `labels` | what tells faces apart: materials and groups                                      |
 //! | `texture` | the mesh of the texture coordinates: the surface cut in the plane                    |
+//! | `layout`  | the texture coordinates as an embedding of the mesh, to go on from                     |
 //! | `refined` | a file's mesh with new vertices                                                      |
 //! | `words`   | the words of a text, with their lines                                                |
 //! | `off`     | OFF files                                                                            |
@@ -18,6 +20,8 @@
 
 mod error;
 mod format;
+mod labels;
+mod layout;
 mod off;
 mod read;
 mod refined;
@@ -35,6 +39,8 @@ use crate::solver::Embedding;
 
 pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, TextureError};
 pub(in crate::io) use error::{Place, fault_at, fault_in};
+pub use labels::LabelError;
+pub use layout::LayoutError;
 pub use read::{Progress, read_mesh, read_mesh_with, read_stream, read_stream_with};
 pub use refined::{Refined, RefinedChart};
 pub use source::Source;

@@ -16,6 +16,8 @@ pub struct Refined {
     pub mesh: MeshFile,
     /// For each corner its vertex among those of all charts, one chart behind the other, or [`NO_TEXTURE`].
     corners: Vec<u32>,
+    /// For each face the file's face that it is, or is a part of.
+    pub(in crate::io) face_of: Vec<u32>,
 }
 
 /// A chart of a mesh, refined or as it was.
@@ -70,7 +72,11 @@ impl Refined {
         let are_triangles = faces.starts.windows(2).all(|bounds| bounds[1] - bounds[0] == 3);
         let starts = (!are_triangles).then_some(faces.starts);
         let polygons = PolygonMesh { positions, corners: faces.corners, starts };
-        Self { mesh: MeshFile { polygons, texture: None, statements, source: changed }, corners: faces.slots }
+        Self {
+            mesh: MeshFile { polygons, texture: None, statements, source: changed },
+            corners: faces.slots,
+            face_of: faces.face_of,
+        }
     }
 
     /// The coordinates of the charts' vertices, one each, at the corners of the mesh. Those of no corner are left out.

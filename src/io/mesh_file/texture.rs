@@ -34,8 +34,7 @@ impl MeshFile {
     ///
     /// If an index of the mesh is out of range, which the reader never lets through.
     pub fn texture_mesh(&self) -> Result<TextureMesh, TextureError> {
-        let texture = self.texture.as_ref().ok_or(TextureError::None)?;
-        self.check_complete(texture)?;
+        let texture = self.complete_texture()?;
         let corners = &self.polygons.corners;
         let coordinate = |place: u32| texture.coordinates[texture.corners[place as usize] as usize];
         let bits = |place: u32| bits(coordinate(place));
@@ -79,27 +78,40 @@ impl MeshFile {
     ///
     /// As [`texture_mesh`](Self::texture_mesh).
     pub fn texture_labels(&self) -> Result<Vec<u32>, TextureError> {
-        let texture = self.texture.as_ref().ok_or(TextureError::None)?;
-        self.check_complete(texture)?;
+        let texture = self.complete_texture()?;
         let mut first: HashMap<[u64; 2], u32> = HashMap::new();
         let labels: Vec<u32> =
             (0..).zip(&texture.coordinates).map(|(place, uv)| *first.entry(bits(*uv)).or_insert(place)).collect();
         Ok(texture.corners.iter().map(|&corner| labels[corner as usize]).collect())
     }
 
-    fn check_complete(&self, texture: &Texture) -> Result<(), TextureError> {
+    /// Whether some vertex has several texture coordinates.
+    ///
+    /// # Errors
+    ///
+    /// As [`texture_mesh`](Self::texture_mesh).
+    pub fn has_texture_seams(&self) -> Result<bool, TextureError> {
+        let mut first = vec![None; self.polygons.positions.len()];
+        let labels = self.texture_labels()?;
+        let mut corners = self.polygons.corners.iter().zip(labels);
+        Ok(corners.any(|(vertex, label)| *first[vertex.index()].get_or_insert(label) != label))
+    }
+
+    /// The texture coordinates, where all corners have one.
+    pub(super) fn complete_texture(&self) -> Result<&Texture, TextureError> {
+        let texture = self.texture.as_ref().ok_or(TextureError::None)?;
         let lacks = |&face: &u32| {
             let places = self.polygons.corner_range(face as usize);
             texture.corners[places].contains(&NO_TEXTURE)
         };
         let face_count = u32::try_from(self.polygons.face_count()).expect("faces fit");
         let faces: Vec<u32> = (0..face_count).filter(lacks).collect();
-        if faces.is_empty() { Ok(()) } else { Err(TextureError::Missing(faces)) }
+        if faces.is_empty() { Ok(texture) } else { Err(TextureError::Missing(faces)) }
     }
 }
 
 /// What tells coordinates apart: their bits, except that −0 equals 0.
-fn bits(coordinate: DVec2) -> [u64; 2] {
+pub(super) fn bits(coordinate: DVec2) -> [u64; 2] {
     (coordinate + DVec2::ZERO).to_array().map(f64::to_bits)
 }
 

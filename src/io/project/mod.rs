@@ -15,6 +15,7 @@ mod fields;
 use std::collections::BTreeMap;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -24,8 +25,8 @@ use super::door::check_finite;
 use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::{PackingOptions, VAxis};
-use crate::mesh::{Form, HoleTreatment, RepairExtent, Seams};
-use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
+use crate::mesh::{Form, HoleTreatment, Repairs, Seams, WeldDistance};
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Start, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
 pub const PROJECT_VERSION: u64 = 1;
@@ -46,7 +47,10 @@ pub struct ProjectFile {
     pub faces_turned: bool,
     /// What may be repaired of it.
     #[serde(default)]
-    pub repair: RepairExtent,
+    pub repair: Repairs,
+    /// The distance within which vertices of it are joined.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weld_distance: Option<WeldDistance>,
     /// What becomes of its holes; of older projects they are cut where the mesh is.
     #[serde(default)]
     pub holes: Option<HoleTreatment>,
@@ -56,6 +60,9 @@ pub struct ProjectFile {
     /// Where it is cut before that.
     #[serde(default, skip_serializing_if = "Seams::is_empty", with = "seam_list")]
     pub seams: Seams,
+    /// Parts of it that are left out, by the numbers of their first faces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_out_parts: Vec<u32>,
     /// The picture.
     #[serde(default)]
     pub picture: Option<ProjectSource>,
@@ -82,6 +89,9 @@ pub struct ProjectFile {
     pub relaxed: usize,
     #[serde(default = "default_new_vertices")]
     new_vertices: bool,
+    /// What the first step is.
+    #[serde(default)]
+    start: Start,
     /// The chart on the screen, where the mesh has several; the largest without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chart: Option<usize>,
@@ -175,7 +185,14 @@ impl ProjectFile {
     /// What is made of the mesh's faces.
     pub fn form(&self) -> Form {
         let holes = self.holes.unwrap_or(if self.cut { HoleTreatment::Cut } else { HoleTreatment::Fill });
-        Form { faces_turned: self.faces_turned, repair: self.repair, holes, cut: self.cut, seams: self.seams.clone() }
+        Form {
+            faces_turned: self.faces_turned,
+            repair: self.repair.welding(self.weld_distance),
+            holes,
+            cut: self.cut,
+            seams: self.seams.clone(),
+            left_out: Arc::new(self.left_out_parts.iter().copied().collect()),
+        }
     }
 
     /// A project of a mesh, with nothing but settings made of it yet.
@@ -188,10 +205,12 @@ impl ProjectFile {
             freebound_project: PROJECT_VERSION,
             mesh,
             faces_turned: false,
-            repair: RepairExtent::default(),
+            repair: Repairs::default(),
+            weld_distance: None,
             holes: Some(HoleTreatment::default()),
             cut: false,
             seams: Seams::default(),
+            left_out_parts: Vec::new(),
             picture: None,
             v_axis: VAxis::default(),
             method,
@@ -207,6 +226,7 @@ impl ProjectFile {
             packing: PackingOptions::default(),
             sizes: BTreeMap::new(),
             new_vertices: settings.new_vertices,
+            start: settings.start,
             targets: Targets::new(),
             view: ProjectView::default(),
             recovery: None,
@@ -227,6 +247,7 @@ impl ProjectFile {
             size: GaugeSize::default(),
             relax_rounds: self.relax_rounds,
             new_vertices: self.new_vertices,
+            start: self.start,
         }
     }
 

@@ -1,5 +1,7 @@
 //! The charts of a repaired mesh: its parts that hang together across edges, where every one of them is a disk.
 
+use std::collections::HashMap;
+
 use super::Repaired;
 use super::fill::Filling;
 use super::sides::Sides;
@@ -28,14 +30,23 @@ pub struct Chart {
 impl Charts {
     /// The charts of a mesh, in the order of their first faces; none where it is one part, or a part is no disk.
     pub fn of(whole: Repaired) -> Option<Self> {
-        let faces = disks_of(&whole).filter(|faces| faces.len() > 1)?;
+        Self::try_of(whole).ok()
+    }
+
+    /// As [`of`](Self::of), the mesh given back where there are none.
+    ///
+    /// # Errors
+    ///
+    /// The mesh, where it is one part, or a part is no disk.
+    pub fn try_of(whole: Repaired) -> Result<Self, Box<Repaired>> {
+        let Some(faces) = disks_of(&whole).filter(|faces| faces.len() > 1) else { return Err(Box::new(whole)) };
         let mut chart_of_vertex = vec![None; whole.polygons.positions.len()];
         for (number, own) in (0..).zip(&faces) {
             for corner in own.iter().flat_map(|&face| whole.polygons.face(face as usize)) {
                 chart_of_vertex[corner.index()] = Some(number);
             }
         }
-        Some(Self { whole, faces, chart_of_vertex })
+        Ok(Self { whole, faces, chart_of_vertex })
     }
 
     /// The mesh that they are the charts of.
@@ -56,6 +67,11 @@ impl Charts {
     /// The first face of a chart, as the mesh as given numbers it.
     pub fn first_face(&self, chart: usize) -> FaceId {
         FaceId::new(self.whole.face_of[self.faces[chart][0] as usize])
+    }
+
+    /// The chart of a face of the whole.
+    pub fn chart_of_face(&self, face: u32) -> Option<usize> {
+        self.faces.iter().position(|own| own.binary_search(&face).is_ok())
     }
 
     /// The chart of a vertex of the whole.
@@ -81,8 +97,10 @@ impl Charts {
             face_of: self.faces[chart].iter().map(|&face| self.whole.face_of[face as usize]).collect(),
             polygons: part.polygons,
             stand_ins: Vec::new(),
+            joined: HashMap::new(),
             fills: self.whole.fills,
             filling: Filling::default(),
+            left_out: Vec::new(),
             done: self.whole.done.clone(),
         };
         let repaired = repaired.filled();

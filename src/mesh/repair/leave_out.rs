@@ -2,11 +2,11 @@
 
 use std::collections::HashMap;
 
-use super::{Repair, Repaired};
+use super::{Repair, Repaired, Repairs};
 use crate::mesh::VertexId;
 
 /// What becomes of the corners of a face.
-enum Fate {
+pub(super) enum Fate {
     /// Those at these places stay.
     Keep(Vec<usize>),
     /// It goes. At each corner the corner of another face that stands for it, where there is one.
@@ -14,8 +14,17 @@ enum Fate {
 }
 
 impl Repaired {
-    /// Leaves out repeated corners, then duplicate faces.
-    pub(super) fn leave_out(&mut self) {
+    /// Leaves out repeated corners, then duplicate faces, as far as that is allowed.
+    pub(super) fn leave_out(&mut self, repairs: Repairs) {
+        if repairs.allows(Repair::DropRepeatedCorners) {
+            self.drop_repeated_corners();
+        }
+        if repairs.allows(Repair::DropDuplicateFaces) {
+            self.drop_duplicate_faces();
+        }
+    }
+
+    fn drop_repeated_corners(&mut self) {
         let mut mended = 0;
         self.decide(|corners, _| {
             let kept = Some(without_repeats(corners)).filter(|kept| kept.len() >= 3 && !has_repeats(corners, kept));
@@ -23,7 +32,9 @@ impl Repaired {
             kept.map_or(Fate::Go(Vec::new()), Fate::Keep)
         });
         self.note(Repair::DropRepeatedCorners, mended);
+    }
 
+    fn drop_duplicate_faces(&mut self) {
         // By its vertices, ascending, the corners of the first such face, in the order of its vertices.
         let mut seen: HashMap<Vec<VertexId>, Vec<u32>> = HashMap::with_capacity(self.polygons.face_count());
         let mut duplicates = 0;
@@ -46,7 +57,7 @@ impl Repaired {
     }
 
     /// Decides on each face, by its vertices and by the corners of the mesh as given that they are.
-    fn decide(&mut self, mut fate: impl FnMut(&[VertexId], &[u32]) -> Fate) {
+    pub(super) fn decide(&mut self, mut fate: impl FnMut(&[VertexId], &[u32]) -> Fate) {
         let (mut corners, mut corner_of, mut face_of) = (Vec::new(), Vec::new(), Vec::new());
         let mut starts = vec![0];
         for (face, &of) in self.face_of.iter().enumerate() {

@@ -2,14 +2,19 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `mod.rs` | the repairs by name, and a mesh with some done |
+//! | `mod.rs` | a mesh with some repairs done |
+//! | `kinds.rs` | the repairs by name, and sets of them |
 //! | `form.rs` | what is wanted of a file's faces |
 //! | `sides.rs` | sides of polygons, and which lie on one edge |
 //! | `leave_out.rs` | repeated corners and duplicate faces left out |
+//! | `weld.rs` | vertices near each other made one |
 //! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
+//! | `kept.rs` | parts that are wanted, and parts that are left out |
 //! | `fill.rs` | holes filled with virtual faces |
 //! | `cut.rs` | a surface cut open until it is a disk, or several |
 //! | `seams.rs` | a surface cut along given seams |
+//! | `borders.rs` | edges that seams follow as a rule: creases, and where faces of two kinds meet |
+//! | `stretches.rs` | seams as lines, from where they end or meet to where they do again |
 //! | `charts.rs` | the parts of a mesh, each a disk by itself |
 //! | `paths.rs` | shortest paths along edges, for seams that a person draws |
 //! | `ways.rs` | shortest ways along edges, and what an edge costs a cut |
@@ -18,118 +23,36 @@
 //! an old one does, follow. The file that the mesh came from is never changed but for its texture coordinates, which
 //! [`Repaired::corner_of`] carries back.
 
+mod borders;
 mod charts;
 mod cut;
 mod fill;
 mod form;
 mod join;
+mod kept;
+mod kinds;
 mod leave_out;
 mod paths;
 mod seams;
 mod sides;
+mod stretches;
 mod ways;
+mod weld;
 
-use std::fmt;
-
-use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 
 use fill::Filling;
 
 use super::{PolygonMesh, TriMesh, VertexId, diagnose};
 
+pub use borders::{borders, creases};
 pub use charts::{Chart, Charts};
 pub use form::{Form, HoleTreatment};
+pub use kept::PartFaces;
+pub use kinds::{Done, Repair, Repairs};
 pub use paths::{EdgePaths, PathTree};
 pub use seams::Seams;
-
-/// What may be done to a mesh so that it flattens.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum RepairExtent {
-    /// Nothing: a mesh with any fault is refused.
-    #[serde(rename = "none")]
-    Nothing,
-    /// What changes no visible surface.
-    #[default]
-    Safe,
-    /// All that can be done, cutting aside.
-    All,
-}
-
-/// One kind of repair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Repair {
-    /// Corners that name a vertex again leave their face; what has fewer than three left goes.
-    DropRepeatedCorners,
-    /// Faces with the vertices of an earlier one go.
-    DropDuplicateFaces,
-    /// Vertices of different parts that lie in one place become one.
-    WeldVertices,
-    /// Faces at edges of three or more get edges of their own.
-    SplitEdges,
-    /// The fewer faces of a part are turned over, so that all run around alike.
-    TurnFaces,
-    /// Fans of faces that meet in nothing but a vertex get one each.
-    SplitVertices,
-    /// Inner boundary loops are filled with virtual faces, which are of no file.
-    FillHoles,
-    /// The surface is cut along edges until each part is a disk.
-    Cut,
-}
-
-impl Repair {
-    /// A fixed lower-case name, as reports have it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::DropRepeatedCorners => "drop-repeated-corners",
-            Self::DropDuplicateFaces => "drop-duplicate-faces",
-            Self::WeldVertices => "weld-vertices",
-            Self::SplitEdges => "split-edges",
-            Self::TurnFaces => "turn-faces",
-            Self::SplitVertices => "split-vertices",
-            Self::FillHoles => "fill-holes",
-            Self::Cut => "cut",
-        }
-    }
-
-    /// What was done, for one element and for several.
-    const fn words(self) -> [&'static str; 2] {
-        match self {
-            Self::DropRepeatedCorners => [
-                "face that names a vertex twice mended, or left out",
-                "faces that name a vertex twice mended, or left out",
-            ],
-            Self::DropDuplicateFaces => ["duplicate face left out", "duplicate faces left out"],
-            Self::WeldVertices => {
-                ["vertex joined with another in its place", "vertices joined with others in their place"]
-            }
-            Self::SplitEdges => ["edge of three faces or more split", "edges of three faces or more split"],
-            Self::TurnFaces => ["face turned over", "faces turned over"],
-            Self::SplitVertices => {
-                ["vertex split, one for each fan of faces", "vertices split, one for each fan of faces"]
-            }
-            Self::FillHoles => ["hole filled while it is flattened", "holes filled while it is flattened"],
-            Self::Cut => ["edge cut open", "edges cut open"],
-        }
-    }
-}
-
-/// A repair, and how many elements it was done to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Done {
-    /// What was done.
-    pub repair: Repair,
-    /// How often.
-    pub count: usize,
-}
-
-impl fmt::Display for Done {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [one, many] = self.repair.words();
-        write!(f, "{} {}", self.count, if self.count == 1 { one } else { many })
-    }
-}
+pub use weld::{WeldDistance, near_vertices};
 
 /// A mesh with repairs done, and where each part of it comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,25 +64,40 @@ pub struct Repaired {
     face_of: Vec<u32>,
     /// Corners of the mesh as given that were left out, each with one that stands for it; that may be left out later.
     stand_ins: Vec<[u32; 2]>,
+    /// Vertices that were joined with others, each with the one that stands for it.
+    joined: HashMap<VertexId, VertexId>,
     /// Whether holes are filled while it is flattened.
     fills: bool,
     /// What fills them, where it is one part. Positions beyond those of the polygons are the filling's.
     filling: Filling,
+    /// The faces of parts that were left out, by their numbers in the mesh as given.
+    left_out: Vec<u32>,
     done: Vec<Done>,
 }
 
 impl Repaired {
     /// Repairs a mesh as far as is allowed. Where nothing is to be done, [`done`](Self::done) is empty.
-    pub fn new(source: &PolygonMesh, extent: RepairExtent) -> Self {
+    pub fn new(source: &PolygonMesh, repairs: Repairs) -> Self {
         let mut repaired = Self::of(source);
-        if extent != RepairExtent::Nothing && repaired.is_sound() {
-            repaired.leave_out();
-            if extent == RepairExtent::All {
-                repaired.weld();
-                repaired.leave_out();
-                repaired.split_edges();
-                repaired.turn_faces();
-            }
+        if !repaired.is_sound() {
+            return repaired;
+        }
+        repaired.leave_out(repairs);
+        if let Some(distance) = repairs.weld_distance() {
+            repaired.weld_within(distance);
+            repaired.leave_out(repairs.after_welding());
+        }
+        if repairs.allows(Repair::WeldVertices) {
+            repaired.weld();
+            repaired.leave_out(repairs.after_welding());
+        }
+        if repairs.allows(Repair::SplitEdges) {
+            repaired.split_edges();
+        }
+        if repairs.allows(Repair::TurnFaces) {
+            repaired.turn_faces();
+        }
+        if repairs.allows(Repair::SplitVertices) {
             repaired.split_vertices();
         }
         repaired
@@ -173,8 +111,10 @@ impl Repaired {
             corner_of: (0..count(source.corners.len())).collect(),
             face_of: (0..count(source.face_count())).collect(),
             stand_ins: Vec::new(),
+            joined: HashMap::new(),
             fills: false,
             filling: Filling::default(),
+            left_out: Vec::new(),
             done: Vec::new(),
         }
     }
@@ -227,7 +167,7 @@ impl Repaired {
     }
 
     /// The vertex at each corner of the mesh as given; at corners that were left out that of the corner that stands for
-    /// them, or any in their place. None where there is none in their place.
+    /// them, or any in their place. None where there is none in their place, and in parts that were left out.
     pub fn vertices_at_corners(&self, source: &PolygonMesh) -> Vec<Option<VertexId>> {
         let mut vertices = vec![None; source.corners.len()];
         let mut in_place = vec![None; source.positions.len()];
@@ -239,16 +179,22 @@ impl Repaired {
             vertices[left_out as usize] = vertices[stand_in as usize];
         }
         for (vertex, of) in vertices.iter_mut().zip(&source.corners).filter(|(vertex, _)| vertex.is_none()) {
-            *vertex = in_place.get(of.index()).copied().flatten();
+            let stands_for = self.joined.get(of).unwrap_or(of);
+            *vertex = [of, stands_for].iter().find_map(|of| in_place.get(of.index()).copied().flatten());
+        }
+        for &face in &self.left_out {
+            vertices[source.corner_range(face as usize)].fill(None);
         }
         vertices
     }
 
-    /// The vertex of the mesh as given in whose place each vertex lies.
+    /// The vertex of the mesh as given in whose place each vertex lies: an old one itself.
     pub fn vertices_of(&self, source: &PolygonMesh) -> Vec<VertexId> {
         let mut vertices: Vec<VertexId> = (0..self.polygons.positions.len()).map(VertexId::from_index).collect();
-        for (corner, &of) in self.polygons.corners.iter().zip(&self.corner_of) {
-            vertices[corner.index()] = source.corners[of as usize];
+        let corners = self.polygons.corners.iter().zip(&self.corner_of);
+        for (corner, &of) in corners.filter(|(corner, _)| corner.index() >= source.positions.len()) {
+            let of = source.corners[of as usize];
+            vertices[corner.index()] = self.joined.get(&of).copied().unwrap_or(of);
         }
         vertices
     }

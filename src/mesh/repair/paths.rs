@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use super::sides::Sides;
 use super::ways::{Measure, Reach, Ways};
-use super::{RepairExtent, Repaired};
+use super::{Repaired, Repairs};
 use crate::mesh::{PolygonMesh, VertexId};
 
 /// The edges of a mesh that is repaired, and not cut: vertices of the file in one place are one, where the repair joins them.
@@ -32,8 +32,8 @@ pub struct EdgePaths {
 
 impl EdgePaths {
     /// Prepares paths on a file's faces. There are none where a face has fewer than three corners, or one without a vertex.
-    pub fn new(source: &PolygonMesh, extent: RepairExtent) -> Self {
-        let repaired = Repaired::new(source, extent);
+    pub fn new(source: &PolygonMesh, repairs: Repairs) -> Self {
+        let repaired = Repaired::new(source, repairs);
         let is_face = |face: usize| repaired.polygons.corner_range(face).len() >= 3;
         let none = PolygonMesh::default();
         let is_whole = repaired.is_sound() && (0..repaired.polygons.face_count()).all(is_face);

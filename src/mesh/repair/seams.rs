@@ -49,7 +49,8 @@ fn ordered([a, b]: [VertexId; 2]) -> [VertexId; 2] {
 
 impl Repaired {
     /// Cuts each edge that is listed, or at whose ends the faces there have different labels. `labels` has one for each corner of
-    /// the mesh as given, `source`. Of edges that became one, any is enough.
+    /// the mesh as given, `source`. Of edges that became one, any is enough. Where a seam ends inside the surface, the vertex
+    /// there stays whole: a seam of one edge opens nothing.
     pub(super) fn cut_along(&mut self, seams: &Seams, labels: Option<&[u32]>, source: &PolygonMesh) {
         if !self.is_sound() || (labels.is_none() && seams.edges.is_empty()) {
             return;
@@ -60,18 +61,20 @@ impl Repaired {
             let ends = [side, sides.next(side)].map(|corner| source.corners[of(corner)]);
             seams.edges.contains(&ordered(ends))
         };
-        let is_alike = |pair: &[u32]| {
-            labels.is_none_or(|labels| {
-                sides.across(pair[0], pair[1]).iter().all(|[a, b]| labels[of(*a)] == labels[of(*b)])
-            })
-        };
-        let is_whole =
-            |on: &[u32]| on.len() == 1 || (on.windows(2).all(is_alike) && !on.iter().any(|&side| is_listed(side)));
-        let count = sides.table.edges().filter(|on| !is_whole(on)).count();
-        if count > 0 {
+        let across =
+            |on: &[u32]| -> Vec<[u32; 2]> { on.windows(2).flat_map(|pair| sides.across(pair[0], pair[1])).collect() };
+        let is_alike =
+            |on: &[u32]| labels.is_none_or(|labels| across(on).iter().all(|[a, b]| labels[of(*a)] == labels[of(*b)]));
+        let is_whole = |on: &[u32]| on.len() == 1 || (is_alike(on) && !on.iter().any(|&side| is_listed(side)));
+        let seam: Vec<Vec<[u32; 2]>> = sides.table.edges().filter(|on| !is_whole(on)).map(across).collect();
+        if !seam.is_empty() {
             let fans = sides.fans(is_whole);
             self.split_into(fans);
-            self.note(Repair::Cut, count);
+            let corners = &self.polygons.corners;
+            let is_open =
+                |across: &Vec<[u32; 2]>| across.iter().any(|[a, b]| corners[*a as usize] != corners[*b as usize]);
+            let count = seam.iter().filter(|across| is_open(across)).count();
+            self.note(Repair::CutSeams, count);
         }
     }
 }

@@ -192,7 +192,7 @@ fn sharpness(first: DVec3, last: DVec3) -> f64 {
 }
 
 /// The normal of a face, of length 1 or 0.
-fn normal(polygons: &PolygonMesh, face: usize) -> DVec3 {
+pub(super) fn normal(polygons: &PolygonMesh, face: usize) -> DVec3 {
     let corners = polygons.face(face);
     let origin = polygons.positions[corners[0].index()];
     let from_origin = |v: VertexId| polygons.positions[v.index()] - origin;

@@ -175,7 +175,7 @@ impl Solving {
             running.set_goal(|_| goal);
             return;
         }
-        let run = task.problem.ladder().with_kept(&self.kept);
+        let run = task.problem.ladder_on(&task.model).unwrap_or_else(|_| task.problem.ladder()).with_kept(&self.kept);
         self.rounds = Rounds::default();
         self.spawn(task, run, goal);
     }
@@ -189,13 +189,13 @@ impl Solving {
     }
 
     /// Takes steps of a run in the background. A run that is under way is given up.
-    fn spawn(&mut self, Task { mesh, problem }: Task, mut run: Ladder, goal: Goal) {
+    fn spawn(&mut self, task: Task, mut run: Ladder, goal: Goal) {
         self.give_up();
         let has_delivered = run.step_count() > 0;
         let (sender, deliveries) = sync_channel(STEPS_WAITING);
         let shared = Arc::new(Shared::new(goal, &self.wake));
         let mut job = Background::new("solve", &self.wake);
-        let (of_job, task) = (Arc::clone(&shared), Task { mesh, problem: problem.clone() });
+        let (of_job, problem) = (Arc::clone(&shared), task.problem.clone());
         job.start((), move |cancel| {
             let result = take_steps(&mut run, &task, &of_job, &sender, cancel);
             (run, result)

@@ -6,12 +6,13 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::mesh::DiskMesh;
 use crate::session::stop::Goal;
-use crate::session::{Background, Outcome, Problem, Wake};
+use crate::session::{Background, Model, Outcome, Problem, Wake};
 use crate::solver::{Control, Ending, Ladder, Phase, SolveError};
 
 /// What is to be solved, and on which mesh.
 #[derive(Clone, Debug)]
 pub(in crate::session) struct Task {
+    pub(in crate::session) model: Arc<Model>,
     pub(in crate::session) mesh: Arc<DiskMesh>,
     pub(in crate::session) problem: Problem,
 }
@@ -128,7 +129,7 @@ fn locked<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
 /// more is given up.
 pub(super) fn take_steps(
     run: &mut Ladder,
-    Task { mesh, problem }: &Task,
+    Task { mesh, problem, .. }: &Task,
     shared: &Shared,
     deliveries: &SyncSender<Delivery>,
     cancel: &AtomicBool,

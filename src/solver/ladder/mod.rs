@@ -4,10 +4,12 @@
 //! |---|---|
 //! | `mod.rs` | [`Ladder`]: walks the plan, proves each candidate, remembers the latest step |
 //! | `plan.rs` | the plan of every method: which rung follows which |
+//! | `flights.rs` | the rungs by name, and the flights of them that plans are made of |
 //! | `proof.rs` | a candidate proved in the numbers that are written of it: a step |
 //! | `rung.rs` | what a rung is: from the latest step to a candidate, or to a reason why there is none |
 //! | `task.rs` | what is asked for: settings and pins |
 //! | `step.rs` | [`Candidate`]: what a rung gives, before it is proved; [`Step`]: a candidate with its verdict |
+//! | `given.rs` | before all rungs: the layout that it is to start from |
 //! | `natural.rs` | rung 1: one linear solve |
 //! | `iterate.rs` | rung 2: mean-value iterations, and when they get no better |
 //! | `again.rs` | rung 1 once more, with the default weights and pins |
@@ -24,6 +26,8 @@
 mod again;
 mod continuation;
 mod cut;
+mod flights;
+mod given;
 mod iterate;
 mod matchmaker;
 mod natural;
@@ -77,31 +81,45 @@ pub struct Ladder {
     ending: Option<Ending>,
     /// Notes on the next step: why rungs before it gave no candidate.
     notes: Notes,
+    /// What earlier ladders on the mesh have computed.
+    kept: Kept,
 }
 
 impl Ladder {
     /// A ladder that has not begun. `pins` are the user's.
     pub fn new(settings: Settings, pins: Pins) -> Self {
-        let asked = Task::new(settings, pins, Arc::default());
-        let units = asked.units();
+        Self::of(Task::new(settings, pins, Arc::default()))
+    }
+
+    fn of(asked: Task) -> Self {
+        let (units, kept) = (asked.units(), Kept::default());
         let task = Arc::new(asked.in_units(&units));
-        let plan = Plan::new(&task, &Kept::default());
-        Self { asked, units, task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default() }
+        let plan = Plan::new(&task, &kept, asked.start.as_ref());
+        Self { asked, units, task, plan, step_count: 0, latest: None, ending: None, notes: Notes::default(), kept }
     }
 
     /// The same with every step proved in the numbers that are written of it, not in those of the plane.
     #[must_use]
     pub fn written_on(self, sheet: Sheet) -> Self {
-        let asked = Task { sheet: Arc::new(sheet), ..self.asked };
-        let units = asked.units();
-        let task = Arc::new(asked.in_units(&units));
-        Self { plan: Plan::new(&task, &Kept::default()), asked, units, task, ..self }
+        Self::of(Task { sheet: Arc::new(sheet), ..self.asked })
+    }
+
+    /// The same from an embedding on: it is the first step, as it is, and where pins leave that open, all steps lie as it
+    /// does. One-to-one, it is what constraints are met from and relaxing begins with, or else what an iteration and a
+    /// virtual boundary begin with; other methods then take the way that they take without it. One position per vertex,
+    /// in the plane. Methods of one linear solve pass over it.
+    #[must_use]
+    pub fn starting_from(self, embedding: Arc<Embedding>) -> Self {
+        if !self.asked.settings.method.goes_on_from_layout() {
+            return self;
+        }
+        Self::of(Task { start: Some(embedding), ..self.asked })
     }
 
     /// The same with what earlier ladders on the mesh have computed, used where it serves.
     #[must_use]
     pub fn with_kept(self, kept: &Kept) -> Self {
-        Self { plan: Plan::new(&self.task, kept), ..self }
+        Self { plan: Plan::new(&self.task, kept, self.asked.start.as_ref()), kept: kept.clone(), ..self }
     }
 
     /// The same, going on from a step of another ladder's on the same mesh, which counts as this one's first.
@@ -266,7 +284,9 @@ impl Ladder {
         // A mirror image is one-to-one, but not what the ladder is for.
         let is_upright = !step.verdict.mirrored || part.task.settings.method != Method::Auto;
         let is_met = part.aim == Aim::PlanarStart || step.unmet().is_empty();
-        let is_proved = step.verdict.is_one_to_one() && is_upright;
+        let is_given = step.rung == Method::Given;
+        // What fills the holes of a layout that was given may fold without harm.
+        let is_proved = (step.verdict.is_one_to_one() || (is_given && step.verdict.planar)) && is_upright;
         let is_solved_for_faces = is_proved && is_met;
         // The way from a planar start to the constraints keeps no polygon convex: that follows.
         let is_solved = is_solved_for_faces && (step.verdict.planar || part.aim == Aim::PlanarStart);
@@ -283,7 +303,18 @@ impl Ladder {
             refinement: step.refinement.clone(),
         });
         part.look_at(step);
+        if is_given && !is_proved && self.task.settings.method.needs_one_to_one_start() {
+            self.begin_afresh(step);
+        }
         self.ending = self.ending_now();
+    }
+
+    /// Takes the way from the surface alone: the layout that was given is no map to go on from.
+    fn begin_afresh(&mut self, given: &Step) {
+        let fault = if given.verdict.is_one_to_one() { "a mirror image" } else { "not one-to-one" };
+        self.notes.say(format!("solved afresh, for the layout of the file is {fault}"));
+        self.plan = Plan::afresh(&self.task, &self.kept);
+        self.latest = None;
     }
 
     fn ending_now(&self) -> Option<Ending> {

@@ -7,68 +7,23 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use self::Kind::{Again, Continuation, Fit, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
 use super::cut::Cut;
+use super::flights::Kind::{self, Fit, Iterate, Schnyder};
+use super::flights::{
+    BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, ITERATED, LADDER, LINEAR,
+    MATCHED,
+};
 use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
 use super::task::Task;
 use super::{Ending, Step};
-use super::{again, continuation, iterate, matchmaker, natural, schnyder, virtual_boundary};
 use crate::solver::{Embedding, GaugeSize, Method, Pins, Prepared, Settings};
-
-/// The rungs of a part, flight by flight.
-type Flights = &'static [&'static [Kind]];
-
-/// Until planar.
-const LADDER: Flights = &[&[Natural, Iterate], &[Again, Iterate], &[VirtualBoundary], &[Schnyder]];
-/// Until planar, stalled or at the limit.
-const ITERATED: Flights = &[&[Natural, Iterate]];
-/// Until planar.
-const BENT: Flights = &[&[Natural], &[VirtualBoundary]];
-/// By theorem.
-const DRAWN: Flights = &[&[Schnyder]];
-/// One linear solve.
-const LINEAR: Flights = &[&[Natural]];
-/// From a planar start until the constraints are met, or stuck.
-const CONTINUED: Flights = &[&[Fit, Continuation]];
-/// From a planar start until the constraints are met, with new vertices.
-const MATCHED: Flights = &[&[Fit, Matchmaker]];
-/// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
-const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
 
 /// The most rounds of relaxing until a planar embedding serves.
 const ROUNDS_UNTIL_IT_SERVES: usize = 60;
 
 /// Rounds of relaxing by which polygons become convex.
 const ROUNDS_TO_CONVEX: usize = 30;
-
-/// Every rung but relaxing, which follows all of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Kind {
-    Natural,
-    Iterate,
-    Again,
-    VirtualBoundary,
-    Schnyder,
-    Fit,
-    Continuation,
-    Matchmaker,
-}
-
-impl Kind {
-    fn rung(self, kept: &Kept) -> Box<dyn Rung> {
-        match self {
-            Natural => Box::new(natural::Natural { prepared: kept.prepared.clone() }),
-            Iterate => Box::<iterate::Iterate>::default(),
-            Again => Box::<again::Again>::default(),
-            VirtualBoundary => Box::<virtual_boundary::Bend>::default(),
-            Schnyder => Box::<schnyder::Draw>::default(),
-            Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
-            Continuation => Box::<continuation::Continue>::default(),
-            Matchmaker => Box::<matchmaker::Match>::default(),
-        }
-    }
-}
 
 /// What ladders on a mesh have computed, for further ones on it.
 #[derive(Clone, Debug, Default)]
@@ -104,7 +59,33 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn new(task: &Arc<Task>, kept: &Kept) -> Self {
+    /// From a layout in the plane on, where there is one.
+    pub(super) fn new(task: &Arc<Task>, kept: &Kept, layout: Option<&Arc<Embedding>>) -> Self {
+        layout.map_or_else(|| Self::afresh(task, kept), |layout| Self::from_given(task, kept, layout))
+    }
+
+    fn from_given(task: &Arc<Task>, kept: &Kept, layout: &Arc<Embedding>) -> Self {
+        let part = |flights| Part::new(task, Aim::Constraints, flights, kept);
+        // Constraints are met from the layout as it is.
+        let start = || {
+            let settings = Settings { size: task.settings.size, ..Settings::default() };
+            let sheet = Arc::clone(&task.sheet);
+            let task = Task { start: Some(Arc::clone(layout)), ..Task::new(settings, Pins::new(), sheet) };
+            Part::new(&Arc::new(task), Aim::PlanarStart, GIVEN, kept)
+        };
+        let parts = match task.settings.method {
+            Method::Iterate => [part(GIVEN_ITERATED)].into(),
+            Method::VirtualBoundary => [part(GIVEN_BENT)].into(),
+            Method::Auto if !task.is_constrained() => [part(GIVEN)].into(),
+            Method::Auto => [start(), part(Self::flights_to_constraints(task))].into(),
+            Method::Matchmaker => [start(), part(MATCHED)].into(),
+            _ => [start(), part(CONTINUED)].into(),
+        };
+        Self { parts }
+    }
+
+    /// From the surface alone.
+    pub(super) fn afresh(task: &Arc<Task>, kept: &Kept) -> Self {
         let planar_start = kept.planar_start.clone().filter(|start| start.size == task.settings.size);
         let kept = Kept { planar_start, ..kept.clone() };
         let part = |flights| Part::new(task, Aim::Constraints, flights, &kept);
@@ -117,10 +98,9 @@ impl Plan {
         let parts = match task.settings.method {
             Method::Auto if !task.is_constrained() => [part(LADDER)].into(),
             Method::Auto => {
-                let flights = if task.adds_vertices() { CONTINUED_OR_MATCHED } else { CONTINUED };
-                [part(ITERATED)].into_iter().chain(from_start(flights)).collect()
+                [part(ITERATED)].into_iter().chain(from_start(Self::flights_to_constraints(task))).collect()
             }
-            Method::Continuation | Method::Relax | Method::Cut => from_start(CONTINUED).collect(),
+            Method::Continuation | Method::Relax | Method::Cut | Method::Given => from_start(CONTINUED).collect(),
             Method::Matchmaker => from_start(MATCHED).collect(),
             Method::Iterate => [part(ITERATED)].into(),
             Method::VirtualBoundary => [part(BENT)].into(),
@@ -128,6 +108,11 @@ impl Plan {
             Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
         };
         Self { parts }
+    }
+
+    /// For `auto`.
+    fn flights_to_constraints(task: &Task) -> Flights {
+        if task.adds_vertices() { CONTINUED_OR_MATCHED } else { CONTINUED }
     }
 
     pub(super) fn part(&self) -> &Part {

@@ -60,7 +60,8 @@ impl Ladder {
                 self.asked.held()
             }
         };
-        Ok(Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside })
+        let lies_as_given = task.start.is_some();
+        Ok(Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside, lies_as_given })
     }
 
     /// The verdict on a candidate as it is written.

@@ -119,8 +119,13 @@ impl Rung for Relax {
     fn has_more(&self, _: &Task, latest: Option<&Latest>) -> bool {
         // Polygons that cannot be convex are cut.
         let may_serve = self.lack.is_some() && latest.is_none_or(|latest| !latest.is_solved_but_for_polygons);
+        // What fills the holes of a layout that was given may fold: there is no way on from that.
+        let may_begin = latest.is_none_or(|latest| latest.is_one_to_one || !latest.is_solved);
         let is_wanted = self.left.always > 0 || (self.left.until_it_serves > 0 && may_serve);
-        is_wanted && !self.has_failed && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
+        is_wanted
+            && may_begin
+            && !self.has_failed
+            && !self.relaxing.as_ref().is_some_and(|relaxing| relaxing.has_converged)
     }
 
     fn look_at(&mut self, step: &Step) {

@@ -108,6 +108,8 @@ pub struct Step {
     pub verify_seconds: f64,
     /// Pins that have no part in it: all constraints, where it is on the way to a planar start without them.
     pub set_aside: Pins,
+    /// Whether it lies as the layout does that it started from, as far as pins leave that open.
+    pub lies_as_given: bool,
 }
 
 impl Deref for Step {

@@ -17,12 +17,14 @@ pub(super) struct Task {
     pub(super) pins: Pins,
     /// How embeddings are written: what is proved.
     pub(super) sheet: Arc<Sheet>,
+    /// The layout to start from, one position per vertex.
+    pub(super) start: Option<Arc<Embedding>>,
 }
 
 impl Task {
     /// Pins count only where the method uses them.
     pub(super) fn new(settings: Settings, pins: Pins, sheet: Arc<Sheet>) -> Self {
-        Self { settings, pins: if settings.method.uses_pins() { pins } else { Pins::new() }, sheet }
+        Self { settings, pins: if settings.method.uses_pins() { pins } else { Pins::new() }, sheet, start: None }
     }
 
     /// The units of its solves. Placing and pictures that are not square round in the numbers that are written: there the
@@ -36,7 +38,12 @@ impl Task {
     /// is proved of every step.
     pub(super) fn in_units(&self, units: &Units) -> Self {
         let sheet = if units.is_plane() { Arc::clone(&self.sheet) } else { Arc::default() };
-        Self { settings: units.settings(self.settings), pins: units.pins(&self.pins), sheet }
+        let in_units = |start: &Arc<Embedding>| match units.is_plane() {
+            true => Arc::clone(start),
+            false => Arc::new(units.embedding(start)),
+        };
+        let start = self.start.as_ref().map(in_units);
+        Self { settings: units.settings(self.settings), pins: units.pins(&self.pins), sheet, start }
     }
 
     /// Whether the pins are constraints: up to two exact ones only fix the similarity.
@@ -82,8 +89,11 @@ impl Task {
             return None;
         }
         candidate.solution.gauge_completed = is_open;
-        let free = Free { size: self.settings.size, turns: self.turns(mesh, candidate) };
-        let Some(placing) = Placing::of_gauge(mesh, embedding, &self.pins, free) else {
+        if self.pins.is_empty() && self.start.as_deref() == Some(embedding) {
+            candidate.solution.pins = gauge_in(mesh, embedding);
+            return None;
+        }
+        let Some(placing) = self.placing(mesh, candidate) else {
             candidate.solution.pins = gauge_in(mesh, embedding);
             return Some("the pinned vertices fell together, and no similarity takes them to their targets".to_owned());
         };
@@ -108,6 +118,18 @@ impl Task {
             candidate.outside = Some(Arc::new(moved(outside, way)));
         }
         placed.way.is_none().then(|| "not yet moved to its place, whose numbers would fold it".to_owned())
+    }
+
+    /// To where up to two pins want a candidate; where they leave that open, to where the layout lies that it started from.
+    fn placing(&self, mesh: &DiskMesh, candidate: &Candidate) -> Option<Placing> {
+        let embedding = &candidate.solution.embedding;
+        match &self.start {
+            Some(start) if self.has_open_gauge() => Some(Placing::over(embedding, start, &self.pins)),
+            _ => {
+                let free = Free { size: self.settings.size, turns: self.turns(mesh, candidate) };
+                Placing::of_gauge(mesh, embedding, &self.pins, free)
+            }
+        }
     }
 
     /// How a candidate is turned where pins leave it free: upright; the sides of a convex boundary stay level.

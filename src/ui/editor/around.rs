@@ -7,13 +7,15 @@ use glam::DVec3;
 use crate::mesh::FaceId;
 use crate::render::Surroundings;
 use crate::session::Model;
-use crate::view::{FacePaint, MeshArrays, Ray, Sphere, SurfacePicker};
+use crate::view::{EdgeList, FacePaint, MeshArrays, Ray, Sphere, SurfacePicker};
 
 /// The charts that are not on the screen, around the one that is.
 #[derive(Debug)]
 pub struct Around {
     /// How they are drawn.
     pub surroundings: Surroundings,
+    /// The seams of all charts, by the vertices of the whole.
+    pub seams: Arc<EdgeList>,
     picker: SurfacePicker,
     /// The chart of each of their faces.
     chart_of: Vec<u32>,
@@ -34,7 +36,9 @@ impl Around {
         let mesh = MeshArrays::in_frame(positions, &triangles, sphere);
         let paint = FacePaint::faint(triangles.len());
         let surroundings = Surroundings { mesh: Arc::new(mesh), paint: Arc::new(paint) };
-        Some(Self { surroundings, picker: SurfacePicker::new(positions, &triangles), chart_of })
+        let seams = of.charts.whole().seam_sides(&model.form.seams, &model.source.polygons);
+        let seams = Arc::new(EdgeList::new(seams));
+        Some(Self { surroundings, seams, picker: SurfacePicker::new(positions, &triangles), chart_of })
     }
 
     /// The chart that a ray meets first, and how far from its origin.

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::making::Making;
-use super::scene::{Legend, MeshScene, Paint, PaintKey, PlaneScene};
+use super::paint::{Legend, Paint, PaintKey};
+use super::scene::{MeshScene, PlaneScene};
 use super::{Editor, Pane, Shading, Tool};
 use crate::geom;
 use crate::geom::Bounds;

@@ -8,6 +8,11 @@
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
+//! | `paint.rs` | faces coloured by a shading |
+//! | `in_file.rs` | vertices of what is on the screen as those of the file |
+//! | `seam_rules.rs` | seams at sharp edges, or where materials or groups meet |
+//! | `sides.rs` | which side of a seam a vertex is on |
+//! | `seam_tool.rs` | the seam that is being drawn, and the shortest paths from where it has got to |
 //! | `element.rs` | parts of the mesh by their names |
 //! | `around.rs` | the charts around the one that is worked on |
 //! | `making.rs` | scenes are made in the background |
@@ -24,18 +29,23 @@ mod around;
 mod element;
 mod frames;
 mod host;
+mod in_file;
 mod kept;
 pub(super) mod layout;
 mod look;
 mod making;
 mod mesh_view;
 mod opened;
+mod paint;
 mod plane;
 pub(super) mod purpose;
 mod request;
 mod requests;
 pub(super) mod scene;
+pub(super) mod seam_rules;
+pub(super) mod seam_tool;
 mod selection;
+mod sides;
 pub(super) mod views;
 
 pub(super) use element::Element;
@@ -43,6 +53,8 @@ pub(super) use plane::HullScene;
 pub use plane::Stage;
 pub(super) use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
+pub use seam_rules::SeamRule;
+pub use seam_tool::SeamClick;
 pub use views::Defect;
 
 use std::sync::Arc;
@@ -110,7 +122,7 @@ impl Editor {
             session: Session::new(Arc::clone(&wake), recent),
             selection: Selection::default(),
             pointer: Pointer::default(),
-            tools: ToolState::default(),
+            tools: ToolState::new(&wake),
             look: Look::new(&wake),
             layout: Layout::default(),
             opened: Opened::default(),
@@ -156,6 +168,8 @@ impl Editor {
         self.let_go_of_chart();
         self.go_on_after_saving();
         self.go_on_playing();
+        self.go_on_with_seam();
+        self.take_seams_by_rule();
         if self.mesh.poll(&self.session) {
             self.begin_with_mesh();
         }
@@ -175,8 +189,10 @@ impl Editor {
         }
         self.refresh_paints();
         self.host.note_work(self.session.busy().is_some(), Instant::now());
-        let scenes_pending =
-            self.mesh.is_making_scene() || self.plane.is_making_scene() || self.look.is_making_picture();
+        let scenes_pending = self.mesh.is_making_scene()
+            || self.plane.is_making_scene()
+            || self.look.is_making_picture()
+            || self.tools.seam.is_busy();
         if self.session.busy().is_some() || scenes_pending || self.files.dialogs.is_open() {
             self.host.context().request_repaint_after(Duration::from_millis(100));
         }
@@ -192,9 +208,17 @@ impl Editor {
     /// Says what could not be drawn.
     fn tell_failures(&mut self) {
         let [mesh, plane, picture] = [self.mesh.take_failure(), self.plane.take_failure(), self.look.take_failure()];
-        let failures = [(Place::Mesh, mesh), (Place::Embedding, plane), (Place::Embedding, picture)];
-        for (place, failure) in failures.into_iter().filter_map(|(place, failure)| Some((place, failure?))) {
-            self.session.tell_failure(place, "drawing", &failure);
+        let seam = self.tools.seam.take_failure();
+        let failures = [
+            (Place::Mesh, "drawing", mesh),
+            (Place::Embedding, "drawing", plane),
+            (Place::Embedding, "drawing", picture),
+            (Place::Mesh, "finding paths", seam),
+        ];
+        for (place, work, failure) in failures {
+            if let Some(failure) = failure {
+                self.session.tell_failure(place, work, &failure);
+            }
         }
     }
 

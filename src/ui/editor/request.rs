@@ -7,6 +7,8 @@ use crate::io::OutputFit;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::solver::Hold;
+use crate::ui::editor::seam_rules::SeamRule;
+use crate::ui::editor::seam_tool::SeamClick;
 use crate::ui::panes::inset::InsetPan;
 use crate::ui::{Answer, Purpose, Stage};
 
@@ -20,11 +22,13 @@ pub enum Tool {
     Fix,
     /// Joins vertices with their places on the picture.
     Constrain,
+    /// Cuts the mesh along paths from vertex to vertex.
+    Seam,
 }
 
 impl Tool {
     /// All tools, from top to bottom.
-    pub const ALL: [Self; 3] = [Self::Select, Self::Fix, Self::Constrain];
+    pub const ALL: [Self; 4] = [Self::Select, Self::Fix, Self::Constrain, Self::Seam];
 
     /// Its name in files, its entry in menus, and what it does.
     pub(in crate::ui) const fn words(self) -> [&'static str; 3] {
@@ -32,6 +36,7 @@ impl Tool {
             Self::Select => ["select", "Select vertices", "Select vertices"],
             Self::Fix => ["fix", "Fix vertices", "Fix: pin a vertex where it lies"],
             Self::Constrain => ["constrain", "Constrain vertices", "Constrain: join a vertex with its place"],
+            Self::Seam => ["seam", "Draw seams", "Seam: cut the mesh along paths from vertex to vertex"],
         }
     }
 }
@@ -189,6 +194,18 @@ pub enum Request {
     SetTool(Tool),
     /// Takes up the constrain tool with a vertex, whose place is to come.
     TakeVertex(VertexId),
+    /// The seam tool clicks a vertex.
+    ClickSeam(SeamClick),
+    /// Cuts along the edges of a rule.
+    CutByRule(SeamRule),
+    /// Chooses from which angle on edges are sharp, degrees.
+    SetSharp(f64),
+    /// The next click of the seam tool begins another seam.
+    EndSeam,
+    /// Chooses what the paths of seams follow: from 0, the shortest, to 1, creases.
+    SetCreases(f64),
+    /// Lets clicks of the seam tool take seams away, or cut again.
+    ToggleErasing,
     /// Colours faces in the pane under the pointer, or in both where it is over neither.
     SetShading(Shading),
     /// Colours faces in one pane.

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::io::PROJECT_EXTENSION;
 use crate::mesh::VertexId;
-use crate::session::{Action, SaveRequest};
+use crate::session::{Action, SaveRequest, Together};
 use crate::solver::Hold;
 use crate::ui::panels::dialogs::Choice;
 use crate::ui::panels::unsaved::Wish;
@@ -15,6 +16,9 @@ const PLAY_SECONDS: f64 = 6.0;
 /// How long one step shows while they are played, at least and at most, seconds.
 const STEP_SECONDS: (f64, f64) = (0.1, 0.8);
 
+/// Endings of files that a mesh file names by itself.
+const BESIDE: &[&str] = &["mtl", "bin"];
+
 impl Editor {
     /// Carries out a request.
     pub fn handle(&mut self, request: Request) {
@@ -25,6 +29,12 @@ impl Editor {
             Request::TogglePlay => self.toggle_play(),
             Request::ToggleCurves => self.timeline.curves_wanted = Some(!self.timeline.curves_shown()),
             Request::SetTool(tool) => self.tools.take_up(tool),
+            Request::ClickSeam(click) => self.take_seam_click(click),
+            Request::CutByRule(rule) => self.cut_by_rule(rule),
+            Request::SetSharp(degrees) => self.tools.seam.rules.degrees = degrees.clamp(0.0, 180.0),
+            Request::EndSeam => drop(self.tools.seam.end()),
+            Request::SetCreases(share) => self.tools.seam.set_creases(share),
+            Request::ToggleErasing => self.tools.seam.toggle_erases(),
             Request::TakeVertex(vertex) => self.take_vertex(vertex),
             Request::SetShading(shading) => self.shade(shading),
             Request::SetPaneShading(pane, shading) => self.shade_pane(pane, shading),
@@ -90,6 +100,8 @@ impl Editor {
             Purpose::OpenPicture => self.act(Action::OpenPicture(path)),
             Purpose::ImportConstraints => self.act(Action::ImportConstraints(path)),
             Purpose::ExportConstraints => self.act(Action::ExportConstraints(path)),
+            Purpose::ImportSeams => self.act(Action::ImportSeams(path)),
+            Purpose::ExportSeams => self.act(Action::ExportSeams(path)),
             Purpose::SaveProject => {
                 self.keep_view();
                 self.act(Action::SaveProject(path));
@@ -102,16 +114,34 @@ impl Editor {
         }
     }
 
-    /// What a file that was dropped on the window asks for, by its name.
-    pub(in crate::ui) fn dropped(path: PathBuf) -> Request {
-        let is_for = |purpose: Purpose| purpose.form().fits(&path);
-        Request::Do(if is_for(Purpose::OpenPicture) {
-            Action::OpenPicture(path)
-        } else if is_for(Purpose::ImportConstraints) {
-            Action::ImportConstraints(path)
-        } else {
-            Action::Open(path)
-        })
+    /// What files that were dropped on the window ask for, by their names: one mesh or project opens, and pictures and
+    /// constraints are for it, or for what is open already.
+    pub(in crate::ui) fn dropped(paths: Vec<PathBuf>) -> Vec<Request> {
+        let is_for = |purpose: Purpose| move |path: &PathBuf| purpose.form().fits(path);
+        let (pictures, others): (Vec<PathBuf>, Vec<PathBuf>) =
+            paths.into_iter().partition(is_for(Purpose::OpenPicture));
+        let (constraints, mut meshes): (Vec<_>, Vec<_>) =
+            others.into_iter().partition(is_for(Purpose::ImportConstraints));
+        // A project knows its mesh.
+        meshes.sort_by_key(|path| !has_extension(path, &[PROJECT_EXTENSION]));
+        if meshes.len() > 1 {
+            meshes.retain(|path| !has_extension(path, BESIDE));
+        }
+        let mut pictures = pictures.into_iter();
+        let mut meshes = meshes.into_iter();
+        let actions: Vec<Action> = match (meshes.next(), pictures.len() + constraints.len() + meshes.len()) {
+            (None, _) => pictures
+                .map(Action::OpenPicture)
+                .chain(constraints.into_iter().map(Action::ImportConstraints))
+                .collect(),
+            (Some(mesh), 0) => vec![Action::Open(mesh)],
+            (Some(mesh), _) => {
+                let picture = pictures.next();
+                let left = meshes.chain(pictures).collect();
+                vec![Action::OpenTogether(Together { mesh, picture, constraints, left })]
+            }
+        };
+        actions.into_iter().map(Request::Do).collect()
     }
 
     /// Puts the chart on the screen that is so many places after the one that is, around and around.
@@ -135,7 +165,7 @@ impl Editor {
         if matches!(action, Action::Step | Action::Run | Action::Relax | Action::Repair | Action::ShowStep(_)) {
             self.timeline.playing_since = None;
         }
-        if matches!(action, Action::Open(_) | Action::OpenExample(_) | Action::Recover(_)) {
+        if matches!(action, Action::Open(_) | Action::OpenTogether(_) | Action::OpenExample(_) | Action::Recover(_)) {
             return self.wish(Wish::Do(action));
         }
         let before = self.session.document().frame();
@@ -170,6 +200,7 @@ impl Editor {
         } else if self.pointer.end_box() {
         } else if self.tools.pair().is_some() {
             self.tools.set_pair(None);
+        } else if self.tools.seam.end() {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
         } else {
@@ -247,4 +278,9 @@ impl Editor {
         let gaps = self.session.timeline().kept().count().max(2) - 1;
         (PLAY_SECONDS / gaps as f64).clamp(STEP_SECONDS.0, STEP_SECONDS.1)
     }
+}
+
+fn has_extension(path: &Path, extensions: &[&str]) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    extensions.iter().any(|other| extension.eq_ignore_ascii_case(other))
 }

@@ -5,14 +5,12 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::around::Around;
-use crate::mesh::{DiskMesh, FaceId, NewVertex, Refinement, TriMesh, VertexId};
+use super::in_file::InFile;
+use crate::mesh::{DiskMesh, NewVertex, Refinement, TriMesh, VertexId};
 use crate::session::{Model, Outcome};
-use crate::solver::{Embedding, FaceDistortion, GaugeSize, Step};
-use crate::ui::Shading;
+use crate::solver::{Embedding, GaugeSize, Step};
 use crate::ui::editor::Element;
-use crate::view::{
-    EdgeList, FacePaint, MeshArrays, PlaneArrays, PlanePicker, Range, Ray, Scale, Sphere, SurfacePicker,
-};
+use crate::view::{EdgeList, MeshArrays, PlaneArrays, PlanePicker, Ray, Sphere, SurfacePicker};
 
 /// A mesh, ready to be drawn and picked in: as given, or with the new vertices of a step.
 #[derive(Debug)]
@@ -26,6 +24,10 @@ pub struct MeshScene {
     pub arrays: Arc<MeshArrays>,
     /// The boundary, where it is a disk: of holes, too.
     pub boundary: Arc<EdgeList>,
+    /// Where it is cut along seams that are listed: both sides.
+    pub seams: Arc<EdgeList>,
+    /// Its vertices as those of the file.
+    pub(in crate::ui) in_file: InFile,
     /// Vertices that only fill holes: they are not shown.
     hidden: Vec<VertexId>,
     pub picker: SurfacePicker,
@@ -40,10 +42,10 @@ impl MeshScene {
         Self::of(model, model_revision, None)
     }
 
-    /// Whether another chart of the same mesh is on the screen of both.
+    /// Whether both are of the same mesh, in whatever way it is cut, with the same side out, and of one size.
     pub(super) fn is_of_same_mesh(&self, other: &Self) -> bool {
-        let charts = |scene: &Self| scene.model.chart.as_ref().map(|of| Arc::clone(&of.charts));
-        charts(self).zip(charts(other)).is_some_and(|(own, other)| Arc::ptr_eq(&own, &other))
+        let grows = self.sphere.radius / other.sphere.radius;
+        Arc::ptr_eq(&self.model.source, &other.model.source) && (0.5..2.0).contains(&grows)
     }
 
     /// The vertices of an element; none where the mesh does not have it.
@@ -86,6 +88,8 @@ impl MeshScene {
             model_revision,
             arrays: Arc::new(MeshArrays::in_frame(positions, triangles, sphere)),
             boundary: Arc::new(boundary),
+            seams: Arc::new(EdgeList::new(model.seam_sides())),
+            in_file: InFile::of(&model),
             hidden: disk.map(DiskMesh::virtual_vertices).unwrap_or_default(),
             picker: SurfacePicker::new(positions, triangles),
             sphere,
@@ -248,99 +252,3 @@ fn faces_outside(outcome: &Outcome, triangles: &[[VertexId; 3]]) -> usize {
 
 /// Distance from the picture up to which a vertex counts as on its edge, in parts of the picture's longer side.
 const EDGE: f64 = 1e-9;
-
-/// Faces coloured by a shading, with what a legend needs.
-#[derive(Clone, Debug)]
-pub struct Paint {
-    pub key: PaintKey,
-    pub faces: Arc<FacePaint>,
-    pub legend: Option<Legend>,
-}
-
-/// What a paint is made for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PaintKey {
-    /// The mesh, by its revision.
-    pub model: u64,
-    /// The outcome, by its revision.
-    pub outcome: u64,
-    pub shading: Shading,
-    /// The step that moves are measured from, where they are asked for.
-    pub moved_from: Option<usize>,
-}
-
-/// A scale with its range and how many faces lie where.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Legend {
-    pub scale: Scale,
-    pub range: Range,
-    /// Faces in each of equal parts of the range; those beyond count at the ends.
-    pub histogram: Vec<u32>,
-}
-
-const BARS: usize = 40;
-
-impl Paint {
-    /// Colours the faces of an embedding; moves are measured from `base`.
-    pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
-        let plain = |flipped: &[FaceId]| Self {
-            key,
-            faces: Arc::new(FacePaint::plain(mesh.real_face_count(), flipped)),
-            legend: None,
-        };
-        let Some(outcome) = outcome else { return plain(&[]) };
-        let flipped = &outcome.step.verdict.flipped_faces;
-        let by_values = |scale: Scale, values: &[f64]| {
-            let range = scale.robust_range(values);
-            let faces = Arc::new(FacePaint::by_value(values, scale, range, flipped));
-            Self { key, faces, legend: Some(Legend { scale, range, histogram: histogram(values, range) }) }
-        };
-        let by = |scale: Scale, of: fn(&FaceDistortion) -> f64| {
-            by_values(scale, &outcome.distortion.faces.iter().map(of).collect::<Vec<f64>>())
-        };
-        match (key.shading, base) {
-            (Shading::Plain | Shading::Checker | Shading::Picture | Shading::SeeThrough, _) | (Shading::Move, None) => {
-                plain(flipped)
-            }
-            (Shading::Angle, _) => by(Scale::Angle, |face| face.angle),
-            (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
-            (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),
-            (Shading::Move, Some(base)) => {
-                let before = embedding_on(&base.step, &outcome.step);
-                by_values(Scale::Move, &face_moves(mesh, &before, &outcome.step.solution.embedding))
-            }
-        }
-    }
-}
-
-fn histogram(values: &[f64], range: Range) -> Vec<u32> {
-    let mut bars = vec![0; BARS];
-    for share in values.iter().map(|&v| range.share(v)).filter(|share| share.is_finite()) {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share lies in 0 to 1")]
-        let bar = (share * BARS as f64) as usize;
-        bars[bar.min(BARS - 1)] += 1;
-    }
-    bars
-}
-
-/// Where the vertices of one step lie in another one: new vertices that the other one lacks on its straight edges.
-fn embedding_on(base: &Step, step: &Step) -> Embedding {
-    let embedding = &base.solution.embedding;
-    let Some(refinement) = &step.refinement else { return embedding.clone() };
-    if base.refinement.as_ref().is_some_and(|other| Arc::ptr_eq(other, refinement)) {
-        return embedding.clone();
-    }
-    let mut moved = embedding[..refinement.old_vertex_count()].to_vec();
-    for new in refinement.new_vertices() {
-        let [a, b] = new.edge.map(|v| embedding[v.index()]);
-        moved.push(a.lerp(b, new.at));
-    }
-    moved.into()
-}
-
-/// How far each face has moved between two embeddings: the mean of its corners.
-fn face_moves(mesh: &TriMesh, before: &Embedding, after: &Embedding) -> Vec<f64> {
-    let moves: Vec<f64> = before.iter().zip(after).map(|(a, b)| a.distance(*b)).collect();
-    let of_vertex = |v: VertexId| moves.get(v.index()).copied().unwrap_or(f64::NAN);
-    mesh.real_triangles().iter().map(|corners| corners.map(of_vertex).iter().sum::<f64>() / 3.0).collect()
-}

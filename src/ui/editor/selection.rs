@@ -5,8 +5,10 @@ use std::collections::BTreeSet;
 use eframe::egui;
 use glam::DVec2;
 
+use super::seam_tool::SeamTool;
 use super::{Pane, Tool};
 use crate::mesh::VertexId;
+use crate::session::Wake;
 use crate::solver::Hold;
 use crate::ui::panes::pin_drag::PinDrag;
 use crate::ui::panes::{Half, Intent};
@@ -136,9 +138,11 @@ impl Pointer {
     }
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Debug)]
 pub struct ToolState {
     tool: Tool,
+    /// The seam that is being drawn.
+    pub seam: SeamTool,
     pair: Option<Half>,
     intent: Intent,
     /// How the next constraint is held, where a person chose.
@@ -148,13 +152,28 @@ pub struct ToolState {
 }
 
 impl ToolState {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self {
+            tool: Tool::default(),
+            seam: SeamTool::new(wake),
+            pair: None,
+            intent: Intent::default(),
+            hold: None,
+            drag: None,
+            is_nudging: false,
+        }
+    }
+
     pub fn tool(&self) -> Tool {
         self.tool
     }
 
-    /// Takes up a tool. Half a pair is given up.
+    /// Takes up a tool. Half a pair is given up, and the seam that was drawn last is done.
     pub fn take_up(&mut self, tool: Tool) {
         (self.tool, self.pair) = (tool, None);
+        if tool != Tool::Seam {
+            self.seam.put_away();
+        }
     }
 
     /// The half of a pair that the constrain tool has placed.

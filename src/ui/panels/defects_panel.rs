@@ -3,6 +3,7 @@
 use eframe::egui::{self, Color32, RichText, Role};
 
 use super::diagnosis;
+use super::welding::welding;
 use crate::mesh::VertexId;
 use crate::solver::Verdict;
 use crate::ui::{Control, Defect, Editor, Request, Theme, counted, keys_of, theme_of};
@@ -57,11 +58,12 @@ impl Kind {
 
 pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let theme = theme_of(ui);
+    if diagnosis::faults(ui, &editor.session, requests) {
+        return;
+    }
     if let Some(model) = editor.session.model() {
-        if diagnosis::faults(ui, model, requests) {
-            return;
-        }
         diagnosis::notes(ui, model);
+        welding(ui, &editor.session, requests);
     }
     let Some(outcome) = editor.step_on_screen().cloned() else {
         ui.label("Nothing is solved yet.");

@@ -4,14 +4,18 @@
 use eframe::egui::{self, Button, RichText};
 
 use super::menu::grouped;
-use crate::mesh::{Fault, TriMesh};
-use crate::session::{Action, Model, Surface};
+use super::surface::surface_rows;
+use super::welding::welding;
+use crate::mesh::{Fault, Form, Repair, TriMesh};
+use crate::session::{Action, Model, Session, Surface};
 use crate::ui::{Control, Request, counted, sentence, theme_of};
 
 /// The faults of a mesh that cannot be flattened as it is. Returns whether it is one.
-pub(super) fn faults(ui: &mut egui::Ui, model: &Model, requests: &mut Vec<Request>) -> bool {
+pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) -> bool {
+    let Some(model) = session.model() else { return false };
     let Surface::Faulty(mesh, diagnosis) = &model.surface else { return false };
     ui.label("The mesh cannot be flattened as it is:");
+    surface_rows(ui, session, requests);
     egui::ScrollArea::vertical().show(ui, |ui| {
         if let Some(remedy) = &model.remedy {
             let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();
@@ -22,7 +26,11 @@ pub(super) fn faults(ui: &mut egui::Ui, model: &Model, requests: &mut Vec<Reques
         for fault in &diagnosis.faults {
             ui.separator();
             fault_card(ui, fault, mesh, requests);
+            remedies(ui, fault, &session.document().form, requests);
         }
+        ui.separator();
+        done(ui, model);
+        welding(ui, session, requests);
     });
     true
 }
@@ -57,11 +65,30 @@ fn fault_card(ui: &mut egui::Ui, fault: &Fault, mesh: &TriMesh, requests: &mut V
     });
 }
 
+/// Buttons for the repairs that mend a fault, and are not done yet.
+fn remedies(ui: &mut egui::Ui, fault: &Fault, form: &Form, requests: &mut Vec<Request>) {
+    let is_open = |repair: &&Repair| !form.allows(**repair);
+    ui.horizontal_wrapped(|ui| {
+        for &repair in fault.repairs().iter().filter(is_open) {
+            let [words, tip] = repair.offer();
+            let button = ui.button(words).on_hover_text(format!("{tip}. The file stays; undo takes it back"));
+            button.asks(Action::AllowRepair(repair), requests);
+        }
+    });
+}
+
+/// What was done with a mesh already.
+fn done(ui: &mut egui::Ui, model: &Model) {
+    for done in model.repaired.iter().flat_map(|repaired| repaired.done()) {
+        ui.weak(format!("Mesh: {done}"));
+    }
+}
+
 /// What was done with a mesh before it was flattened; nothing where it is as it should be.
 pub(super) fn notes(ui: &mut egui::Ui, model: &Model) {
     let Some(disk) = model.disk() else { return };
-    let repairs = model.repaired.iter().flat_map(|repaired| repaired.done());
-    let mut notes: Vec<String> = repairs.map(ToString::to_string).collect();
+    done(ui, model);
+    let mut notes: Vec<String> = Vec::new();
     let unused = disk.vertex_count() - disk.used_vertex_count();
     if unused > 0 {
         notes.push(counted(unused, "vertex of no face", "vertices of no face"));

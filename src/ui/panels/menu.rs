@@ -8,7 +8,9 @@ use super::verdict_pill::verdict_pill;
 use crate::examples::Example;
 use crate::io::{OutputFit, OutputKind};
 use crate::session::Action;
-use crate::ui::{Control, Editor, Pane, Purpose, Request, Shading, StepTarget, Tab, Tool, icons, keys_of, theme_of};
+use crate::ui::{
+    Control, Editor, Pane, Purpose, Request, SeamRule, Shading, StepTarget, Tab, Tool, icons, keys_of, theme_of,
+};
 
 /// Blanks before the words of an entry that may have a check mark.
 const ROOM_FOR_MARK: &str = "      ";
@@ -196,6 +198,20 @@ fn edit_menu(menu: &mut Menu<'_>) {
     for tool in Tool::ALL {
         menu.choice(editor.tools.tool() == tool, tool.words()[1], Request::SetTool(tool));
     }
+    menu.part("Seams", |menu| {
+        let has_model = session.model().is_some();
+        let degrees = editor.tools.seam.rules.degrees;
+        let sharp = format!("Cut along sharp edges: {degrees:.0}° or more");
+        menu.item(has_model, &sharp, Request::CutByRule(SeamRule::Sharp(degrees)));
+        menu.item(has_model, "Cut along borders of materials", Request::CutByRule(SeamRule::Materials));
+        menu.item(has_model, "Cut along borders of groups", Request::CutByRule(SeamRule::Groups));
+        menu.ui.separator();
+        let has_seams = !session.seams().edges().is_empty();
+        menu.item(has_model, "Import seams…", Request::Ask(Purpose::ImportSeams));
+        menu.item(has_seams, "Export seams…", Request::Ask(Purpose::ExportSeams));
+        menu.ui.separator();
+        menu.item(has_seams, "Clear seams", Action::SetSeams(editor.without_seams()));
+    });
     menu.ui.separator();
     let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();
     menu.item(fixable, "Fix the selection", Action::Fix(editor.selection.vertices().iter().copied().collect()));

@@ -6,6 +6,8 @@
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
 //! | `charts_panel.rs` | the charts of a mesh that has several, and how they are packed |
 //! | `diagnosis.rs` | what is wrong with the mesh, and what mends it: in the tab of defects |
+//! | `welding.rs` | vertices joined within a distance: in the same tab |
+//! | `surface.rs` | rows of tabs: the charts and holes of the mesh, and what the map starts from |
 //! | `compare_panel.rs` | numbers of two steps that are compared |
 //! | `picture_panel.rs` | the picture's part of the pins' tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding's pane |
@@ -30,10 +32,12 @@ pub(super) mod method_panel;
 mod picture_panel;
 mod pins_panel;
 pub(super) mod status;
+mod surface;
 pub(super) mod toast;
 pub(super) mod unsaved;
 mod verdict_pill;
 mod vertex_panel;
+mod welding;
 
 use eframe::egui::{self, Role, Sense, Vec2, WidgetInfo};
 

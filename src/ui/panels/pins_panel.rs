@@ -12,7 +12,9 @@ use crate::session::{Action, named};
 use crate::solver::{Hold, Pin};
 use crate::ui::panes::pins::{Emphasis, PinKind};
 use crate::ui::panes::vertex_menu::{hold_entries, vertex_menu};
-use crate::ui::{Control, Editor, Offer, Purpose, Request, Tool, Typed, counted, keys_of, remark, sentence, theme_of};
+use crate::ui::{
+    Control, Editor, Offer, Purpose, Request, Tool, Typed, counted, five_digits, keys_of, remark, sentence, theme_of,
+};
 
 /// Height that is kept free below the table, points.
 const BELOW: f32 = 250.0;
@@ -102,7 +104,9 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
     let selected = editor.selection.vertices().contains(&vertex);
     let label = ui.selectable_label(selected, vertex.to_string());
     label.context_menu(|ui| vertex_menu(ui, editor, vertex, requests));
-    let label = label.on_hover_text("Select; Shift selects all up to it, Ctrl adds it, a double click shows it");
+    let tip = "Select; Shift selects all up to it, Ctrl adds it, a double click shows it";
+    let side = editor.mesh_scene().and_then(|scene| scene.side_of(vertex));
+    let label = label.on_hover_text(side.map_or_else(|| tip.to_owned(), |side| format!("{side}\n{tip}")));
     if label.double_clicked() {
         requests.push(Request::GoTo(vec![vertex]));
     } else if label.clicked() {
@@ -114,7 +118,7 @@ fn row(ui: &mut egui::Ui, editor: &Editor, row: Row, requests: &mut Vec<Request>
             weight_field(ui, &format!("Weight of pin {vertex}"), weight, &[vertex], requests);
         }
         (Hold::Fixed | Hold::Hard, Hold::Weighted(weight)) => {
-            ui.weak(weight_words(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
+            ui.weak(five_digits(weight)).on_hover_text("This treatment of pinned vertices weighs exact pins as well");
         }
         (Hold::Fixed | Hold::Hard, Hold::Fixed | Hold::Hard) => exact(ui, editor, row, requests),
     }
@@ -199,11 +203,11 @@ fn coordinates(ui: &mut egui::Ui, Row { vertex, target, speed, .. }: Row, reques
 /// A field for the weight of some pins: what is typed is one edit, made when the field is left; a drag is one gesture.
 fn weight_field(ui: &mut egui::Ui, name: &str, weight: f64, vertices: &[VertexId], requests: &mut Vec<Request>) {
     let mut typed = weight;
-    let shown = weight_words(weight);
+    let shown = five_digits(weight);
     let taken = Typed::new("a weight", WEIGHTS);
     let drag = DragValue::new(&mut typed).range(WEIGHTS).clamp_existing_to_range(false).speed(weight * 0.02);
     // A weight that is only looked at keeps all of its digits.
-    let drag = drag.update_while_editing(false).custom_formatter(|weight, _| weight_words(weight));
+    let drag = drag.update_while_editing(false).custom_formatter(|weight, _| five_digits(weight));
     let drag =
         drag.custom_parser(|text| if text.trim() == shown { Some(taken.again(weight)) } else { taken.number(text) });
     let field = ui.add_sized([FIELDS[1], 20.0], drag).on_hover_text("How strongly it pulls: drag, or type");
@@ -314,15 +318,6 @@ fn coordinate<'a>(value: &'a mut f64, speed: f64, typed: &'a Typed) -> DragValue
     drag.custom_parser(move |text| {
         if text.trim().replace('−', "-") == shown { Some(typed.again(exact)) } else { typed.number(text) }
     })
-}
-
-/// A weight with the five digits that mean something.
-fn weight_words(weight: f64) -> String {
-    if !(1e-3..1e5).contains(&weight) {
-        return format!("{weight:.1e}");
-    }
-    let unit = 10_f64.powf((4.0 - weight.log10().floor()).clamp(0.0, 4.0));
-    ((weight * unit).round() / unit).to_string()
 }
 
 /// Four digits behind the point, of which a pixel of a large picture is one; fewer where more stand before it.

@@ -10,12 +10,13 @@ use crate::ui::timeline::PRESS_SPACE;
 use crate::ui::{Editor, Tool, theme_of};
 
 pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
+    let has_shift = ui.input(|input| input.modifiers.shift);
     let weak = theme_of(ui).weak_text;
     ui.horizontal_centered(|ui| {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.label(RichText::new(numbers(editor)).color(weak).monospace());
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                let hint = hint(editor);
+                let hint = hint(editor, has_shift);
                 let ink = if hint == PRESS_SPACE { theme_of(ui).text } else { weak };
                 ui.add(egui::Label::new(RichText::new(hint.as_ref()).color(ink)).truncate());
             });
@@ -23,13 +24,14 @@ pub(in crate::ui) fn status_bar(ui: &mut egui::Ui, editor: &Editor) {
     });
 }
 
-fn hint(editor: &Editor) -> Cow<'static, str> {
+fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
     let is_over_new = editor.pointer.vertex().is_some_and(|vertex| editor.is_new_vertex(vertex));
     let is_held = matches!(editor.session.status(), Status::Held);
     let words = match editor.tools.tool() {
         _ if editor.tools.dragged().is_some() => "Move the pin; the embedding follows. Esc gives up.",
         _ if editor.session.model().is_none() => "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.",
         Tool::Constrain if !is_over_new => return editor.constrain_words().into(),
+        Tool::Seam => return editor.seam_words(has_shift).into(),
         _ if is_held && !editor.timeline.curves_shown() => PRESS_SPACE,
         Tool::Fix | Tool::Constrain if is_over_new => {
             "A new vertex belongs to this embedding alone, and cannot be pinned."
@@ -54,6 +56,7 @@ fn numbers(editor: &Editor) -> String {
     if let (Some(vertex), Some(scene)) = (editor.pointer.vertex(), editor.mesh_scene()) {
         parts.push(vertex.to_string());
         parts.extend(scene.new_vertex(vertex).map(new_vertex_words));
+        parts.extend(scene.side_of(vertex).map(|side| side.to_string()));
         if let Some(x) = scene.mesh().positions.get(vertex.index()) {
             parts.push(format!("({}, {}, {})", short(x.x), short(x.y), short(x.z)));
         }

@@ -31,6 +31,9 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let Some(chart) = editor.session.chart_on_screen().filter(|_| scene.new_vertex(vertex).is_none()) {
         ui.label(format!("of chart {chart}; in files {}", scene.model.vertex_in_file(vertex)));
     }
+    if let Some(side) = scene.side_of(vertex) {
+        ui.label(side.to_string()).on_hover_text("Each side of a seam has a vertex of its own, with its own pin");
+    }
     if let Some(new) = scene.new_vertex(vertex) {
         ui.label(new_vertex_words(new)).on_hover_text(NOT_TO_PIN);
     }

@@ -5,9 +5,10 @@ use std::time::{Duration, SystemTime};
 
 use eframe::egui::{self, Label, Rect, RichText, Sense, Vec2};
 
+use super::seam;
 use crate::session::{Action, Message, Place, Severity, named};
 use crate::ui::icons::{self, Sign};
-use crate::ui::{Control, Editor, Offer, Pane, Request, Tab, counted, sentence, theme_of};
+use crate::ui::{Control, Editor, Offer, Pane, Request, Tab, Tool, counted, sentence, theme_of};
 
 /// Shows the bars at the upper edge of a pane.
 pub(super) fn over(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane, requests: &mut Vec<Request>) {
@@ -26,6 +27,10 @@ fn bars(ui: &mut egui::Ui, editor: &Editor, pane: Pane, requests: &mut Vec<Reque
         Pane::Mesh => Place::Mesh,
         Pane::Plane => Place::Embedding,
     };
+    if pane == Pane::Mesh && editor.tools.tool() == Tool::Seam && session.model().is_some() {
+        // Before the others, which come and go.
+        seam::strip(ui, editor, requests);
+    }
     for left in session.recoverable().iter().filter(|_| pane == Pane::Mesh) {
         let since = SystemTime::now().duration_since(left.time).unwrap_or_default();
         let words = format!("Work on {} was not saved when the program ended. Its copy: {}", left.name, ago(since));

@@ -7,14 +7,14 @@ use glam::DVec2;
 
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis, PinKind};
-use super::{bars, header, legend, magnifier, vertex_menu};
+use super::{bars, header, legend, magnifier, seam, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::session::Action;
 use crate::ui::editor::scene::MeshScene;
 use crate::ui::editor::views::picture_box;
 use crate::ui::{Control, Editor, Pane, Request, Shading, Theme, Tool, theme_of};
-use crate::view::{OrbitCamera, Visibility};
+use crate::view::{EdgeList, OrbitCamera, Visibility};
 
 /// Opacity of the mark of a selected vertex that the mesh hides.
 const HIDDEN: f32 = 0.4;
@@ -40,7 +40,9 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         };
         return pane::empty_state(ui, rect, lines);
     };
-    navigate(ui, &response, &scene, &mut camera);
+    // A double click ends a seam.
+    let sets_pivot = editor.tools.tool() != Tool::Seam;
+    navigate(ui, &response, &scene, &mut camera, sets_pivot);
     if editor.mesh.pane.camera() != Some(camera) {
         editor.mesh.pane.set_camera(camera);
         ui.ctx().request_repaint();
@@ -48,7 +50,11 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
     if let Some(pointer) = response.hover_pos().map(|at| pane::in_pane(rect, at)) {
         let pick = scene.picker.nearest_vertex(&camera, editor.mesh.pane.size(), pointer, Visibility::Visible);
         let pick = pick.filter(|_| editor.is_of_session(&scene));
-        editor.pointer.over_mesh(pick.map(|pick| pick.vertex));
+        let ray = camera.ray(pointer, editor.mesh.pane.size());
+        editor.pointer.over_mesh(pick.map(|pick| scene.on_side_at(pick.vertex, ray)));
+        if editor.tools.tool() == Tool::Seam {
+            editor.look_for_seam(&scene, &camera, pointer);
+        }
         editor.aim(ui, Pane::Mesh, None);
     }
     let view = Viewport { rect, camera };
@@ -60,7 +66,8 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         requests.push(Request::AddToSelection(scene.vertices().filter(inside).collect()));
     }
     let ray = response.hover_pos().map(|at| camera.ray(pane::in_pane(rect, at), editor.mesh.pane.size()));
-    match ray.filter(|_| editor.pointer.vertex().is_none()).and_then(|ray| scene.other_chart_at(ray)) {
+    let is_free = editor.pointer.vertex().is_none() && editor.tools.tool() != Tool::Seam;
+    match ray.filter(|_| is_free).and_then(|ray| scene.other_chart_at(ray)) {
         Some(chart) => other_chart(ui, &response, chart, requests),
         None => pane::click(ui, &response, editor, requests),
     }
@@ -69,6 +76,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         ui.painter().add(render::mesh_pane(PaneId("mesh"), rect, frame(editor, &scene, camera, theme)));
     }
     marks(ui, view, editor, &scene);
+    seam::over_mesh(ui, view, editor);
     legend::legend(ui, rect, editor, Pane::Mesh);
     legend::no_move_note(ui, rect, editor, Pane::Mesh);
     magnifier::over_mesh(ui, view, editor, &scene, requests);
@@ -82,7 +90,7 @@ fn other_chart(ui: &egui::Ui, response: &Response, chart: usize, requests: &mut 
 }
 
 /// Camera moves: turntable, pan, zoom to the pointer, pivot.
-fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut OrbitCamera) {
+fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut OrbitCamera, sets_pivot: bool) {
     let size = pane::size_of(response.rect);
     let drag = DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into());
     let (shift, boxing) = ui.input(|input| (input.modifiers.shift, input.modifiers.command));
@@ -102,6 +110,7 @@ fn navigate(ui: &egui::Ui, response: &Response, scene: &MeshScene, camera: &mut 
         camera.pan(wheel.pan, size);
     }
     if response.double_clicked()
+        && sets_pivot
         && let Some(point) = hit(camera)
     {
         camera.set_pivot(point);
@@ -113,7 +122,8 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
     MeshFrame {
         mesh: Arc::clone(&scene.arrays),
         around: scene.around.as_ref().map(|around| around.surroundings.clone()),
-        lines: vec![boundary_line(scene, theme)],
+        lines: vec![boundary_line(scene, theme), seam_line(&scene.seams, theme)],
+        around_lines: scene.around.iter().map(|around| seam_line(&around.seams, theme)).collect(),
         picture: picture_layer(editor),
         paint: editor.plane.preview_paint().or(editor.look.paint(Pane::Mesh).map(|paint| &paint.faces)).map(Arc::clone),
         style: style(editor, Pane::Mesh),
@@ -126,6 +136,11 @@ pub(super) fn frame(editor: &Editor, scene: &MeshScene, camera: OrbitCamera, the
 /// The boundary, in both panes.
 pub(super) fn boundary_line(scene: &MeshScene, theme: &Theme) -> LineLayer {
     LineLayer { edges: Arc::clone(&scene.boundary), colour: theme.boundary, width_in_points: 1.5 }
+}
+
+/// Seams, in both panes.
+pub(super) fn seam_line(seams: &Arc<EdgeList>, theme: &Theme) -> LineLayer {
+    LineLayer { edges: Arc::clone(seams), colour: theme.seam, width_in_points: 3.0 }
 }
 
 /// The picture as the panes draw it.
@@ -220,7 +235,7 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
         pane::halo(&painter, at, theme.selection, if editor.tools.tool() == Tool::Fix { 7.0 } else { 5.0 });
         match editor.tools.tool() {
             _ if editor.is_new_vertex(vertex) => {}
-            Tool::Select => {}
+            Tool::Select | Tool::Seam => {}
             Tool::Fix => PinKind::Gauge.mark(&painter, at, theme, Emphasis::Plain),
             Tool::Constrain => pins::ghost(&painter, at, theme),
         }

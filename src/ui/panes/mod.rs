@@ -9,6 +9,7 @@
 //! | `bars.rs` | bars over a pane: messages and questions |
 //! | `legend.rs` | the legend of a shading, words about steps that are compared |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
+//! | `seam.rs` | the seam tool: paths before they are cut, and its options |
 //! | `magnifier.rs` | the insets that magnify a defect, and the halves of a pair |
 //! | `inset.rs` | what both kinds of insets share: the wheel and drags over them, the cross that closes them |
 //! | `pin_drag.rs` | a pin dragged with the pointer |
@@ -26,6 +27,7 @@ pub(super) mod pane;
 pub(super) mod pin_drag;
 pub(super) mod pins;
 pub(super) mod plane_pane;
+pub(super) mod seam;
 pub(super) mod vertex_menu;
 
 pub use constrain::{Half, Intent};

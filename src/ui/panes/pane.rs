@@ -4,6 +4,7 @@
 use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
 use glam::{DVec2, DVec3};
 
+use super::seam;
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
@@ -164,7 +165,7 @@ pub(super) fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, req
     }
     if response.hovered() {
         ui.ctx().set_cursor_icon(match (editor.tools.tool(), editor.pointer.vertex()) {
-            (Tool::Constrain, _) | (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
+            (Tool::Constrain | Tool::Seam, _) | (Tool::Fix, Some(_)) => CursorIcon::Crosshair,
             (_, None) => CursorIcon::Default,
             (Tool::Select, Some(_)) => CursorIcon::PointingHand,
         });
@@ -172,8 +173,10 @@ pub(super) fn click(ui: &egui::Ui, response: &Response, editor: &mut Editor, req
 }
 
 fn clicked(ui: &egui::Ui, editor: &mut Editor) -> Vec<Request> {
-    if editor.tools.tool() == Tool::Constrain {
-        return editor.constrain();
+    match editor.tools.tool() {
+        Tool::Constrain => return editor.constrain(),
+        Tool::Seam => return seam::clicked(ui, editor),
+        Tool::Select | Tool::Fix => {}
     }
     let Some(vertex) = editor.pointer.vertex() else { return vec![Request::Select(Vec::new())] };
     let adds = ui.input(|input| input.modifiers.shift);

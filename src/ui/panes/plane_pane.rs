@@ -6,16 +6,16 @@ use eframe::egui::{self, Pos2, Rect, Response};
 use glam::DVec2;
 
 use super::magnifier::Magnifier;
-use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, style};
+use super::mesh_pane::{boundary_line, new_vertex_mark, new_vertices, picture_layer, seam_line, style};
 use super::pane::{self, Viewport};
-use super::{bars, constrain, header, inset, legend, magnifier, pin_drag, pins, vertex_menu};
+use super::{bars, constrain, header, inset, legend, magnifier, pin_drag, pins, seam, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, PaneId, PlaneFrame};
 use crate::session::Surface;
 use crate::ui::editor::scene::PlaneScene;
 use crate::ui::editor::views::picture_box;
 use crate::ui::panels::equation_table;
-use crate::ui::{Control, Editor, HullScene, Pane, Request, Stage, Theme, theme_of};
+use crate::ui::{Control, Editor, HullScene, Pane, Request, Stage, Theme, Tool, theme_of};
 use crate::view::PlaneCamera;
 
 /// Marks drawn at most for a large selection.
@@ -86,6 +86,9 @@ fn look_under(
     let pick = pointer.and_then(nearest);
     editor.pointer.over_plane(pointer.map(|at| view.point_at(at)), grip.or(pick.map(|pick| pick.vertex)));
     editor.aim(ui, Pane::Plane, grip);
+    if editor.tools.tool() == Tool::Seam {
+        editor.look_for_seam_in_plane(&plane.mesh);
+    }
 }
 
 fn waiting_words(editor: &Editor) -> Vec<&'static str> {
@@ -129,7 +132,7 @@ fn within(view: Viewport<PlaneCamera>, chosen: Rect, editor: &Editor, plane: &Pl
 
 pub(super) fn frame(editor: &Editor, plane: &PlaneScene, camera: PlaneCamera, theme: &Theme) -> PlaneFrame {
     let hull = editor.plane.hull_scene();
-    let mut lines = vec![boundary_line(&plane.mesh, theme)];
+    let mut lines = vec![boundary_line(&plane.mesh, theme), seam_line(&plane.mesh.seams, theme)];
     lines.extend(hull.into_iter().flat_map(|scene| scene.lines(theme)));
     let mut style = style(editor, Pane::Plane);
     if plane.is_stage() && style.shading == render::Shading::Paint {
@@ -172,11 +175,15 @@ fn marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Editor, plane: &Pl
             pins::residual(&over, [spot(pin.vertex), view.spot(pin.target)], theme, pin.kind);
         }
         constrain::preview(ui, view, editor, plane);
+        seam::over_plane(ui, view, editor, plane);
     }
     for &vertex in editor.selection.vertices().iter().take(MARKS_SHOWN) {
         pane::halo(&over, spot(vertex), theme.selection, 6.0);
     }
     if let Some(vertex) = editor.pointer.vertex() {
+        // Where the mesh is cut, on both sides.
+        let copies = plane.mesh.in_file.vertex(vertex).into_iter().flat_map(|of| plane.mesh.in_file.copies(of));
+        copies.filter(|copy| *copy != vertex).for_each(|copy| pane::halo(&over, spot(copy), theme.selection, 4.0));
         pane::halo(&over, spot(vertex), theme.selection, 5.0);
     }
 }

@@ -154,7 +154,7 @@ pub(super) fn stop_menu(ui: &mut egui::Ui, editor: &Editor, room: Room, requests
 }
 
 /// A quiet button with a menu that stays open while its boxes are ticked.
-pub(super) fn lasting_menu(ui: &mut egui::Ui, words: &str, add: impl FnOnce(&mut egui::Ui)) -> egui::Response {
+pub(in crate::ui) fn lasting_menu(ui: &mut egui::Ui, words: &str, add: impl FnOnce(&mut egui::Ui)) -> egui::Response {
     let ink = theme_of(ui).weak_text;
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     // Room at the end for the mark that tells a menu from a button.

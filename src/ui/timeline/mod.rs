@@ -17,6 +17,7 @@ use eframe::egui::{self, Align, Layout, RichText};
 use crate::session::{Status, Stop};
 use crate::solver::Ending;
 use crate::ui::{Editor, Request, remark, theme_of};
+pub(super) use buttons::lasting_menu;
 use buttons::{fold_button, playback_buttons, run_buttons, stop_menu};
 use chips::chips;
 use curves::{CURVE_COUNT, curves, curves_menu};

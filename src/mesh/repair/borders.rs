@@ -1,0 +1,66 @@
+//! Edges that seams follow as a rule: creases, and those where faces of two kinds meet. They are found on the mesh as it is repaired
+//! and before it is cut, so that faces whose vertices a repair joins are neighbours; edges are named by vertices of the file.
+
+use glam::DVec3;
+
+use super::sides::Sides;
+use super::ways::normal;
+use super::{Repaired, Repairs};
+use crate::mesh::{PolygonMesh, VertexId};
+
+/// By how much an angle may be smaller, in radians, and still be as large as is asked for: a box has creases of 90 degrees.
+const SLACK: f64 = 1e-9;
+
+/// The edges at which faces meet at an angle of so many degrees or more between their normals: 0 where they lie in one plane. A
+/// face without area has no angle to its neighbours.
+pub fn creases(source: &PolygonMesh, repairs: Repairs, degrees: f64) -> Vec<[VertexId; 2]> {
+    let repaired = Repaired::new(source, repairs);
+    let least = degrees.to_radians() - SLACK;
+    let normals: Vec<DVec3> = if has_faces(&repaired) {
+        (0..repaired.face_of.len()).map(|face| normal(&repaired.polygons, face)).collect()
+    } else {
+        Vec::new()
+    };
+    edges_between(source, &repaired, |sides, [a, b]| {
+        let [n, m] = [a, b].map(|side| normals[sides.face[side as usize] as usize]);
+        // Neighbours that run around in different directions: one of them shows its other side.
+        let m = if sides.ends(a)[0] == sides.ends(b)[0] { -m } else { m };
+        n != DVec3::ZERO && m != DVec3::ZERO && n.cross(m).length().atan2(n.dot(m)) >= least
+    })
+}
+
+/// The edges at which faces with different labels meet. There is a label for each face of the file.
+pub fn borders(source: &PolygonMesh, repairs: Repairs, labels: &[u32]) -> Vec<[VertexId; 2]> {
+    let repaired = Repaired::new(source, repairs);
+    edges_between(source, &repaired, |sides, pair| {
+        let [a, b] = pair.map(|side| labels[repaired.face_of[sides.face[side as usize] as usize] as usize]);
+        a != b
+    })
+}
+
+/// The edges with two sides that are looked for, by the file's vertices, the smaller first, in their order.
+fn edges_between(
+    source: &PolygonMesh,
+    repaired: &Repaired,
+    is_sought: impl Fn(&Sides<'_>, [u32; 2]) -> bool,
+) -> Vec<[VertexId; 2]> {
+    if !has_faces(repaired) {
+        return Vec::new();
+    }
+    let sides = Sides::new(&repaired.polygons);
+    let in_file = |side: u32| {
+        let [a, b] = [side, sides.next(side)].map(|corner| source.corners[repaired.corner_of(corner as usize)]);
+        [a.min(b), a.max(b)]
+    };
+    let sought = sides.table.edges().filter(|on| on.windows(2).any(|pair| is_sought(&sides, [pair[0], pair[1]])));
+    let mut edges: Vec<[VertexId; 2]> = sought.map(|on| in_file(on[0])).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges
+}
+
+/// Whether every corner has a vertex, and every face three corners or more.
+fn has_faces(repaired: &Repaired) -> bool {
+    let is_face = |face: usize| repaired.polygons.corner_range(face).len() >= 3;
+    repaired.is_sound() && (0..repaired.polygons.face_count()).all(is_face)
+}

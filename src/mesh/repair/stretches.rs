@@ -1,0 +1,77 @@
+//! Seams as lines: the stretch of a seam through a vertex, and the way along seams from one vertex to another. So they are
+//! taken away again, wherever the shortest path would lead now.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use super::{Repaired, Seams};
+use crate::mesh::{PolygonMesh, VertexId};
+
+impl Seams {
+    /// The edges of the stretches that a vertex lies on, each up to where seams end or meet. None where no listed edge has
+    /// this vertex.
+    pub fn stretches_through(&self, vertex: VertexId) -> Vec<[VertexId; 2]> {
+        let neighbours = self.neighbours();
+        let mut edges = BTreeSet::new();
+        for &first in neighbours.get(&vertex).into_iter().flatten() {
+            let mut edge = [vertex, first];
+            while edges.insert([edge[0].min(edge[1]), edge[0].max(edge[1])]) {
+                let [before, at] = edge;
+                // Where it ends there is one neighbour, and where seams meet there are more than two.
+                let [a, b] = neighbours[&at][..] else { break };
+                edge = [at, if a == before { b } else { a }];
+            }
+        }
+        edges.into_iter().collect()
+    }
+
+    /// The fewest listed edges that lead from one vertex to another; none where none do.
+    pub fn way(&self, from: VertexId, to: VertexId) -> Option<Vec<[VertexId; 2]>> {
+        let neighbours = self.neighbours();
+        let mut back = BTreeMap::from([(to, to)]);
+        let mut queue = VecDeque::from([to]);
+        while let Some(at) = queue.pop_front().filter(|_| !back.contains_key(&from)) {
+            for &next in neighbours.get(&at).into_iter().flatten() {
+                back.entry(next).or_insert_with(|| {
+                    queue.push_back(next);
+                    at
+                });
+            }
+        }
+        let step = |at: &VertexId| back.get(at).copied().filter(|next| next != at);
+        let way: Vec<VertexId> = std::iter::successors(back.contains_key(&from).then_some(from), step).collect();
+        (!way.is_empty()).then(|| way.windows(2).map(|edge| [edge[0], edge[1]]).collect())
+    }
+
+    /// The other ends of the listed edges at each vertex, ascending.
+    fn neighbours(&self) -> BTreeMap<VertexId, Vec<VertexId>> {
+        let mut neighbours: BTreeMap<VertexId, Vec<VertexId>> = BTreeMap::new();
+        for &[a, b] in self.edges() {
+            neighbours.entry(a).or_default().push(b);
+            neighbours.entry(b).or_default().push(a);
+        }
+        neighbours
+    }
+}
+
+impl Repaired {
+    /// Its sides that are listed edges of the mesh as given, `source`: both sides of each, with the vertices that they have here.
+    pub fn seam_sides(&self, seams: &Seams, source: &PolygonMesh) -> Vec<[VertexId; 2]> {
+        let mut is_on_seam = vec![false; source.positions.len()];
+        let ends = seams.edges().iter().flatten().filter(|end| end.index() < source.positions.len());
+        ends.for_each(|end| is_on_seam[end.index()] = true);
+        let in_file = |corner: usize| source.corners[self.corner_of(corner)];
+        let mut sides = Vec::new();
+        for face in 0..self.polygons.face_count() {
+            let corners = self.polygons.corner_range(face);
+            for corner in corners.clone() {
+                let side = [corner, if corner + 1 < corners.end { corner + 1 } else { corners.start }];
+                let [a, b] = side.map(in_file);
+                let may_be = is_on_seam[a.index()] && is_on_seam[b.index()];
+                if may_be && seams.edges().contains(&[a.min(b), a.max(b)]) {
+                    sides.push(side.map(|corner| self.polygons.corners[corner]));
+                }
+            }
+        }
+        sides
+    }
+}

@@ -1,0 +1,63 @@
+//! The rungs by name, and which flights of them a part of a plan can have.
+
+use self::Kind::{Again, Continuation, Fit, Given, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
+use super::plan::Kept;
+use super::rung::Rung;
+use super::{again, continuation, given, iterate, matchmaker, natural, schnyder, virtual_boundary};
+
+/// The rungs of a part, flight by flight.
+pub(super) type Flights = &'static [&'static [Kind]];
+
+/// Until planar.
+pub(super) const LADDER: Flights = &[&[Natural, Iterate], &[Again, Iterate], &[VirtualBoundary], &[Schnyder]];
+/// Until planar, stalled or at the limit.
+pub(super) const ITERATED: Flights = &[&[Natural, Iterate]];
+/// Until planar.
+pub(super) const BENT: Flights = &[&[Natural], &[VirtualBoundary]];
+/// By theorem.
+pub(super) const DRAWN: Flights = &[&[Schnyder]];
+/// One linear solve.
+pub(super) const LINEAR: Flights = &[&[Natural]];
+/// From a planar start until the constraints are met, or stuck.
+pub(super) const CONTINUED: Flights = &[&[Fit, Continuation]];
+/// From a planar start until the constraints are met, with new vertices.
+pub(super) const MATCHED: Flights = &[&[Fit, Matchmaker]];
+/// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
+pub(super) const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
+
+/// The layout that it starts from, as it is.
+pub(super) const GIVEN: Flights = &[&[Given]];
+/// From that until planar, stalled or at the limit.
+pub(super) const GIVEN_ITERATED: Flights = &[&[Given, Iterate]];
+/// From that until planar.
+pub(super) const GIVEN_BENT: Flights = &[&[Given], &[VirtualBoundary]];
+
+/// Every rung but relaxing, which follows all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    Given,
+    Natural,
+    Iterate,
+    Again,
+    VirtualBoundary,
+    Schnyder,
+    Fit,
+    Continuation,
+    Matchmaker,
+}
+
+impl Kind {
+    pub(super) fn rung(self, kept: &Kept) -> Box<dyn Rung> {
+        match self {
+            Given => Box::<given::Given>::default(),
+            Natural => Box::new(natural::Natural { prepared: kept.prepared.clone() }),
+            Iterate => Box::<iterate::Iterate>::default(),
+            Again => Box::<again::Again>::default(),
+            VirtualBoundary => Box::<virtual_boundary::Bend>::default(),
+            Schnyder => Box::<schnyder::Draw>::default(),
+            Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
+            Continuation => Box::<continuation::Continue>::default(),
+            Matchmaker => Box::<matchmaker::Match>::default(),
+        }
+    }
+}
