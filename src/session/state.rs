@@ -101,6 +101,7 @@ impl Session {
             Action::TurnFaces => self.turn_faces(),
             Action::Mend => self.mend(),
             Action::AllowRepair(repair) => self.want_form(self.document.form.allowing(repair)),
+            Action::LeaveOut(parts) => self.leave_out(parts),
             Action::Weld(within) => self.weld(within),
             Action::CountNear(distance) => self.count_near(distance),
             Action::SetSeams(seams) => self.set_seams(seams),

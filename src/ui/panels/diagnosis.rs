@@ -4,6 +4,7 @@
 use eframe::egui::{self, Button, RichText};
 
 use super::menu::grouped;
+use super::parts::parts;
 use super::welding::welding;
 use crate::mesh::{Fault, Form, Repair, TriMesh};
 use crate::session::{Action, Model, Session, Surface};
@@ -28,6 +29,7 @@ pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Re
         }
         ui.separator();
         done(ui, model);
+        parts(ui, session, requests);
         welding(ui, session, requests);
     });
     true
