@@ -9,7 +9,7 @@ use super::StopConditions;
 use crate::examples::Example;
 use crate::geom::{PackingOptions, VAxis};
 use crate::io::{OutputFit, OutputKind, Target};
-use crate::mesh::{Repair, Seams, VertexId, WeldDistance};
+use crate::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
 use crate::solver::{Hold, Settings};
 
 /// A file to write.
@@ -61,6 +61,10 @@ pub enum Action {
     Mend,
     /// Cuts the mesh along these seams, and no others. They are of edges that the file has.
     SetSeams(Seams),
+    /// Chooses what becomes of the mesh's holes.
+    SetHoles(HoleTreatment),
+    /// Starts from the texture coordinates of the file, cut along their seams, where they have any.
+    TakeLayout,
     /// Cuts the mesh along the edges of a file, too.
     ImportSeams(PathBuf),
     /// Writes the seams as a file of edges.

@@ -9,6 +9,7 @@ use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
 use crate::geom::Picture;
 use crate::io::{EXTENSIONS, OutputFit, OutputKind, Precision, write_atomically, write_constraints, write_durably};
+use crate::solver::{Settings, Start};
 
 /// The most faults with a bar each, where all can be mended.
 const FAULTS_TOLD: usize = 2;
@@ -18,7 +19,8 @@ impl Session {
     pub(super) fn take_opened(&mut self, mut opened: Opened) {
         let is_mesh = matches!(opened.origin, Origin::Mesh);
         if is_mesh {
-            opened.document.settings = self.document.settings;
+            // A layout to start from was one of the mesh before.
+            opened.document.settings = Settings { start: Start::Afresh, ..self.document.settings };
         }
         self.files.put_on_table(&opened);
         let Opened { model, document, remarks, .. } = opened;

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::errands::Errand;
-use super::{Command, Session};
-use crate::mesh::{Form, WeldDistance, near_vertices};
+use super::{Command, Place, Session};
+use crate::mesh::{Form, HoleTreatment, WeldDistance, near_vertices};
+use crate::solver::{Family, Method, Settings, Start};
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
 const FORMING: &str = "turning or mending the faces";
@@ -39,6 +40,36 @@ impl Session {
     /// Leaves out the parts with these first faces, and no others.
     pub(super) fn leave_out(&mut self, first_faces: BTreeSet<u32>) {
         self.want_form(Form { left_out: Arc::new(first_faces), ..self.document.form.clone() });
+    }
+
+    /// Fills holes while the mesh is flattened, or cuts it open from them to the outside.
+    pub(super) fn set_holes(&mut self, holes: HoleTreatment) {
+        let form = self.document.form.clone();
+        if holes != form.holes {
+            let cut = form.cut || holes == HoleTreatment::Cut;
+            self.want_form(Form { holes, cut, ..form });
+        }
+    }
+
+    /// Starts from the texture coordinates of the file, and cuts the mesh along their seams, where they have any: one edit. Where there
+    /// are pins, which go along with the cut, it is an edit of its own that follows.
+    pub(super) fn take_layout(&mut self) {
+        let Some(model) = self.model() else { return };
+        let is_torn = match model.source.has_texture_seams() {
+            Ok(is_torn) => is_torn,
+            Err(error) => return self.messages.fail(Place::Mesh, error.to_string(), None),
+        };
+        let (form, before) = (self.document.form.clone(), self.document.settings);
+        let mut seams = form.seams.clone();
+        seams.of_texture |= is_torn;
+        let method = if before.method.goes_on_from_layout() { before.method } else { Method::Auto };
+        let family = if before.family.power().is_some() { before.family } else { Family::default() };
+        let settings = Settings { method, family, start: Start::File, ..before };
+        if !self.is_bare() {
+            self.choose(settings);
+            return self.set_seams(seams);
+        }
+        self.edit(vec![Command::SetForm(Form { seams, ..form }), Command::SetSettings(settings)]);
     }
 
     /// Joins vertices that lie within a distance; or does not.

@@ -179,7 +179,7 @@ impl Model {
     }
 
     /// The sides of its edges that are listed as seams, with its own vertices.
-    pub(crate) fn seam_sides(&self) -> Vec<[VertexId; 2]> {
+    pub fn seam_sides(&self) -> Vec<[VertexId; 2]> {
         match &self.repaired {
             Some(repaired) => repaired.seam_sides(&self.form.seams, &self.source.polygons),
             None => self.form.seams.edges().iter().copied().collect(),

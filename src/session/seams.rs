@@ -37,14 +37,19 @@ impl Session {
         if self.model().is_none() || seams == *self.seams() {
             return;
         }
-        let Document { targets, elsewhere, relaxed, chart, .. } = &self.document;
-        let is_bare = targets.is_empty() && elsewhere.is_empty() && *relaxed == 0 && chart.is_none();
-        if is_bare && self.mesh.wanted_seams().is_none() {
+        if self.is_bare() {
             self.edit(vec![Command::SetForm(Form { seams, ..self.document.form.clone() })]);
         } else {
             self.mesh.want_seams(Some(seams).filter(|seams| *seams != self.document.form.seams));
             self.follow_seams();
         }
+    }
+
+    /// Whether nothing is edited of vertices and charts, so that the mesh is cut otherwise at once.
+    pub(super) fn is_bare(&self) -> bool {
+        let Document { targets, elsewhere, relaxed, chart, .. } = &self.document;
+        let is_bare = targets.is_empty() && elsewhere.is_empty() && *relaxed == 0 && chart.is_none();
+        is_bare && self.mesh.wanted_seams().is_none()
     }
 
     /// Has the mesh cut along the seams that are wanted, once it has the form that the document has.

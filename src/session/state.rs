@@ -100,6 +100,8 @@ impl Session {
             Action::SetVAxis(v_axis) => self.set_v_axis(v_axis),
             Action::TurnFaces => self.turn_faces(),
             Action::Mend => self.mend(),
+            Action::SetHoles(holes) => self.set_holes(holes),
+            Action::TakeLayout => self.take_layout(),
             Action::AllowRepair(repair) => self.want_form(self.document.form.allowing(repair)),
             Action::LeaveOut(parts) => self.leave_out(parts),
             Action::Weld(within) => self.weld(within),

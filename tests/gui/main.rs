@@ -38,6 +38,7 @@ mod screens;
 mod seams;
 mod shaders;
 mod shortcuts;
+mod start;
 mod timeline;
 mod timeline_run;
 mod toast;

@@ -280,3 +280,19 @@ fn a_box_is_cut_along_its_sharp_edges_by_one_click_and_says_where_there_are_no_m
     window.menu(&["Edit", "Seams", "Clear seams"]);
     assert!(seams(&window).is_empty());
 }
+
+#[test]
+fn seams_are_read_from_a_file_and_written_to_one() {
+    let mut window = window();
+    std::fs::write(window.path("cut.edges"), "# the first column\n0 12\n12 24\n").expect("written");
+    window.menu(&["Edit", "Seams", "Import seams…"]);
+    window.fill_in(Role::TextInput, "Name", "cut.edges");
+    window.key(Key::Enter);
+    assert_eq!(seams(&window), column(0, 0..2));
+    window.menu(&["Cut along", "Export seams…"]);
+    window.fill_in(Role::TextInput, "Name", "again");
+    window.key(Key::Enter);
+    let written = std::fs::read_to_string(window.path("again.edges")).expect("written under the name of such files");
+    let edges: Vec<&str> = written.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(edges, ["0 12", "12 24"]);
+}

@@ -85,6 +85,18 @@ impl MeshFile {
         Ok(texture.corners.iter().map(|&corner| labels[corner as usize]).collect())
     }
 
+    /// Whether some vertex has several texture coordinates.
+    ///
+    /// # Errors
+    ///
+    /// As [`texture_mesh`](Self::texture_mesh).
+    pub fn has_texture_seams(&self) -> Result<bool, TextureError> {
+        let mut first = vec![None; self.polygons.positions.len()];
+        let labels = self.texture_labels()?;
+        let mut corners = self.polygons.corners.iter().zip(labels);
+        Ok(corners.any(|(vertex, label)| *first[vertex.index()].get_or_insert(label) != label))
+    }
+
     /// The texture coordinates, where all corners have one.
     pub(super) fn complete_texture(&self) -> Result<&Texture, TextureError> {
         let texture = self.texture.as_ref().ok_or(TextureError::None)?;

@@ -100,6 +100,8 @@ impl Editor {
             Purpose::OpenPicture => self.act(Action::OpenPicture(path)),
             Purpose::ImportConstraints => self.act(Action::ImportConstraints(path)),
             Purpose::ExportConstraints => self.act(Action::ExportConstraints(path)),
+            Purpose::ImportSeams => self.act(Action::ImportSeams(path)),
+            Purpose::ExportSeams => self.act(Action::ExportSeams(path)),
             Purpose::SaveProject => {
                 self.keep_view();
                 self.act(Action::SaveProject(path));

@@ -4,9 +4,10 @@ use eframe::egui::{self, Color32, DragValue, Pos2, Rect, RichText, Role, Sense, 
 use glam::DVec2;
 
 use super::menu::grouped;
+use super::surface::charts_row;
 use crate::geom::{Bounds, PackingOptions};
 use crate::session::{Action, AtlasView, ChartState, Session};
-use crate::ui::{Control, Editor, Request, counted, keys_of, remark, sentence, theme_of};
+use crate::ui::{Control, Editor, Request, counted, keys_of, pairs, remark, sentence, theme_of};
 
 /// Height of a row of the list, points.
 const ROW: f32 = 22.0;
@@ -52,6 +53,7 @@ pub(super) fn charts_panel(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     let side = ui.available_width().min(ui.available_height() * 0.45).max(80.0);
     layout(ui, session, side, requests);
     verdict(ui, session, &rows);
+    pairs(ui, "charts", [12.0, 4.0], |ui| charts_row(ui, session, requests));
     packing(ui, session, requests);
     size(ui, session, requests);
     ui.separator();

@@ -5,6 +5,7 @@ use eframe::egui::{self, Button, RichText};
 
 use super::menu::grouped;
 use super::parts::parts;
+use super::surface::surface_rows;
 use super::welding::welding;
 use crate::mesh::{Fault, Form, Repair, TriMesh};
 use crate::session::{Action, Model, Session, Surface};
@@ -15,6 +16,7 @@ pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Re
     let Some(model) = session.model() else { return false };
     let Surface::Faulty(mesh, diagnosis) = &model.surface else { return false };
     ui.label("The mesh cannot be flattened as it is:");
+    surface_rows(ui, session, requests);
     egui::ScrollArea::vertical().show(ui, |ui| {
         if let Some(remedy) = &model.remedy {
             let done: Vec<String> = remedy.done().iter().map(ToString::to_string).collect();

@@ -4,6 +4,7 @@ use eframe::egui::{self, WidgetInfo};
 
 use super::compare_panel::comparison;
 use super::status::short;
+use super::surface::{charts_row, holes_row, start_remark, start_row};
 use crate::session::{Action, Outcome};
 use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
 use crate::ui::timeline::chips::residual_words;
@@ -39,7 +40,11 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
             family_list(ui, chosen);
             ui.end_row();
         }
+        start_row(ui, editor, chosen, requests);
+        charts_row(ui, &editor.session, requests);
+        holes_row(ui, &editor.session, requests);
     });
+    start_remark(ui, editor);
     if let (true, Family::Power(power)) = (settings.method.uses_family(), settings.family) {
         power_slider(ui, power, &mut edit);
     }

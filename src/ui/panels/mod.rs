@@ -8,6 +8,7 @@
 //! | `diagnosis.rs` | what is wrong with the mesh, and what mends it: in the tab of defects |
 //! | `parts.rs` | the parts of a mesh, each to be kept or left out: in the same tab |
 //! | `welding.rs` | vertices joined within a distance: in the same tab |
+//! | `surface.rs` | rows of tabs: the charts and holes of the mesh, and what the map starts from |
 //! | `compare_panel.rs` | numbers of two steps that are compared |
 //! | `picture_panel.rs` | the picture's part of the pins' tab |
 //! | `equation_table.rs` | terms of a vertex's equation, as a table and in the embedding's pane |
@@ -33,6 +34,7 @@ mod parts;
 mod picture_panel;
 mod pins_panel;
 pub(super) mod status;
+mod surface;
 pub(super) mod toast;
 pub(super) mod unsaved;
 mod verdict_pill;

@@ -10,7 +10,7 @@ use crate::ui::editor::seam_tool::{CREASES, Edge, SeamIntent};
 use crate::ui::theme::on_screen;
 use crate::ui::timeline::lasting_menu;
 use crate::ui::typed::Typed;
-use crate::ui::{Control, Editor, Offer, Request, SeamRule, Theme, Tool, counted, theme_of, tip_with_keys};
+use crate::ui::{Control, Editor, Offer, Purpose, Request, SeamRule, Theme, Tool, counted, theme_of, tip_with_keys};
 use crate::view::{OrbitCamera, PlaneCamera};
 
 /// Opacity of what the mesh hides.
@@ -211,6 +211,13 @@ fn rules(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
         let groups =
             Offer::new("Borders of groups", "Cut where faces of two groups or objects meet", by(SeamRule::Groups));
         groups.show(ui, requests);
+        ui.separator();
+        let tip = "Cut along the edges of a file, too: the numbers of two vertices a line, from 0";
+        Offer::new("Import seams…", tip, Request::Ask(Purpose::ImportSeams)).show(ui, requests);
+        let has_seams = !editor.session.seams().edges().is_empty();
+        let export =
+            Offer::new("Export seams…", "Write the edges of the seams to a file", Request::Ask(Purpose::ExportSeams));
+        export.when(has_seams).show(ui, requests);
     });
     menu.on_hover_text("Cut along edges that follow a rule, all at once");
     if let Some(said) = rules.said() {

@@ -1,0 +1,143 @@
+//! The layout of a file in the window: its charts, the map that starts from it, and what becomes of holes.
+
+use std::fmt::Write as _;
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable};
+use freebound::mesh::{HoleTreatment, Repair, TriMesh};
+use freebound::session::Action;
+use freebound::solver::{Embedding, Method, Start};
+use glam::DVec2;
+
+use crate::harness::{Window, sheet};
+
+/// A sheet whose file lays it out sheared; the half beyond `torn` lies apart.
+fn laid_out(window: &Window, name: &str, torn: f64) -> Embedding {
+    let mesh = sheet(6, 0.3);
+    let place = |v: usize, is_apart: bool| {
+        let p = mesh.positions[v];
+        DVec2::new(0.1 * p.x + 0.05 * p.y, 0.04 * p.y) + DVec2::X * if is_apart { 2.0 } else { 0.0 }
+    };
+    let count = mesh.positions.len();
+    let mut text = String::new();
+    for p in &mesh.positions {
+        writeln!(text, "v {:?} {:?} {:?}", p.x, p.y, p.z).expect("memory");
+    }
+    for k in 0..2 * count {
+        let uv = place(k % count, k >= count);
+        writeln!(text, "vt {:?} {:?}", uv.x, uv.y).expect("memory");
+    }
+    for corners in &mesh.triangles {
+        let middle = corners.iter().map(|v| mesh.positions[v.index()].x).sum::<f64>() / 3.0;
+        let of = |v: usize| 1 + v + if middle > torn { count } else { 0 };
+        let words: Vec<String> = corners.iter().map(|v| format!("{}/{}", v.index() + 1, of(v.index()))).collect();
+        writeln!(text, "f {}", words.join(" ")).expect("memory");
+    }
+    std::fs::write(window.path(name), text).expect("the folder is there");
+    (0..count).map(|v| place(v, false)).collect()
+}
+
+fn opened(torn: f64) -> (Window, Embedding) {
+    let mut window = Window::with_mesh("plain.obj", &sheet(5, 0.3));
+    let layout = laid_out(&window, "laid.obj", torn);
+    let path = window.path("laid.obj");
+    window.open(&path);
+    window.click("Method");
+    (window, layout)
+}
+
+fn start(window: &Window) -> Start {
+    window.editor().session.document().settings.start
+}
+
+fn list_is_disabled(window: &Window, name: &str) -> bool {
+    window.harness.get_by_role_and_label(Role::ComboBox, name).accesskit_node().is_disabled()
+}
+
+#[test]
+fn one_choice_shows_the_layout_of_the_file_as_it_is_and_relax_goes_on_from_it() {
+    let (mut window, layout) = opened(f64::INFINITY);
+    assert_eq!(window.outcome().step.rung, Method::Natural);
+    window.choose("Start", "File's layout");
+    assert_eq!((start(&window), window.outcome().step.rung), (Start::File, Method::Given));
+    assert_eq!(window.embedding(), layout);
+    assert!(window.is_proved(), "{}", window.verdict());
+    let before = window.outcome().distortion.summary.symmetric_dirichlet.mean;
+    window.click("Relax");
+    let after = window.outcome();
+    assert!(window.is_proved() && after.step.rung == Method::Relax);
+    assert!(after.distortion.summary.symmetric_dirichlet.mean < 0.9 * before);
+    for _ in 0..2 {
+        window.press(Modifiers::COMMAND, Key::Z);
+    }
+    assert_eq!((start(&window), window.outcome().step.rung), (Start::Afresh, Method::Natural));
+    window.press(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(window.embedding(), layout);
+}
+
+#[test]
+fn a_layout_with_seams_cuts_the_mesh_along_them_in_the_same_edit() {
+    let (mut window, _) = opened(0.5);
+    assert!(window.editor().session.charts().is_none());
+    window.choose("Start", "File's layout");
+    let charts = |window: &Window| window.editor().session.charts().map(|charts| charts.count());
+    assert_eq!(charts(&window), Some(2));
+    assert!(window.outcome().step.rung == Method::Given && window.is_proved());
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!((charts(&window), start(&window)), (None, Start::Afresh));
+    window.choose("What the charts are", "File's texture seams");
+    assert_eq!((charts(&window), start(&window)), (Some(2), Start::Afresh));
+    assert_eq!(window.outcome().step.rung, Method::Natural);
+}
+
+#[test]
+fn a_project_keeps_that_a_map_starts_from_its_file() {
+    let (mut window, layout) = opened(f64::INFINITY);
+    window.choose("Start", "File's layout");
+    let project = window.path("laid.freebound");
+    window.editor_mut().session.handle(Action::SaveProject(project.clone()));
+    window.settle();
+    let other = window.path("plain.obj");
+    window.open(&other);
+    assert_eq!(start(&window), Start::Afresh);
+    window.open(&project);
+    assert_eq!((start(&window), window.embedding()), (Start::File, layout));
+}
+
+#[test]
+fn a_file_without_texture_coordinates_has_no_layout_to_start_from() {
+    let mut window = Window::with_mesh("plain.obj", &sheet(5, 0.3));
+    window.click("Method");
+    assert!(list_is_disabled(&window, "Start"));
+    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "What the charts are").is_none());
+    let (mut window, _) = opened(0.5);
+    assert!(!list_is_disabled(&window, "Start"));
+    // A linear method computes from the surface alone.
+    window.choose("Method", "Least-squares conformal");
+    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "Start").is_none());
+}
+
+#[test]
+fn holes_are_filled_or_cut_as_a_person_chooses() {
+    let mut mesh = sheet(6, 0.3);
+    mesh.triangles.retain(|corners| !corners.iter().any(|v| v.index() == 24));
+    let mut window = Window::with_mesh("hole.obj", &TriMesh { polygon_of: None, ..mesh });
+    window.click("Method");
+    let done = |window: &Window| {
+        let model = window.editor().session.model().expect("open").clone();
+        model.repaired.iter().flat_map(|repaired| repaired.done()).map(|done| done.repair).collect::<Vec<Repair>>()
+    };
+    assert!(done(&window) == [Repair::FillHoles] && window.is_proved());
+    window.choose("What becomes of holes", "Cut to the outside");
+    assert_eq!(window.editor().session.document().form.holes, HoleTreatment::Cut);
+    assert!(done(&window) == [Repair::Cut] && window.is_proved(), "{}", window.verdict());
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert!(done(&window) == [Repair::FillHoles] && window.is_proved());
+    // What has no holes is asked nothing.
+    let path = window.path("plain.obj");
+    crate::harness::write_obj(&path, &sheet(5, 0.3));
+    window.open(&path);
+    assert!(window.harness.query_by_role_and_label(Role::ComboBox, "What becomes of holes").is_none());
+}
