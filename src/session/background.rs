@@ -83,6 +83,11 @@ impl<K, T> Background<K, T> {
         self.jobs.clear();
     }
 
+    /// Drops all work but what has one of these keys.
+    pub(super) fn cancel_but(&mut self, is_kept: impl Fn(&K) -> bool) {
+        self.jobs.retain(|job| is_kept(&job.key));
+    }
+
     /// Asks the work to stop at its next check. Its outcome still arrives.
     pub fn interrupt(&self) {
         for job in &self.jobs {
@@ -94,6 +99,18 @@ impl<K, T> Background<K, T> {
     pub fn poll(&mut self) -> Option<(K, Result<T, Failure>)> {
         let ended = |(index, job): (usize, &Job<K, T>)| Some((index, job.outcome()?));
         let (index, outcome) = self.jobs.iter().enumerate().find_map(ended)?;
+        Some((self.jobs.remove(index).key, outcome))
+    }
+
+    /// As [`poll`](Self::poll); of pieces of work with the same key, the one that began first comes first.
+    pub(super) fn poll_in_order(&mut self) -> Option<(K, Result<T, Failure>)>
+    where
+        K: PartialEq,
+    {
+        let is_first = |index: usize| self.keys().position(|key| *key == self.jobs[index].key) == Some(index);
+        let ended = |(index, job): (usize, &Job<K, T>)| Some((index, job.outcome()?));
+        let mut in_order = self.jobs.iter().enumerate().filter(|(index, _)| is_first(*index));
+        let (index, outcome) = in_order.find_map(ended)?;
         Some((self.jobs.remove(index).key, outcome))
     }
 }

@@ -135,7 +135,8 @@ impl Session {
 
     /// Puts another chart on the screen, as an edit; once it has been taken out of the mesh, where it has not yet.
     pub(super) fn show_chart(&mut self, number: usize) {
-        let Some(of) = self.model().and_then(|model| model.chart.clone()) else { return };
+        let model = self.model().filter(|_| self.has_numbers_as_wanted());
+        let Some(of) = model.and_then(|model| model.chart.clone()) else { return };
         let from = of.charts.pick(self.document.chart);
         self.charts.asked = None;
         if number >= of.charts.count() {
@@ -191,7 +192,9 @@ impl Session {
 
     /// Takes in what was done to the charts that are not on the screen, and has more done.
     pub(super) fn poll_charts(&mut self) {
-        let Some(of) = self.model().and_then(|model| model.chart.clone()) else { return };
+        // In another form the document has other charts.
+        let model = self.model().filter(|_| self.has_numbers_as_wanted());
+        let Some(of) = model.and_then(|model| model.chart.clone()) else { return };
         let revision = self.model_revision();
         while let Some(((of_mesh, number), formed)) = self.charts.forming.poll() {
             if formed.is_err() {

@@ -7,7 +7,9 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::errands::Errand;
+use super::forming::FORMING;
 use super::open_mesh::Near;
+use super::reshaping::RESHAPING;
 use super::{ChartEdits, Command, Document, Message, Place, Session};
 use crate::geom::{Bounds, PictureFrame, Similarity};
 use crate::io::{Constraints, ConstraintsError, PictureFile, Target, Targets};
@@ -72,8 +74,8 @@ impl Session {
 
     /// Says why where the method takes no pins.
     fn takes_pins(&mut self) -> bool {
-        if !self.has_chart_as_wanted() {
-            // The vertices on the screen are those of another chart, for a moment.
+        if !self.has_form_as_wanted() {
+            // The vertices on the screen are those of another form or chart, for a moment.
             return false;
         }
         if self.document.settings.method.uses_pins() {
@@ -113,7 +115,7 @@ impl Session {
 
     /// Moves pins as part of a drag. Where one of them is a gauge pin, all of those become the user's first.
     pub(super) fn move_pins(&mut self, moves: &[(VertexId, DVec2)]) {
-        if !self.has_chart_as_wanted() {
+        if !self.has_form_as_wanted() {
             return;
         }
         let is_users = |(vertex, _): &(VertexId, DVec2)| self.document.targets.contains_key(vertex);
@@ -162,12 +164,20 @@ impl Session {
             let before = self.document.targets.get(&vertex).filter(|before| before.hold != hold)?;
             Some(pin(vertex, Target { hold, ..*before }))
         };
-        vertices.iter().filter(|_| hold.invalid_weight().is_none()).filter_map(command).collect()
+        let is_valid = hold.invalid_weight().is_none() && self.has_form_as_wanted();
+        vertices.iter().filter(|_| is_valid).filter_map(command).collect()
     }
 
     /// Frees vertices.
     pub(super) fn unpin(&mut self, vertices: &[VertexId]) {
-        let pinned = vertices.iter().filter(|v| self.document.targets.contains_key(v));
+        let has_form = self.has_form_as_wanted();
+        let pinned = vertices.iter().filter(|v| has_form && self.document.targets.contains_key(v));
+        self.edit(pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect());
+    }
+
+    /// Frees all vertices of the mesh or chart.
+    pub(super) fn unpin_all(&mut self) {
+        let pinned = self.document.targets.keys();
         self.edit(pinned.map(|&vertex| Command::SetPin { vertex, target: None }).collect());
     }
 }
@@ -260,28 +270,44 @@ impl Session {
 
     /// Takes in the errands that came back.
     pub(super) fn poll_errands(&mut self) {
-        while let Some(errand) = self.errands.poll(self.history.is_in_gesture(), &mut self.messages) {
-            match errand {
-                Errand::Picture(Ok(picture)) => self.edit(vec![Command::SetPicture(Some(Arc::new(picture)))]),
-                Errand::Picture(Err(error)) => self.complain(error.to_string(), Some("choose a PNG or JPEG file")),
-                Errand::Constraints { path, read: Ok(constraints) } => {
-                    self.files.remember_constraints(path);
-                    self.take_constraints(constraints.targets);
-                }
-                Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
-                Errand::Near { distance, count } => self.mesh.take_near(Near { distance, count }),
-                Errand::Flat(flat) => self.take_flat(&flat),
-                Errand::Seams(read) => self.take_seams(read),
-                Errand::Recut(recut) => self.take_recut(*recut),
-                Errand::Formed(model) => {
-                    self.mesh.take_other(Arc::from(model));
-                    if !self.has_form_as_wanted() {
-                        self.solve();
+        loop {
+            let is_forming = !self.has_form_as_wanted() && self.errands.is_under_way(FORMING);
+            match self.errands.poll(is_forming || self.history.is_in_gesture()) {
+                None => break,
+                Some((_, Ok(errand))) => self.take_errand(errand),
+                Some((what, Err(failure))) => {
+                    if what == RESHAPING {
+                        self.mesh.want(None);
                     }
+                    self.messages.fail_background(Place::Embedding, what, &failure);
                 }
             }
         }
-        self.follow_seams();
+        self.follow_form();
+    }
+
+    fn take_errand(&mut self, errand: Errand) {
+        match errand {
+            Errand::Picture(Ok(picture)) => self.edit(vec![Command::SetPicture(Some(Arc::new(picture)))]),
+            Errand::Picture(Err(error)) => self.complain(error.to_string(), Some("choose a PNG or JPEG file")),
+            Errand::Constraints { path, read: Ok(constraints) } => {
+                self.files.remember_constraints(path);
+                self.take_constraints(constraints.targets);
+            }
+            Errand::Constraints { read: Err(error), .. } => self.tell_constraints(&error),
+            Errand::Near { distance, count } => self.mesh.take_near(Near { distance, count: Some(count) }),
+            Errand::Flat(flat) => self.take_flat(&flat),
+            Errand::Seams(read) => self.take_seams(read),
+            Errand::Reshaped(reshaped) => self.take_reshaped(*reshaped),
+            Errand::Formed(model) => {
+                self.mesh.take_other(Arc::from(model));
+                if self.errands.is_stopped() {
+                    self.bring_form();
+                } else if !self.has_form_as_wanted() {
+                    self.solve();
+                }
+            }
+        }
     }
 
     /// Says why a constraint file is not used, and shows the vertices that it is about.
@@ -298,6 +324,10 @@ impl Session {
             return self.complain("the file has no constraints", None);
         }
         let Some(model) = self.model().cloned() else { return };
+        if !self.has_form_as_wanted() {
+            let text = "the constraints were not taken: the mesh does not have its form yet";
+            return self.complain(text, Some("solve, and import them again"));
+        }
         if self.takes_pins() {
             let mut by_chart = model.by_chart(targets);
             let shown = model.chart.as_ref().map_or(0, |of| of.charts.pick(self.document.chart));

@@ -1,12 +1,14 @@
 //! Small pieces of work for the document that take time: pictures and constraints to read, faces to turn, an embedding
 //! to fit the targets to. Each becomes one edit when it comes back.
 
+use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use super::edits::Flat;
-use super::seams::Recut;
-use super::{Background, Messages, Model, Place, Wake};
+use super::forming::FORMING;
+use super::reshaping::Reshaped;
+use super::{Background, Failure, Model, Wake};
 use crate::io::{Constraints, ConstraintsError, EdgesError, PictureError, PictureFile};
 use crate::mesh::{VertexId, WeldDistance};
 
@@ -20,38 +22,43 @@ pub(super) enum Errand {
     },
     /// Seams for the open mesh, from a file.
     Seams(Result<Vec<[VertexId; 2]>, EdgesError>),
-    /// The open mesh, cut along other seams.
-    Recut(Box<Recut>),
+    /// The open mesh in another form, for an edit of it.
+    Reshaped(Box<Reshaped>),
     /// So many vertices of the open mesh lie within a distance of another.
     Near {
         distance: WeldDistance,
         count: usize,
     },
-    /// The open mesh in another form.
+    /// The open mesh in the form that the document has.
     Formed(Box<Model>),
     /// The open mesh flattened, to fit the targets to.
     Flat(Flat),
 }
 
-/// Errands under way, and those that came back in the middle of a drag, which no other edit may break up.
+/// Errands under way, and those that came back while no edit may be made: in the middle of a drag, and while the mesh is brought
+/// into its form.
 pub(super) struct Errands {
     /// By what they do, in words.
     under_way: Background<&'static str, Errand>,
-    arrived: Vec<Errand>,
+    arrived: VecDeque<(&'static str, Errand)>,
+    /// Whether a person has stopped the work since the mesh is being formed.
+    is_stopped: bool,
 }
 
 impl Errands {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { under_way: Background::new("errand", wake), arrived: Vec::new() }
+        Self { under_way: Background::new("errand", wake), arrived: VecDeque::new(), is_stopped: false }
     }
 
-    pub(super) fn is_busy(&self) -> bool {
-        self.under_way.is_busy()
+    /// What the oldest errand does that is under way.
+    pub(super) fn words(&self) -> Option<&'static str> {
+        self.under_way.key().copied()
     }
 
-    /// Whether an errand that does this is under way.
+    /// Whether an errand that does this is under way, or waits to be taken in.
     pub(super) fn is_under_way(&self, what: &str) -> bool {
-        self.under_way.keys().any(|of| *of == what)
+        let arrived = self.arrived.iter().map(|(of, _)| of);
+        self.under_way.keys().chain(arrived).any(|of| *of == what)
     }
 
     /// Sends an errand. `what` it does goes on as "… stopped unexpectedly" where it fails.
@@ -59,21 +66,39 @@ impl Errands {
         self.under_way.add(what, work);
     }
 
-    /// Drops all errands: they were for another mesh, or nobody wants them any more.
+    /// Drops all errands: they were for another mesh.
     pub(super) fn forget(&mut self) {
         self.under_way.cancel();
         self.arrived.clear();
     }
 
-    /// The next errand that came back. In a gesture only a mesh in another form is let through, which is no edit.
-    pub(super) fn poll(&mut self, is_in_gesture: bool, messages: &mut Messages) -> Option<Errand> {
-        while let Some((what, errand)) = self.under_way.poll() {
+    /// Drops the errands that nobody wants any more. The mesh is still brought into the form that the document has.
+    pub(super) fn stop(&mut self) {
+        self.under_way.cancel_but(|what| *what == FORMING);
+        self.arrived.clear();
+        self.is_stopped = true;
+    }
+
+    /// Notes that a solve is wanted once the mesh has its form.
+    pub(super) fn go_on(&mut self) {
+        self.is_stopped = false;
+    }
+
+    /// Whether nothing is to be solved once the mesh has its form.
+    pub(super) fn is_stopped(&self) -> bool {
+        self.is_stopped
+    }
+
+    /// The next errand that came back, or failed, with what it does: of those that do the same, in the order in which they were sent.
+    /// While they are held back only a mesh in its form is let through, which is no edit.
+    pub(super) fn poll(&mut self, is_held: bool) -> Option<(&'static str, Result<Errand, Failure>)> {
+        while let Some((what, errand)) = self.under_way.poll_in_order() {
             match errand {
-                Ok(formed @ Errand::Formed(_)) => return Some(formed),
-                Ok(errand) => self.arrived.push(errand),
-                Err(failure) => messages.fail_background(Place::Embedding, what, &failure),
+                Ok(errand) if what != FORMING => self.arrived.push_back((what, errand)),
+                formed_or_failed => return Some((what, formed_or_failed)),
             }
         }
-        if is_in_gesture || self.arrived.is_empty() { None } else { Some(self.arrived.remove(0)) }
+        let next = if is_held { None } else { self.arrived.pop_front() };
+        next.map(|(what, errand)| (what, Ok(errand)))
     }
 }

@@ -128,6 +128,9 @@ impl Session {
         if self.refuses_to_replace(&path, Some(Role::Project)) {
             return;
         }
+        if self.refuses_formless() {
+            return;
+        }
         match self.model().and_then(|model| self.files.project_file(model, &self.document)) {
             Some(project) => self.files.save_project(path, project, &self.document),
             None => self.complain("there is nothing to save yet: open a mesh first", None),
@@ -136,6 +139,9 @@ impl Session {
 
     /// Writes the targets as a constraint file.
     pub(super) fn export_constraints(&mut self, path: PathBuf) {
+        if self.refuses_formless() {
+            return;
+        }
         let targets = self.model().map(|model| model.all_targets(&self.document)).unwrap_or_default();
         if targets.is_empty() {
             return self.complain("there are no constraints to write: pin a vertex first", None);
@@ -148,6 +154,17 @@ impl Session {
             let words = if targets.len() == 1 { "constraint" } else { "constraints" };
             Ok(Written { about: Some(format!("{} {words}", targets.len())), ..Written::file(path) })
         });
+    }
+
+    /// Whether the mesh does not have the form of the document yet, so that nobody can say which vertices its pins are; then
+    /// says so.
+    fn refuses_formless(&mut self) -> bool {
+        let is_formless = !self.has_numbers_as_wanted();
+        if is_formless {
+            let text = "nothing was written: the mesh is still being brought into its form";
+            self.complain(text, Some("write it again in a moment"));
+        }
+        is_formless
     }
 
     /// Writes a picture of what the screen shows, as a PNG.

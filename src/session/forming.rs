@@ -4,21 +4,23 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::errands::Errand;
+use super::open_mesh::Near;
 use super::{Command, Place, Session};
 use crate::mesh::{Form, HoleTreatment, WeldDistance, near_vertices};
 use crate::solver::{Family, Method, Settings, Start};
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
-const FORMING: &str = "turning or mending the faces";
+pub(super) const FORMING: &str = "turning or mending the faces";
 
 /// The errand that counts vertices near each other.
 const COUNTING: &str = "counting near vertices";
 
 impl Session {
-    /// Turns the faces around.
+    /// Turns the faces around: vertices and charts keep their numbers.
     pub(super) fn turn_faces(&mut self) {
         if self.model().is_some() {
             let form = self.document.form.clone();
+            self.mesh.turn_wanted();
             self.edit(vec![Command::SetForm(Form { faces_turned: !form.faces_turned, ..form })]);
         }
     }
@@ -26,25 +28,18 @@ impl Session {
     /// Mends the mesh as far as that can be done, and cuts it open.
     pub(super) fn mend(&mut self) {
         if self.model().is_some_and(|model| model.remedy.is_some()) {
-            self.edit(vec![Command::SetForm(self.document.form.mended())]);
-        }
-    }
-
-    /// Takes the mesh in another form, as an edit.
-    pub(super) fn want_form(&mut self, form: Form) {
-        if self.model().is_some() && form != self.document.form {
-            self.edit(vec![Command::SetForm(form)]);
+            self.want_form(self.form_to_be().mended());
         }
     }
 
     /// Leaves out the parts with these first faces, and no others.
     pub(super) fn leave_out(&mut self, first_faces: BTreeSet<u32>) {
-        self.want_form(Form { left_out: Arc::new(first_faces), ..self.document.form.clone() });
+        self.want_form(Form { left_out: Arc::new(first_faces), ..self.form_to_be().clone() });
     }
 
     /// Fills holes while the mesh is flattened, or cuts it open from them to the outside.
     pub(super) fn set_holes(&mut self, holes: HoleTreatment) {
-        let form = self.document.form.clone();
+        let form = self.form_to_be().clone();
         if holes != form.holes {
             let cut = form.cut || holes == HoleTreatment::Cut;
             self.want_form(Form { holes, cut, ..form });
@@ -59,7 +54,7 @@ impl Session {
             Ok(is_torn) => is_torn,
             Err(error) => return self.messages.fail(Place::Mesh, error.to_string(), None),
         };
-        let (form, before) = (self.document.form.clone(), self.document.settings);
+        let (form, before) = (self.form_to_be().clone(), self.document.settings);
         let mut seams = form.seams.clone();
         seams.of_texture |= is_torn;
         let method = if before.method.goes_on_from_layout() { before.method } else { Method::Auto };
@@ -74,14 +69,16 @@ impl Session {
 
     /// Joins vertices that lie within a distance; or does not.
     pub(super) fn weld(&mut self, within: Option<WeldDistance>) {
-        let form = self.document.form.clone();
+        let form = self.form_to_be().clone();
         self.want_form(Form { repair: form.repair.welding(within), ..form });
     }
 
-    /// Counts the vertices that a distance would join, in the background: one distance at a time.
+    /// Counts the vertices that a distance would join, in the background: one distance at a time, and once.
     pub(super) fn count_near(&mut self, distance: WeldDistance) {
         let Some(source) = self.model().map(|model| Arc::clone(&model.source)) else { return };
-        if self.near_count(distance).is_none() && !self.errands.is_under_way(COUNTING) {
+        let is_known = self.mesh.near().is_some_and(|near| near.distance == distance);
+        if !is_known && !self.errands.is_under_way(COUNTING) {
+            self.mesh.take_near(Near { distance, count: None });
             let count = move || near_vertices(&source.polygons, distance).len();
             self.errands.send(COUNTING, move |_| Errand::Near { distance, count: count() });
         }
@@ -89,7 +86,7 @@ impl Session {
 
     /// How many vertices a distance would join, where that was counted last.
     pub fn near_count(&self, distance: WeldDistance) -> Option<usize> {
-        self.mesh.near().filter(|near| near.distance == distance).map(|near| near.count)
+        self.mesh.near().filter(|near| near.distance == distance)?.count
     }
 
     /// Brings the mesh into the form, and to the chart, that the document wants. Where that takes time, a solve follows by
@@ -121,6 +118,7 @@ impl Session {
             self.tell_faults();
             return true;
         }
+        self.errands.go_on();
         if !self.errands.is_under_way(FORMING) {
             let formed = move |number: Option<usize>| match number {
                 Some(number) => model.of_chart(number),

@@ -10,7 +10,8 @@
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
 //! | `forming`       | the form that the mesh is to have, and its chart on the screen             |
-//! | `seams`         | the mesh cut along other seams, with the pins that it has                  |
+//! | `reshaping`     | the mesh in another form, with the pins that it has                        |
+//! | `seams`         | seams that a person draws, and files of them                               |
 //! | `v_axis`        | where v = 0 is on the picture                                              |
 //! | `runs`          | how the document is solved                                                 |
 //! | `filing`        | what is opened and written                                                 |
@@ -66,6 +67,7 @@ mod outcome;
 mod preferences;
 mod recent;
 mod recovery;
+mod reshaping;
 mod runs;
 mod saving;
 mod seam_edges;

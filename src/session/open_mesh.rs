@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use super::{Model, Session};
-use crate::mesh::{DiskMesh, Form, Seams, WeldDistance};
+use crate::mesh::{DiskMesh, Form, WeldDistance};
 
 /// How many vertices of the mesh lie within a distance of another.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     pub(super) distance: WeldDistance,
-    pub(super) count: usize,
+    /// None while they are counted, and where the count was stopped or failed.
+    pub(super) count: Option<usize>,
 }
 
 /// The open mesh.
@@ -18,9 +19,9 @@ pub(super) struct OpenMesh {
     model: Option<Arc<Model>>,
     /// The same mesh in the form that was wanted before, or is wanted next; or another chart of it.
     other: Option<Arc<Model>>,
-    /// Seams that a person asked for, while the mesh is cut along them.
-    wanted_seams: Option<Seams>,
-    /// The vertices near each other that were counted last.
+    /// The form that a person asked for, while the mesh is brought into it for an edit.
+    wanted: Option<Form>,
+    /// The vertices near each other that were to be counted last.
     near: Option<Near>,
     /// Counts the meshes opened, and their changes of form.
     revision: u64,
@@ -31,20 +32,28 @@ impl OpenMesh {
         *self = Self { model: Some(Arc::new(model)), revision: self.revision + 1, ..Self::default() };
     }
 
-    /// Seams that a person asked for, while the mesh is cut along them.
-    pub(super) fn wanted_seams(&self) -> Option<&Seams> {
-        self.wanted_seams.as_ref()
+    /// The form that a person asked for, while the mesh is brought into it for an edit.
+    pub(super) fn wanted(&self) -> Option<&Form> {
+        self.wanted.as_ref()
     }
 
-    /// Notes seams that a person asks for; or that none are asked for any more.
-    pub(super) fn want_seams(&mut self, seams: Option<Seams>) {
-        self.wanted_seams = seams;
+    /// Notes the form that a person asks for; or that none is asked for any more.
+    pub(super) fn want(&mut self, form: Option<Form>) {
+        self.wanted = form;
+    }
+
+    /// Turns the faces around of the form that is asked for, where one is.
+    pub(super) fn turn_wanted(&mut self) {
+        if let Some(form) = &mut self.wanted {
+            form.faces_turned = !form.faces_turned;
+        }
     }
 
     pub(super) fn near(&self) -> Option<Near> {
         self.near
     }
 
+    /// Notes what is counted, or was.
     pub(super) fn take_near(&mut self, near: Near) {
         self.near = Some(near);
     }
@@ -93,6 +102,12 @@ impl Session {
     /// Whether the mesh has the form that the document wants, and is the chart that it wants. Where nothing is open,
     /// there is none.
     pub(super) fn has_form_as_wanted(&self) -> bool {
-        self.model().is_none_or(|model| model.form == self.document.form) && self.has_chart_as_wanted()
+        self.has_numbers_as_wanted() && self.has_chart_as_wanted()
+    }
+
+    /// Whether the mesh has the form that the document wants, so that vertices and charts have the numbers that the document has
+    /// for them, whichever chart is on the screen.
+    pub(super) fn has_numbers_as_wanted(&self) -> bool {
+        self.model().is_none_or(|model| model.form == self.document.form)
     }
 }

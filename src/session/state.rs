@@ -93,7 +93,7 @@ impl Session {
             Action::SetStop(stop) => self.solving.set_stop(stop),
             Action::GiveUpGesture => self.travel(History::give_up_gesture),
             Action::Undo => self.undo(),
-            Action::Redo => self.travel(History::redo),
+            Action::Redo => self.redo(),
             Action::Fix(vertices) => self.fix(&vertices),
             Action::OpenPicture(path) => self.open_picture(path),
             Action::RemovePicture => self.edit(vec![Command::SetPicture(None)]),
@@ -102,7 +102,7 @@ impl Session {
             Action::Mend => self.mend(),
             Action::SetHoles(holes) => self.set_holes(holes),
             Action::TakeLayout => self.take_layout(),
-            Action::AllowRepair(repair) => self.want_form(self.document.form.allowing(repair)),
+            Action::AllowRepair(repair) => self.want_form(self.form_to_be().allowing(repair)),
             Action::LeaveOut(parts) => self.leave_out(parts),
             Action::Weld(within) => self.weld(within),
             Action::CountNear(distance) => self.count_near(distance),
@@ -121,7 +121,7 @@ impl Session {
             Action::SetHold { vertices, hold } => self.set_hold(&vertices, hold),
             Action::SlideHold { vertices, hold } => self.slide_hold(&vertices, hold),
             Action::Unpin(vertices) => self.unpin(&vertices),
-            Action::UnpinAll => self.unpin(&self.document.targets.keys().copied().collect::<Vec<_>>()),
+            Action::UnpinAll => self.unpin_all(),
             Action::SetSettings(settings) => self.choose(settings),
             Action::SlideSettings(settings) => self.slide_settings(settings),
         }
@@ -144,32 +144,49 @@ impl Session {
         self.poll_drag();
         self.refresh_target_checks();
         self.files.poll_saving(&mut self.messages);
-        let model = self.model().cloned();
-        self.files.poll_copies(now, model.as_deref(), &self.document, &mut self.messages);
+        if self.has_numbers_as_wanted() {
+            let model = self.model().cloned();
+            self.files.poll_copies(now, model.as_deref(), &self.document, &mut self.messages);
+        }
     }
 
-    /// Takes back the last edit: seams that the mesh is only being cut along, where there are some.
+    /// Takes back the last edit: a form that the mesh is only being brought into, where there is one.
     fn undo(&mut self) {
-        if self.mesh.wanted_seams().is_some() {
-            self.mesh.want_seams(None);
+        if self.mesh.wanted().is_some() {
+            self.mesh.want(None);
         } else {
             self.travel(History::undo);
         }
     }
 
-    /// Goes to another state of the document, and solves where there is one.
+    /// Repeats the last edit taken back, in the place of a form that the mesh is only being brought into.
+    fn redo(&mut self) {
+        if self.history.can_redo() {
+            self.mesh.want(None);
+        }
+        self.travel(History::redo);
+    }
+
+    /// Goes to another state of the document, and solves where it is another one for the solver.
     fn travel(&mut self, to: impl FnOnce(&mut History, &mut Document) -> bool) {
-        let before = self.document.chart;
-        if to(&mut self.history, &mut self.document) {
-            if self.document.chart == before { self.solve() } else { self.follow_chart() }
+        let (chart, was_in_gesture) = (self.document.chart, self.history.is_in_gesture());
+        let wish = |session: &Self| (session.document.problem(), session.document.relaxed, session.history.taken_to());
+        let (form, before) = (self.document.form.clone(), wish(self));
+        if !to(&mut self.history, &mut self.document) {
+            return;
+        }
+        if self.document.chart != chart {
+            self.follow_chart();
+        } else if was_in_gesture || self.document.form != form || wish(self) != before {
+            self.solve();
         }
     }
 
     fn cancel(&mut self) {
         self.files.cancel_loading();
         self.drag.stop_following();
-        self.errands.forget();
-        self.mesh.want_seams(None);
+        self.errands.stop();
+        self.mesh.want(None);
         self.charts.forget_asked();
         self.solving.pause();
     }

@@ -8,8 +8,10 @@ use crate::solver::Phase;
 /// What goes on in the background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Busy {
-    /// Reading and diagnosing a mesh, or reading something for it.
+    /// Reading and diagnosing a mesh.
     Loading,
+    /// Reading or computing something for the mesh; what it is, in words.
+    Errand(&'static str),
     /// Solving; the phase where it is known.
     Solving(Option<Phase>),
     /// Writing a file.
@@ -57,8 +59,12 @@ impl Session {
 
     /// What goes on in the background that is worth waiting for.
     pub fn busy(&self) -> Option<Busy> {
-        if self.files.is_loading() || self.errands.is_busy() || self.charts.is_asked() {
+        if self.files.is_loading() {
             Some(Busy::Loading)
+        } else if let Some(what) = self.errands.words() {
+            Some(Busy::Errand(what))
+        } else if self.charts.is_asked() {
+            Some(Busy::Errand("taking the chart out of the mesh"))
         } else if self.is_running() {
             Some(Busy::Solving(self.solving.phase()))
         } else {

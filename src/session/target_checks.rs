@@ -33,6 +33,9 @@ impl TargetChecks {
 impl Session {
     /// Brings everything up to date. Call once per frame.
     pub(super) fn refresh_target_checks(&mut self) {
+        if !self.has_form_as_wanted() {
+            return;
+        }
         let settings = self.document.settings;
         let pins = if settings.method.uses_pins() { settings.held(&self.document.pins()) } else { Pins::default() };
         let looked_in = (self.model_revision(), pins);

@@ -93,6 +93,7 @@ mod session_constraints;
 mod session_documents;
 mod session_drag;
 mod session_files;
+mod session_forms;
 mod session_fuzz;
 mod session_history;
 mod session_mend;

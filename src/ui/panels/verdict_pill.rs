@@ -55,6 +55,7 @@ fn shown(editor: &Editor) -> (Option<Pill>, Option<Busy>) {
 fn busy_words(busy: Busy) -> String {
     match busy {
         Busy::Loading => "opening…".to_owned(),
+        Busy::Errand(what) => format!("{what}…"),
         Busy::Solving(None | Some(Phase::Solve)) => "solving…".to_owned(),
         Busy::Solving(Some(phase)) => format!("solving… {}", phase.words()),
         Busy::Saving => "saving…".to_owned(),
