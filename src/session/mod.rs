@@ -9,6 +9,7 @@
 //! | `action`        | what a person can ask for                                                  |
 //! | `status`        | the state of the work on the screen                                        |
 //! | `edits`         | what is done to the document                                               |
+//! | `arrivals`      | what errands bring for the document                                        |
 //! | `forming`       | the form that the mesh is to have, and its chart on the screen             |
 //! | `reshaping`     | the mesh in another form, with the pins that it has                        |
 //! | `seams`         | seams that a person draws, and files of them                               |
@@ -44,6 +45,7 @@
 //! | `background`    | slots for work on background threads                                       |
 
 mod action;
+mod arrivals;
 mod atlas;
 mod atlas_view;
 mod background;
