@@ -1,5 +1,6 @@
 //! Something the user asked for. [`Session::handle`](super::Session::handle) carries it out.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use glam::DVec2;
@@ -70,6 +71,8 @@ pub enum Action {
     ExportSeams(PathBuf),
     /// Mends one kind of fault of the mesh.
     AllowRepair(Repair),
+    /// Leaves out parts of the mesh, by the file's numbers of their first faces, and no others.
+    LeaveOut(BTreeSet<u32>),
     /// Joins vertices of the mesh that lie within a distance, or does not any more.
     Weld(Option<WeldDistance>),
     /// Counts the vertices that a distance would join.

@@ -1,5 +1,6 @@
 //! The form that the mesh is to have, and the chart of it that is to be on the screen.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::errands::Errand;
@@ -34,6 +35,11 @@ impl Session {
         if self.model().is_some() && form != self.document.form {
             self.edit(vec![Command::SetForm(form)]);
         }
+    }
+
+    /// Leaves out the parts with these first faces, and no others.
+    pub(super) fn leave_out(&mut self, first_faces: BTreeSet<u32>) {
+        self.want_form(Form { left_out: Arc::new(first_faces), ..self.document.form.clone() });
     }
 
     /// Fills holes while the mesh is flattened, or cuts it open from them to the outside.

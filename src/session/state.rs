@@ -103,6 +103,7 @@ impl Session {
             Action::SetHoles(holes) => self.set_holes(holes),
             Action::TakeLayout => self.take_layout(),
             Action::AllowRepair(repair) => self.want_form(self.document.form.allowing(repair)),
+            Action::LeaveOut(parts) => self.leave_out(parts),
             Action::Weld(within) => self.weld(within),
             Action::CountNear(distance) => self.count_near(distance),
             Action::SetSeams(seams) => self.set_seams(seams),

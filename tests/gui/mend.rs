@@ -109,3 +109,29 @@ fn vertices_within_a_distance_are_counted_before_they_are_welded() {
     window.click("Do not weld");
     assert_eq!(window.editor().session.charts().map(|charts| charts.count()), Some(2));
 }
+
+#[test]
+fn a_part_that_cannot_be_flattened_is_left_out_and_kept_again() {
+    let mut mesh = tetrahedron();
+    let (sheet, first) = (sheet(4, 0.3), mesh.vertex_count());
+    mesh.positions.extend(sheet.positions.iter().map(|place| *place + DVec3::Z * 9.0));
+    mesh.triangles.extend(sheet.triangles.iter().map(|face| face.map(|v| VertexId::from_index(v.index() + first))));
+    let mut window = Window::with_mesh("two.obj", &mesh);
+    window.click("Defects");
+    assert!(!window.is_proved(), "{}", window.verdict());
+    let clicked = |window: &mut Window, name: &str| {
+        window.harness.get_by_role_and_label(Role::CheckBox, name).click();
+        window.settle();
+    };
+    clicked(&mut window, "Keep the part of face 0");
+    assert!(window.is_proved(), "{}", window.verdict());
+    assert!(window.shows("Mesh: 1 part left out"), "{:?}", window.words());
+    clicked(&mut window, "Keep the part of face 0");
+    assert!(!window.is_proved(), "{}", window.verdict());
+    window.click("Only the part of face 4");
+    assert!(window.is_proved(), "{}", window.verdict());
+    window.click("Keep all");
+    assert!(!window.is_proved(), "{}", window.verdict());
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert!(window.is_proved(), "{}", window.verdict());
+}

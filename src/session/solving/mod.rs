@@ -177,7 +177,6 @@ impl Solving {
             running.set_goal(|_| goal);
             return;
         }
-        // Where the file has no layout of the mesh, the map is computed afresh.
         let run = task.problem.ladder_on(&task.model).unwrap_or_else(|_| task.problem.ladder()).with_kept(&self.kept);
         self.rounds = Rounds::default();
         self.spawn(task, run, goal);

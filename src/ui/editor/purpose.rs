@@ -27,6 +27,8 @@ pub enum Purpose {
     OpenPicture,
     ImportConstraints,
     ExportConstraints,
+    ImportSeams,
+    ExportSeams,
     SaveProject,
     /// Where to write the flattening in a format, at a size of its own or at that of the editor.
     Export(OutputKind, Option<OutputFit>),
@@ -64,6 +66,8 @@ impl Purpose {
             Self::OpenPicture => ("Open a picture", "Pictures", &["png", "jpg", "jpeg"], ""),
             Self::ImportConstraints => ("Import constraints", "Constraints", &["txt"], ""),
             Self::ExportConstraints => ("Export the constraints", "Constraints", &["txt"], "-constraints.txt"),
+            Self::ImportSeams => ("Import seams", "Edges", &["edges", "txt"], ""),
+            Self::ExportSeams => ("Export the seams", "Edges", &["edges", "txt"], ".edges"),
             Self::SaveProject => ("Save the project", "Freebound project", &["freebound"], ".freebound"),
             Self::Export(kind, _) => {
                 let format = kind.format();
@@ -79,12 +83,13 @@ impl Purpose {
 
     /// Whether a file is asked for that is there already.
     pub(in crate::ui) const fn is_reading(self) -> bool {
-        matches!(self, Self::Open | Self::OpenPicture | Self::ImportConstraints)
+        matches!(self, Self::Open | Self::OpenPicture | Self::ImportConstraints | Self::ImportSeams)
     }
 
     /// Whether a name will do: what is written has the extension that says so.
     pub(in crate::ui) fn takes(self, path: &Path) -> bool {
-        let is_free = self.is_reading() || matches!(self, Self::Export(OutputKind::Obj, _) | Self::ExportConstraints);
+        let takes_any = matches!(self, Self::Export(OutputKind::Obj, _) | Self::ExportConstraints | Self::ExportSeams);
+        let is_free = self.is_reading() || takes_any;
         is_free || self.form().fits(path)
     }
 }

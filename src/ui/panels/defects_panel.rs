@@ -3,6 +3,7 @@
 use eframe::egui::{self, Color32, RichText, Role};
 
 use super::diagnosis;
+use super::parts::parts;
 use super::welding::welding;
 use crate::mesh::VertexId;
 use crate::solver::Verdict;
@@ -63,6 +64,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
     }
     if let Some(model) = editor.session.model() {
         diagnosis::notes(ui, model);
+        parts(ui, &editor.session, requests);
         welding(ui, &editor.session, requests);
     }
     let Some(outcome) = editor.step_on_screen().cloned() else {

@@ -4,6 +4,7 @@
 use eframe::egui::{self, Button, RichText};
 
 use super::menu::grouped;
+use super::parts::parts;
 use super::surface::surface_rows;
 use super::welding::welding;
 use crate::mesh::{Fault, Form, Repair, TriMesh};
@@ -30,6 +31,7 @@ pub(super) fn faults(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Re
         }
         ui.separator();
         done(ui, model);
+        parts(ui, session, requests);
         welding(ui, session, requests);
     });
     true

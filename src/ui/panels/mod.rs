@@ -6,6 +6,7 @@
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
 //! | `charts_panel.rs` | the charts of a mesh that has several, and how they are packed |
 //! | `diagnosis.rs` | what is wrong with the mesh, and what mends it: in the tab of defects |
+//! | `parts.rs` | the parts of a mesh, each to be kept or left out: in the same tab |
 //! | `welding.rs` | vertices joined within a distance: in the same tab |
 //! | `surface.rs` | rows of tabs: the charts and holes of the mesh, and what the map starts from |
 //! | `compare_panel.rs` | numbers of two steps that are compared |
@@ -29,6 +30,7 @@ pub(super) mod equation_table;
 pub(super) mod floating;
 pub(super) mod menu;
 pub(super) mod method_panel;
+mod parts;
 mod picture_panel;
 mod pins_panel;
 pub(super) mod status;

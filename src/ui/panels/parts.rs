@@ -1,0 +1,87 @@
+//! The parts of a mesh, each to be kept or left out.
+
+use std::collections::BTreeSet;
+
+use eframe::egui::{self, Role};
+
+use super::menu::grouped;
+use crate::mesh::{Fault, PartFaces};
+use crate::session::{Action, Model, Session, Surface};
+use crate::ui::{Control, Request};
+
+/// Height of a row, and of all rows at most, points.
+const ROW: f32 = 22.0;
+const LIST: f32 = 154.0;
+
+/// The parts where there are several, or some are left out.
+pub(super) fn parts(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
+    let Some(model) = session.model() else { return };
+    let left_out = &*session.document().form.left_out;
+    let kept = kept_parts(model);
+    if kept.len() < 2 && left_out.is_empty() {
+        return;
+    }
+    egui::CollapsingHeader::new("Parts").default_open(true).show(ui, |ui| {
+        let rows = kept.len() + left_out.len();
+        egui::ScrollArea::vertical().id_salt("parts").max_height(LIST).show_rows(ui, ROW, rows, |ui, range| {
+            for row in range {
+                match kept.get(row) {
+                    Some(&part) => kept_row(ui, part, &kept, left_out, requests),
+                    None => left_out.iter().nth(row - kept.len()).into_iter().for_each(|&first_face| {
+                        left_out_row(ui, first_face, left_out, requests);
+                    }),
+                }
+            }
+        });
+        if !left_out.is_empty() {
+            let tip = "No part is left out";
+            ui.button("Keep all").on_hover_text(tip).asks(Action::LeaveOut(BTreeSet::new()), requests);
+        }
+    });
+}
+
+fn kept_row(
+    ui: &mut egui::Ui,
+    part: PartFaces,
+    kept: &[PartFaces],
+    left_out: &BTreeSet<u32>,
+    requests: &mut Vec<Request>,
+) {
+    let PartFaces { first_face, count } = part;
+    let others = || kept.iter().map(|other| other.first_face).filter(move |&other| other != first_face);
+    ui.horizontal(|ui| {
+        let words = format!("Face {first_face}, {} f", grouped(count));
+        let field = ui.add_enabled(kept.len() > 1, egui::Checkbox::new(&mut true, words));
+        let field = field.named(Role::CheckBox, &format!("Keep the part of face {first_face}"));
+        let tip = "Left out, a part stays in the file as it is, and is not flattened";
+        let without = left_out.iter().copied().chain([first_face]).collect();
+        field.on_hover_text(tip).asks(Action::LeaveOut(without), requests);
+        if kept.len() > 1 {
+            let button = ui.small_button("Only this").on_hover_text("All other parts are left out");
+            let button = button.named(Role::Button, &format!("Only the part of face {first_face}"));
+            button.asks(Action::LeaveOut(left_out.iter().copied().chain(others()).collect()), requests);
+        }
+    });
+}
+
+fn left_out_row(ui: &mut egui::Ui, first_face: u32, left_out: &BTreeSet<u32>, requests: &mut Vec<Request>) {
+    let field = ui.add(egui::Checkbox::new(&mut false, format!("Face {first_face}, left out")));
+    let field = field.named(Role::CheckBox, &format!("Keep the part of face {first_face}"));
+    let with = left_out.iter().copied().filter(|&other| other != first_face).collect();
+    field.on_hover_text("It is flattened with the others again").asks(Action::LeaveOut(with), requests);
+}
+
+/// The parts that are kept, where there are several.
+fn kept_parts(model: &Model) -> Vec<PartFaces> {
+    if let Some(charts) = model.chart.as_ref().map(|of| &of.charts) {
+        let part =
+            |chart| PartFaces { first_face: charts.first_face(chart).number(), count: charts.faces(chart).len() };
+        return (0..charts.count()).map(part).collect();
+    }
+    let Surface::Faulty(_, diagnosis) = &model.surface else { return Vec::new() };
+    let parts = diagnosis.faults.iter().find_map(|fault| match fault {
+        Fault::SeveralComponents { first_faces, sizes } => Some(first_faces.polygons.iter().zip(sizes)),
+        _ => None,
+    });
+    parts.into_iter().flatten().map(|(&first_face, &count)| PartFaces { first_face, count }).collect()
+}
