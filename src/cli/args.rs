@@ -121,6 +121,7 @@ pub struct FlattenArguments {
     #[arg(long, value_name = "N")]
     pub max_steps: Option<usize>,
     /// After a planar end, lower the distortion in at most this many rounds, one-to-one throughout, constraints kept.
+    /// Without it `auto` does so until the map serves; a planar layout that `--start uv` goes on from stays as it is.
     #[arg(long, value_name = "N")]
     pub relax: Option<usize>,
     /// Do not split edges where the constraints cannot be met otherwise, for `auto` and `continuation`: keep the best
@@ -137,9 +138,9 @@ pub struct FlattenArguments {
     /// Size of the picture that several charts are packed into, in pixels; without it that of `--picture`, or 1024x1024.
     #[arg(long, value_name = "WxH", value_parser = parse_pixels, conflicts_with_all = ["aspect", "picture"])]
     pub pack: Option<UVec2>,
-    /// The least distance between packed charts, in pixels of that picture.
-    #[arg(long, value_name = "PIXELS", default_value_t = PackingOptions::default().gap, value_parser = clap::value_parser!(u32).range(0..=1024))]
-    pub gap: u32,
+    /// The least distance between packed charts, in pixels of that picture; 4 without it.
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub gap: Option<u32>,
     /// How many times as large as the others charts are packed: numbers of charts, as the report counts them from 0, each with
     /// its size, for example `0=2,3=0.5`.
     #[arg(long, value_name = "CHART=SIZE,…", value_delimiter = ',', value_parser = parse_chart_size)]
@@ -243,7 +244,8 @@ impl FlattenArguments {
 
     /// How several charts are packed, into this picture where there is one.
     pub fn packing(&self, picture: Option<&PictureFile>) -> PackingOptions {
-        let options = PackingOptions { gap: self.gap, ..PackingOptions::default() };
+        let options = PackingOptions::default();
+        let options = PackingOptions { gap: self.gap.unwrap_or(options.gap), ..options };
         let of_picture = picture.map(|picture| UVec2::new(picture.pixels.width, picture.pixels.height));
         let of_aspect = self
             .aspect
@@ -255,7 +257,8 @@ impl FlattenArguments {
 
     /// Where charts go: they stay where the file has them, where nothing else is asked for.
     pub fn arrangement(&self) -> Arrangement {
-        if self.start.is_some() && self.pack.is_none() { Arrangement::AsGiven } else { Arrangement::Packed }
+        let is_packed = self.pack.is_some() || self.gap.is_some();
+        if self.start.is_some() && !is_packed { Arrangement::AsGiven } else { Arrangement::Packed }
     }
 
     /// The files to write, apart from the report.

@@ -1,7 +1,7 @@
 //! `freebound flatten`: read, solve, prove, write. And the main job without a screen: the built-in example, flattened
 //! into a folder.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -63,8 +63,8 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         refuse_pins_of_no_face(&model, &targets)?;
         let packing = arguments.packing(picture.as_ref());
         let document = Document {
+            sizes: sizes(&arguments.chart_size, &model, &targets)?,
             targets,
-            sizes: sizes(&arguments.chart_size, &model)?,
             settings: arguments.settings(),
             picture: picture.map(Arc::new),
             aspect: arguments.aspect,
@@ -96,12 +96,12 @@ fn refuse_unwritten_formats(output: Option<&Path>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How many times as large as the others charts are packed, by their first faces.
-fn sizes(given: &[ChartSize], model: &Model) -> Result<BTreeMap<FaceId, f64>, Failure> {
+/// How many times as large as the others charts are packed, by their first faces. Those with targets are not packed.
+fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeMap<FaceId, f64>, Failure> {
     let count = model.chart_count();
+    let charts = model.chart.as_ref().map(|of| &of.charts);
     let first_face = |chart: usize| {
-        let charts = model.chart.as_ref().map(|of| &of.charts).filter(|charts| chart < charts.count());
-        charts.map(|charts| charts.first_face(chart)).ok_or_else(|| {
+        charts.filter(|charts| chart < charts.count()).map(|charts| charts.first_face(chart)).ok_or_else(|| {
             let why = if count == 1 {
                 "one chart, which fills the square".into()
             } else {
@@ -110,7 +110,20 @@ fn sizes(given: &[ChartSize], model: &Model) -> Result<BTreeMap<FaceId, f64>, Fa
             Failure::Usage(format!("--chart-size {chart}: the mesh has {why}"))
         })
     };
-    given.iter().map(|&ChartSize { chart, size }| Ok((first_face(chart)?, size))).collect()
+    let held: BTreeSet<usize> =
+        targets.keys().filter_map(|&vertex| charts.and_then(|charts| charts.chart_of_vertex(vertex))).collect();
+    let mut sizes = BTreeMap::new();
+    for &ChartSize { chart, size } in given {
+        let is_twice = sizes.insert(first_face(chart)?, size).is_some();
+        let faults = [
+            (is_twice, "the chart has a size twice: leave out one of them"),
+            (held.contains(&chart), "pins hold the chart, and it is not packed: leave out its size or its pins"),
+        ];
+        if let Some((_, why)) = faults.into_iter().find(|(is_so, _)| *is_so) {
+            return Err(Failure::Usage(format!("--chart-size {chart}: {why}")));
+        }
+    }
+    Ok(sizes)
 }
 
 /// Refuses files that would be written over, by the run itself or as results of one another.

@@ -60,9 +60,10 @@ impl HeadlessJob<'_> {
         let problems = self.problems(&models);
         models.iter().zip(&problems).try_for_each(|(model, problem)| warn_of_conflicts(model, problem))?;
         let work = models.par_iter().zip(problems);
-        let solved: Result<Vec<Solved>, Failure> =
+        let solved: Vec<Result<Solved, Failure>> =
             work.map(|(model, problem)| solve(model, problem, None, progress)).collect();
-        let solved = solved?;
+        // In the order of the charts: which of them fails first depends on the threads.
+        let solved: Vec<Solved> = solved.into_iter().collect::<Result<_, _>>()?;
         progress.enter("packing");
         let charts: Vec<SolvedChart<'_>> = models
             .iter()

@@ -77,9 +77,12 @@ impl Placing {
         Self { ways: Similarity::fitting(&pairs).into_iter().chain(shifts).collect(), anchors: Vec::new() }
     }
 
-    /// Over another embedding of the same vertices, as large and turned as it is; a pin moves it from there onto its target.
-    pub(super) fn over(embedding: &Embedding, other: &Embedding, pins: &Pins) -> Self {
-        let pairs: Vec<[DVec2; 2]> = embedding.iter().zip(other.iter()).map(|(a, b)| [*a, *b]).collect();
+    /// The first of two embeddings over the second, as large and turned as that is; a pin moves it from there onto its target.
+    /// What counts is the surface alone: no vertices of no face, of what fills holes, or that the second does not have.
+    pub(super) fn over(mesh: &DiskMesh, [embedding, other]: [&Embedding; 2], pins: &Pins) -> Self {
+        let is_of_surface = |vertex: &VertexId| mesh.is_used(*vertex) && !mesh.is_virtual_vertex(*vertex);
+        let pair = |vertex: VertexId| Some([embedding[vertex], *other.get(vertex.index())?]);
+        let pairs: Vec<[DVec2; 2]> = mesh.vertices().filter(is_of_surface).filter_map(pair).collect();
         let stays = Similarity::new(DVec2::X, DVec2::ZERO, DVec2::ZERO);
         let over = Similarity::laying_over(&pairs).unwrap_or(stays);
         match pins.iter().next() {

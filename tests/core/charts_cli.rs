@@ -151,6 +151,12 @@ fn a_chart_is_packed_as_many_times_as_large_as_is_asked_for() {
     }
     let other = program.run(&[&arguments[..], &["--chart-size", "3=2"]].concat()).expect(2);
     assert!(other.stderr.contains("--chart-size 3: the mesh has charts 0 to 2"), "{}", other.stderr);
+    let twice = program.run(&[&arguments[..], &["--chart-size", "0=2,0=3"]].concat()).expect(2);
+    assert!(twice.stderr.contains("--chart-size 0: the chart has a size twice"), "{}", twice.stderr);
+    let first = report["charts"][1]["first_face"].as_u64().expect("a face") as usize;
+    let pin = format!("{}:2,2", file.polygons.face(first)[0].index());
+    let held = program.run(&[&arguments[..], &["--pin", &pin, "--chart-size", "0=2,1=3"]].concat()).expect(2);
+    assert!(held.stderr.contains("--chart-size 1: pins hold the chart"), "{}", held.stderr);
     for wrong in ["0", "0=0", "0=-1", "0=nan", "x=1", "0=1000"] {
         program.run(&[&arguments[..], &["--chart-size", wrong]].concat()).expect(2);
     }

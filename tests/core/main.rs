@@ -107,6 +107,7 @@ mod shapes;
 mod signals;
 mod start;
 mod start_cli;
+mod start_session;
 mod steps;
 mod upright;
 mod verdict;

@@ -65,6 +65,28 @@ fn a_planar_layout_is_proved_and_stays_as_it_is() {
 }
 
 #[test]
+fn a_planar_layout_of_high_energy_or_of_more_than_32_bits_is_relaxed_only_where_that_is_asked_for() {
+    let mesh = disk(bump(6));
+    let stretched: Embedding = sheared(&mesh).iter().map(|z| DVec2::new(40.0 * z.x, z.y)).collect();
+    let far: Embedding = sheared(&mesh).iter().map(|z| *z + DVec2::splat(1e7)).collect();
+    for layout in [stretched, far] {
+        let (steps, ending) = finished(&mesh, ladder(one_of_each(), Pins::new(), &layout));
+        assert_eq!((steps.len(), ending), (1, Ok(Ending::Planar)));
+        assert!(energy(&mesh, &steps[0]) > 20.0 || !steps[0].verdict.holds_in_f32);
+        assert_eq!(steps[0].solution.embedding, layout, "to the last bit");
+        // Constraints are met from the layout as it is.
+        let pins = [0, 6, 24, 48].map(|v| (VertexId::new(v), layout[v as usize] + DVec2::new(0.001, 0.0)));
+        let settings = Settings::new(Method::Continuation, Family::Conformal);
+        let (steps, ending) = finished(&mesh, ladder(settings, hard_pins(pins), &layout));
+        assert_eq!(ending, Ok(Ending::Planar));
+        assert_eq!([steps[0].rung, steps[1].rung], [Method::Given, Method::Continuation]);
+        let relaxed = Settings { relax_rounds: Some(3), ..one_of_each() };
+        let (steps, _) = finished(&mesh, ladder(relaxed, Pins::new(), &layout));
+        assert!(steps.len() > 1 && steps[1].rung == Method::Relax);
+    }
+}
+
+#[test]
 fn relaxing_begins_with_the_layout_and_stays_planar_at_every_step() {
     let mesh = disk(bump(6));
     let layout = sheared(&mesh);

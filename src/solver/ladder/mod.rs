@@ -106,8 +106,9 @@ impl Ladder {
 
     /// The same from an embedding on: it is the first step, as it is, and where pins leave that open, all steps lie as it
     /// does. One-to-one, it is what constraints are met from and relaxing begins with, or else what an iteration and a
-    /// virtual boundary begin with; other methods then take the way that they take without it. One position per vertex,
-    /// in the plane. Methods of one linear solve pass over it.
+    /// virtual boundary begin with; other methods then take the way that they take without it. Where it serves poorly,
+    /// it is relaxed only if rounds are asked for. One position per vertex, in the plane; those of vertices of no face do not
+    /// count. Methods of one linear solve pass over it.
     #[must_use]
     pub fn starting_from(self, embedding: Arc<Embedding>) -> Self {
         if !self.asked.settings.method.goes_on_from_layout() {

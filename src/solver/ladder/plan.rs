@@ -65,13 +65,16 @@ impl Plan {
     }
 
     fn from_given(task: &Arc<Task>, kept: &Kept, layout: &Arc<Embedding>) -> Self {
-        let part = |flights| Part::new(task, Aim::Constraints, flights, kept);
+        // The layout is the planar start.
+        let kept = Kept { planar_start: None, ..kept.clone() };
+        let from_layout = |part| Part { is_from_layout: true, ..part };
+        let part = |flights| from_layout(Part::new(task, Aim::Constraints, flights, &kept));
         // Constraints are met from the layout as it is.
         let start = || {
             let settings = Settings { size: task.settings.size, ..Settings::default() };
             let sheet = Arc::clone(&task.sheet);
             let task = Task { start: Some(Arc::clone(layout)), ..Task::new(settings, Pins::new(), sheet) };
-            Part::new(&Arc::new(task), Aim::PlanarStart, GIVEN, kept)
+            from_layout(Part::new(&Arc::new(task), Aim::PlanarStart, GIVEN, &kept))
         };
         let parts = match task.settings.method {
             Method::Iterate => [part(GIVEN_ITERATED)].into(),
@@ -162,6 +165,8 @@ pub(super) struct Part {
     pub(super) task: Arc<Task>,
     pub(super) relax: Relax,
     cut: Cut,
+    /// Whether it goes on from a layout that was given.
+    pub(super) is_from_layout: bool,
     flights: Flights,
     rungs: BTreeMap<Kind, Box<dyn Rung>>,
     /// Where the ladder stands, and whether it has taken a step there.
@@ -182,6 +187,7 @@ impl Part {
             task: Arc::clone(task),
             relax: Relax::default(),
             cut: Cut,
+            is_from_layout: false,
             flights,
             rungs,
             at,
@@ -297,7 +303,11 @@ impl Part {
                 self.rung(self.at).relax_rounds_after(&self.task, step).max(to_convex)
             };
             let always = self.task.settings.relax_rounds.unwrap_or_else(own);
-            self.relax.begin(Rounds { always, until_it_serves: self.rounds_until_it_serves() });
+            // Where it lies as it is wanted, it stays as near to the layout as it is.
+            let is_in_place = step.is_of_planar_start() || step.unmet().is_empty();
+            let stays = self.is_from_layout && is_in_place;
+            let until_it_serves = if stays { 0 } else { self.rounds_until_it_serves() };
+            self.relax.begin(Rounds { always, until_it_serves });
             self.relax.look_at_start(step);
         }
     }

@@ -50,6 +50,10 @@ impl Ladder {
         let max_move = self.latest.as_ref().map(moved).map(|length| units.length_in_plane(length));
         candidate.take_to_plane(&units, &self.asked.held());
         candidate.solution.embedding.check_finite()?;
+        if self.plan.part().is_from_layout {
+            // Only a start from the surface alone serves others.
+            candidate.planar_start = None;
+        }
         self.notes.say(candidate.note.take());
         self.notes.say(placing);
         candidate.note = self.notes.take();

@@ -1,7 +1,7 @@
 //! What follows a planar embedding: rounds of relaxing, each of lower distortion.
 //!
 //! `auto` goes on with them until the embedding *serves*: until it holds in 32 bits, as most programs read it, and its
-//! energy is moderate, so that a picture on it keeps some texels everywhere.
+//! energy is moderate, so that a picture on it keeps some texels everywhere. A planar layout that was given stays as it is.
 
 use std::sync::Arc;
 use std::time::Instant;

@@ -38,9 +38,8 @@ impl Task {
     /// is proved of every step.
     pub(super) fn in_units(&self, units: &Units) -> Self {
         let sheet = if units.is_plane() { Arc::clone(&self.sheet) } else { Arc::default() };
-        let in_units = |start: &Arc<Embedding>| match units.is_plane() {
-            true => Arc::clone(start),
-            false => Arc::new(units.embedding(start)),
+        let in_units = |start: &Arc<Embedding>| {
+            if units.is_plane() { Arc::clone(start) } else { Arc::new(units.embedding(start)) }
         };
         let start = self.start.as_ref().map(in_units);
         Self { settings: units.settings(self.settings), pins: units.pins(&self.pins), sheet, start }
@@ -89,7 +88,7 @@ impl Task {
             return None;
         }
         candidate.solution.gauge_completed = is_open;
-        if self.pins.is_empty() && self.start.as_deref() == Some(embedding) {
+        if self.pins.is_empty() && self.is_start(mesh, embedding) {
             candidate.solution.pins = gauge_in(mesh, embedding);
             return None;
         }
@@ -120,11 +119,19 @@ impl Task {
         placed.way.is_none().then(|| "not yet moved to its place, whose numbers would fold it".to_owned())
     }
 
+    /// Whether an embedding is the layout that it started from, to the last bit; vertices of no face may lie anywhere.
+    fn is_start(&self, mesh: &DiskMesh, embedding: &Embedding) -> bool {
+        self.start.as_deref().is_some_and(|start| {
+            let mut used = mesh.vertices().filter(|&vertex| mesh.is_used(vertex));
+            start.len() == embedding.len() && used.all(|vertex| start[vertex] == embedding[vertex])
+        })
+    }
+
     /// To where up to two pins want a candidate; where they leave that open, to where the layout lies that it started from.
     fn placing(&self, mesh: &DiskMesh, candidate: &Candidate) -> Option<Placing> {
         let embedding = &candidate.solution.embedding;
         match &self.start {
-            Some(start) if self.has_open_gauge() => Some(Placing::over(embedding, start, &self.pins)),
+            Some(start) if self.has_open_gauge() => Some(Placing::over(mesh, [embedding, start], &self.pins)),
             _ => {
                 let free = Free { size: self.settings.size, turns: self.turns(mesh, candidate) };
                 Placing::of_gauge(mesh, embedding, &self.pins, free)
