@@ -1,13 +1,14 @@
 //! How a command ends: exit status and last words.
 
-use std::fmt::Display;
+use std::fmt::{self, Display, Formatter};
 use std::process::ExitCode;
 
 use super::failed::Subject;
 use super::say::warn;
 use super::standard::name_of_input;
 use crate::io::{ConstraintsError, EdgesError, PictureError, ReadError, TextureError, WriteError};
-use crate::mesh::{Diagnosis, Done};
+use crate::mesh::{Diagnosis, Done, Repairs};
+use crate::session::Model;
 use crate::solver::{Choice as _, Method, SolveError};
 
 /// Our fault, or the system's.
@@ -70,14 +71,14 @@ pub enum Failure {
         error: TextureError,
     },
     /// The mesh is not a disk.
-    #[error("{path}: cannot be flattened as it is\n{diagnosis}{}", remedy_words(remedy.as_deref()))]
+    #[error("{path}: cannot be flattened as it is\n{diagnosis}{}", remedy.as_ref().map(Remedy::to_string).unwrap_or_default())]
     NotADisk {
         /// The file.
         path: String,
         /// Everything that is wrong with it.
         diagnosis: Box<Diagnosis>,
         /// What would make a disk of it, where that can be.
-        remedy: Option<Vec<Done>>,
+        remedy: Option<Remedy>,
     },
     /// The solver gave no embedding. The name of the mesh is said before it.
     #[error("{0}")]
@@ -101,14 +102,34 @@ pub enum Failure {
     Usage(String),
 }
 
-/// How a mesh can be mended, for a message.
-fn remedy_words(remedy: Option<&[Done]>) -> String {
-    let Some(remedy) = remedy else { return String::new() };
-    if remedy.is_empty() {
-        return "\nnone of this does harm: it can be flattened without --repair none".to_owned();
+/// How a mesh can be mended.
+#[derive(Clone, Debug)]
+pub struct Remedy {
+    /// What is done then.
+    done: Vec<Done>,
+    /// Options that go with those that were given.
+    options: Vec<&'static str>,
+}
+
+impl Remedy {
+    /// What would make a disk of a mesh, or several, where that can be.
+    pub(super) fn of(model: &Model) -> Option<Self> {
+        let form = &model.form;
+        let all = (form.repair.and(Repairs::ALL) != form.repair).then_some("--repair all");
+        let auto = (!form.cut).then_some("--cut auto");
+        let remedy = model.remedy.as_ref()?;
+        Some(Self { done: remedy.done().to_vec(), options: all.into_iter().chain(auto).collect() })
     }
-    let done: Vec<String> = remedy.iter().map(ToString::to_string).collect();
-    format!("\nit can be mended with --repair all --cut auto: {}", done.join(", "))
+}
+
+impl Display for Remedy {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.done.is_empty() {
+            return f.write_str("\nnone of this does harm: it can be flattened without --repair none");
+        }
+        let done: Vec<String> = self.done.iter().map(ToString::to_string).collect();
+        write!(f, "\nit can be mended by adding {}: {}", self.options.join(" "), done.join(", "))
+    }
 }
 
 impl Failure {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::args::{Cut, FlattenArguments};
-use super::exit::conclude;
+use super::exit::{Remedy, conclude};
 use super::failed::await_report;
 use super::job::HeadlessJob;
 use super::parts::with_parts;
@@ -256,8 +256,8 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
                     format!("no face is left after joining vertices within {distance}: choose a smaller distance");
                 return Err(Failure::Usage(format!("{}: {text}", model.path_words())));
             }
-            let remedy = model.remedy.as_ref().map(|remedy| remedy.done().to_vec());
-            Err(Failure::NotADisk { path: model.path_words(), diagnosis: Box::new(diagnosis.as_ref().clone()), remedy })
+            let (diagnosis, remedy) = (Box::new(diagnosis.as_ref().clone()), Remedy::of(model));
+            Err(Failure::NotADisk { path: model.path_words(), diagnosis, remedy })
         }
     }
 }

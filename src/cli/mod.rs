@@ -40,7 +40,7 @@ use self::failed::Subject;
 use crate::solver::{Choice, Family, Method, Words};
 
 pub use args::{Arguments, Command, FlattenArguments};
-pub use exit::{Failure, Status};
+pub use exit::{Failure, Remedy, Status};
 pub use figures::pairs;
 pub use flatten::run_example;
 pub use say::warn;

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Read as _, Write};
 use std::path::{Path, PathBuf};
 
-use crate::mesh::{PolygonMesh, VertexId};
+use crate::mesh::{PolygonMesh, Seams, VertexId};
 
 /// Bytes that a file may take for each corner of its mesh, which has no more edges than corners: two numbers of ten digits, and a
 /// comment.
@@ -126,14 +126,9 @@ pub fn parse_edges(text: &str, mesh: &PolygonMesh) -> Result<Vec<[VertexId; 2]>,
             }
         }
     }
-    for face in 0..mesh.face_count() {
-        let corners = mesh.face(face);
-        for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-            lines.remove(&[a.min(b), a.max(b)]);
-        }
-    }
-    // What is left has no side, and stands before any other fault.
-    let missing = lines.into_iter().min_by_key(|&(_, line)| line);
+    // An edge without a side stands before any other fault.
+    let missing = Seams::default().with(edges.iter().copied()).missing_in(mesh);
+    let missing = missing.into_iter().map(|ends| (ends, lines[&ends])).min_by_key(|&(_, line)| line);
     match missing.map(|(ends, line)| (line, EdgeFault::NoSuchEdge(ends))).or(fault) {
         Some(fault) => Err(fault),
         None => Ok(edges),

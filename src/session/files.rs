@@ -181,7 +181,7 @@ impl Files {
 
     /// Puts what was opened on the table, in the place of what was there.
     pub(super) fn put_on_table(&mut self, opened: &Opened) {
-        let Opened { document, view, origin, missing_picture, lost_pins, .. } = opened;
+        let Opened { document, view, origin, missing_picture, is_partial, .. } = opened;
         let is_recovered = matches!(origin, Origin::Recovery(_));
         self.autosave.begin_anew(Some(document).filter(|_| is_recovered));
         let (name, project) = match origin {
@@ -192,8 +192,8 @@ impl Files {
         self.table = OnTable {
             opening: self.table.opening + 1,
             name,
-            // Where pins are left out, the file keeps them: saving asks for another place.
-            project: project.filter(|_| !lost_pins),
+            // What is left out, the file keeps: saving asks for another place.
+            project: project.filter(|_| !is_partial),
             saved: Some(document.clone()).filter(|_| !is_recovered),
             constraints: None,
             missing_picture: missing_picture.clone(),

@@ -24,8 +24,8 @@ pub(super) struct Opened {
     pub(super) remarks: Vec<Message>,
     /// The project's picture, where it could not be read.
     pub(super) missing_picture: Option<ProjectSource>,
-    /// Whether pins of the project are left out.
-    pub(super) lost_pins: bool,
+    /// Whether pins or seams of the project are left out.
+    pub(super) is_partial: bool,
 }
 
 /// Where it came from.
@@ -101,18 +101,20 @@ impl Opened {
             origin: Origin::Mesh,
             remarks: Vec::new(),
             missing_picture: None,
-            lost_pins: false,
+            is_partial: false,
         }
     }
 
     fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
-        let form = project.form();
-        let model = project_mesh(&project.mesh, form.clone(), &mut remarks)?.with_chart(project.chart);
+        let asked = project.form();
+        let model = project_mesh(&project.mesh, asked.clone(), &mut remarks)?.with_chart(project.chart);
+        let form = with_seams_there_are(&asked, &model, &mut remarks);
+        let model = Model { form: form.clone(), ..model };
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
         let (settings, pin_count) = (project.settings(), project.targets.len());
         let targets = targets_there_are(project.targets, &model, &mut remarks);
-        let lost_pins = targets.len() < pin_count;
+        let is_partial = targets.len() < pin_count || form != asked;
         let mut document = Document {
             settings,
             picture,
@@ -129,7 +131,7 @@ impl Opened {
         let missing_picture = project.picture.filter(|_| document.picture.is_none());
         let mut view = project.view;
         view.selection.retain(|&vertex| (vertex as usize) < model.vertex_count());
-        Ok(Self { model, document, view, origin, remarks, missing_picture, lost_pins })
+        Ok(Self { model, document, view, origin, remarks, missing_picture, is_partial })
     }
 }
 
@@ -192,6 +194,22 @@ fn has_changed(before: Option<&FileStamp>, now: Option<&FileStamp>) -> bool {
 
 fn example_called(name: &str) -> Option<Example> {
     Example::ALL.into_iter().find(|example| example.name() == name)
+}
+
+/// The form without edges of seams that no face has, with a remark about them. Nothing is cut there, whether they are listed or not.
+fn with_seams_there_are(form: &Form, model: &Model, remarks: &mut Vec<Message>) -> Form {
+    let lost = form.seams.missing_in(&model.source.polygons);
+    if lost.is_empty() {
+        return form.clone();
+    }
+    let ([a, b], count, before) = (lost[0], lost.len(), form.seams.edges().len());
+    let others = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+    let text = format!(
+        "{count} of the project's {before} seam edges are left out ({a}–{b}{others}): the mesh has no such edges"
+    );
+    let remedy = "draw them again, or put the mesh back as it was and open the project again";
+    remarks.push(Message::error(Place::Mesh, text).with_remedy(remedy));
+    Form { seams: form.seams.without(lost), ..form.clone() }
 }
 
 /// The targets of vertices that the mesh has, with a remark about the others.

@@ -1,9 +1,11 @@
 //! Surfaces cut along listed edges.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use freebound::mesh::{
-    Charts, DiskMesh, Form, HoleTreatment, PolygonMesh, Repair, Repaired, Repairs, Seams, VertexId, borders, creases,
+    Charts, DiskMesh, EdgePaths, Form, HoleTreatment, PathTree, PolygonMesh, Repair, Repaired, Repairs, Seams,
+    VertexId, WeldDistance, borders, creases,
 };
 use glam::DVec3;
 
@@ -265,4 +267,60 @@ fn seams_are_a_set_of_edges_whose_ends_come_in_any_order() {
     assert_eq!(seams.edges().iter().copied().collect::<Vec<_>>(), [edge(0, 9), edge(2, 5)]);
     assert_eq!(seams.without([edge(5, 2), edge(7, 8)]).edges().len(), 1);
     assert!(seams.without([edge(5, 2), edge(9, 0)]).is_empty() && !seams.is_empty());
+}
+
+/// A quad two of whose corners are near each other, in every order of its corners, beside a quad with corners of its own. Vertices 1
+/// and 2 become one, as 3 and 5 do, so that the quad's side from 2 to 3 becomes one with that of the other.
+fn near_corners() -> Vec<PolygonMesh> {
+    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let places =
+        vec![at(0., 0.), at(1., 0.), at(1., 0.001), at(1., 1.), at(0., 1.), at(1., 1.0), at(2., 0.), at(2., 1.)];
+    let mut meshes = Vec::new();
+    for start in 0..5 {
+        for other in [[1, 6, 7, 5], [5, 7, 6, 1]] {
+            let mut quad = [0, 1, 2, 3, 4];
+            quad.rotate_left(start);
+            meshes.push(polygons(places.clone(), &[&quad, &other]));
+            quad.reverse();
+            meshes.push(polygons(places.clone(), &[&quad, &other]));
+        }
+    }
+    meshes
+}
+
+#[test]
+fn edges_found_after_welding_are_edges_of_the_file_and_cut_where_they_are() {
+    let repair = Repairs::ALL.welding(WeldDistance::new(0.01));
+    for mesh in near_corners() {
+        let of_file = all_edges(&mesh);
+        let found = borders(&mesh, repair, &[0, 1]);
+        assert_eq!(found, [edge(2, 3)], "the first face names it: {:?}", mesh.corners);
+        let path = PathTree::new(&Arc::new(EdgePaths::new(&mesh, repair)), VertexId::new(1), 0.0);
+        let path = path.path_to(VertexId::new(3)).expect("it leads there");
+        assert_eq!(path, [edge(2, 3)]);
+        assert!(path.iter().all(|edge| of_file.contains_key(edge)));
+        for (seam, faces_turned) in [(edge(2, 3), false), (edge(2, 3), true), (edge(1, 5), false), (edge(1, 5), true)] {
+            let form = Form { repair, faces_turned, ..only([seam]) };
+            let source = if faces_turned { mesh.turned() } else { mesh.clone() };
+            let cut = form.repaired(&source);
+            assert_eq!(cuts(&cut).last(), Some(&(Repair::CutSeams, 1)), "{seam:?} of {:?}", source.corners);
+            assert_eq!(cut.seam_sides(&form.seams, &source).len(), 1, "{seam:?} of {:?}", source.corners);
+        }
+        let idle = Form { repair, ..only([edge(1, 2), edge(1, 3)]) }.repaired(&mesh);
+        assert!(
+            cuts(&idle).iter().all(|(repair, _)| *repair != Repair::CutSeams),
+            "a side that has no length any more"
+        );
+    }
+}
+
+#[test]
+fn every_face_knows_its_chart() {
+    let source = quad_sheet(3, 3, 0.0, &mut Random(1));
+    let lines = [1, 2].into_iter().flat_map(|x| (0..3).map(move |row| edge(4 * row + x, 4 * row + x + 4)));
+    let charts = Charts::of(only(lines).repaired(&source)).expect("disks");
+    for chart in 0..charts.count() {
+        assert!(charts.faces(chart).iter().all(|&face| charts.chart_of_face(face) == Some(chart)));
+    }
+    assert_eq!(charts.chart_of_face(9), None, "there are nine faces");
 }

@@ -7,7 +7,7 @@ use freebound::mesh::VertexId;
 use glam::DVec2;
 use serde_json::json;
 
-use crate::makers::{Random, quad_sheet};
+use crate::makers::{Random, band, quad_sheet};
 use crate::program::{Program, obj_text};
 use crate::seams::{cross, cube, edge};
 
@@ -173,4 +173,57 @@ fn edges_that_are_written_are_read_again() {
     assert_eq!(parse_edges(std::str::from_utf8(&text).expect("text"), &cube), Ok(cross().to_vec()));
     let read = parse_edges(CROSS, &cube).expect("it is right");
     assert_eq!((read.len(), read[1]), (8, edge(5, 1)));
+}
+
+/// Three quads in a row, of which the middle one runs the other way.
+const MIXED: &str = "v 0 0 0\nv 1 0 0\nv 2 0 .3\nv 0 1 0\nv 1 1 0\nv 2 1 .3\nv 3 0 0\nv 3 1 0\n\
+                     f 1 2 5 4\nf 2 5 6 3\nf 3 7 8 6\n";
+
+#[test]
+fn faces_that_run_the_other_way_are_turned_where_that_is_allowed_with_seams_too() {
+    let program = Program::new();
+    program.write("mixed.obj", MIXED);
+    program.write("seam.txt", "2 5\n");
+    let refused = program.run(&["flatten", "mixed.obj", "--cut", "seam.txt"]).expect(3);
+    assert!(refused.stderr.contains("mixed-orientation"), "{}", refused.stderr);
+    let turned = program.run(&["flatten", "mixed.obj", "--cut", "seam.txt", "--repair", "all", "--report", "-"]);
+    assert_eq!(turned.expect(0).json()["mesh"]["repairs"][0], json!({"repair": "turn-faces", "count": 1}));
+    // A strip with one side has two once it is cut, and then its faces have to be turned.
+    program.write("band.obj", &obj_text(&(&band(13, 1)).into()));
+    program.write("across.txt", "10 11\n");
+    let report = program.run(&["flatten", "band.obj", "--cut", "across.txt", "--report", "-"]).expect(0).json();
+    assert_eq!(report["mesh"]["repairs"][0], json!({"repair": "cut-seams", "count": 1}));
+    assert_eq!(report["mesh"]["repairs"][1]["repair"], json!("turn-faces"));
+}
+
+#[test]
+fn faces_that_touch_in_a_vertex_alone_stay_so_where_they_are_not_to_be_split() {
+    let program = Program::new();
+    let bow = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 1 0\nv 2 2 0\nv 1 2 0\nv -1 0 0\nv -1 1 0\n\
+               f 1 2 3 4\nf 3 5 6 7\nf 8 1 4 9\n";
+    program.write("bow.obj", bow);
+    program.write("elsewhere.txt", "0 3\n");
+    let refused = program.run(&["flatten", "bow.obj", "--cut", "elsewhere.txt", "--repair", "turn-faces"]).expect(3);
+    assert!(refused.stderr.contains("non-manifold-vertices"), "{}", refused.stderr);
+    let split = program.run(&["flatten", "bow.obj", "--cut", "elsewhere.txt", "--report", "-"]).expect(0).json();
+    let expected = json!([{"repair": "split-vertices", "count": 1}, {"repair": "cut-seams", "count": 1}]);
+    assert_eq!(split["mesh"]["repairs"], expected);
+}
+
+#[test]
+fn the_way_on_names_what_is_to_be_added_to_the_options_that_are_given() {
+    let program = Program::new();
+    program.write("mixed.obj", MIXED);
+    program.write("seam.txt", "2 5\n");
+    let added = |given: &[&str]| {
+        let arguments: Vec<&str> = ["flatten", "mixed.obj"].iter().chain(given).copied().collect();
+        let refused = program.run(&arguments).expect(3);
+        let (_, way) = refused.stderr.split_once("it can be mended by adding ").expect("a way on");
+        way.split(':').next().expect("options").to_owned()
+    };
+    assert_eq!(added(&["--cut", "seam.txt"]), "--repair all");
+    assert_eq!(added(&["--seams", "sharp=91"]), "--repair all --cut auto");
+    program.write("cube.obj", &obj_text(&cube()));
+    let refused = program.run(&["flatten", "cube.obj", "--seams", "sharp=91", "--repair", "all"]).expect(3);
+    assert!(refused.stderr.contains("mended by adding --cut auto: "), "{}", refused.stderr);
 }

@@ -217,3 +217,20 @@ fn seams_of_texture_coordinates_are_an_edit_too() {
     settled(&mut session, Action::Undo);
     assert_eq!(chart_count(&session), 1);
 }
+
+#[test]
+fn seams_of_a_project_that_the_mesh_does_not_have_are_told_and_the_project_keeps_them() {
+    let (folder, mut session) = with_sheet();
+    settled(&mut session, Action::SetSeams(across().with([edge(0, 1)])));
+    let path = folder.path().join("sheet.freebound");
+    settled(&mut session, Action::SaveProject(path.clone()));
+    let text = std::fs::read_to_string(&path).expect("written");
+    std::fs::write(&path, text.replace("\"2 7\"", "\"2 14\"").replace("\"0 1\"", "\"3 900\"")).expect("written");
+    let mut again = crate::session::session();
+    settled(&mut again, Action::Open(path));
+    let told: Vec<&str> = again.messages().iter().map(|message| message.text.as_str()).collect();
+    assert_eq!(told, ["2 of the project's 3 seam edges are left out (v2–v14 and 1 more): the mesh has no such edges"]);
+    assert_eq!(again.seams(), &Seams::default().with([edge(7, 12)]));
+    assert_eq!(again.model().expect("open").form, again.document().form);
+    assert!(again.project_path().is_none(), "saving asks for another place");
+}

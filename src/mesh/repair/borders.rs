@@ -48,12 +48,8 @@ fn edges_between(
         return Vec::new();
     }
     let sides = Sides::new(&repaired.polygons);
-    let in_file = |side: u32| {
-        let [a, b] = [side, sides.next(side)].map(|corner| source.corners[repaired.corner_of(corner as usize)]);
-        [a.min(b), a.max(b)]
-    };
     let sought = sides.table.edges().filter(|on| on.windows(2).any(|pair| is_sought(&sides, [pair[0], pair[1]])));
-    let mut edges: Vec<[VertexId; 2]> = sought.map(|on| in_file(on[0])).collect();
+    let mut edges: Vec<[VertexId; 2]> = sought.map(|on| sides.edge_in_file(repaired, source, on[0])).collect();
     edges.sort_unstable();
     edges.dedup();
     edges

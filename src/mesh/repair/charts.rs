@@ -69,9 +69,11 @@ impl Charts {
         FaceId::new(self.whole.face_of[self.faces[chart][0] as usize])
     }
 
-    /// The chart of a face of the whole.
+    /// The chart of a face of the whole; none where there is no such face.
     pub fn chart_of_face(&self, face: u32) -> Option<usize> {
-        self.faces.iter().position(|own| own.binary_search(&face).is_ok())
+        let polygons = &self.whole.polygons;
+        let is_there = (face as usize) < polygons.face_count();
+        is_there.then(|| polygons.face(face as usize)[0]).and_then(|vertex| self.chart_of_vertex(vertex))
     }
 
     /// The chart of a vertex of the whole.
@@ -101,6 +103,7 @@ impl Charts {
             fills: self.whole.fills,
             filling: Filling::default(),
             left_out: Vec::new(),
+            keeps_last: self.whole.keeps_last,
             done: self.whole.done.clone(),
         };
         let repaired = repaired.filled();

@@ -49,7 +49,7 @@ pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     let fans = sides.fans(|on| on.len() == 2 && !is_open[on[0] as usize]);
     cut.split_into(fans);
     cut.note(Repair::Cut, count);
-    cut.turn_faces();
+    cut.turn_faces_that_were(&sides.one_sided());
     cut
 }
 

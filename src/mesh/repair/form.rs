@@ -92,10 +92,6 @@ impl Form {
         let mut repaired = Repaired::new(source, self.repair);
         repaired.cut_along(&self.seams, labels, source);
         repaired.leave_parts_out(&self.left_out);
-        if !self.seams.edges().is_empty() && (self.cut || self.repair.allows(Repair::TurnFaces)) {
-            // A surface with one side has two once it is cut.
-            repaired.turn_faces();
-        }
         repaired.fills = self.allows(Repair::FillHoles);
         let repaired = if self.cut { repaired.cut_to_disks() } else { repaired };
         repaired.fill_holes()

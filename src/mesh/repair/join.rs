@@ -76,14 +76,27 @@ impl Repaired {
 
     /// Turns the fewer faces of each part over, so that all run around alike.
     pub(super) fn turn_faces(&mut self) {
+        self.turn_faces_where(|_| true);
+    }
+
+    /// Turns faces over, as [`turn_faces`](Self::turn_faces), where a surface that is cut by now had one side only: it may have two.
+    pub(super) fn turn_faces_that_were(&mut self, one_sided: &[bool]) {
+        if one_sided.contains(&true) {
+            self.turn_faces_where(|face| one_sided[face]);
+        }
+    }
+
+    fn turn_faces_where(&mut self, may_turn: impl Fn(usize) -> bool) {
         let found = diagnose(&self.polygons.triangulate());
         let mixed = found.faults.iter().find(|fault| matches!(fault, Fault::MixedOrientation { .. }));
         let Some(Elements::Faces(faces)) = mixed.map(Fault::elements) else { return };
-        for &face in &faces.polygons {
-            let range = self.polygons.corner_range(face as usize);
+        let faces: Vec<usize> =
+            faces.polygons.iter().map(|&face| face as usize).filter(|&face| may_turn(face)).collect();
+        for &face in &faces {
+            let range = self.polygons.corner_range(face);
             self.polygons.corners[range.clone()].reverse();
             self.corner_of[range].reverse();
         }
-        self.note(Repair::TurnFaces, faces.polygons.len());
+        self.note(Repair::TurnFaces, faces.len());
     }
 }

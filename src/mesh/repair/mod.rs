@@ -5,7 +5,7 @@
 //! | `mod.rs` | a mesh with some repairs done |
 //! | `kinds.rs` | the repairs by name, and sets of them |
 //! | `form.rs` | what is wanted of a file's faces |
-//! | `sides.rs` | sides of polygons, and which lie on one edge |
+//! | `sides.rs` | sides of polygons, which lie on one edge, and which edges of the file they are |
 //! | `leave_out.rs` | repeated corners and duplicate faces left out |
 //! | `weld.rs` | vertices near each other made one |
 //! | `join.rs` | vertices in one place made one; one made several, where fans of faces only touch; faces turned over |
@@ -72,6 +72,9 @@ pub struct Repaired {
     filling: Filling,
     /// The faces of parts that were left out, by their numbers in the mesh as given.
     left_out: Vec<u32>,
+    /// Whether the last of the corners of a face that repeat each other is kept, not the first: where the mesh as given was
+    /// turned around.
+    keeps_last: bool,
     done: Vec<Done>,
 }
 
@@ -115,6 +118,7 @@ impl Repaired {
             fills: false,
             filling: Filling::default(),
             left_out: Vec::new(),
+            keeps_last: false,
             done: Vec::new(),
         }
     }
@@ -148,6 +152,7 @@ impl Repaired {
         self.corner_of.iter_mut().for_each(|corner| *corner = place[*corner as usize]);
         self.stand_ins.iter_mut().flatten().for_each(|corner| *corner = place[*corner as usize]);
         self.filling.turn();
+        self.keeps_last = !self.keeps_last;
         self
     }
 

@@ -40,7 +40,7 @@ impl EdgePaths {
         let polygons = if is_whole { &repaired.polygons } else { &none };
         let sides = Sides::new(polygons);
         let at_corner = |corner: u32| source.corners[repaired.corner_of(corner as usize)];
-        let in_file = sides.table.edges().map(|on| [on[0], sides.next(on[0])].map(at_corner)).collect();
+        let in_file = sides.table.edges().map(|on| sides.edge_in_file(&repaired, source, on[0])).collect();
         let pairs = (0..).zip(&polygons.corners).map(|(corner, &vertex)| [at_corner(corner), vertex]);
         let mut renamed: Vec<[VertexId; 2]> = pairs.filter(|[of, vertex]| of != vertex).collect();
         renamed.sort_unstable();

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::sides::Sides;
 use super::{Repair, Repaired};
+use crate::mesh::union::DisjointSets;
 use crate::mesh::{PolygonMesh, VertexId};
 
 /// Where a surface is cut besides what makes disks of it.
@@ -36,6 +37,18 @@ impl Seams {
         Self { edges: Arc::new(self.edges.difference(&gone).copied().collect()), ..self.clone() }
     }
 
+    /// The listed edges that no face of a mesh has, ascending.
+    pub fn missing_in(&self, mesh: &PolygonMesh) -> Vec<[VertexId; 2]> {
+        let mut missing = BTreeSet::clone(&self.edges);
+        for face in (0..mesh.face_count()).take_while(|_| !self.edges.is_empty()) {
+            let corners = mesh.face(face);
+            for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+                missing.remove(&ordered([a, b]));
+            }
+        }
+        missing.into_iter().collect()
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         !self.of_texture && self.edges.is_empty()
@@ -50,17 +63,14 @@ fn ordered([a, b]: [VertexId; 2]) -> [VertexId; 2] {
 impl Repaired {
     /// Cuts each edge that is listed, or at whose ends the faces there have different labels. `labels` has one for each corner of
     /// the mesh as given, `source`. Of edges that became one, any is enough. Where a seam ends inside the surface, the vertex
-    /// there stays whole: a seam of one edge opens nothing.
+    /// there stays whole: a seam of one edge opens nothing. A surface that had one side only, and has two now, has its faces turned.
     pub(super) fn cut_along(&mut self, seams: &Seams, labels: Option<&[u32]>, source: &PolygonMesh) {
         if !self.is_sound() || (labels.is_none() && seams.edges.is_empty()) {
             return;
         }
         let sides = Sides::new(&self.polygons);
         let of = |corner: u32| self.corner_of[corner as usize] as usize;
-        let is_listed = |side: u32| {
-            let ends = [side, sides.next(side)].map(|corner| source.corners[of(corner)]);
-            seams.edges.contains(&ordered(ends))
-        };
+        let is_listed = |side: u32| seams.edges.contains(&sides.edge_in_file(self, source, side));
         let across =
             |on: &[u32]| -> Vec<[u32; 2]> { on.windows(2).flat_map(|pair| sides.across(pair[0], pair[1])).collect() };
         let is_alike =
@@ -68,13 +78,25 @@ impl Repaired {
         let is_whole = |on: &[u32]| on.len() == 1 || (is_alike(on) && !on.iter().any(|&side| is_listed(side)));
         let seam: Vec<Vec<[u32; 2]>> = sides.table.edges().filter(|on| !is_whole(on)).map(across).collect();
         if !seam.is_empty() {
-            let fans = sides.fans(is_whole);
+            let fans = self.with_touching(sides.fans(is_whole), &sides);
+            let is_one_sided = sides.one_sided();
             self.split_into(fans);
             let corners = &self.polygons.corners;
             let is_open =
                 |across: &Vec<[u32; 2]>| across.iter().any(|[a, b]| corners[*a as usize] != corners[*b as usize]);
             let count = seam.iter().filter(|across| is_open(across)).count();
             self.note(Repair::CutSeams, count);
+            self.turn_faces_that_were(&is_one_sided);
         }
+    }
+
+    /// Fans, those joined that touch in a vertex alone without any seam.
+    fn with_touching(&self, mut fans: DisjointSets, sides: &Sides<'_>) -> DisjointSets {
+        let mut first = vec![None; self.polygons.positions.len()];
+        for corner in sides.fans(|_| true).roots() {
+            let vertex = self.polygons.corners[corner as usize];
+            fans.join(corner, *first[vertex.index()].get_or_insert(corner));
+        }
+        fans
     }
 }

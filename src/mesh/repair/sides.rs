@@ -1,7 +1,8 @@
 //! Sides of polygons, and which of them lie on one edge. A side has the number of the corner that it leaves.
 
+use super::Repaired;
 use crate::mesh::edges::EdgeTable;
-use crate::mesh::union::DisjointSets;
+use crate::mesh::union::{DisjointSets, ParitySets};
 use crate::mesh::{PolygonMesh, VertexId};
 
 /// The sides of a mesh.
@@ -39,6 +40,12 @@ impl<'a> Sides<'a> {
         self.next[side as usize]
     }
 
+    /// The edge of the mesh as given, `source`, that a side of `repaired` is.
+    pub(super) fn edge_in_file(&self, repaired: &Repaired, source: &PolygonMesh, side: u32) -> [VertexId; 2] {
+        let ends = [side, self.next(side)].map(|corner| corner as usize);
+        repaired.edge_in_file(source, self.face[side as usize] as usize, ends)
+    }
+
     /// The corners that meet across an edge, in pairs.
     pub(super) fn across(&self, a: u32, b: u32) -> [[u32; 2]; 2] {
         let [tail, _] = self.ends(a);
@@ -60,5 +67,43 @@ impl<'a> Sides<'a> {
             }
         }
         fans
+    }
+
+    /// For each face whether the surface has only one side there. What hangs together across edges of two faces counts as one.
+    pub(super) fn one_sided(&self) -> Vec<bool> {
+        let count = self.face.last().map_or(0, |&last| last as usize + 1);
+        let mut sets = ParitySets::new(count);
+        let mut contradictions = Vec::new();
+        for on in self.table.edges() {
+            let &[a, b] = on else { continue };
+            let [face, other] = [a, b].map(|side| self.face[side as usize]);
+            if sets.relate(face, other, self.ends(a)[0] == self.ends(b)[0]) {
+                contradictions.push(face);
+            }
+        }
+        let mut is_one_sided = vec![false; count];
+        contradictions.into_iter().for_each(|face| is_one_sided[sets.find(face).0 as usize] = true);
+        (0..).take(count).map(|face| is_one_sided[sets.find(face).0 as usize]).collect()
+    }
+}
+
+impl Repaired {
+    /// The edge of the mesh as given, `source`, that a side of a face is, the smaller vertex first. Where corners were left out
+    /// between its two, the one that is kept is an end of another side: these repeat its vertex, and the last of them is the end.
+    pub(super) fn edge_in_file(&self, source: &PolygonMesh, face: usize, side: [usize; 2]) -> [VertexId; 2] {
+        let corner_of = &self.corner_of[self.polygons.corner_range(face)];
+        let runs_back = matches!(corner_of, [.., before, last] if before > last);
+        let [mut first, mut last] = side.map(|corner| self.corner_of(corner));
+        if runs_back {
+            std::mem::swap(&mut first, &mut last);
+        }
+        let range = source.corner_range(self.face_of[face] as usize);
+        if self.keeps_last {
+            last = if first + 1 == range.end { range.start } else { first + 1 };
+        } else {
+            first = if last == range.start { range.end - 1 } else { last - 1 };
+        }
+        let [a, b] = [first, last].map(|corner| source.corners[corner]);
+        [a.min(b), a.max(b)]
     }
 }

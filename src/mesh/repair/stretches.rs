@@ -59,15 +59,13 @@ impl Repaired {
         let mut is_on_seam = vec![false; source.positions.len()];
         let ends = seams.edges().iter().flatten().filter(|end| end.index() < source.positions.len());
         ends.for_each(|end| is_on_seam[end.index()] = true);
-        let in_file = |corner: usize| source.corners[self.corner_of(corner)];
         let mut sides = Vec::new();
         for face in 0..self.polygons.face_count() {
             let corners = self.polygons.corner_range(face);
             for corner in corners.clone() {
                 let side = [corner, if corner + 1 < corners.end { corner + 1 } else { corners.start }];
-                let [a, b] = side.map(in_file);
-                let may_be = is_on_seam[a.index()] && is_on_seam[b.index()];
-                if may_be && seams.edges().contains(&[a.min(b), a.max(b)]) {
+                let edge = self.edge_in_file(source, face, side);
+                if edge.iter().all(|end| is_on_seam[end.index()]) && seams.edges().contains(&edge) {
                     sides.push(side.map(|corner| self.polygons.corners[corner]));
                 }
             }

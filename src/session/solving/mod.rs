@@ -17,10 +17,12 @@
 //! | `running`  | what is to be solved; a run at rest and in the background, where it works |
 //! | `incoming` | takes in steps, and a run that has come to rest                           |
 //! | `rounds`   | rounds of relaxing that a person has asked for                            |
+//! | `session`  | what a session says of the solving on the screen                          |
 
 mod incoming;
 mod rounds;
 mod running;
+mod session;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
@@ -30,7 +32,7 @@ pub(super) use self::running::{Next, Rest, Task};
 use self::running::{Resting, Running, Shared, take_steps};
 use super::stop::Goal;
 use super::timeline::{TIMELINE_BUDGET, Timeline};
-use super::{Background, Messages, Outcome, Place, Problem, Session, Stop, StopConditions, Wake};
+use super::{Background, Messages, Outcome, Place, Problem, Stop, StopConditions, Wake};
 use crate::solver::{Ending, Kept, Ladder, Method, Phase, Prepared};
 
 /// Steps that wait to be taken in before the background waits for the screen. None is ever dropped.
@@ -308,43 +310,5 @@ impl Solving {
     /// Compares the step on the screen with another one, or with none.
     pub(super) fn compare(&mut self, index: Option<usize>) {
         self.timeline.compare(index);
-    }
-}
-
-impl Session {
-    /// The steps that there are, and which of them is on the screen.
-    pub fn timeline(&self) -> &Timeline {
-        &self.solving.timeline
-    }
-
-    /// The step on the screen.
-    pub fn outcome(&self) -> Option<&Arc<Outcome>> {
-        self.timeline().outcome(self.timeline().shown()?)
-    }
-
-    /// The step that the one on the screen is compared with.
-    pub fn compared(&self) -> Option<&Arc<Outcome>> {
-        self.timeline().outcome(self.timeline().compared()?)
-    }
-
-    /// Changes whenever another step is on the screen, or none any more.
-    pub fn outcome_revision(&self) -> u64 {
-        self.solving.outcome_revision
-    }
-
-    /// When a run that goes on by itself comes to rest.
-    pub fn stop_conditions(&self) -> StopConditions {
-        self.solving.stop_conditions()
-    }
-
-    /// Whether a run takes steps in the background.
-    pub fn is_running(&self) -> bool {
-        self.solving.is_running()
-    }
-
-    /// Why the run is at rest, where that is not because of a person's wish.
-    pub fn stopped(&self) -> Option<Stop> {
-        let solving = &self.solving;
-        solving.stop.reason(solving.newest()?, solving.ending).filter(|_| !self.is_running())
     }
 }
