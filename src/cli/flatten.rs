@@ -25,7 +25,7 @@ use crate::io::{
     Constraints, LayoutError, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError,
     WriteError,
 };
-use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::mesh::{DiskMesh, FaceId, Fault, VertexId, WeldDistance};
 use crate::session::{Arrangement, Document, Model, Surface};
 use crate::solver::{Choice as _, SolveError};
 
@@ -60,6 +60,7 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
         disk_of(&model)?;
         let targets = gather(arguments, model.vertex_count_in_file())?;
+        refuse_pins_of_joined_vertices(&model, &targets)?;
         refuse_pins_of_no_face(&model, &targets)?;
         let packing = arguments.packing(picture.as_ref());
         let document = Document {
@@ -209,6 +210,18 @@ fn gather(arguments: &FlattenArguments, vertex_count: usize) -> Result<Targets, 
     Ok(targets)
 }
 
+/// Refuses pins of vertices that were joined with others: these stand for them.
+fn refuse_pins_of_joined_vertices(model: &Model, targets: &Targets) -> Result<(), Failure> {
+    let Some(repaired) = model.whole_repaired() else { return Ok(()) };
+    match targets.keys().find_map(|&vertex| Some((vertex, repaired.stands_for(vertex)?))) {
+        Some((vertex, other)) => {
+            let text = format!("vertex {vertex} is pinned, but was joined with vertex {other}: pin {other}");
+            Err(Failure::Usage(format!("{}: {text}", model.path_words())))
+        }
+        None => Ok(()),
+    }
+}
+
 /// Refuses pins of vertices that belong to no chart, where the mesh has several.
 fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failure> {
     let Some(of) = &model.chart else { return Ok(()) };
@@ -250,6 +263,12 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
     match &model.surface {
         Surface::Disk(disk) => Ok(disk),
         Surface::Faulty(_, diagnosis) => {
+            let distance = model.form.repair.weld_distance().map(WeldDistance::get);
+            if let Some(distance) = distance.filter(|_| diagnosis.faults.contains(&Fault::NoFaces)) {
+                let text =
+                    format!("no face is left after joining vertices within {distance}: choose a smaller distance");
+                return Err(Failure::Usage(format!("{}: {text}", model.path_words())));
+            }
             let (diagnosis, remedy) = (Box::new(diagnosis.as_ref().clone()), Remedy::of(model));
             Err(Failure::NotADisk { path: model.path_words(), diagnosis, remedy })
         }

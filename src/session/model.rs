@@ -191,6 +191,11 @@ impl Model {
         self.chart.as_ref().map_or(1, |of| of.charts.count())
     }
 
+    /// The repairs of the whole mesh, where there are any.
+    pub fn whole_repaired(&self) -> Option<&Repaired> {
+        self.chart.as_ref().map(|of| of.charts.whole()).or(self.repaired.as_deref())
+    }
+
     /// The vertex of the repaired mesh that one of this mesh or chart is: with the file's number, where the file has it.
     pub fn vertex_in_file(&self, vertex: VertexId) -> VertexId {
         self.chart.as_ref().and_then(|of| of.chart.vertex_of.get(vertex.index()).copied()).unwrap_or(vertex)

@@ -36,30 +36,20 @@ impl Found {
         let is_repaired = !repaired.done().is_empty();
         Self { surface, repaired: is_repaired.then(|| Arc::new(repaired)), chart: None }
     }
-
-    /// What is no disk, and is left so.
-    fn faulty(polygons: &PolygonMesh, diagnosis: Diagnosis) -> Self {
-        let surface = Surface::Faulty(Arc::new(polygons.triangulate()), Arc::new(diagnosis));
-        Self { surface, repaired: None, chart: None }
-    }
 }
 
 /// What a file's faces are in a form.
 pub(super) fn surface_of(polygons: &PolygonMesh, form: &Form) -> Found {
-    let as_given = DiskMesh::try_from(polygons.triangulate()).and_then(|disk| {
-        let diagnosis = if form.repair.is_none() { diagnose(&polygons.triangulate()) } else { Diagnosis::default() };
-        if diagnosis.faults.is_empty() { Ok(disk) } else { Err(Box::new(diagnosis)) }
-    });
+    if let Some(refused) = refused_unrepaired(polygons, form.repair) {
+        return refused;
+    }
+    let as_given = DiskMesh::try_from(polygons.triangulate());
     let is_welded = form.repair.weld_distance().is_some();
     let (as_given, diagnosis) = match as_given {
         Ok(disk) if is_welded => (Some(disk), Diagnosis::default()),
         Ok(disk) => return Found::disk(disk, None),
         Err(diagnosis) => (None, *diagnosis),
     };
-    let is_no_fault = |fault: &Fault| fault.is_cut_open() || fault.is_of_charts();
-    if form.repair.is_none() && !diagnosis.faults.iter().all(is_no_fault) {
-        return Found::faulty(polygons, diagnosis);
-    }
     let repaired = form.repaired(polygons);
     if let Some(disk) = as_given.filter(|_| repaired.done().is_empty()) {
         return Found::disk(disk, None);
@@ -73,11 +63,28 @@ pub(super) fn surface_of(polygons: &PolygonMesh, form: &Form) -> Found {
     }
 }
 
+/// A mesh with faults that cutting does not mend, where nothing may be repaired. Vertices are welded first: what this mends is
+/// no fault, and vertices that have no face for it alone are none.
+fn refused_unrepaired(polygons: &PolygonMesh, repairs: Repairs) -> Option<Found> {
+    if !repairs.is_none() {
+        return None;
+    }
+    let welded = Repaired::new(polygons, repairs);
+    let mut left = diagnose(&welded.triangulate());
+    if !welded.done().is_empty() {
+        let is_unused = |fault: &Fault| matches!(fault, Fault::UnreferencedVertices(_));
+        left.faults.retain(|fault| !is_unused(fault));
+        left.faults.extend(diagnose(&polygons.triangulate()).faults.into_iter().filter(is_unused));
+    }
+    let is_refused = left.faults.iter().any(|fault| !(fault.is_cut_open() || fault.is_of_charts()));
+    is_refused.then(|| Found::left(welded, left))
+}
+
 /// Whether a mesh is refused wherever it is cut: for faults that cutting does not mend.
 pub(super) fn is_refused_uncut(polygons: &PolygonMesh, repairs: Repairs) -> bool {
     let has = |is_fault: &dyn Fn(&Fault) -> bool| diagnose(&polygons.triangulate()).faults.iter().any(is_fault);
     if repairs.is_none() {
-        return has(&|fault| !(fault.is_cut_open() || fault.is_of_charts()));
+        return refused_unrepaired(polygons, repairs).is_some();
     }
     let is_welded = repairs.allows(Repair::WeldVertices) || repairs.weld_distance().is_some();
     !is_welded && has(&|fault| matches!(fault, Fault::CoincidentVertices(_)))

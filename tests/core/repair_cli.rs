@@ -151,3 +151,87 @@ fn repairs_are_chosen_one_by_one_and_an_unknown_one_is_refused_with_the_names_of
         assert!(refused.stderr.contains("write a distance of 0 or more"), "{odd}: {}", refused.stderr);
     }
 }
+
+#[test]
+fn welding_excuses_no_fault_of_the_file_where_nothing_may_be_repaired() {
+    let program = Program::new();
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .2\n";
+    let faces = "f 1 2 3\nf 1 3 4\n";
+    let apart = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 1 0\nv 0 1 .2\nv 0 0 0\nf 1 2 3\nf 6 4 5\n";
+    let refused = [
+        ("duplicate-faces", format!("{square}{faces}f 2 3 1\n")),
+        ("repeated-vertices", format!("{square}{faces}f 2 3 3\n")),
+        ("unreferenced-vertices", format!("{square}v 5 5 5\n{faces}")),
+        // Others are joined.
+        ("duplicate-faces", format!("{apart}f 2 3 1\n")),
+        ("unreferenced-vertices", apart.replace("f 1", "v 9 9 9\nf 1")),
+    ];
+    for (fault, text) in refused {
+        program.write("in.obj", &text);
+        for options in [&["--repair", "none"][..], &["--repair", "none", "--weld", "0"]] {
+            let run = program.run(&[&["flatten", "in.obj"], options].concat()).expect(3);
+            let is_joined = text.contains("v 0 1 .2\nv 0 0 0") && options.len() == 2;
+            assert!(is_joined || run.stderr.contains(fault), "{fault}: {}", run.stderr);
+        }
+        let arguments = ["flatten", "in.obj", "--repair", "turn-faces", "--weld", "0", "--report", "-"];
+        let run = program.run(&arguments);
+        assert!(fault != "duplicate-faces" || run.stderr.contains(fault), "{}", run.stderr);
+    }
+    program.write("in.obj", apart);
+    let arguments = ["flatten", "in.obj", "--repair", "none", "--weld", "0", "--report", "-"];
+    let report = program.run(&arguments).expect(0).json();
+    assert_eq!(repairs(&report), &json!([{"repair": "weld-vertices", "count": 2}]));
+}
+
+#[test]
+fn a_pin_of_a_vertex_that_was_joined_is_refused_with_the_vertex_to_pin() {
+    let program = Program::new();
+    let far = "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 7 8 9\n";
+    for text in [APART.to_owned(), format!("{APART}{far}")] {
+        program.write("in.obj", &text);
+        let arguments = ["flatten", "in.obj", "--weld", "0.01", "--repair", "all", "--pin", "3:0,0"];
+        let refused = program.run(&arguments).expect(2);
+        let message = "in.obj: vertex v3 is pinned, but was joined with vertex v1: pin v1";
+        assert!(refused.stderr.contains(message), "{}", refused.stderr);
+        let pinned = [&arguments[..6], &["--pin", "1:0,0"]].concat();
+        program.run(&pinned).expect(0);
+    }
+    program.write("in.obj", &APART.replace(".001", "").replace("v  ", "v 0 "));
+    let refused = program.run(&["flatten", "in.obj", "--repair", "all", "--pin", "3:0,0"]).expect(2);
+    assert!(refused.stderr.contains("was joined with vertex v1: pin v1"), "welded in place: {}", refused.stderr);
+}
+
+#[test]
+fn a_distance_that_leaves_no_face_is_refused_by_name() {
+    let program = Program::new();
+    program.write("apart.obj", APART);
+    for repairs in ["none", "safe", "all"] {
+        let refused = program.run(&["flatten", "apart.obj", "--weld", "5", "--repair", repairs]).expect(2);
+        let message = "apart.obj: no face is left after joining vertices within 5: choose a smaller distance";
+        assert!(refused.stderr.contains(message), "{}", refused.stderr);
+    }
+}
+
+#[test]
+fn new_vertices_of_a_welded_mesh_lie_on_the_edges_of_the_file() {
+    let program = Program::new();
+    // Two squares whose sides, 0.3 apart, are joined.
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1.3 0 0.2\nv 2 0 0.1\nv 2 1 0\nv 1.3 1 0.2\n\
+                f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n";
+    program.write("in.obj", text);
+    let pins = ["0:0,0", "1:1,1", "2:1,0", "3:0,1", "5:2,0", "6:2,1"].map(|pin| format!("--pin={pin}"));
+    let arguments = ["flatten", "in.obj", "--weld", "0.5", "--method", "matchmaker", "-o", "out.obj", "--report", "-"];
+    let pins: Vec<&str> = pins.iter().map(String::as_str).collect();
+    program.run(&[&arguments[..], &pins].concat()).expect(0);
+    let written = read_mesh(&program.path("out.obj")).expect("written").polygons;
+    let file = read_mesh(&program.path("in.obj")).expect("a mesh").polygons;
+    assert!(written.positions.len() > file.positions.len());
+    for new in &written.positions[file.positions.len()..] {
+        let lies_on = |a: glam::DVec3, b: glam::DVec3| a.distance(*new) + new.distance(b) - a.distance(b) < 1e-12;
+        let mut edges = (0..file.face_count()).flat_map(|face| {
+            let corners = file.face(face);
+            (0..3).map(move |k| [corners[k], corners[(k + 1) % 3]].map(|v| v.index()))
+        });
+        assert!(edges.any(|[a, b]| lies_on(file.positions[a], file.positions[b])), "{new}");
+    }
+}

@@ -54,9 +54,11 @@ impl Refined {
             };
             for face in cut.faces() {
                 let corner = |vertex: VertexId| {
-                    let own = new.number_of.get(&(cut.chart, vertex)).copied();
-                    let vertex_in_file =
-                        own.unwrap_or_else(|| old.vertex_in(polygon, Old::whole(charts, cut.chart, vertex)));
+                    let edge = old.edge_of_new(polygon, charts, cut.chart, vertex);
+                    let vertex_in_file = match edge {
+                        Some(new_vertex) => new.number_of[&key(cut.chart, vertex, &new_vertex)],
+                        None => old.vertex_in(polygon, Old::whole(charts, cut.chart, vertex)),
+                    };
                     (vertex_in_file, old.first[cut.chart] + vertex.number())
                 };
                 faces.push(charts[cut.chart].mesh.face(face).map(corner).into_iter(), number);
@@ -171,6 +173,21 @@ impl<'a> Old<'a> {
         charts[chart].vertex_of.map_or(vertex, |vertex_of| vertex_of[vertex.index()])
     }
 
+    /// The edge of the file that a new vertex of a chart lies on, as a polygon names its ends; none where the vertex is old.
+    fn edge_of_new(
+        &self,
+        polygon: usize,
+        charts: &[RefinedChart<'_>],
+        chart: usize,
+        vertex: VertexId,
+    ) -> Option<NewVertex> {
+        let refinement = charts[chart].refinement?;
+        let NewVertex { edge, at } =
+            refinement.new_vertices()[vertex.index().checked_sub(refinement.old_vertex_count())?];
+        let edge = edge.map(|end| self.vertex_in(polygon, Self::whole(charts, chart, end)));
+        Some(NewVertex { edge, at })
+    }
+
     /// The file's vertex at the corner of a polygon where the repaired mesh has this one.
     fn vertex_in(&self, polygon: usize, vertex: VertexId) -> VertexId {
         let mut corners = self.file.corner_range(polygon);
@@ -179,35 +196,43 @@ impl<'a> Old<'a> {
     }
 }
 
+/// What tells a new vertex of the file from others: its chart, the chart's own vertex, and the file's vertices at the ends of
+/// its edge. Where vertices were joined, the faces at an edge may have different ones there: each has a new one of its own.
+type Key = (usize, VertexId, [VertexId; 2]);
+
+fn key(chart: usize, vertex: VertexId, NewVertex { edge: [a, b], .. }: &NewVertex) -> Key {
+    (chart, vertex, [*a.min(b), *a.max(b)])
+}
+
 /// The new vertices, as the file numbers them: those of the first chart come first.
 struct New {
-    /// By chart and the chart's own vertex.
-    number_of: BTreeMap<(usize, VertexId), VertexId>,
+    number_of: BTreeMap<Key, VertexId>,
     vertices: Vec<NewVertex>,
     positions: Vec<glam::DVec3>,
 }
 
 impl New {
     fn of(old: &Old<'_>, charts: &[RefinedChart<'_>], cuts: &BTreeMap<u32, Cut>) -> Self {
-        let mut found: BTreeMap<(usize, VertexId), NewVertex> = BTreeMap::new();
+        let mut found: BTreeMap<Key, NewVertex> = BTreeMap::new();
         for (&polygon, cut) in cuts {
-            let RefinedChart { mesh, refinement, .. } = charts[cut.chart];
-            let Some(refinement) = refinement else { continue };
-            for vertex in cut.faces().flat_map(|face| mesh.face(face)) {
-                let Some(place) = vertex.index().checked_sub(refinement.old_vertex_count()) else { continue };
-                found.entry((cut.chart, vertex)).or_insert_with(|| {
-                    let NewVertex { edge, at } = refinement.new_vertices()[place];
-                    let [a, b] = edge.map(|end| old.vertex_in(polygon as usize, Old::whole(charts, cut.chart, end)));
-                    // The lower number first.
-                    if a <= b { NewVertex { edge: [a, b], at } } else { NewVertex { edge: [b, a], at: 1.0 - at } }
-                });
+            for vertex in cut.faces().flat_map(|face| charts[cut.chart].mesh.face(face)) {
+                if let Some(new) = old.edge_of_new(polygon as usize, charts, cut.chart, vertex) {
+                    found.entry(key(cut.chart, vertex, &new)).or_insert(new);
+                }
             }
         }
         let count = old.file.positions.len();
         let number_of = found.keys().zip(count..).map(|(&key, number)| (key, VertexId::from_index(number))).collect();
-        let position =
-            |&(chart, vertex): &(usize, VertexId)| charts[chart].mesh.position(vertex) * charts[chart].mesh.unit();
-        Self { number_of, positions: found.keys().map(position).collect(), vertices: found.into_values().collect() }
+        let position = |&NewVertex { edge, at }: &NewVertex| {
+            let [a, b] = edge.map(|end| old.file.positions[end.index()]);
+            a.lerp(b, at)
+        };
+        // The lower number first.
+        let ascending = |NewVertex { edge: [a, b], at }| {
+            if a <= b { NewVertex { edge: [a, b], at } } else { NewVertex { edge: [b, a], at: 1.0 - at } }
+        };
+        let positions = found.values().map(position).collect();
+        Self { number_of, positions, vertices: found.into_values().map(ascending).collect() }
     }
 }
 

@@ -60,10 +60,8 @@ impl Form {
         let form = self.clone();
         match repair {
             Repair::Cut => Self { cut: true, ..form },
-            // Which parts, a repair does not say.
-            Repair::LeaveOutParts => form,
-            // Which seams, a repair does not say.
-            Repair::CutSeams => form,
+            // Which parts or seams, a repair does not say.
+            Repair::LeaveOutParts | Repair::CutSeams => form,
             Repair::FillHoles => Self { holes: HoleTreatment::Fill, repair: form.repair.with(repair), ..form },
             _ => Self { repair: form.repair.with(repair), ..form },
         }

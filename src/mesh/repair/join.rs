@@ -23,8 +23,10 @@ impl Repaired {
         for &v in mesh.triangles.iter().flatten() {
             first.entry(place(v)).and_modify(|lowest| *lowest = v.min(*lowest));
         }
-        for corner in self.polygons.corners.iter_mut().filter(|corner| found.binary_search(corner).is_ok()) {
-            *corner = first[&place(*corner)];
+        let pairs = found.iter().map(|&vertex| (vertex, first[&place(vertex)]));
+        self.joined.extend(pairs.filter(|(vertex, to)| vertex != to));
+        for corner in &mut self.polygons.corners {
+            *corner = self.joined.get(corner).copied().unwrap_or(*corner);
         }
         self.note(Repair::WeldVertices, found.len());
     }

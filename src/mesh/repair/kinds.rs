@@ -62,19 +62,14 @@ impl Repairs {
         self.kinds & repair.bit() != 0
     }
 
-    /// Whether nothing may be done.
+    /// Whether no repair may be done: nothing, or nothing but welding within a distance.
     pub const fn is_none(self) -> bool {
-        self.kinds == 0 && self.weld.is_none()
+        self.kinds == 0
     }
 
     /// Within which distance vertices are welded, where they are.
     pub const fn weld_distance(self) -> Option<WeldDistance> {
         self.weld
-    }
-
-    /// The same with what welding leaves behind it: corners that name a vertex again, and faces that are there again.
-    pub(super) const fn after_welding(self) -> Self {
-        self.with(Repair::DropRepeatedCorners).with(Repair::DropDuplicateFaces)
     }
 }
 
@@ -105,10 +100,10 @@ impl FromStr for Repairs {
 
     fn from_str(text: &str) -> Result<Self, String> {
         text.split(',').map(str::trim).try_fold(Self::NONE, |found, name| {
-            let named = NAMED.iter().find(|(other, _)| *other == name).map(|(_, repairs)| *repairs);
+            let set = NAMED.iter().find(|(other, _)| *other == name).map(|(_, repairs)| *repairs);
             let single =
                 || Repair::CHOSEN.into_iter().find(|repair| repair.name() == name).map(|repair| Self::of(&[repair]));
-            let repairs = named.or_else(single).ok_or_else(|| {
+            let repairs = set.or_else(single).ok_or_else(|| {
                 let names = NAMED.map(|(name, _)| name).into_iter().chain(Repair::CHOSEN.map(Repair::name));
                 format!("there is no repair \"{name}\": name some of {}", names.collect::<Vec<_>>().join(", "))
             })?;

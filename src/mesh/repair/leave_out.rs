@@ -1,9 +1,9 @@
 //! Corners and faces that add nothing to the surface are left out.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::{Repair, Repaired, Repairs};
-use crate::mesh::VertexId;
+use crate::mesh::{PolygonMesh, VertexId};
 
 /// What becomes of the corners of a face.
 pub(super) enum Fate {
@@ -17,16 +17,35 @@ impl Repaired {
     /// Leaves out repeated corners, then duplicate faces, as far as that is allowed.
     pub(super) fn leave_out(&mut self, repairs: Repairs) {
         if repairs.allows(Repair::DropRepeatedCorners) {
-            self.drop_repeated_corners();
+            self.drop_repeated_corners(|_| true);
         }
         if repairs.allows(Repair::DropDuplicateFaces) {
-            self.drop_duplicate_faces();
+            self.drop_duplicate_faces(|_| true);
         }
     }
 
-    fn drop_repeated_corners(&mut self) {
+    /// The same where joining vertices has made them: faces that are so in the mesh as given, `source`, stay.
+    pub(super) fn leave_out_joined(&mut self, source: &PolygonMesh) {
+        if self.joined.is_empty() {
+            return;
+        }
+        let given = |own: &[u32]| -> Vec<VertexId> {
+            let mut vertices: Vec<VertexId> = own.iter().map(|&corner| source.corners[corner as usize]).collect();
+            vertices.sort_unstable();
+            vertices
+        };
+        self.drop_repeated_corners(|own| given(own).windows(2).all(|pair| pair[0] != pair[1]));
+        let mut seen = HashSet::new();
+        self.drop_duplicate_faces(|own| seen.insert(given(own)));
+    }
+
+    /// `is_looked_at` is asked of each face, by its corners of the mesh as given.
+    fn drop_repeated_corners(&mut self, is_looked_at: impl Fn(&[u32]) -> bool) {
         let mut mended = 0;
-        self.decide(|corners, _| {
+        self.decide(|corners, corner_of| {
+            if !is_looked_at(corner_of) {
+                return Fate::Keep((0..corners.len()).collect());
+            }
             let kept = Some(without_repeats(corners)).filter(|kept| kept.len() >= 3 && !has_repeats(corners, kept));
             mended += usize::from(kept.as_ref().is_none_or(|kept| kept.len() < corners.len()));
             kept.map_or(Fate::Go(Vec::new()), Fate::Keep)
@@ -34,11 +53,15 @@ impl Repaired {
         self.note(Repair::DropRepeatedCorners, mended);
     }
 
-    fn drop_duplicate_faces(&mut self) {
+    /// As there; it is asked once of each face, in order.
+    fn drop_duplicate_faces(&mut self, mut is_looked_at: impl FnMut(&[u32]) -> bool) {
         // By its vertices, ascending, the corners of the first such face, in the order of its vertices.
         let mut seen: HashMap<Vec<VertexId>, Vec<u32>> = HashMap::with_capacity(self.polygons.face_count());
         let mut duplicates = 0;
         self.decide(|corners, corner_of| {
+            if !is_looked_at(corner_of) {
+                return Fate::Keep((0..corners.len()).collect());
+            }
             let mut order: Vec<usize> = (0..corners.len()).collect();
             order.sort_unstable_by_key(|&k| corners[k]);
             let vertices: Vec<VertexId> = order.iter().map(|&k| corners[k]).collect();

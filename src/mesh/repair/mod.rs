@@ -88,11 +88,11 @@ impl Repaired {
         repaired.leave_out(repairs);
         if let Some(distance) = repairs.weld_distance() {
             repaired.weld_within(distance);
-            repaired.leave_out(repairs.after_welding());
+            repaired.leave_out_joined(source);
         }
         if repairs.allows(Repair::WeldVertices) {
             repaired.weld();
-            repaired.leave_out(repairs.after_welding());
+            repaired.leave_out_joined(source);
         }
         if repairs.allows(Repair::SplitEdges) {
             repaired.split_edges();
@@ -191,6 +191,11 @@ impl Repaired {
             vertices[source.corner_range(face as usize)].fill(None);
         }
         vertices
+    }
+
+    /// The vertex that stands for one of the mesh as given that was joined with others.
+    pub fn stands_for(&self, vertex: VertexId) -> Option<VertexId> {
+        self.joined.get(&vertex).copied()
     }
 
     /// The vertex of the mesh as given in whose place each vertex lies: an old one itself.

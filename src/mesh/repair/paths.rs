@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with θ the angle between the normals of the edge's faces, and s the share of creases from 0, where length alone counts, to 1,
-//! where a path takes a detour of up to 1 / CREASED_SEAM of its length to stay on sharp edges. It is linear in the angle, so that a
+//! where a path takes a detour of up to 1 / `CREASED_SEAM` of its length to stay on sharp edges. It is linear in the angle, so that a
 //! rounded edge, whose crease is spread over a few rows of faces, still leads a path along it. A boundary edge, and one beside a
 //! face without area, has no crease.
 //!
