@@ -55,6 +55,11 @@ impl Session {
         }
     }
 
+    /// Whether a drag goes on that has edited the document: until it ends, edits like its own are part of it.
+    pub fn is_in_gesture(&self) -> bool {
+        self.history.is_in_gesture()
+    }
+
     /// What goes on in the background that is worth waiting for.
     pub fn busy(&self) -> Option<Busy> {
         if self.files.is_loading() || self.errands.is_busy() || self.charts.is_asked() {

@@ -25,14 +25,14 @@ fn sheets() -> TriMesh {
     whole
 }
 
-fn with_sheets() -> Window {
+pub(crate) fn with_sheets() -> Window {
     let mut window = Window::with_mesh("sheets.obj", &sheets());
     until_laid_out(&mut window);
     window
 }
 
 #[track_caller]
-fn until_laid_out(window: &mut Window) {
+pub(crate) fn until_laid_out(window: &mut Window) {
     let start = Instant::now();
     while window.editor().session.atlas().is_none() {
         assert!(start.elapsed() < Duration::from_mins(1), "{:?}", window.words());
@@ -97,6 +97,29 @@ fn the_chart_on_the_screen_is_packed_larger_by_a_typed_size() {
     window.press(Modifiers::COMMAND, Key::Z);
     until_laid_out(&mut window);
     assert!((densities(&window)[2] / densities(&window)[0] - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_size_that_is_dragged_back_to_what_it_was_stays() {
+    let mut window = with_sheets();
+    let from = window.rect(Role::SpinButton, "Size of the chart on the screen").center();
+    let revision = window.editor().session.sizes().to_vec();
+    window.begin_drag(from, from + egui::vec2(64.0, 0.0), Modifiers::NONE);
+    for aside in [48.0, 32.0, 16.0, 0.0] {
+        window.harness.hover_at(from + egui::vec2(aside, 0.0));
+        window.step();
+    }
+    window.end_drag(from);
+    assert_eq!(window.editor().session.sizes(), revision);
+    let from = window.rect(Role::SpinButton, "Gap between charts in pixels").center();
+    let before = window.editor().session.packing();
+    window.begin_drag(from, from + egui::vec2(64.0, 0.0), Modifiers::NONE);
+    for aside in [48.0, 32.0, 16.0, 0.0] {
+        window.harness.hover_at(from + egui::vec2(aside, 0.0));
+        window.step();
+    }
+    window.end_drag(from);
+    assert_eq!(window.editor().session.packing(), before);
 }
 
 #[test]

@@ -10,6 +10,7 @@ use egui_kittest::kittest::Queryable;
 use freebound::app::Start;
 use freebound::geom::Picture;
 use freebound::io::read_mesh;
+use freebound::mesh::VertexId;
 use freebound::session::Severity;
 
 use crate::harness::{SIZE, Window, sheet, write_obj};
@@ -219,6 +220,31 @@ fn files_dropped_together_are_sorted_by_their_kinds_and_a_second_mesh_is_named()
     window.settle();
     window.open(&window.path("b.obj"));
     assert!(window.editor().session.document().targets.is_empty());
+}
+
+#[test]
+fn what_belongs_to_a_mesh_that_was_not_dropped_with_it_is_said_to_be_no_mesh() {
+    let mut window = window();
+    for name in ["a.mtl", "a.bin"] {
+        std::fs::write(window.path(name), "newmtl skin\n").expect("written");
+    }
+    let files = ["a.mtl", "a.bin"].map(|name| dropped(window.path(name)));
+    window.harness.input_mut().dropped_files.extend(files);
+    window.settle();
+    let said: Vec<&str> = window.editor().session.messages().iter().map(|message| &*message.text).collect();
+    assert!(said.iter().any(|text| text.contains("a.mtl")), "{said:?}");
+}
+
+#[test]
+fn a_dropped_file_of_edges_cuts_the_mesh() {
+    let mut window = window();
+    std::fs::write(window.path("cut.edges"), "0 1\n").expect("written");
+    let file = dropped(window.path("cut.edges"));
+    window.harness.input_mut().dropped_files.push(file);
+    window.settle();
+    let seams = window.editor().session.seams().edges().clone();
+    assert_eq!(seams.into_iter().collect::<Vec<_>>(), [[VertexId::new(0), VertexId::new(1)]]);
+    assert_eq!(name(&window), "sheet.obj");
 }
 
 #[test]

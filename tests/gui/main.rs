@@ -35,6 +35,8 @@ mod presses;
 mod render;
 mod render_work;
 mod screens;
+mod seam_numbers;
+mod seam_rules;
 mod seams;
 mod shaders;
 mod shortcuts;

@@ -11,8 +11,8 @@ use glam::DVec3;
 use crate::harness::Window;
 use crate::makers::{tetrahedron, tube};
 
-const AROUND: u32 = 12;
-const ALONG: u32 = 6;
+pub(crate) const AROUND: u32 = 12;
+pub(crate) const ALONG: u32 = 6;
 
 /// A barrel without lid and bottom, upright; vertex `row · AROUND + k`.
 fn barrel() -> TriMesh {
@@ -23,12 +23,12 @@ fn barrel() -> TriMesh {
     TriMesh { positions, triangles, polygon_of: None }
 }
 
-fn at(k: u32, row: u32) -> VertexId {
+pub(crate) fn at(k: u32, row: u32) -> VertexId {
     VertexId::new(row * AROUND + k)
 }
 
 /// A column of the barrel that shows from bottom to top.
-fn front(window: &Window) -> u32 {
+pub(crate) fn front(window: &Window) -> u32 {
     let scene = window.editor().mesh_scene().expect("a mesh shows");
     let eye = window.editor().mesh.pane.camera().expect("a mesh shows").eye();
     let shows = |k: &u32| (0..=ALONG).all(|row| scene.picker.is_visible(at(*k, row), eye));
@@ -37,7 +37,7 @@ fn front(window: &Window) -> u32 {
     all[all.len() / 2]
 }
 
-fn window() -> Window {
+pub(crate) fn window() -> Window {
     let mut window = Window::with_mesh("barrel.obj", &barrel());
     window.key(Key::X);
     assert_eq!(window.editor().tools.tool(), Tool::Seam);
@@ -45,7 +45,7 @@ fn window() -> Window {
 }
 
 /// Where a vertex of the file lies on the screen.
-fn place(window: &Window, vertex: VertexId) -> Pos2 {
+pub(crate) fn place(window: &Window, vertex: VertexId) -> Pos2 {
     let position = window.editor().session.model().expect("open").source.polygons.positions[vertex.index()];
     let camera = window.editor().mesh.pane.camera().expect("a mesh shows");
     let size = window.editor().mesh.pane.size();
@@ -55,23 +55,23 @@ fn place(window: &Window, vertex: VertexId) -> Pos2 {
     window.mesh_view().min + offset
 }
 
-fn click(window: &mut Window, vertex: VertexId, modifiers: Modifiers) {
+pub(crate) fn click(window: &mut Window, vertex: VertexId, modifiers: Modifiers) {
     let place = place(window, vertex);
     window.click_at(place, modifiers);
     // Two clicks are no double click.
     window.frame_after(1.0, []);
 }
 
-fn seams(window: &Window) -> Vec<[u32; 2]> {
+pub(crate) fn seams(window: &Window) -> Vec<[u32; 2]> {
     window.editor().session.seams().edges().iter().map(|edge| edge.map(VertexId::number)).collect()
 }
 
 /// The edges of a column between two rows.
-fn column(k: u32, rows: std::ops::Range<u32>) -> Vec<[u32; 2]> {
+pub(crate) fn column(k: u32, rows: std::ops::Range<u32>) -> Vec<[u32; 2]> {
     rows.map(|row| [at(k, row), at(k, row + 1)].map(VertexId::number)).collect()
 }
 
-fn last(window: &Window) -> Option<VertexId> {
+pub(crate) fn last(window: &Window) -> Option<VertexId> {
     window.editor().tools.seam.last()
 }
 
@@ -254,7 +254,7 @@ fn a_click_beside_a_seam_pins_the_side_under_the_pointer_and_its_pin_says_which_
 }
 
 /// A box of twelve triangles.
-fn cube() -> TriMesh {
+pub(crate) fn cube() -> TriMesh {
     let positions = (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2))).collect();
     let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles: Vec<[u32; 3]> = squares.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
@@ -277,6 +277,8 @@ fn a_box_is_cut_along_its_sharp_edges_by_one_click_and_says_where_there_are_no_m
     window.key(Key::V);
     window.menu(&["Edit", "Seams", "Cut along sharp edges: 60° or more"]);
     assert_eq!((seams(&window).len(), charts(&window)), (12, Some(6)));
+    // The entry has taken up the tool, whose strip has a button of that name.
+    window.key(Key::V);
     window.menu(&["Edit", "Seams", "Clear seams"]);
     assert!(seams(&window).is_empty());
 }

@@ -26,13 +26,16 @@ impl InFile {
             by_file.sort_by_key(|vertex| of[vertex.index()]);
             Others { of, by_file }
         };
-        let of = model.repaired.as_ref().map(|repaired| repaired.vertices_of(&model.source.polygons));
-        let repaired = model.repaired.as_deref();
-        let whole = model.chart.as_ref().map(|of| of.charts.whole()).or(repaired);
+        let source = &model.source.polygons;
+        // A chart has numbers of its own: all of them together tell those that the file has.
+        let whole = model.chart.as_ref().map(|of| of.charts.whole()).or(model.repaired.as_deref());
+        let of_whole = whole.map(|whole| whole.vertices_of(source));
+        let all = || (0..model.vertex_count()).map(VertexId::from_index);
+        let of = of_whole.map(|of| all().map(|vertex| of[model.vertex_in_file(vertex).index()]).collect());
         Self {
             vertex_count: model.vertex_count(),
             other: of.map(others),
-            is_several: whole.map(|whole| several(whole, &model.source.polygons)).unwrap_or_default(),
+            is_several: whole.map(|whole| several(whole, source)).unwrap_or_default(),
         }
     }
 

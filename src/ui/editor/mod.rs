@@ -12,6 +12,8 @@
 //! | `in_file.rs` | vertices of what is on the screen as those of the file |
 //! | `seam_rules.rs` | seams at sharp edges, or where materials or groups meet |
 //! | `sides.rs` | which side of a seam a vertex is on |
+//! | `seam_chain.rs` | the clicks that a seam is drawn by, and the way back along them |
+//! | `seam_intent.rs` | what a click of the seam tool would do |
 //! | `seam_tool.rs` | the seam that is being drawn, and the shortest paths from where it has got to |
 //! | `element.rs` | parts of the mesh by their names |
 //! | `around.rs` | the charts around the one that is worked on |
@@ -42,6 +44,8 @@ pub(super) mod purpose;
 mod request;
 mod requests;
 pub(super) mod scene;
+mod seam_chain;
+pub(super) mod seam_intent;
 pub(super) mod seam_rules;
 pub(super) mod seam_tool;
 mod selection;
@@ -143,14 +147,19 @@ impl Editor {
         scene.model_revision == self.session.model_revision()
     }
 
-    /// Lets go of all vertices where another chart has come on the screen: these have other numbers.
-    fn let_go_of_chart(&mut self) {
-        if self.opened.note_chart(&self.session) {
-            self.selection.select([]);
-            self.pointer.forget_vertices();
-            self.tools.end_drag();
-            self.tools.set_pair(None);
-        }
+    /// Lets go of all vertices where the mesh on the screen has other ones than before. Those selected come back with the mesh's
+    /// scene, where it is the same mesh in another form; another chart has others.
+    fn let_go_of_vertices(&mut self) {
+        let Some(before) = self.opened.note_model(&self.session) else { return };
+        let has_other_form = |scene: &MeshScene| {
+            let now = self.session.model();
+            now.is_some_and(|now| Arc::ptr_eq(&scene.model.source, &now.source) && scene.model.form != now.form)
+        };
+        let scene = self.mesh.scene().filter(|scene| scene.model_revision == before && has_other_form(scene));
+        self.selection.let_go(|vertex| scene?.in_file.vertex(vertex));
+        self.pointer.forget_vertices();
+        self.tools.end_drag();
+        self.tools.set_pair(None);
     }
 
     /// What goes on in the background, once it has taken long enough to be worth a word.
@@ -165,11 +174,12 @@ impl Editor {
             self.keep_view();
         }
         self.session.poll();
-        self.let_go_of_chart();
+        self.let_go_of_vertices();
         self.go_on_after_saving();
         self.go_on_playing();
         self.go_on_with_seam();
         self.take_seams_by_rule();
+        self.foresee_seam();
         if self.mesh.poll(&self.session) {
             self.begin_with_mesh();
         }
@@ -251,6 +261,9 @@ impl Editor {
         if self.opened.put_on_screen(&self.session) {
             self.selection.select([]);
             self.put_on_view();
+        }
+        if let Some(scene) = self.mesh.scene() {
+            self.selection.come_back(|of_file| scene.in_file.copies(of_file).collect());
         }
         self.pointer.forget_vertices();
         self.selection.set_defect(None);

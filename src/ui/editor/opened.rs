@@ -24,8 +24,8 @@ pub struct Opened {
     on_screen: Option<u64>,
     /// Whether what is on the screen is one chart of several.
     has_charts: bool,
-    /// The chart that the session has, since the mesh was opened that it counts so.
-    chart: Option<(u64, usize)>,
+    /// The mesh that the session had last, by its revision.
+    model: u64,
     /// When the session was last told how the person looks at it.
     view_kept: Option<Instant>,
     /// The mesh, by its revision, whose faces may point inward.
@@ -46,11 +46,10 @@ impl Opened {
         !std::mem::replace(&mut self.has_charts, has_charts) && has_charts
     }
 
-    /// Takes in which chart the session has. Returns whether it had another one of the same mesh before.
-    pub(super) fn note_chart(&mut self, session: &Session) -> bool {
-        let chart = session.chart_on_screen().map(|chart| (session.opening_revision(), chart));
-        let before = std::mem::replace(&mut self.chart, chart);
-        before.zip(chart).is_some_and(|(before, now)| before.0 == now.0 && before.1 != now.1)
+    /// Takes in which mesh, in which form, the session has. Returns the revision of the one before, where that was another.
+    pub(super) fn note_model(&mut self, session: &Session) -> Option<u64> {
+        let before = std::mem::replace(&mut self.model, session.model_revision());
+        (before != self.model).then_some(before)
     }
 
     pub(super) fn is_on_screen(&self, session: &Session) -> bool {

@@ -198,6 +198,8 @@ pub enum Request {
     ClickSeam(SeamClick),
     /// Cuts along the edges of a rule.
     CutByRule(SeamRule),
+    /// Closes all seams that are listed.
+    ClearSeams,
     /// Chooses from which angle on edges are sharp, degrees.
     SetSharp(f64),
     /// The next click of the seam tool begins another seam.

@@ -31,6 +31,7 @@ impl Editor {
             Request::SetTool(tool) => self.tools.take_up(tool),
             Request::ClickSeam(click) => self.take_seam_click(click),
             Request::CutByRule(rule) => self.cut_by_rule(rule),
+            Request::ClearSeams => self.act(Action::SetSeams(self.without_seams())),
             Request::SetSharp(degrees) => self.tools.seam.rules.degrees = degrees.clamp(0.0, 180.0),
             Request::EndSeam => drop(self.tools.seam.end()),
             Request::SetCreases(share) => self.tools.seam.set_creases(share),
@@ -115,29 +116,30 @@ impl Editor {
     }
 
     /// What files that were dropped on the window ask for, by their names: one mesh or project opens, and pictures and
-    /// constraints are for it, or for what is open already.
+    /// constraints are for it, or for what is open already. Edges are for what is open already.
     pub(in crate::ui) fn dropped(paths: Vec<PathBuf>) -> Vec<Request> {
         let is_for = |purpose: Purpose| move |path: &PathBuf| purpose.form().fits(path);
         let (pictures, others): (Vec<PathBuf>, Vec<PathBuf>) =
             paths.into_iter().partition(is_for(Purpose::OpenPicture));
-        let (constraints, mut meshes): (Vec<_>, Vec<_>) =
-            others.into_iter().partition(is_for(Purpose::ImportConstraints));
+        let (constraints, others): (Vec<_>, Vec<_>) = others.into_iter().partition(is_for(Purpose::ImportConstraints));
+        let (edges, mut meshes): (Vec<_>, Vec<_>) = others.into_iter().partition(is_for(Purpose::ImportSeams));
         // A project knows its mesh.
         meshes.sort_by_key(|path| !has_extension(path, &[PROJECT_EXTENSION]));
-        if meshes.len() > 1 {
+        if meshes.iter().any(|path| !has_extension(path, BESIDE)) {
             meshes.retain(|path| !has_extension(path, BESIDE));
         }
-        let mut pictures = pictures.into_iter();
-        let mut meshes = meshes.into_iter();
-        let actions: Vec<Action> = match (meshes.next(), pictures.len() + constraints.len() + meshes.len()) {
+        let (mut pictures, mut meshes) = (pictures.into_iter(), meshes.into_iter());
+        let beside = pictures.len() + constraints.len() + edges.len();
+        let actions: Vec<Action> = match (meshes.next(), beside + meshes.len()) {
             (None, _) => pictures
                 .map(Action::OpenPicture)
                 .chain(constraints.into_iter().map(Action::ImportConstraints))
+                .chain(edges.into_iter().map(Action::ImportSeams))
                 .collect(),
             (Some(mesh), 0) => vec![Action::Open(mesh)],
             (Some(mesh), _) => {
                 let picture = pictures.next();
-                let left = meshes.chain(pictures).collect();
+                let left = meshes.chain(pictures).chain(edges).collect();
                 vec![Action::OpenTogether(Together { mesh, picture, constraints, left })]
             }
         };
@@ -170,7 +172,7 @@ impl Editor {
         }
         let before = self.session.document().frame();
         self.session.handle(action);
-        self.let_go_of_chart();
+        self.let_go_of_vertices();
         let after = self.session.document().frame();
         if before.aspect.to_bits() == after.aspect.to_bits() {
             // Where v runs the other way the picture lies elsewhere in the plane. On the screen it stays.

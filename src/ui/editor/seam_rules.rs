@@ -5,8 +5,9 @@ use std::sync::Arc;
 use super::making::Making;
 use super::seam_tool::Edge;
 use crate::io::LabelError;
+use crate::mesh::Seams;
 use crate::session::{Action, Failure, Model, Wake};
-use crate::ui::{Editor, counted, sentence};
+use crate::ui::{Editor, Tool, counted, sentence};
 
 /// The least angle of a sharp edge at the start, degrees.
 pub(in crate::ui) const SHARP: f64 = 60.0;
@@ -39,8 +40,8 @@ pub(in crate::ui) struct SeamRules {
     pub(in crate::ui) degrees: f64,
     /// By the rule, and what is open, by the session's count.
     job: Making<(SeamRule, u64), Result<Vec<Edge>, LabelError>>,
-    /// What came of the last one.
-    said: Option<String>,
+    /// What came of the last one, and the seams that there were then.
+    said: Option<(String, Seams)>,
 }
 
 impl SeamRules {
@@ -58,24 +59,34 @@ impl SeamRules {
 
     /// What came of the last rule, until something else is done.
     pub(in crate::ui) fn said(&self) -> Option<&str> {
-        self.said.as_deref()
+        self.said.as_ref().map(|(words, _)| &**words)
     }
 
     pub(super) fn forget_said(&mut self) {
         self.said = None;
     }
+
+    /// Forgets it where the seams are others by now.
+    fn forget_said_of_other(&mut self, seams: &Seams) {
+        self.said.take_if(|(_, of)| of != seams);
+    }
 }
 
 impl Editor {
-    /// Has the edges of a rule found.
+    /// Has the edges of a rule found, with the tool in hand that says what comes of it.
     pub(super) fn cut_by_rule(&mut self, rule: SeamRule) {
         let Some(model) = self.session.model().map(Arc::clone) else { return };
+        self.tools.take_up(Tool::Seam);
         let key = (rule, self.session.opening_revision());
         self.tools.seam.rules.job.make(key, move |_| rule.edges(&model));
     }
 
-    /// Cuts along the edges of a rule once they are found. Call once per frame.
+    /// Cuts along the edges of a rule once they are found, and no drag goes on, of which they would be a part. Call once per frame.
     pub(super) fn take_seams_by_rule(&mut self) {
+        self.tools.seam.rules.forget_said_of_other(self.session.seams());
+        if self.session.is_in_gesture() {
+            return;
+        }
         let opening = self.session.opening_revision();
         let Some((_, found)) = self.tools.seam.rules.job.poll().filter(|((_, of), _)| *of == opening) else { return };
         let words = match found {
@@ -90,6 +101,7 @@ impl Editor {
                 format!("{} more", counted(count, "edge", "edges"))
             }
         };
-        self.tools.seam.rules.said = Some(words);
+        let said = Some((words, self.session.seams().clone()));
+        self.tools.seam.rules.said = said.filter(|_| self.tools.tool() == Tool::Seam);
     }
 }

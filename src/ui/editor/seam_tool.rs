@@ -5,7 +5,8 @@
 //! mesh of the file ── background, once ──▶ SeamGround ── background, once per click ──▶ PathTree ── each frame ──▶ path
 //! ```
 //!
-//! One function says what a click would do; the preview, the words in the status bar and the click itself all ask it.
+//! One function, of `seam_intent.rs`, says what a click would do; the preview, the words in the status bar and the click itself
+//! all ask it.
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -15,6 +16,8 @@ use glam::{DVec2, DVec3};
 
 use super::Tool;
 use super::making::Making;
+use super::seam_chain::Chain;
+use super::seam_intent::{Foreseen, SeamIntent};
 use super::seam_rules::SeamRules;
 use crate::io::MeshFile;
 use crate::mesh::{EdgePaths, PathTree, Repairs, Seams, VertexId};
@@ -49,7 +52,7 @@ struct GroundKey {
 
 /// What a tree of paths is of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct TreeKey {
+pub(super) struct TreeKey {
     ground: GroundKey,
     from: VertexId,
     creases: f64,
@@ -64,23 +67,6 @@ pub struct SeamClick {
     pub erases: bool,
 }
 
-/// What a click would do.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::ui) enum SeamIntent {
-    /// Begin a seam.
-    Begin,
-    /// Cut along these edges, from where the seam has got to.
-    Add(Vec<Edge>),
-    /// Close these edges.
-    TakeAway(Vec<Edge>),
-    /// End the seam.
-    End,
-    /// Nothing: no seam is there, or no edges lead there.
-    Nothing,
-    /// What the paths are is still being found.
-    Wait,
-}
-
 pub struct SeamTool {
     /// Seams by a rule.
     pub(in crate::ui) rules: SeamRules,
@@ -88,14 +74,16 @@ pub struct SeamTool {
     creases: f64,
     /// Whether clicks take seams away.
     erases: bool,
-    /// Where the seam has got to.
-    last: Option<VertexId>,
-    /// The seams before each click of the chain, and where it had got to.
-    trail: Vec<(Seams, VertexId)>,
+    /// The seam as far as it has got.
+    chain: Chain,
     /// Clicks that wait for the paths to be found.
     clicks: VecDeque<SeamClick>,
     /// The vertex of the file under the pointer.
     under: Option<VertexId>,
+    /// What a click there would do.
+    pub(super) foreseen: Option<Foreseen>,
+    /// What was open last, by the session's count.
+    opening: Option<u64>,
     ground: Option<(GroundKey, Arc<SeamGround>)>,
     ground_job: Making<GroundKey, SeamGround>,
     tree: Option<(TreeKey, PathTree)>,
@@ -106,7 +94,7 @@ pub struct SeamTool {
 impl fmt::Debug for SeamTool {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut state = f.debug_struct("SeamTool");
-        state.field("last", &self.last).field("clicks", &self.clicks).field("is_busy", &self.is_busy());
+        state.field("last", &self.last()).field("clicks", &self.clicks).field("is_busy", &self.is_busy());
         state.finish_non_exhaustive()
     }
 }
@@ -145,10 +133,11 @@ impl SeamTool {
             rules: SeamRules::new(wake),
             creases: CREASES,
             erases: false,
-            last: None,
-            trail: Vec::new(),
+            chain: Chain::default(),
             clicks: VecDeque::new(),
             under: None,
+            foreseen: None,
+            opening: None,
             ground: None,
             ground_job: Making::new("seam ground", wake),
             tree: None,
@@ -174,7 +163,7 @@ impl SeamTool {
 
     /// The vertex of the file that the seam has got to.
     pub fn last(&self) -> Option<VertexId> {
-        self.last
+        self.chain.last()
     }
 
     pub(in crate::ui) fn under(&self) -> Option<VertexId> {
@@ -196,17 +185,17 @@ impl SeamTool {
 
     /// Ends the seam that is being drawn. Returns whether there was one.
     pub(super) fn end(&mut self) -> bool {
-        self.trail.clear();
         self.clicks.clear();
         self.tree_job.cancel();
-        self.last.take().is_some()
+        self.chain.end()
     }
 
     /// Ends the seam, and lets go of what was found for it.
     pub(super) fn put_away(&mut self) {
         self.end();
+        self.rules.forget_said();
         self.ground_job.cancel();
-        (self.ground, self.tree) = (None, None);
+        (self.ground, self.tree, self.foreseen) = (None, None, None);
     }
 
     pub(super) fn take_failure(&mut self) -> Option<Failure> {
@@ -217,43 +206,31 @@ impl SeamTool {
         failure
     }
 
-    /// What a click would do now.
-    pub(in crate::ui) fn intent(&self, click: SeamClick, seams: &Seams) -> SeamIntent {
-        let vertex = click.vertex;
-        let taken = |edges: Vec<Edge>| match edges.is_empty() {
-            true => SeamIntent::Nothing,
-            false => SeamIntent::TakeAway(edges),
-        };
-        match self.last {
-            None if click.erases => taken(seams.stretches_through(vertex)),
-            None => SeamIntent::Begin,
-            Some(last) if last == vertex => SeamIntent::End,
-            Some(last) if click.erases => taken(seams.way(last, vertex).unwrap_or_default()),
-            Some(last) => match &self.tree {
-                Some((key, tree)) if key.from == last && key.creases == self.creases => {
-                    tree.path_to(vertex).map_or(SeamIntent::Nothing, SeamIntent::Add)
-                }
-                _ => SeamIntent::Wait,
-            },
-        }
+    /// The paths from a vertex, where they are found.
+    pub(super) fn tree_from(&self, from: VertexId) -> Option<&PathTree> {
+        let is_of = |key: &TreeKey| key.from == from && key.creases.to_bits() == self.creases.to_bits();
+        self.tree.as_ref().filter(|(key, _)| is_of(key)).map(|(_, tree)| tree)
+    }
+
+    pub(super) fn tree_key(&self) -> Option<TreeKey> {
+        self.tree.as_ref().map(|(key, _)| *key)
     }
 
     /// Takes in what was found, and has found what is missing.
     fn refresh(&mut self, session: &Session) {
         let Some(model) = session.model() else { return self.put_away() };
         let key = GroundKey::of(session, model);
-        if self.ground.as_ref().is_some_and(|(of, _)| of.opening != key.opening) {
-            self.end();
-            (self.ground, self.tree) = (None, None);
+        if self.opening.replace(key.opening).is_some_and(|before| before != key.opening) {
+            self.put_away();
         }
         if let Some((of, ground)) = self.ground_job.poll().filter(|(of, _)| *of == key) {
-            self.ground = Some((of, Arc::new(ground)));
+            (self.ground, self.foreseen) = (Some((of, Arc::new(ground))), None);
         }
         let Some((of, ground)) = self.ground.as_ref().filter(|(of, _)| *of == key) else {
             let source = Arc::clone(&model.source);
             return self.ground_job.make(key, move |_| SeamGround::new(source, key));
         };
-        let Some(from) = self.last else { return };
+        let Some(from) = self.last() else { return };
         let key = TreeKey { ground: *of, from, creases: self.creases };
         if let Some(found) = self.tree_job.poll().filter(|(of, _)| *of == key) {
             self.tree = Some(found);
@@ -261,13 +238,6 @@ impl SeamTool {
         if self.tree.as_ref().is_none_or(|(of, _)| *of != key) {
             let paths = Arc::clone(&ground.paths);
             self.tree_job.make(key, move |_| PathTree::new(&paths, key.from, key.creases));
-        }
-    }
-
-    /// Goes back along the chain where its clicks were undone.
-    fn follow_undo(&mut self, seams: &Seams) {
-        while let Some((_, from)) = self.trail.pop_if(|(before, _)| before == seams) {
-            self.last = Some(from);
         }
     }
 }
@@ -287,18 +257,6 @@ impl Editor {
         seams.without(seams.edges().iter().copied())
     }
 
-    /// The click that a press of the button would be, where the pointer is over a vertex.
-    pub(in crate::ui) fn seam_click(&self, has_shift: bool) -> Option<SeamClick> {
-        let seam = &self.tools.seam;
-        seam.under().map(|vertex| SeamClick { vertex, erases: seam.erases() != has_shift })
-    }
-
-    /// What that click would do.
-    pub(in crate::ui) fn seam_intent(&self, has_shift: bool) -> Option<SeamIntent> {
-        let click = self.seam_click(has_shift).filter(|_| self.tools.tool() == Tool::Seam)?;
-        Some(self.tools.seam.intent(click, self.session.seams()))
-    }
-
     pub(super) fn take_seam_click(&mut self, click: SeamClick) {
         self.tools.seam.rules.forget_said();
         self.tools.seam.clicks.push_back(click);
@@ -310,12 +268,12 @@ impl Editor {
         if self.tools.tool() != Tool::Seam {
             return;
         }
-        self.tools.seam.follow_undo(self.session.seams());
+        self.tools.seam.chain.follow_undo(self.session.seams());
         self.tools.seam.refresh(&self.session);
         while let Some(click) = self.tools.seam.clicks.pop_front() {
             match self.tools.seam.intent(click, self.session.seams()) {
                 SeamIntent::Wait => return self.tools.seam.clicks.push_front(click),
-                SeamIntent::Begin => self.tools.seam.last = Some(click.vertex),
+                SeamIntent::Begin => self.tools.seam.chain.begin(click.vertex, self.session.seams()),
                 SeamIntent::Add(edges) => self.cut_along(self.session.seams().with(edges), click.vertex),
                 SeamIntent::TakeAway(edges) => self.cut_along(self.session.seams().without(edges), click.vertex),
                 SeamIntent::End => drop(self.tools.seam.end()),
@@ -327,13 +285,7 @@ impl Editor {
 
     /// Cuts along other seams, and has the chain go on from a vertex, where there is one.
     fn cut_along(&mut self, seams: Seams, to: VertexId) {
-        let seam = &mut self.tools.seam;
-        if let Some(from) = seam.last {
-            if seams != *self.session.seams() {
-                seam.trail.push((self.session.seams().clone(), from));
-            }
-            seam.last = Some(to);
-        }
+        self.tools.seam.chain.go_on(to, self.session.seams(), &seams);
         self.session.handle(Action::SetSeams(seams));
     }
 }

@@ -16,6 +16,8 @@ use crate::ui::panes::{Half, Intent};
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
     vertices: BTreeSet<VertexId>,
+    /// Vertices of the file that were selected before the mesh had others, until these are known.
+    of_file: BTreeSet<VertexId>,
     defect: Option<usize>,
 }
 
@@ -27,6 +29,17 @@ impl Selection {
     /// Selects exactly these vertices.
     pub fn select(&mut self, vertices: impl IntoIterator<Item = VertexId>) {
         self.vertices = vertices.into_iter().collect();
+        self.of_file.clear();
+    }
+
+    /// Lets go of all vertices: the mesh has others now. Keeps those of the file that they are, where it has them.
+    pub(super) fn let_go(&mut self, in_file: impl Fn(VertexId) -> Option<VertexId>) {
+        self.of_file.extend(std::mem::take(&mut self.vertices).into_iter().filter_map(in_file));
+    }
+
+    /// Selects again what was let go of, now that the vertices are known that one of the file is.
+    pub(super) fn come_back(&mut self, copies: impl Fn(VertexId) -> Vec<VertexId>) {
+        self.vertices.extend(std::mem::take(&mut self.of_file).into_iter().flat_map(copies));
     }
 
     /// Selects vertices beside the others.

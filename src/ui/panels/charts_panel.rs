@@ -191,7 +191,9 @@ fn packing(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
             let picture = if has_picture { session.document().packing.picture } else { options.picture };
             requests.push(Action::SetPacking(PackingOptions { picture, ..options }).into());
         }
-    } else if options != before {
+    } else if options == before {
+        ui.data_mut(|data| data.remove::<PackingOptions>(kept));
+    } else {
         ui.data_mut(|data| data.insert_temp(kept, options));
     }
 }
@@ -221,7 +223,9 @@ fn size(ui: &mut egui::Ui, session: &Session, requests: &mut Vec<Request>) {
             if size.to_bits() != before.to_bits() {
                 requests.push(Action::SetChartSize { chart, size }.into());
             }
-        } else if size.to_bits() != before.to_bits() {
+        } else if size.to_bits() == before.to_bits() {
+            ui.data_mut(|data| data.remove::<f64>(kept));
+        } else {
             ui.data_mut(|data| data.insert_temp(kept, size));
         }
     });

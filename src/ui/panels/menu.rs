@@ -210,7 +210,7 @@ fn edit_menu(menu: &mut Menu<'_>) {
         menu.item(has_model, "Import seams…", Request::Ask(Purpose::ImportSeams));
         menu.item(has_seams, "Export seams…", Request::Ask(Purpose::ExportSeams));
         menu.ui.separator();
-        menu.item(has_seams, "Clear seams", Action::SetSeams(editor.without_seams()));
+        menu.item(has_seams, "Clear seams", Request::ClearSeams);
     });
     menu.ui.separator();
     let fixable = !editor.selection.vertices().is_empty() && session.outcome().is_some();

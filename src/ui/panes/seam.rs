@@ -4,9 +4,9 @@ use eframe::egui::{self, Pos2, Shape, Stroke, WidgetInfo};
 
 use super::pane::{self, Viewport};
 use crate::mesh::VertexId;
-use crate::session::Action;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
-use crate::ui::editor::seam_tool::{CREASES, Edge, SeamIntent};
+use crate::ui::editor::seam_intent::SeamIntent;
+use crate::ui::editor::seam_tool::{CREASES, Edge};
 use crate::ui::theme::on_screen;
 use crate::ui::timeline::lasting_menu;
 use crate::ui::typed::Typed;
@@ -15,9 +15,6 @@ use crate::view::{OrbitCamera, PlaneCamera};
 
 /// Opacity of what the mesh hides.
 const HIDDEN: f32 = 0.4;
-
-/// Edges of a path of which it is looked whether the mesh hides them; the others show.
-const LOOKED_AT: usize = 2000;
 
 /// Width of a path that a click would cut, points: less than that of a seam.
 const CUT_WIDTH: f32 = 2.0;
@@ -34,27 +31,29 @@ impl Editor {
         let vertex = found.unwrap_or(of_chart);
         self.tools.seam.set_under(vertex);
         if found.is_some() {
-            let shown = vertex.and_then(|vertex| scene.in_file.copies(vertex).next());
+            let shown = vertex.filter(|_| self.is_of_session(scene)).and_then(|of| scene.in_file.copies(of).next());
             self.pointer.over_mesh(shown);
         }
+        self.foresee_seam();
     }
 
     /// The same in the embedding's pane, where the vertex on the screen is known.
     pub(super) fn look_for_seam_in_plane(&mut self, scene: &MeshScene) {
         let vertex = self.pointer.vertex().and_then(|vertex| scene.in_file.vertex(vertex));
         self.tools.seam.set_under(vertex);
+        self.foresee_seam();
     }
 
     /// What the seam tool does, in words.
     pub(in crate::ui) fn seam_words(&self, has_shift: bool) -> String {
         let seam = &self.tools.seam;
         let edges = |edges: &[Edge]| counted(edges.len(), "edge", "edges");
-        match (self.seam_intent(has_shift), seam.under(), seam.last()) {
+        match (seam.foreseen(), seam.under(), seam.last()) {
             (Some(SeamIntent::Begin), Some(vertex), _) => format!("Click: the seam begins at {vertex}."),
             (Some(SeamIntent::Add(path)), Some(vertex), _) => {
-                format!("Click: cut {} to {vertex}. Enter ends the seam, Shift takes away.", edges(&path))
+                format!("Click: cut {} to {vertex}. Enter ends the seam, Shift takes away.", edges(path))
             }
-            (Some(SeamIntent::TakeAway(path)), ..) => format!("Click: close {} of the seam.", edges(&path)),
+            (Some(SeamIntent::TakeAway(path)), ..) => format!("Click: close {} of the seam.", edges(path)),
             (Some(SeamIntent::End), ..) => "Click: the seam ends here.".to_owned(),
             (Some(SeamIntent::Wait), ..) => "Finding the paths from here…".to_owned(),
             (Some(SeamIntent::Nothing), Some(vertex), None) => format!("No seam is at {vertex}."),
@@ -83,12 +82,9 @@ pub(super) fn clicked(ui: &egui::Ui, editor: &Editor) -> Vec<Request> {
 }
 
 /// The edges that a click would cut or close, and whether it closes them.
-fn change(ui: &egui::Ui, editor: &Editor) -> Option<(Vec<Edge>, bool)> {
-    match editor.seam_intent(has_shift(ui))? {
-        SeamIntent::Add(path) => Some((path, false)),
-        SeamIntent::TakeAway(path) => Some((path, true)),
-        _ => None,
-    }
+fn change(editor: &Editor) -> (&[Edge], bool) {
+    let intent = editor.tools.seam.foreseen();
+    (intent.map_or(&[], SeamIntent::edges), matches!(intent, Some(SeamIntent::TakeAway(_))))
 }
 
 /// A side of a path, as it is seen.
@@ -110,16 +106,18 @@ struct Look {
 }
 
 /// What a click would do, over the mesh, and where the seam has got to.
-pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor) {
-    let Some(ground) = editor.tools.seam.ground().filter(|_| editor.tools.tool() == Tool::Seam) else { return };
+pub(super) fn over_mesh(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &mut Editor) {
+    if editor.tools.tool() != Tool::Seam {
+        return;
+    }
+    editor.tools.seam.look_from(&view.camera);
+    let Some(ground) = editor.tools.seam.ground() else { return };
     let (painter, theme) = (ui.painter_at(view.rect), theme_of(ui));
     let spot = |vertex: VertexId| view.spot(ground.place(vertex)?);
-    if let Some((path, closes)) = change(ui, editor) {
-        for (place, edge) in path.iter().enumerate() {
-            if let [Some(a), Some(b)] = edge.map(spot) {
-                let is_seen = place >= LOOKED_AT || edge.iter().any(|&end| ground.shows(end, &view.camera));
-                line(&painter, [a, b], theme, Look { is_seen, closes });
-            }
+    let (path, closes) = change(editor);
+    for (place, edge) in path.iter().enumerate() {
+        if let [Some(a), Some(b)] = edge.map(spot) {
+            line(&painter, [a, b], theme, Look { is_seen: editor.tools.seam.is_seen(place), closes });
         }
     }
     if let Some(at) = editor.tools.seam.last().and_then(spot) {
@@ -137,8 +135,8 @@ pub(super) fn over_plane(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &Ed
     let Some(disk) = scene.disk().filter(|_| editor.tools.tool() == Tool::Seam && editor.is_of_session(scene)) else {
         return;
     };
-    let (path, closes) = change(ui, editor).unwrap_or_default();
-    for [a, b] in path {
+    let (path, closes) = change(editor);
+    for &[a, b] in path {
         let joined = |from: VertexId| {
             let heads = disk.outgoing(from).map(|halfedge| disk.head(halfedge));
             heads.filter(move |&head| scene.in_file.vertex(head) == Some(b)).map(move |head| [from, head])
@@ -174,7 +172,7 @@ pub(super) fn strip(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Reque
             erase.asks(Request::ToggleErasing, requests);
             rules(ui, editor, requests);
             let tip = "Close all seams that were drawn or chosen; undo takes it back";
-            let clear = Offer::new("Clear seams", tip, Action::SetSeams(editor.without_seams()));
+            let clear = Offer::new("Clear seams", tip, Request::ClearSeams);
             clear.when(!editor.session.seams().edges().is_empty()).show(ui, requests);
             if editor.tools.seam.last().is_some() {
                 let tip = tip_with_keys(ui, "The seam is as it should be: the next click begins another", &Request::EndSeam);
