@@ -165,6 +165,9 @@ pub struct FlattenArguments {
     /// it are replaced.
     #[arg(long, value_name = "DIR")]
     pub steps: Option<PathBuf>,
+    /// Read the mesh even if that may take more than half of the machine's memory.
+    #[arg(long)]
+    pub large: bool,
     /// Threads to use; all cores without it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -332,4 +335,7 @@ pub struct CheckArguments {
     /// Write a report here (JSON), or to standard output with `-`.
     #[arg(long, value_name = "FILE|-")]
     pub report: Option<PathBuf>,
+    /// Read the mesh even if that may take more than half of the machine's memory.
+    #[arg(long)]
+    pub large: bool,
 }

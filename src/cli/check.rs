@@ -6,7 +6,7 @@ use super::args::CheckArguments;
 use super::failed::await_report;
 use super::flatten::{disk_of, go_on};
 use super::places::Places;
-use super::standard::read_model;
+use super::standard::{Sizes, read_model};
 use super::summary::deliver;
 use super::{Failure, Status};
 use crate::io::{MeshReport, Report, Seconds, TextureError, TextureMesh, verdict_as_in_file};
@@ -18,7 +18,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     let places = Places::of_check(arguments);
     places.spare(&arguments.mesh, "the mesh")?;
     await_report(arguments.report.as_deref());
-    let model = read_model(&arguments.mesh)?.in_form(Form::default());
+    let model = read_model(&arguments.mesh, Sizes::typed(arguments.large))?.in_form(Form::default());
     places.spare_materials(&model.source, &arguments.mesh)?;
     let path = model.path_words();
     let mut texture = match model.source.texture_mesh() {

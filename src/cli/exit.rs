@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use super::failed::Subject;
 use super::say::warn;
 use super::standard::name_of_input;
-use crate::io::{ConstraintsError, EdgesError, PictureError, ReadError, TextureError, WriteError};
+use crate::io::{ConstraintsError, EdgesError, MemoryShortage, PictureError, ReadError, TextureError, WriteError};
 use crate::mesh::{Diagnosis, Done, Repairs};
 use crate::session::Model;
 use crate::solver::{Choice as _, Method, SolveError};
@@ -25,6 +25,9 @@ pub(super) const FALLS_SHORT: u8 = 4;
 
 /// What to do where only some corners have texture coordinates.
 pub(super) const TEXTURE_REMEDY: &str = "give every corner texture coordinates, or none";
+
+/// What to do where a file may take too much memory.
+pub(super) const MEMORY_REMEDY: &str = "--large reads it all the same";
 
 /// What to do where a single method gives no embedding.
 pub(super) const METHOD_REMEDY: &str = "try --method auto";
@@ -52,6 +55,14 @@ pub enum Failure {
         path: String,
         /// What is wrong with it.
         error: ReadError,
+    },
+    /// The file may take more than half of the machine's memory.
+    #[error("{path}: {shortage}; {MEMORY_REMEDY}")]
+    Memory {
+        /// The file.
+        path: String,
+        /// What it may take, and what there is.
+        shortage: MemoryShortage,
     },
     /// The constraint file cannot be used.
     #[error("{0}")]
@@ -147,6 +158,7 @@ impl Failure {
         match self {
             Self::Read { error: ReadError::Cancelled, .. } => INTERRUPTED,
             Self::Read { .. }
+            | Self::Memory { .. }
             | Self::Constraints(_)
             | Self::Edges(_)
             | Self::Picture(_)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use super::Failure;
-use super::exit::{FALLS_SHORT, METHOD_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of};
+use super::exit::{FALLS_SHORT, MEMORY_REMEDY, METHOD_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of};
 use super::say::warn;
 use super::standard::name_of_input;
 use super::summary::put_report;
@@ -87,6 +87,7 @@ fn remedy_and_faults(failure: &Failure) -> (Option<&'static str>, Vec<FaultRepor
         Failure::Edges(error) => (None, FaultReport::of_edges(error)),
         Failure::Texture { error, .. } => (Some(TEXTURE_REMEDY), FaultReport::of_texture(error)),
         Failure::NotADisk { diagnosis, .. } => (None, FaultReport::of_diagnosis(diagnosis)),
+        Failure::Memory { .. } => (Some(MEMORY_REMEDY), Vec::new()),
         Failure::Method { .. } => (Some(METHOD_REMEDY), Vec::new()),
         _ => (None, Vec::new()),
     }
@@ -102,6 +103,7 @@ fn kind_of(failure: &Failure) -> &'static str {
             ReadError::TooLarge => "too-large",
             _ => "not-understood",
         },
+        Failure::Memory { .. } => "too-large-for-memory",
         Failure::Constraints(_) => "constraints",
         Failure::Edges(_) => "edges",
         Failure::Picture(_) => "picture",

@@ -16,7 +16,7 @@ use super::places::Places;
 use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
 use super::seams::formed;
-use super::standard::{is_standard, name_of_input, read_model};
+use super::standard::{Sizes, is_standard, name_of_input, read_model};
 use super::typed::ChartSize;
 use super::{Failure, Status};
 use crate::examples::Example;
@@ -54,7 +54,8 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let model = with_parts(formed(&read_model(&arguments.mesh)?, arguments)?, arguments.parts.as_ref())?;
+        let read = read_model(&arguments.mesh, Sizes::typed(arguments.large))?;
+        let model = with_parts(formed(&read, arguments)?, arguments.parts.as_ref())?;
         places.spare_materials(&model.source, &arguments.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;

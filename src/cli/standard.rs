@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use super::Failure;
 use super::progress::is_interrupted;
-use crate::io::ReadError;
+use crate::io::{ReadError, check_memory, machine_memory_bytes};
 use crate::session::Model;
 
 /// What a mesh from standard input is called.
@@ -30,8 +30,28 @@ pub(super) fn name_of_input(path: &Path) -> String {
     if is_standard(path) { STANDARD_INPUT.to_owned() } else { path.display().to_string() }
 }
 
+/// Which files are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sizes {
+    /// Those that half of the machine's memory is enough for.
+    WithinMemory,
+    /// All.
+    Any,
+}
+
+impl Sizes {
+    /// As `--large` says.
+    pub(super) const fn typed(large: bool) -> Self {
+        if large { Self::Any } else { Self::WithinMemory }
+    }
+}
+
 /// Reads a mesh from a file or from standard input. It has no form yet.
-pub(super) fn read_model(path: &Path) -> Result<Model, Failure> {
+pub(super) fn read_model(path: &Path, sizes: Sizes) -> Result<Model, Failure> {
+    if sizes == Sizes::WithinMemory && !is_standard(path) {
+        let large = |shortage| Failure::Memory { path: name_of_input(path), shortage };
+        check_memory(path, machine_memory_bytes()).map_err(large)?;
+    }
     let read = if is_standard(path) { read_standard_input() } else { Model::read_formless(path, &is_interrupted) };
     read.map_err(|error| Failure::Read { path: name_of_input(path), error })
 }

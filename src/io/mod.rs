@@ -23,6 +23,7 @@
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
 //! | `door`        | what every writer asks of its coordinates                                  |
+//! | `machine`     | what the system says of its memory                                         |
 //! | `unfinished`  | what is being written aside, to be removed at a sudden end                 |
 //! | `paths`       | which paths lead to one file, and the way from a folder to a file          |
 //! | `stamp`       | what tells one state of a file from another                                |
@@ -35,6 +36,7 @@ mod edges;
 mod error_report;
 pub mod figure;
 mod gltf;
+mod machine;
 mod mesh_file;
 mod obj;
 mod output;
@@ -58,10 +60,11 @@ pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_cons
 pub use edges::{EdgeFault, EdgesError, parse_edges, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use gltf::write_glb;
+pub use machine::{machine_memory_bytes, peak_memory_bytes};
 pub use mesh_file::{
-    LabelError, LayoutError, MAX_PARSE_FAULTS, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind, Progress, ReadError,
-    Refined, RefinedChart, Source, Statement, Texture, TextureError, TextureMesh, read_mesh, read_mesh_with,
-    read_stream, read_stream_with,
+    LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind,
+    Progress, ReadError, Refined, RefinedChart, Source, Statement, Texture, TextureError, TextureMesh, check_memory,
+    memory_to_read, read_mesh, read_mesh_with, read_stream, read_stream_with,
 };
 pub use obj::{Materials, copies_of_materials, material_files, material_picture, write_obj};
 pub use output::{EXTENSIONS, Format, Output, OutputFit, OutputKind, ProvedEmbedding};
@@ -74,7 +77,7 @@ pub use project::{
 };
 pub use report::{
     ChartReport, MeshReport, PackingReport, PinsReport, Placement, REPORT_SCHEMA, Report, Seconds, WeightedPinReport,
-    peak_memory_bytes, verdict_as_in_file, write_report,
+    verdict_as_in_file, write_report,
 };
 pub use stamp::FileStamp;
 pub use step_report::StepReport;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{Precision, RoundingReport, StepReport};
+use super::{Precision, RoundingReport, StepReport, peak_memory_bytes};
 use crate::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
 use crate::solver::{AtlasVerdict, DistortionSummary, Family, Method, Treatment, Verdict};
 
@@ -284,12 +284,4 @@ pub fn verdict_as_in_file(verdict: &Verdict, mesh: &TriMesh) -> Verdict {
     };
     let (flipped_faces, concave_polygons) = (in_file(&verdict.flipped_faces), in_file(&verdict.concave_polygons));
     Verdict { flipped_faces, concave_polygons, ..verdict.clone() }
-}
-
-/// Most memory that this process has held so far, where the system tells (Linux).
-pub fn peak_memory_bytes() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kibibytes * 1024)
 }

@@ -54,6 +54,7 @@ mod many_parts;
 mod many_pins;
 mod matchmaker;
 mod materials;
+mod memory;
 mod mesh;
 mod natural;
 mod needless;

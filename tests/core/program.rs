@@ -13,6 +13,9 @@ use glam::DVec2;
 use serde_json::Value;
 use tempfile::TempDir;
 
+/// Length of a file that no memory could hold, bytes.
+pub(crate) const HUGE: u64 = 1 << 42;
+
 /// A folder that vanishes with it, to run the program in.
 pub(crate) struct Program {
     folder: TempDir,
@@ -41,6 +44,12 @@ impl Program {
         let path = self.path(name);
         fs::write(&path, text).expect("the folder can be written to");
         path
+    }
+
+    /// Makes a file of zeros that no memory could hold, and that takes no room on the disk.
+    pub(crate) fn write_huge(&self, name: &str) {
+        let file = fs::File::create(self.path(name)).expect("the folder can be written to");
+        file.set_len(HUGE).expect("a file can have a hole");
     }
 
     /// The command, not yet started, without a screen and with the folder as the current one.

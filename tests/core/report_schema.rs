@@ -182,7 +182,7 @@ const FILES: [(&str, &str); 13] = [
 ];
 
 /// Runs with their exit status: all kinds of fields of a report occur in them.
-const RUNS: [(&[&str], i32); 19] = [
+const RUNS: [(&[&str], i32); 20] = [
     (&["flatten", "parts.obj", "--pin", "0:0,0", "--pin", "1:1,0"], 0),
     (&["check", "charts.obj"], 4),
     (&["flatten", "tent.obj"], 0),
@@ -204,6 +204,7 @@ const RUNS: [(&[&str], i32); 19] = [
     (&["flatten", "empty.obj"], 3),
     (&["flatten", "mesh.dae"], 3),
     (&["flatten", "missing.obj"], 3),
+    (&["check", "huge.obj"], 3),
     (&["flatten", "closed.obj"], 3),
     (&["flatten", "fins.obj"], 3),
     (&["flatten", "ring.obj", "--holes", "cut"], 3),
@@ -224,6 +225,7 @@ fn every_report_is_as_the_schema_says_and_the_schema_says_nothing_that_no_report
     for (name, text) in FILES {
         program.write(name, text);
     }
+    program.write_huge("huge.obj");
     let mut schema = Schema::of_reports();
     for (arguments, status) in RUNS {
         let report = program.run(&[arguments, &["--report", "-"][..]].concat()).expect(status).json();

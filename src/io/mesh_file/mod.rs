@@ -5,6 +5,7 @@
 //! | `mod`     | what is kept of a file                                                               |
 //! | `read`    | reads a file of any format, with progress                                            |
 //! | `format`  | the formats, told by a file's beginning and by its name                              |
+//! | `memory`  | the memory that it takes to read a file, before it is read                            |
 //! | `source`  | the bytes that a mesh was read from, and how the mesh has changed since              |
 //! | `error`   | what can be wrong with a file, with line or byte, fault and remedy                   |
 //! | `labels` | what tells faces apart: materials and groups                                      |
@@ -22,6 +23,7 @@ mod error;
 mod format;
 mod labels;
 mod layout;
+mod memory;
 mod off;
 mod read;
 mod refined;
@@ -41,6 +43,7 @@ pub use error::{MAX_PARSE_FAULTS, ParseFault, ParseFaultKind, ReadError, Texture
 pub(in crate::io) use error::{Place, fault_at, fault_in};
 pub use labels::LabelError;
 pub use layout::LayoutError;
+pub use memory::{MemoryShortage, check_memory, memory_to_read};
 pub use read::{Progress, read_mesh, read_mesh_with, read_stream, read_stream_with};
 pub use refined::{Refined, RefinedChart};
 pub use source::Source;
