@@ -50,8 +50,12 @@ impl Session {
 
     /// Opens what belongs to the mesh that was opened, and says what is not opened.
     fn open_beside(&mut self, Together { picture, constraints, left, .. }: Together) {
-        picture.into_iter().for_each(|path| self.open_picture(path));
-        constraints.into_iter().for_each(|path| self.import_constraints(path));
+        if let Some(path) = picture {
+            self.open_picture(path);
+        }
+        for path in constraints {
+            self.import_constraints(path);
+        }
         if !left.is_empty() {
             let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let names: Vec<String> = left.iter().map(name).collect();

@@ -132,19 +132,25 @@ fn a_chart_is_packed_as_many_times_as_large_as_is_asked_for() {
     let report = run.json();
     let density = report["packing"]["density"].as_f64().expect("a number");
     let file = read_mesh(&program.path("out.obj")).expect("written");
-    let mut sizes: Vec<f64> = Vec::new();
+    // Each part has its own hundreds.
+    let part_of = |vertex: VertexId| {
+        let aside = file.polygons.positions[vertex.index()].x;
+        [0.0, 100.0, 200.0].iter().rposition(|&begin| aside >= begin).expect("one of three")
+    };
+    let first_vertex = |chart: &Value| {
+        let face = chart["first_face"].as_u64().and_then(|face| usize::try_from(face).ok()).expect("a face");
+        file.polygons.face(face)[0]
+    };
+    let mut sizes = [1.0; 3];
     for (triangle, corners) in triangles(&file).into_iter().enumerate() {
         let [a, b, c] = corners.map(|uv| uv * DVec2::new(600.0, 300.0));
-        let part = file.polygons.positions[file.polygons.corners[3 * triangle].index()].x / 100.0;
-        let size = ((b - a).perp_dot(c - a)).sqrt() / density;
-        sizes.resize(3, 1.0);
-        sizes[part as usize] = size;
+        sizes[part_of(file.polygons.corners[3 * triangle])] = (b - a).perp_dot(c - a).sqrt() / density;
     }
-    let given = report["charts"].as_array().expect("charts").iter().map(|chart| {
-        let first = chart["first_face"].as_u64().expect("a face") as usize;
-        let part = file.polygons.positions[file.polygons.face(first)[0].index()].x / 100.0;
-        (part as usize, chart["density"].as_f64().expect("a number") / density)
-    });
+    let given = report["charts"]
+        .as_array()
+        .expect("charts")
+        .iter()
+        .map(|chart| (part_of(first_vertex(chart)), chart["density"].as_f64().expect("a number") / density));
     for ((part, reported), asked) in given.zip([0.5, 1.0, 3.0]) {
         assert!((sizes[part] / asked - 1.0).abs() < 1e-9, "chart with {} is {} as large", asked, sizes[part]);
         assert!((reported / asked - 1.0).abs() < 1e-9, "{reported} {asked}");
@@ -153,8 +159,7 @@ fn a_chart_is_packed_as_many_times_as_large_as_is_asked_for() {
     assert!(other.stderr.contains("--chart-size 3: the mesh has charts 0 to 2"), "{}", other.stderr);
     let twice = program.run(&[&arguments[..], &["--chart-size", "0=2,0=3"]].concat()).expect(2);
     assert!(twice.stderr.contains("--chart-size 0: the chart has a size twice"), "{}", twice.stderr);
-    let first = report["charts"][1]["first_face"].as_u64().expect("a face") as usize;
-    let pin = format!("{}:2,2", file.polygons.face(first)[0].index());
+    let pin = format!("{}:2,2", first_vertex(&report["charts"][1]));
     let held = program.run(&[&arguments[..], &["--pin", &pin, "--chart-size", "0=2,1=3"]].concat()).expect(2);
     assert!(held.stderr.contains("--chart-size 1: pins hold the chart"), "{}", held.stderr);
     for wrong in ["0", "0=0", "0=-1", "0=nan", "x=1", "0=1000"] {

@@ -25,7 +25,7 @@ pub(crate) fn write(program: &Program, name: &str, file: &MeshFile) {
     program.write(name, std::str::from_utf8(&bytes).expect("text"));
 }
 
-fn repaired(file: &MeshFile, form: Form) -> Repaired {
+fn repaired(file: &MeshFile, form: &Form) -> Repaired {
     form.repaired_along(&file.polygons, Some(&file.texture_labels().expect("coordinates")))
 }
 
@@ -37,7 +37,7 @@ fn the_charts_are_those_of_the_texture_coordinates() {
         let sheet = quad_sheet(6, 5, 0.1, &mut random);
         let of_face: Vec<usize> = (0..sheet.face_count()).map(|_| random.index(3)).collect();
         let file = grouped(sheet, |face| of_face[face]);
-        let found = repaired(&file, Form::default());
+        let found = repaired(&file, &Form::default());
         let texture = file.texture_mesh().expect("complete");
         let expected = parts(&texture.mesh).expect("pieces of a sheet");
         let are_disks = expected.iter().all(|part| part.loops().len() == 1);
@@ -62,8 +62,8 @@ fn the_charts_are_those_of_the_texture_coordinates() {
 fn faces_turned_around_are_cut_along_the_same_seams() {
     let mut random = Random(5);
     let file = grouped(quad_sheet(6, 4, 0.1, &mut random), |face| face % 6 / 2);
-    let as_given = repaired(&file, Form::default());
-    let turned = repaired(&file.turned(), Form { faces_turned: true, ..Form::default() });
+    let as_given = repaired(&file, &Form::default());
+    let turned = repaired(&file.turned(), &Form { faces_turned: true, ..Form::default() });
     assert_eq!(turned.polygons(), &as_given.polygons().turned());
     assert_eq!(turned.done(), as_given.done());
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use freebound::io::read_mesh;
-use freebound::mesh::DiskMesh;
+use freebound::mesh::{DiskMesh, VertexId};
 use serde_json::{Value, json};
 
 use crate::makers::{band, tetrahedron};
@@ -230,7 +230,7 @@ fn new_vertices_of_a_welded_mesh_lie_on_the_edges_of_the_file() {
         let lies_on = |a: glam::DVec3, b: glam::DVec3| a.distance(*new) + new.distance(b) - a.distance(b) < 1e-12;
         let mut edges = (0..file.face_count()).flat_map(|face| {
             let corners = file.face(face);
-            (0..3).map(move |k| [corners[k], corners[(k + 1) % 3]].map(|v| v.index()))
+            (0..3).map(move |k| [corners[k], corners[(k + 1) % 3]].map(VertexId::index))
         });
         assert!(edges.any(|[a, b]| lies_on(file.positions[a], file.positions[b])), "{new}");
     }

@@ -25,7 +25,7 @@ fn ordered([a, b]: Edge) -> Edge {
 fn normal(mesh: &PolygonMesh, face: usize) -> DVec3 {
     let corners = mesh.face(face);
     let at = |k: usize| mesh.positions[corners[k % corners.len()].index()];
-    (0..corners.len()).map(|k| at(k).cross(at(k + 1))).sum::<DVec3>().normalize()
+    (0..corners.len()).map(|k| at(k).cross(at(k + 1))).sum::<DVec3>().normalize_or_zero()
 }
 
 /// The cost of every edge, by the formula.

@@ -1,5 +1,6 @@
 //! `freebound flatten --cut FILE` and `--seams`: from files to files.
 
+use std::fmt::Write as _;
 use std::fs;
 
 use freebound::io::{EdgeFault, parse_edges, read_mesh, write_edges};
@@ -20,13 +21,14 @@ fn rich_cube() -> String {
     let bare = obj_text(&cube());
     let (vertices, faces): (Vec<&str>, Vec<&str>) = bare.lines().partition(|line| line.starts_with('v'));
     for line in vertices {
-        text += &format!("{line} 0.5 0.25 1\r\n");
+        write!(text, "{line} 0.5 0.25 1\r\n").expect("memory");
     }
     for (number, line) in faces.iter().enumerate() {
         if number == 2 {
             text += "g sides\r\nusemtl blue\r\ns off\r\n";
         }
-        text += &format!("{}//1\r\n", line.replace(' ', "//1 ").replacen("//1 ", " ", 1));
+        let corners = line.replace(' ', "//1 ").replacen("//1 ", " ", 1);
+        write!(text, "{corners}//1\r\n").expect("memory");
     }
     text + "l 1 2\r\n# the end\r\n"
 }
@@ -53,7 +55,7 @@ fn a_cube_cut_along_a_cross_unfolds_to_its_net() {
         for k in 0..4 {
             assert!((at[k].distance(at[(k + 1) % 4]) - 1.0).abs() < 1e-9, "{at:?}");
             assert!((at[k].distance(at[(k + 2) % 4]) - 2_f64.sqrt()).abs() < 1e-9, "{at:?}");
-            let key = |z: DVec2| (z * 1e6).round().to_array().map(|x| x as i64);
+            let key = |z: DVec2| (z * 1e6).round().as_i64vec2().to_array();
             let [a, b] = [key(at[k]), key(at[(k + 1) % 4])];
             sides.push([a.min(b), a.max(b)]);
         }
@@ -74,8 +76,8 @@ fn the_file_comes_back_as_it_was_but_for_its_texture_coordinates() {
         let corners = line.split(' ').map(|corner| corner.split('/').next().unwrap_or_default());
         corners.collect::<Vec<_>>().join(" ")
     };
-    let before: Vec<String> = rich_cube().split('\n').map(|line| bare(line)).collect();
-    let after: Vec<String> = after.split('\n').filter(|line| !line.starts_with("vt ")).map(|line| bare(line)).collect();
+    let before: Vec<String> = rich_cube().split('\n').map(bare).collect();
+    let after: Vec<String> = after.split('\n').filter(|line| !line.starts_with("vt ")).map(bare).collect();
     assert_eq!(after, before);
     let again = program.run(&["flatten", "cube.obj", "--cut", "cross.txt", "-o", "again.obj", "--threads", "1"]);
     again.expect(0);

@@ -1,7 +1,7 @@
 //! A mesh that is no disk, mended in a session: undone, repeated, saved and opened again.
 
 use freebound::io::read_mesh;
-use freebound::mesh::{Form, PolygonMesh, Repair, Repairs, WeldDistance};
+use freebound::mesh::{Fault, Form, PolygonMesh, Repair, Repairs, WeldDistance};
 use freebound::session::{Action, Place, Session, Surface};
 use tempfile::TempDir;
 
@@ -126,7 +126,7 @@ fn a_single_remedy_is_an_edit_that_leaves_the_other_faults_and_is_kept_in_a_proj
     settled(&mut session, Action::Open(path));
     settled(&mut session, Action::AllowRepair(Repair::TurnFaces));
     let faults = |session: &Session| match &session.model().expect("open").surface {
-        Surface::Faulty(_, diagnosis) => diagnosis.faults.iter().map(|fault| fault.name()).collect(),
+        Surface::Faulty(_, diagnosis) => diagnosis.faults.iter().map(Fault::name).collect(),
         Surface::Disk(_) => Vec::new(),
     };
     assert_eq!(faults(&session), ["closed"]);

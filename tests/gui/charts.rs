@@ -103,14 +103,14 @@ fn the_chart_on_the_screen_is_packed_larger_by_a_typed_size() {
 fn a_size_that_is_dragged_back_to_what_it_was_stays() {
     let mut window = with_sheets();
     let from = window.rect(Role::SpinButton, "Size of the chart on the screen").center();
-    let revision = window.editor().session.sizes().to_vec();
+    let sizes = window.editor().session.sizes();
     window.begin_drag(from, from + egui::vec2(64.0, 0.0), Modifiers::NONE);
     for aside in [48.0, 32.0, 16.0, 0.0] {
         window.harness.hover_at(from + egui::vec2(aside, 0.0));
         window.step();
     }
     window.end_drag(from);
-    assert_eq!(window.editor().session.sizes(), revision);
+    assert_eq!(window.editor().session.sizes(), sizes);
     let from = window.rect(Role::SpinButton, "Gap between charts in pixels").center();
     let before = window.editor().session.packing();
     window.begin_drag(from, from + egui::vec2(64.0, 0.0), Modifiers::NONE);

@@ -38,25 +38,31 @@ fn no_key_is_bound_twice() {
     }
 }
 
+/// A window with three pins, one of them selected, Fix in hand, and the second of three steps on the screen.
+fn busy_window() -> Window {
+    let mut window = window();
+    pin(&mut window, &[0, 40, 80]);
+    window.editor_mut().session.handle(Action::UnpinAll);
+    window.settle();
+    window.editor_mut().session.handle(Action::Undo);
+    window.settle();
+    window.editor_mut().selection.add([VertexId::new(40)]);
+    window.editor_mut().tools.take_up(Tool::Fix);
+    window.settle();
+    for action in [Action::Step, Action::Step] {
+        window.editor_mut().session.handle(action);
+        window.settle();
+    }
+    window.editor_mut().session.handle(Action::ShowStep(1));
+    window.settle();
+    assert_eq!(steps(&window), (3, Some(1)));
+    window
+}
+
 #[test]
 fn shortcuts_do_what_the_table_says() {
     for binding in BINDINGS {
-        let mut window = window();
-        pin(&mut window, &[0, 40, 80]);
-        window.editor_mut().session.handle(Action::UnpinAll);
-        window.settle();
-        window.editor_mut().session.handle(Action::Undo);
-        window.settle();
-        window.editor_mut().selection.add([VertexId::new(40)]);
-        window.editor_mut().tools.take_up(Tool::Fix);
-        window.settle();
-        for action in [Action::Step, Action::Step] {
-            window.editor_mut().session.handle(action);
-            window.settle();
-        }
-        window.editor_mut().session.handle(Action::ShowStep(1));
-        window.settle();
-        assert_eq!(steps(&window), (3, Some(1)));
+        let mut window = busy_window();
         let (pins, orbit) = (document(&window).targets.len(), window.editor().mesh.pane.camera());
         assert_eq!(pins, 3);
         // Away from where framing leads, and Select in hand where that is asked for.

@@ -82,7 +82,9 @@ impl<'a> Sides<'a> {
             }
         }
         let mut is_one_sided = vec![false; count];
-        contradictions.into_iter().for_each(|face| is_one_sided[sets.find(face).0 as usize] = true);
+        for face in contradictions {
+            is_one_sided[sets.find(face).0 as usize] = true;
+        }
         (0..).take(count).map(|face| is_one_sided[sets.find(face).0 as usize]).collect()
     }
 }

@@ -91,6 +91,7 @@ impl<'a> Grid<'a> {
     fn cells_near(&self, place: f64) -> (i64, RangeInclusive<i64>) {
         let cell = (place / self.width).floor();
         if cell.abs() < LAST_CELL {
+            #[expect(clippy::cast_possible_truncation, reason = "a whole number below that of the last cell")]
             let cell = cell as i64;
             (cell, cell - 1..=cell + 1)
         } else {
