@@ -73,7 +73,7 @@ pub struct FlattenArguments {
     /// first, and then as `auto` does what is no disk yet.
     #[arg(long, value_name = "none|auto|FILE", default_value = "none", value_parser = OsStringValueParser::new().map(Cut::from))]
     pub cut: Cut,
-    /// Cut along these edges, too: `sharp`, or `sharp=DEGREES`, where faces meet at that angle or more, 30 without a number;
+    /// Cut along these edges, too: `sharp`, or `sharp=DEGREES`, where faces meet at that angle or more, 60 without a number;
     /// `materials` and `groups`, where faces of two of them meet. Several with commas between them.
     #[arg(long, value_name = "sharp[=DEGREES],materials,groups", value_delimiter = ',', value_parser = parse_seam_kind)]
     pub seams: Vec<SeamKind>,

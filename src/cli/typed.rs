@@ -9,6 +9,7 @@ use super::args::SeamKind;
 use crate::geom::PackingOptions;
 use crate::io::{ConstraintFault, Target};
 use crate::mesh::{VertexId, WeldDistance};
+use crate::session::Model;
 use crate::solver::{Choice, Hold};
 
 /// Takes one of a few choices by its name, and lists them with a line on each.
@@ -81,9 +82,6 @@ pub(super) fn parse_chart_size(text: &str) -> Result<ChartSize, String> {
     parsed().ok_or_else(|| format!("write CHART=SIZE, for example 0=2, with a size from {low} to {high}"))
 }
 
-/// The angle of creases where none is typed, degrees: as modelling programs choose it.
-const SHARP_DEGREES: f64 = 30.0;
-
 /// "sharp", "sharp=degrees", "materials" or "groups".
 pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
     let parsed = || match text.split_once('=') {
@@ -91,7 +89,7 @@ pub(super) fn parse_seam_kind(text: &str) -> Result<SeamKind, String> {
             let degrees: f64 = degrees.trim().parse().ok()?;
             (degrees > 0.0 && degrees <= 180.0).then_some(SeamKind::Sharp(degrees))
         }
-        None if text == "sharp" => Some(SeamKind::Sharp(SHARP_DEGREES)),
+        None if text == "sharp" => Some(SeamKind::Sharp(Model::SHARP_DEGREES)),
         None if text == "materials" => Some(SeamKind::Materials),
         None if text == "groups" => Some(SeamKind::Groups),
         _ => None,

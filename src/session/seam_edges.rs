@@ -6,6 +6,9 @@ use crate::mesh::{VertexId, borders, creases};
 
 /// Edges for seams, by the file's vertices, each edge once, in their order.
 impl Model {
+    /// From which angle on an edge is sharp where nobody says so, degrees: corners are, and the facets of round things are not.
+    pub const SHARP_DEGREES: f64 = 60.0;
+
     /// The edges whose faces meet at an angle of so many degrees or more between their normals: 0 where they lie in one plane.
     pub fn crease_edges(&self, degrees: f64) -> Vec<[VertexId; 2]> {
         creases(&self.source.polygons, self.form.repair, degrees)

@@ -9,9 +9,6 @@ use crate::mesh::Seams;
 use crate::session::{Action, Failure, Model, Wake};
 use crate::ui::{Editor, Tool, counted, sentence};
 
-/// The least angle of a sharp edge at the start, degrees.
-pub(in crate::ui) const SHARP: f64 = 60.0;
-
 /// Which edges become seams.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SeamRule {
@@ -46,7 +43,7 @@ pub(in crate::ui) struct SeamRules {
 
 impl SeamRules {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { degrees: SHARP, job: Making::new("seams by a rule", wake), said: None }
+        Self { degrees: Model::SHARP_DEGREES, job: Making::new("seams by a rule", wake), said: None }
     }
 
     pub(super) fn is_busy(&self) -> bool {
