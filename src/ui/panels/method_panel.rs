@@ -40,6 +40,11 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
             family_list(ui, chosen);
             ui.end_row();
         }
+        if chosen.method.uses_pins() {
+            ui.label("Pinned");
+            treatment_list(ui, &mut chosen.treatment);
+            ui.end_row();
+        }
         start_row(ui, editor, chosen, requests);
         charts_row(ui, &editor.session, requests);
         holes_row(ui, &editor.session, requests);
@@ -48,16 +53,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
     if let (true, Family::Power(power)) = (settings.method.uses_family(), settings.family) {
         power_slider(ui, power, &mut edit);
     }
-    let chosen = &mut edit.settings;
-    if chosen.method.uses_pins() {
-        ui.add_space(2.0);
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 12.0;
-            ui.label("Pinned");
-            treatment_list(ui, &mut chosen.treatment);
-        });
-    }
-    new_vertices_box(ui, chosen);
+    new_vertices_box(ui, &mut edit.settings);
     ui.add_space(6.0);
     let words = settings.method.words();
     remark(ui, format!("{}. {}.", sentence(words.about), words.source));
