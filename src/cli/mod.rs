@@ -14,6 +14,7 @@
 //! | `failed`      | the report of a run that came to nothing                               |
 //! | `parts`       | the parts of a mesh that are flattened                                 |
 //! | `places`      | files of a run that must not be one another                            |
+//! | `seams`       | the form that a mesh is asked for in, with its seams                   |
 //! | `standard`    | `-` as a file: standard input and output                               |
 //! | `say`         | words on standard output and standard error                            |
 //! | `exit`        | exit status and last words                                             |
