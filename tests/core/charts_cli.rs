@@ -159,7 +159,7 @@ fn a_chart_is_packed_as_many_times_as_large_as_is_asked_for() {
     assert!(other.stderr.contains("--chart-size 3: the mesh has charts 0 to 2"), "{}", other.stderr);
     let twice = program.run(&[&arguments[..], &["--chart-size", "0=2,0=3"]].concat()).expect(2);
     assert!(twice.stderr.contains("--chart-size 0: the chart has a size twice"), "{}", twice.stderr);
-    let pin = format!("{}:2,2", first_vertex(&report["charts"][1]));
+    let pin = format!("{}:2,2", first_vertex(&report["charts"][1]).number());
     let held = program.run(&[&arguments[..], &["--pin", &pin, "--chart-size", "0=2,1=3"]].concat()).expect(2);
     assert!(held.stderr.contains("--chart-size 1: pins hold the chart"), "{}", held.stderr);
     for wrong in ["0", "0=0", "0=-1", "0=nan", "x=1", "0=1000"] {
