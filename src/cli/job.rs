@@ -72,7 +72,7 @@ impl HeadlessJob<'_> {
                 model,
                 outcome: &solved.outcome,
                 steps: &solved.records,
-                size: model.chart.as_ref().map_or(1.0, |of| self.document.size_of(of)),
+                size: model.chart.as_ref().map_or(1.0, |of| self.document.size_of(&of.charts, of.number)),
             })
             .collect();
         let before = Instant::now();

@@ -115,7 +115,7 @@ impl Session {
     pub(super) fn solved_atlas(&self) -> Result<SolvedAtlas, usize> {
         let solved = |(model, outcome, timeline): (&Arc<Model>, Arc<Outcome>, &Timeline)| {
             let steps = timeline.records()[..=outcome.step.index].to_vec();
-            let size = model.chart.as_ref().map_or(1.0, |of| self.document().size_of(of));
+            let size = model.chart.as_ref().map_or(1.0, |of| self.document().size_of(&of.charts, of.number));
             Solved { model: Arc::clone(model), outcome, steps, size }
         };
         let charts: Vec<Solved> = self.solved_charts().map(solved).collect();

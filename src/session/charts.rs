@@ -174,9 +174,9 @@ impl Session {
 
     /// How many times as large as the others each chart is packed.
     pub fn sizes(&self) -> Vec<f64> {
-        let size =
-            |charts: &Arc<Charts>, number| self.document.sizes.get(&charts.first_face(number)).copied().unwrap_or(1.0);
-        self.charts().map(|charts| (0..charts.count()).map(|number| size(charts, number)).collect()).unwrap_or_default()
+        let of =
+            |charts: &Arc<Charts>| (0..charts.count()).map(|number| self.document.size_of(charts, number)).collect();
+        self.charts().map(of).unwrap_or_default()
     }
 
     /// Solves for what the document wants on the screen, where it is not there, or on its way.

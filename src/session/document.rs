@@ -8,7 +8,7 @@ use super::model::{ChartOf, example_picture};
 use crate::examples::Example;
 use crate::geom::{Bounds, PackingOptions, PictureFrame, VAxis};
 use crate::io::{PictureFile, Target, Targets, hard_targets, pins_in_plane};
-use crate::mesh::{FaceId, Form, VertexId};
+use crate::mesh::{Charts, FaceId, Form, VertexId};
 use crate::solver::{GaugeSize, Pins, Settings};
 
 /// What the user edits. Small: mesh and pictures are immutable and kept elsewhere.
@@ -114,8 +114,8 @@ impl Document {
     }
 
     /// How many times as large as the others a chart is packed.
-    pub fn size_of(&self, chart: &ChartOf) -> f64 {
-        self.sizes.get(&chart.charts.first_face(chart.number)).copied().unwrap_or(1.0)
+    pub fn size_of(&self, charts: &Charts, number: usize) -> f64 {
+        self.sizes.get(&charts.first_face(number)).copied().unwrap_or(1.0)
     }
 
     /// Keeps what is edited of a chart that is not on the screen; nothing is no entry.

@@ -8,6 +8,7 @@ mod atlas;
 mod bad_input;
 mod charts;
 mod charts_cli;
+mod charts_packed;
 mod charts_refined;
 mod charts_uv;
 mod check_cli;

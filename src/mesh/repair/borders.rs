@@ -16,7 +16,7 @@ const SLACK: f64 = 1e-9;
 pub fn creases(source: &PolygonMesh, repairs: Repairs, degrees: f64) -> Vec<[VertexId; 2]> {
     let repaired = Repaired::new(source, repairs);
     let least = degrees.to_radians() - SLACK;
-    let normals: Vec<DVec3> = if has_faces(&repaired) {
+    let normals: Vec<DVec3> = if repaired.has_faces() {
         (0..repaired.face_of.len()).map(|face| normal(&repaired.polygons, face)).collect()
     } else {
         Vec::new()
@@ -44,7 +44,7 @@ fn edges_between(
     repaired: &Repaired,
     is_sought: impl Fn(&Sides<'_>, [u32; 2]) -> bool,
 ) -> Vec<[VertexId; 2]> {
-    if !has_faces(repaired) {
+    if !repaired.has_faces() {
         return Vec::new();
     }
     let sides = Sides::new(&repaired.polygons);
@@ -53,10 +53,4 @@ fn edges_between(
     edges.sort_unstable();
     edges.dedup();
     edges
-}
-
-/// Whether every corner has a vertex, and every face three corners or more.
-fn has_faces(repaired: &Repaired) -> bool {
-    let is_face = |face: usize| repaired.polygons.corner_range(face).len() >= 3;
-    repaired.is_sound() && (0..repaired.polygons.face_count()).all(is_face)
 }

@@ -31,8 +31,7 @@ const MOST_POINTS: usize = 8;
 /// filled, stay as they are.
 pub(super) fn cut_open(whole: &Repaired) -> Repaired {
     let mut cut = whole.clone();
-    let is_face = |face: usize| whole.polygons.corner_range(face).len() >= 3;
-    if !whole.is_sound() || !(0..whole.polygons.face_count()).all(is_face) {
+    if !whole.has_faces() {
         return cut;
     }
     let sides = Sides::new(&whole.polygons);

@@ -18,7 +18,7 @@ use std::collections::HashSet;
 use glam::DVec3;
 
 use super::charts::parts_of;
-use super::sides::Sides;
+use super::sides::{Sides, ascending};
 use super::{Repair, Repaired};
 use crate::mesh::polygons::newell_normal;
 use crate::mesh::triangulate::triangulate;
@@ -179,10 +179,6 @@ fn edges_across(mesh: &TriMesh, holes: &[Vec<VertexId>]) -> HashSet<[VertexId; 2
     holes.iter().flatten().for_each(|v| is_on_rim[v.index()] = true);
     let all = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     all.filter(|ends| ends.iter().all(|v| is_on_rim[v.index()])).map(ascending).collect()
-}
-
-fn ascending([a, b]: [VertexId; 2]) -> [VertexId; 2] {
-    [a.min(b), a.max(b)]
 }
 
 /// Whether a triangle runs around its normal, and is no needle.

@@ -129,6 +129,12 @@ impl Repaired {
         self.polygons.corners.iter().all(|corner| corner.index() < count)
     }
 
+    /// Whether every corner has a vertex, and every face three corners or more.
+    fn has_faces(&self) -> bool {
+        let is_face = |face: usize| self.polygons.corner_range(face).len() >= 3;
+        self.is_sound() && (0..self.polygons.face_count()).all(is_face)
+    }
+
     /// Cuts each part of the surface open until it is a disk: for parts without crowded edges. Nothing where all are disks
     /// already, or cutting makes none of one.
     #[must_use]

@@ -34,10 +34,8 @@ impl EdgePaths {
     /// Prepares paths on a file's faces. There are none where a face has fewer than three corners, or one without a vertex.
     pub fn new(source: &PolygonMesh, repairs: Repairs) -> Self {
         let repaired = Repaired::new(source, repairs);
-        let is_face = |face: usize| repaired.polygons.corner_range(face).len() >= 3;
         let none = PolygonMesh::default();
-        let is_whole = repaired.is_sound() && (0..repaired.polygons.face_count()).all(is_face);
-        let polygons = if is_whole { &repaired.polygons } else { &none };
+        let polygons = if repaired.has_faces() { &repaired.polygons } else { &none };
         let sides = Sides::new(polygons);
         let at_corner = |corner: u32| source.corners[repaired.corner_of(corner as usize)];
         let in_file = sides.table.edges().map(|on| sides.edge_in_file(&repaired, source, on[0])).collect();

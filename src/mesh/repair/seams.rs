@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::sides::Sides;
+use super::sides::{Sides, ascending};
 use super::{Repair, Repaired};
 use crate::mesh::union::DisjointSets;
 use crate::mesh::{PolygonMesh, VertexId};
@@ -26,14 +26,14 @@ impl Seams {
     /// The same with these edges, too, whose ends may come in any order. What has one vertex at both ends is none.
     #[must_use = "the seams themselves stay as they are"]
     pub fn with(&self, edges: impl IntoIterator<Item = [VertexId; 2]>) -> Self {
-        let fresh = edges.into_iter().filter(|[a, b]| a != b).map(ordered);
+        let fresh = edges.into_iter().filter(|[a, b]| a != b).map(ascending);
         Self { edges: Arc::new(self.edges.iter().copied().chain(fresh).collect()), ..self.clone() }
     }
 
     /// The same without these edges.
     #[must_use = "the seams themselves stay as they are"]
     pub fn without(&self, edges: impl IntoIterator<Item = [VertexId; 2]>) -> Self {
-        let gone: BTreeSet<[VertexId; 2]> = edges.into_iter().map(ordered).collect();
+        let gone: BTreeSet<[VertexId; 2]> = edges.into_iter().map(ascending).collect();
         Self { edges: Arc::new(self.edges.difference(&gone).copied().collect()), ..self.clone() }
     }
 
@@ -43,7 +43,7 @@ impl Seams {
         for face in (0..mesh.face_count()).take_while(|_| !self.edges.is_empty()) {
             let corners = mesh.face(face);
             for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-                missing.remove(&ordered([a, b]));
+                missing.remove(&ascending([a, b]));
             }
         }
         missing.into_iter().collect()
@@ -53,11 +53,6 @@ impl Seams {
     pub fn is_empty(&self) -> bool {
         !self.of_texture && self.edges.is_empty()
     }
-}
-
-/// An edge's ends, the smaller number first.
-fn ordered([a, b]: [VertexId; 2]) -> [VertexId; 2] {
-    [a.min(b), a.max(b)]
 }
 
 impl Repaired {

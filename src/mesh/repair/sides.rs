@@ -105,7 +105,11 @@ impl Repaired {
         } else {
             first = if last == range.start { range.end - 1 } else { last - 1 };
         }
-        let [a, b] = [first, last].map(|corner| source.corners[corner]);
-        [a.min(b), a.max(b)]
+        ascending([first, last].map(|corner| source.corners[corner]))
     }
+}
+
+/// An edge's ends, the smaller number first.
+pub(super) fn ascending([a, b]: [VertexId; 2]) -> [VertexId; 2] {
+    [a.min(b), a.max(b)]
 }

@@ -28,7 +28,7 @@ impl InFile {
         };
         let source = &model.source.polygons;
         // A chart has numbers of its own: all of them together tell those that the file has.
-        let whole = model.chart.as_ref().map(|of| of.charts.whole()).or(model.repaired.as_deref());
+        let whole = model.whole_repaired();
         let of_whole = whole.map(|whole| whole.vertices_of(source));
         let all = || (0..model.vertex_count()).map(VertexId::from_index);
         let of = of_whole.map(|of| all().map(|vertex| of[model.vertex_in_file(vertex).index()]).collect());
