@@ -35,17 +35,21 @@ enum End {
     StartedAgain,
     FreeVirtualBoundary,
     Convex,
+    Grid,
     NotPlanar,
 }
 
 /// The names of the ends, in their order.
-const ENDS: [&str; 6] = ["natural", "iterate", "started again", "virtual boundary, free", "convex", "not planar"];
+const ENDS: [&str; 7] =
+    ["natural", "iterate", "started again", "virtual boundary, free", "convex", "grid", "not planar"];
 
 /// What is added up over the runs on one mesh, and over all.
 #[derive(Clone, Copy, Default)]
 struct Count {
     runs: usize,
     ends: [usize; ENDS.len()],
+    /// Runs that were relaxed after that.
+    relaxed: usize,
     steps: usize,
     most_steps: usize,
     seconds: f64,
@@ -55,17 +59,17 @@ impl Count {
     fn add(&mut self, other: Self) {
         self.runs += other.runs;
         self.ends.iter_mut().zip(other.ends).for_each(|(sum, count)| *sum += count);
+        self.relaxed += other.relaxed;
         self.steps += other.steps;
         self.most_steps = self.most_steps.max(other.most_steps);
         self.seconds += other.seconds;
     }
 
-    fn row(&self, name: String) -> [String; 11] {
-        let [natural, iterate, again, free, convex, not_planar] = self.ends.map(|count| count.to_string());
+    fn row(&self, name: String) -> Vec<String> {
         let per_run = |sum: f64| format!("{:.2}", sum / self.runs as f64);
-        let (steps, seconds) = (per_run(self.steps as f64), per_run(self.seconds));
+        let counts = [self.runs].into_iter().chain(self.ends).chain([self.relaxed]).map(|count| count.to_string());
         let most = self.most_steps.to_string();
-        [name, self.runs.to_string(), natural, iterate, again, free, convex, not_planar, steps, most, seconds]
+        [name].into_iter().chain(counts).chain([per_run(self.steps as f64), most, per_run(self.seconds)]).collect()
     }
 }
 
@@ -75,8 +79,9 @@ fn main() {
     let pairs = arguments.first().and_then(|text| text.parse().ok()).unwrap_or(PAIRS);
     let trace = arguments.iter().any(|argument| argument == "trace");
     let name = arguments.get(1).filter(|name| *name != "trace").cloned().unwrap_or_default();
-    let heads: Vec<&str> = ["mesh", "runs"].into_iter().chain(ENDS).chain(["steps a run", "most", "s a run"]).collect();
-    let mut table = Table::new("auto: runs by the rung that they ended planar on", &heads);
+    let heads: Vec<&str> =
+        ["mesh", "runs"].into_iter().chain(ENDS).chain(["relaxed", "steps a run", "most", "s a run"]).collect();
+    let mut table = Table::new("auto: runs by the rung that first was planar; how many were relaxed then", &heads);
     let mut all = Count::default();
     for path in meshes(&name) {
         let mesh = DiskMesh::try_from(read_mesh(&path).expect("readable").polygons.triangulate()).expect("a disk");
@@ -106,10 +111,8 @@ fn on_mesh(mesh: &DiskMesh, pairs: usize, trace: bool) -> Count {
     for _ in 0..pairs {
         let pins = random_pins(mesh, &mut random);
         for family in FAMILIES {
-            let (seconds, (end, steps)) = time(|| run_one(mesh, family, &pins, trace));
-            let mut ends = [0; ENDS.len()];
-            ends[end as usize] = 1;
-            count.add(Count { runs: 1, ends, steps, most_steps: steps, seconds });
+            let (seconds, run) = time(|| run_one(mesh, family, &pins, trace));
+            count.add(Count { seconds, ..run });
         }
     }
     count
@@ -126,30 +129,38 @@ fn random_pins(mesh: &DiskMesh, random: &mut Random) -> Pins {
     fixed_pins([(first, DVec2::ZERO), (second, DVec2::new(distance, 0.0))])
 }
 
-/// Where a run ended, and after how many steps.
-fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> (End, usize) {
+/// One run: where it ended, and after how many steps.
+fn run_one(mesh: &DiskMesh, family: Family, pins: &Pins, trace: bool) -> Count {
     let mut run = Ladder::new(Settings::new(Method::Auto, family), pins.clone());
-    let mut steps: Vec<(StepReport, bool)> = Vec::new();
+    let mut steps: Vec<StepReport> = Vec::new();
     let outcome = run.finish(mesh, Control::unattended(), |step: Step| {
         let report = StepReport::of(&step);
         if trace {
             println!("  {report:?}");
         }
-        steps.push((report, step.rung == Method::Natural));
+        steps.push(report);
     });
-    let started_again = steps.iter().any(|(step, is_linear)| *is_linear && (step.index > 0 || step.note.is_some()));
-    let end = match steps.last() {
-        Some((last, _)) if last.planar => match last.rung {
-            Method::Natural | Method::Iterate if started_again => End::StartedAgain,
-            Method::Natural => End::Natural,
-            Method::Iterate => End::Iterate,
-            _ if last.bent_vertices == 0 => End::FreeVirtualBoundary,
-            _ => End::Convex,
-        },
-        last => {
-            println!("not planar: {family}, pins {pins:?}: {outcome:?} after {last:?}");
-            End::NotPlanar
-        }
-    };
-    (end, steps.len())
+    let last = steps.last();
+    if !last.is_some_and(|last| last.planar) {
+        println!("not planar: {family}, pins {pins:?}: {outcome:?} after {last:?}");
+    }
+    let mut ends = [0; ENDS.len()];
+    ends[end_of(&steps) as usize] = 1;
+    let relaxed = usize::from(last.is_some_and(|last| last.rung == Method::Relax));
+    Count { runs: 1, ends, relaxed, steps: steps.len(), most_steps: steps.len(), seconds: 0.0 }
+}
+
+/// The rung whose step was planar first, where the last one is.
+fn end_of(steps: &[StepReport]) -> End {
+    let is_planar = steps.last().is_some_and(|last| last.planar);
+    let Some(first) = steps.iter().position(|step| step.planar).filter(|_| is_planar) else { return End::NotPlanar };
+    let has_begun_again = |step: &StepReport| step.rung == Method::Natural && (step.index > 0 || step.note.is_some());
+    match steps[first].rung {
+        Method::Natural | Method::Iterate if steps[..=first].iter().any(has_begun_again) => End::StartedAgain,
+        Method::Natural => End::Natural,
+        Method::Iterate => End::Iterate,
+        Method::Schnyder => End::Grid,
+        _ if steps[first].bent_vertices == 0 => End::FreeVirtualBoundary,
+        _ => End::Convex,
+    }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use crate::examples::Example;
+use crate::io::machine_memory_bytes;
 use crate::render;
 use crate::session::{Action, Preferences, RecentFiles, recovery_folder};
 use crate::ui::{Dialogs, Editor, theme, window_ui};
@@ -37,6 +38,8 @@ pub struct Start {
     pub preferences: Option<PathBuf>,
     /// Where copies for recovery are kept; nowhere in tests.
     pub recovery_folder: Option<PathBuf>,
+    /// The machine's memory, bytes: a file that may take more than half of it is asked about. None asks about none.
+    pub memory: Option<u64>,
     /// Whether to leave the system's file dialogs alone.
     pub dialogs_inside: bool,
 }
@@ -59,6 +62,9 @@ impl App {
         }
         if let Some(folder) = start.recovery_folder {
             editor.session.keep_copies_in(folder);
+        }
+        if let Some(bytes) = start.memory {
+            editor.session.heed_memory(bytes);
         }
         editor.session.handle(start.file.map_or(Action::OpenExample(Example::Face), Action::Open));
         Self { editor, preferences: start.preferences }
@@ -123,6 +129,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
         recent_store: RecentFiles::default_store(),
         preferences,
         recovery_folder: recovery_folder(),
+        memory: machine_memory_bytes(),
         dialogs_inside: false,
     };
     eframe::run_native("freebound", options, Box::new(|context| Ok(Box::new(App::new(context, start))))).map_err(

@@ -6,7 +6,7 @@
 //! | `phases` | every phase at growing sizes |
 //! | `again` | factoring and solving again with what is known already |
 //! | `proof` | verdict and distortion |
-//! | `reader` | reading and writing OBJ |
+//! | `reader` | reading and writing OBJ and PLY |
 //! | `end` | the program itself as a child process: time and peak memory |
 //!
 //! Without words all of them. Meshes are made by code (`common/sheet.rs`); files go into a temporary folder.

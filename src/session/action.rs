@@ -45,6 +45,10 @@ pub enum Action {
     OpenTogether(Together),
     /// Opens a built-in mesh.
     OpenExample(Example),
+    /// Opens the file that waits for a word, for it may take more than half of the machine's memory.
+    OpenLarge,
+    /// Leaves it.
+    LeaveLarge,
     /// Forgets the files opened last.
     ClearRecent,
     /// Pins vertices where they lie.

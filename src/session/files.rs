@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::action::Together;
+use super::large::{LargeFile, Wanted};
 use super::opened::{OpenError, Opened, Origin};
 use super::recovery::Autosave;
 use super::saving::{ProjectSaves, Request, picture_source, source_of};
@@ -37,8 +38,12 @@ struct OnTable {
 /// What is open, read and written.
 pub(super) struct Files {
     table: OnTable,
-    /// What is being opened, by the file that is to be remembered once it is open.
-    loading: Background<Option<PathBuf>, Result<Opened, OpenError>>,
+    /// What is being opened.
+    loading: Background<Wanted, Result<Opened, OpenError>>,
+    /// The machine's memory, bytes: what may take more than half of it is opened once a person has said so.
+    pub(super) memory: Option<u64>,
+    /// What waits for that.
+    large: Option<LargeFile>,
     /// What follows once that is open.
     together: Option<Together>,
     /// Results being written.
@@ -55,6 +60,8 @@ impl Files {
         Self {
             table: OnTable::default(),
             loading: Background::new("load", wake),
+            memory: None,
+            large: None,
             together: None,
             outputs: Background::new("save", wake),
             projects: ProjectSaves::new(wake),
@@ -123,8 +130,43 @@ impl Files {
 impl Files {
     /// Opens a mesh file or a project.
     pub(super) fn open(&mut self, path: PathBuf) {
+        self.begin(Wanted::File(path));
+    }
+
+    /// Opens something, with nothing that follows, and nothing else.
+    fn begin(&mut self, wanted: Wanted) {
         self.together = None;
-        self.loading.start(Some(path.clone()), move |_| Opened::read(&path));
+        self.load(wanted, self.memory);
+    }
+
+    fn load(&mut self, wanted: Wanted, memory: Option<u64>) {
+        self.large = None;
+        self.loading.start(wanted.clone(), move |_| wanted.open(memory));
+    }
+
+    /// What waits for a word, for it may take more than half of the machine's memory.
+    pub(super) fn large(&self) -> Option<&LargeFile> {
+        self.large.as_ref()
+    }
+
+    /// Opens what waits for a word.
+    pub(super) fn open_large(&mut self) {
+        if let Some(large) = self.large.take() {
+            self.load(large.wanted, None);
+        }
+    }
+
+    /// Leaves it.
+    pub(super) fn leave_large(&mut self) {
+        if self.large.take().is_some() {
+            self.end_opening();
+        }
+    }
+
+    /// Nothing came of what was to be opened.
+    fn end_opening(&mut self) {
+        self.together = None;
+        self.autosave.give_up_claim();
     }
 
     /// Opens a mesh or a project; what belongs to it follows.
@@ -135,15 +177,13 @@ impl Files {
 
     /// Opens a built-in mesh.
     pub(super) fn open_example(&mut self, example: Example) {
-        self.together = None;
-        self.loading.start(None, move |_| Ok(Opened::example(example)));
+        self.begin(Wanted::Example(example));
     }
 
     /// Opens what a session before has left. It belongs to this session from now on.
     pub(super) fn recover(&mut self, path: PathBuf, messages: &mut Messages) {
         if self.autosave.claim(&path) {
-            self.together = None;
-            self.loading.start(None, move |_| Opened::recovered(&path));
+            self.begin(Wanted::Recovery(path));
         } else {
             let text = format!("another session works with it already, or it is gone: {}", path.display());
             messages.fail(Place::Mesh, text, None);
@@ -153,24 +193,28 @@ impl Files {
     /// Opens nothing, whatever was asked for.
     pub(super) fn cancel_loading(&mut self) {
         self.loading.cancel();
-        self.autosave.give_up_claim();
+        self.large = None;
+        self.end_opening();
     }
 
     /// What has been read.
     pub(super) fn poll_loading(&mut self, messages: &mut Messages) -> Option<Opened> {
-        let (path, loaded) = self.loading.poll()?;
+        let (wanted, loaded) = self.loading.poll()?;
         match loaded {
             Ok(Ok(opened)) => {
-                if let Some(path) = path {
+                if let Wanted::File(path) = wanted {
                     self.recent.remember(&path);
                 }
                 return Some(opened);
             }
+            Ok(Err(OpenError::Memory { path, source })) => {
+                self.large = Some(LargeFile { wanted, path, shortage: source });
+                return None;
+            }
             Ok(Err(error)) => messages.fail(Place::Mesh, error.to_string(), Some(error.remedy())),
             Err(failure) => messages.fail_background(Place::Mesh, "loading", &failure),
         }
-        self.together = None;
-        self.autosave.give_up_claim();
+        self.end_opening();
         None
     }
 

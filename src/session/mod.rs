@@ -33,6 +33,7 @@
 //! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
 //! | `files`         | part: what is open and saved, read and written                             |
 //! | `opened`        | what opening brings                                                        |
+//! | `large`         | what is to be opened; files that ask for much memory                       |
 //! | `model`         | a mesh as it was opened                                                    |
 //! | `surface`       | what comes of its faces in a form: a disk, several, or faults              |
 //! | `seam_edges`    | edges of a mesh that seams follow as a rule                                |
@@ -61,6 +62,7 @@ mod folder;
 mod forming;
 mod history;
 mod in_use;
+mod large;
 mod messages;
 mod model;
 mod open_mesh;
@@ -91,6 +93,7 @@ pub use charts::ChartState;
 pub use document::{ChartEdits, Command, Document, Shape};
 pub use drag::Preview;
 pub use history::History;
+pub use large::LargeFile;
 pub use messages::{Message, Place, Severity, named};
 use messages::{Messages, Written};
 pub use model::{ChartOf, Model, Surface};

@@ -8,8 +8,8 @@ use super::model::example_picture;
 use super::{Document, Message, Model, Place};
 use crate::examples::Example;
 use crate::io::{
-    FileStamp, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView, ReadError,
-    RecoveryNote, Target, Targets, material_picture,
+    FileStamp, MemoryShortage, PROJECT_EXTENSION, PictureFile, ProjectError, ProjectFile, ProjectSource, ProjectView,
+    ReadError, RecoveryNote, Target, Targets, check_memory, material_picture,
 };
 use crate::mesh::{FaceId, Form, VertexId};
 
@@ -44,6 +44,8 @@ pub(super) enum Origin {
 pub(super) enum OpenError {
     #[error("{}: {source}", path.display())]
     Mesh { path: PathBuf, source: ReadError },
+    #[error("{}: {source}", path.display())]
+    Memory { path: PathBuf, source: MemoryShortage },
     #[error(transparent)]
     Project(#[from] ProjectError),
     #[error("{}: the mesh of the project is not there", mesh.display())]
@@ -57,6 +59,7 @@ impl OpenError {
     pub(super) fn remedy(&self) -> &'static str {
         match self {
             Self::Mesh { source, .. } => source.remedy(),
+            Self::Memory { .. } => "open it on a machine with more memory, or simplify the mesh",
             Self::Project(error) => error.remedy(),
             Self::NoMesh { .. } => "put it back, or write where it is now into the project, which is a text file",
             Self::NoExample { .. } => "open it with a newer version of Freebound",
@@ -65,13 +68,13 @@ impl OpenError {
 }
 
 impl Opened {
-    /// Opens a project or a mesh file, by the extension of its name.
-    pub(super) fn read(path: &Path) -> Result<Self, OpenError> {
+    /// Opens a project or a mesh file, by the extension of its name, within half of this memory, bytes, where it is told.
+    pub(super) fn read(path: &Path, memory: Option<u64>) -> Result<Self, OpenError> {
         let is_project = path.extension().is_some_and(|found| found.eq_ignore_ascii_case(PROJECT_EXTENSION));
         if is_project {
-            return Self::project(ProjectFile::read(path)?, Origin::Project(path.to_owned()));
+            return Self::project(ProjectFile::read(path)?, Origin::Project(path.to_owned()), memory);
         }
-        let model = read_model(path, Form::default())?;
+        let model = read_model(path, Form::default(), memory)?;
         let mut remarks = Vec::new();
         let picture = material_picture(&model.source, path).and_then(|picture| {
             let found = PictureFile::read(&picture);
@@ -81,11 +84,11 @@ impl Opened {
         Ok(Self { remarks, ..Self::mesh(model, document) })
     }
 
-    /// Opens what a session before has left.
-    pub(super) fn recovered(path: &Path) -> Result<Self, OpenError> {
+    /// Opens what a session before has left, within half of this memory.
+    pub(super) fn recovered(path: &Path, memory: Option<u64>) -> Result<Self, OpenError> {
         let mut project = ProjectFile::read(path)?;
         let note = project.recovery.take().unwrap_or_default();
-        Self::project(project, Origin::Recovery(note))
+        Self::project(project, Origin::Recovery(note), memory)
     }
 
     /// A built-in mesh, with the picture and the constraints that belong to it.
@@ -105,10 +108,12 @@ impl Opened {
         }
     }
 
-    fn project(project: ProjectFile, origin: Origin) -> Result<Self, OpenError> {
+    fn project(project: ProjectFile, origin: Origin, memory: Option<u64>) -> Result<Self, OpenError> {
         let mut remarks = Vec::new();
         let asked = project.form();
-        let model = project_mesh(&project.mesh, asked.clone(), &mut remarks)?.with_chart(project.chart);
+        let (mesh, change) = project_mesh(&project.mesh, asked.clone(), memory)?;
+        remarks.extend(change);
+        let model = mesh.with_chart(project.chart);
         let form = with_seams_there_are(&asked, &model, &mut remarks);
         let model = Model { form: form.clone(), ..model };
         let picture = project.picture.as_ref().and_then(|source| project_picture(source, &mut remarks));
@@ -135,29 +140,39 @@ impl Opened {
     }
 }
 
-fn read_model(path: &Path, form: Form) -> Result<Model, OpenError> {
+/// Reads a mesh, within half of this memory, bytes.
+fn read_model(path: &Path, form: Form, memory: Option<u64>) -> Result<Model, OpenError> {
+    check_memory(path, memory).map_err(|source| OpenError::Memory { path: path.to_owned(), source })?;
     Model::read(path, form).map_err(|source| OpenError::Mesh { path: path.to_owned(), source })
 }
 
-fn project_mesh(source: &ProjectSource, form: Form, remarks: &mut Vec<Message>) -> Result<Model, OpenError> {
+/// The mesh of a project, with what there is to say where it has changed since.
+fn project_mesh(
+    source: &ProjectSource,
+    form: Form,
+    memory: Option<u64>,
+) -> Result<(Model, Option<Message>), OpenError> {
     match source {
         ProjectSource::Example(name) => {
             let example = example_called(name).ok_or_else(|| OpenError::NoExample { name: name.clone() })?;
-            Ok(Model::example(example).in_form(form))
+            Ok((Model::example(example).in_form(form), None))
         }
+        ProjectSource::File { path, .. } if !path.exists() => Err(OpenError::NoMesh { mesh: path.clone() }),
         ProjectSource::File { path, stamp } => {
-            if !path.exists() {
-                return Err(OpenError::NoMesh { mesh: path.clone() });
-            }
-            let model = read_model(path, form)?;
-            if has_changed(stamp.as_ref(), model.stamp.as_ref()) {
-                let text = format!("{}: the mesh has changed since the project was saved", path.display());
-                let remedy = "check that the pins are on the right vertices, then save the project";
-                remarks.push(Message::error(Place::Mesh, text).with_remedy(remedy));
-            }
-            Ok(model)
+            let mesh = read_model(path, form, memory)?;
+            let change = change_remark(path, stamp.as_ref(), &mesh);
+            Ok((mesh, change))
         }
     }
+}
+
+/// What there is to say where a mesh is not as it was when its project was saved.
+fn change_remark(path: &Path, stamp: Option<&FileStamp>, mesh: &Model) -> Option<Message> {
+    has_changed(stamp, mesh.stamp.as_ref()).then(|| {
+        let text = format!("{}: the mesh has changed since the project was saved", path.display());
+        let remedy = "check that the pins are on the right vertices, then save the project";
+        Message::error(Place::Mesh, text).with_remedy(remedy)
+    })
 }
 
 fn project_picture(source: &ProjectSource, remarks: &mut Vec<Message>) -> Option<Arc<PictureFile>> {

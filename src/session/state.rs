@@ -71,6 +71,8 @@ impl Session {
             Action::Open(path) => self.files.open(path),
             Action::OpenTogether(files) => self.files.open_together(files),
             Action::OpenExample(example) => self.files.open_example(example),
+            Action::OpenLarge => self.files.open_large(),
+            Action::LeaveLarge => self.files.leave_large(),
             Action::Recover(path) => self.files.recover(path, &mut self.messages),
             Action::DiscardRecovery(path) => self.files.autosave.discard(&path),
             Action::ClearRecent => self.files.recent.clear(),

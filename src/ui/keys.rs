@@ -99,7 +99,7 @@ pub const BINDINGS: &[Binding] = &[
 /// and the arrows are the menu's; otherwise what has the keyboard's focus keeps those of them that it needs. Shift+Tab
 /// moves the focus, as it does everywhere.
 pub(super) fn requests(context: &egui::Context, editor: &Editor) -> Vec<Request> {
-    if editor.files.unsaved.is_asked() {
+    if editor.is_asking() {
         let is_left = context.input_mut(|input| input.consume_key(NONE, Key::Escape));
         return if is_left { vec![Request::Escape] } else { Vec::new() };
     }

@@ -20,6 +20,7 @@ mod glyphs;
 mod harness;
 mod head;
 mod hull;
+mod large;
 mod layout;
 mod magnifier;
 #[path = "../../examples/makers/mod.rs"]

@@ -196,7 +196,7 @@ impl Editor {
     }
 
     fn escape(&mut self) {
-        if self.close_question() || self.files.dialogs.close() || self.layout.close_window() {
+        if self.close_question() || self.leave_large() || self.files.dialogs.close() || self.layout.close_window() {
         } else if self.tools.end_drag() {
             self.act(Action::GiveUpGesture);
         } else if self.pointer.end_box() {

@@ -25,6 +25,7 @@ pub(in crate::ui) fn floating_windows(context: &egui::Context, editor: &mut Edit
     }
     super::toast::toast(context, editor, requests);
     super::unsaved::question(context, editor, requests);
+    super::large::question(context, editor, requests);
     if let Some(choice) = editor.files.dialogs.show(context) {
         editor.take_choice(choice);
     }

@@ -18,6 +18,7 @@
 //! | `floating.rs` | list of keys, "go to", the file dialog inside the window, exports, pictures of panes |
 //! | `toast.rs` | good news, for a few seconds |
 //! | `dialogs.rs` | choice of a file |
+//! | `large.rs` | the question before a large file is opened |
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
 mod advice;
@@ -28,6 +29,7 @@ mod diagnosis;
 pub(super) mod dialogs;
 pub(super) mod equation_table;
 pub(super) mod floating;
+mod large;
 pub(super) mod menu;
 pub(super) mod method_panel;
 mod parts;

@@ -29,7 +29,7 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
     let is_held = matches!(editor.session.status(), Status::Held);
     let words = match editor.tools.tool() {
         _ if editor.tools.dragged().is_some() => "Move the pin; the embedding follows. Esc gives up.",
-        _ if editor.session.model().is_none() => "Open a mesh: drop an OBJ file on the window, or press Ctrl+O.",
+        _ if editor.session.model().is_none() => "Open a mesh: drop its file on the window, or press Ctrl+O.",
         Tool::Constrain if !is_over_new => return editor.constrain_words().into(),
         Tool::Seam => return editor.seam_words(has_shift).into(),
         _ if is_held && !editor.timeline.curves_shown() => PRESS_SPACE,

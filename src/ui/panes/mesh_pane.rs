@@ -36,7 +36,7 @@ pub(in crate::ui) fn mesh_pane_ui(ui: &mut egui::Ui, editor: &mut Editor, reques
         let lines: &[&str] = if editor.session.busy().is_some() {
             &["Opening…"]
         } else {
-            &["No mesh open", "Drop an OBJ file or a project here, or take one of the examples in the File menu"]
+            &["No mesh open", "Drop a mesh file or a project here, or take one of the examples in the File menu"]
         };
         return pane::empty_state(ui, rect, lines);
     };

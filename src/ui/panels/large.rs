@@ -1,0 +1,37 @@
+//! The question before a file is opened that may take more than half of the machine's memory.
+
+use eframe::egui;
+
+use crate::session::Action;
+use crate::ui::{Control, Editor, Request};
+
+impl Editor {
+    /// Whether a question waits that stops everything else.
+    pub(in crate::ui) fn is_asking(&self) -> bool {
+        self.files.unsaved.is_asked() || self.session.large_file().is_some()
+    }
+
+    /// Leaves the file that is asked about. Returns whether there was one.
+    pub(in crate::ui) fn leave_large(&mut self) -> bool {
+        let was_asked = self.session.large_file().is_some();
+        self.session.handle(Action::LeaveLarge);
+        was_asked
+    }
+}
+
+pub(in crate::ui) fn question(context: &egui::Context, editor: &Editor, requests: &mut Vec<Request>) {
+    let Some(file) = editor.session.large_file() else { return };
+    let name = file.path.file_name().unwrap_or_default().to_string_lossy();
+    egui::Modal::new(egui::Id::unique("large file")).show(context, |ui| {
+        ui.set_width(380.0);
+        ui.strong(format!("Open the large file {name}?"));
+        ui.add_space(4.0);
+        ui.label(format!("By its size, {}. Where memory runs out, the system may end Freebound.", file.shortage));
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            for (action, words) in [(Action::OpenLarge, "Open"), (Action::LeaveLarge, "Cancel")] {
+                ui.button(words).asks(Request::Do(action), requests);
+            }
+        });
+    });
+}
