@@ -7,25 +7,25 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::{Cut, FlattenArguments};
+use super::args::FlattenArguments;
 use super::exit::{Remedy, conclude};
 use super::failed::await_report;
 use super::job::HeadlessJob;
 use super::parts::with_parts;
+use super::pins::targets_on;
 use super::places::Places;
 use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
 use super::seams::formed;
-use super::standard::{Sizes, is_standard, name_of_input, read_model};
+use super::standard::{Sizes, is_standard, read_model};
 use super::typed::ChartSize;
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
 use crate::io::{
-    Constraints, LayoutError, Materials, OutputFit, OutputKind, PictureFile, Precision, Target, Targets, TextureError,
-    WriteError,
+    LayoutError, Materials, OutputFit, OutputKind, PictureFile, Precision, Targets, TextureError, WriteError,
 };
-use crate::mesh::{DiskMesh, FaceId, Fault, VertexId, WeldDistance};
+use crate::mesh::{DiskMesh, FaceId, Fault, WeldDistance};
 use crate::session::{Arrangement, Document, Model, Surface};
 use crate::solver::{Choice as _, SolveError};
 
@@ -33,43 +33,42 @@ use crate::solver::{Choice as _, SolveError};
 const FOLDER: &str = "freebound-example";
 
 pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
+    let FlattenArguments { input, solve, .. } = arguments;
     if let Some((option, why)) = arguments.idle_option() {
         let name = arguments.settings().method.name();
         return Err(Failure::Usage(format!("--method {name} takes no {option}: {why}")));
     }
-    if arguments.fit == Some(OutputFit::True) && (arguments.aspect.is_some() || arguments.picture.is_some()) {
+    if arguments.fit == Some(OutputFit::True) && (solve.aspect.is_some() || arguments.picture.is_some()) {
         return Err(Failure::Usage(
             "--fit true makes no texture coordinates of a picture: leave out one of them".into(),
         ));
     }
-    if arguments.start.is_some() && arguments.fit == Some(OutputFit::Unit) {
+    if solve.start.is_some() && arguments.fit == Some(OutputFit::Unit) {
         return Err(Failure::Usage("--start uv keeps the place of the file's layout: leave out --fit unit".into()));
     }
     refuse_unwritten_formats(arguments.output.as_deref())?;
     let places = Places::of_flatten(arguments);
     refuse_clashes(arguments, &places)?;
     await_report(arguments.report.as_deref());
-    set_threads(arguments.threads)?;
+    set_threads(solve.threads)?;
     let progress = Progress::default();
     progress.follow(|| {
         let start = Instant::now();
         progress.enter("reading");
-        let read = read_model(&arguments.mesh, Sizes::typed(arguments.large))?;
-        let model = with_parts(formed(&read, arguments)?, arguments.parts.as_ref())?;
-        places.spare_materials(&model.source, &arguments.mesh)?;
+        let read = read_model(&input.mesh, Sizes::typed(input.large))?;
+        let model = with_parts(formed(&read, input)?, input.parts.as_ref())?;
+        places.spare_materials(&model.source, &input.mesh)?;
         let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
         disk_of(&model)?;
-        let targets = gather(arguments, model.vertex_count_in_file())?;
-        refuse_pins_of_joined_vertices(&model, &targets)?;
-        refuse_pins_of_no_face(&model, &targets)?;
+        let targets = targets_on(&model, &input.mesh, solve)?;
         let packing = arguments.packing(picture.as_ref());
         let document = Document {
             sizes: sizes(&arguments.chart_size, &model, &targets)?,
             targets,
             settings: arguments.settings(),
             picture: picture.map(Arc::new),
-            aspect: arguments.aspect,
+            aspect: solve.aspect,
             ..Document::default()
         };
         let job = HeadlessJob {
@@ -131,16 +130,9 @@ fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeM
 /// Refuses files that would be written over, by the run itself or as results of one another.
 fn refuse_clashes(arguments: &FlattenArguments, places: &Places) -> Result<(), Failure> {
     places.keep_apart()?;
-    places.spare(&arguments.mesh, "the mesh")?;
-    let edges = match &arguments.cut {
-        Cut::Along(path) => Some(path.as_path()),
-        Cut::None | Cut::Auto => None,
-    };
-    let [constraints, picture] = [&arguments.constraints, &arguments.picture].map(Option::as_deref);
-    for (file, what) in [(constraints, "the constraints"), (picture, "the picture"), (edges, "the edges")] {
-        if let Some(path) = file {
-            places.spare(path, what)?;
-        }
+    places.spare_inputs(&arguments.input, &arguments.solve)?;
+    if let Some(picture) = &arguments.picture {
+        places.spare(picture, "the picture")?;
     }
     let beside = [(arguments.picture.is_some(), "--picture"), (arguments.copy_materials, "--copy-materials")];
     match beside.into_iter().find(|(given, _)| *given && arguments.output.as_deref().is_some_and(is_standard)) {
@@ -181,65 +173,6 @@ fn flatten_example() -> Result<Status, Failure> {
     Ok(status)
 }
 
-/// The targets of all pins, for a mesh with so many vertices.
-///
-/// # Errors
-///
-/// A file that cannot be used, or a pin that clashes with another one; where that stands in the file, with its line.
-fn gather(arguments: &FlattenArguments, vertex_count: usize) -> Result<Targets, Failure> {
-    let file = match &arguments.constraints {
-        Some(path) => Constraints::read(path, vertex_count)?,
-        None => Constraints::default(),
-    };
-    let place = arguments.constraints.as_deref().unwrap_or(Path::new(""));
-    let mut targets = file.targets.clone();
-    for (vertex, target) in &arguments.pins {
-        if let Some(line) = file.lines.get(vertex) {
-            let text = format!("line {line}: vertex {vertex} is pinned by --pin, too: leave out one of them");
-            return Err(Failure::Usage(format!("{}: {text}", place.display())));
-        }
-        if let Some(first) = in_the_way(&file.targets, target) {
-            let line = file.lines[&first];
-            let text = format!("line {line}: vertex {first} has the target that --pin gives to vertex {vertex}");
-            return Err(Failure::Usage(format!("{}: {text}: move one of them, or give a weight", place.display())));
-        }
-        if targets.insert(*vertex, *target).is_some() {
-            let mesh = name_of_input(&arguments.mesh);
-            return Err(Failure::Usage(format!("{mesh}: vertex {vertex} is pinned twice: leave out one of the --pin")));
-        }
-    }
-    Ok(targets)
-}
-
-/// Refuses pins of vertices that were joined with others: these stand for them.
-fn refuse_pins_of_joined_vertices(model: &Model, targets: &Targets) -> Result<(), Failure> {
-    let Some(repaired) = model.whole_repaired() else { return Ok(()) };
-    match targets.keys().find_map(|&vertex| Some((vertex, repaired.stands_for(vertex)?))) {
-        Some((vertex, other)) => {
-            let text = format!("vertex {vertex} is pinned, but was joined with vertex {other}: pin {other}");
-            Err(Failure::Usage(format!("{}: {text}", model.path_words())))
-        }
-        None => Ok(()),
-    }
-}
-
-/// Refuses pins of vertices that belong to no chart, where the mesh has several.
-fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failure> {
-    let Some(of) = &model.chart else { return Ok(()) };
-    let count = model.vertex_count_in_file();
-    match targets.keys().find(|&&vertex| of.charts.chart_of_vertex(vertex).is_none()) {
-        Some(&vertex) if vertex.index() >= count => Err(SolveError::NoSuchVertex { vertex, count }.into()),
-        Some(&vertex) => Err(SolveError::UnusedVertex { vertex }.into()),
-        None => Ok(()),
-    }
-}
-
-/// The exact pin that has the target of another exact one.
-fn in_the_way(targets: &Targets, target: &Target) -> Option<VertexId> {
-    let clashes = |other: &Target| target.hold.is_exact() && other.hold.is_exact() && other.uv == target.uv;
-    targets.iter().find(|(_, other)| clashes(other)).map(|(&vertex, _)| vertex)
-}
-
 /// An error where the user asked to stop.
 pub(super) fn go_on() -> Result<(), SolveError> {
     if is_interrupted() { Err(SolveError::Cancelled) } else { Ok(()) }
@@ -276,7 +209,8 @@ pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
     }
 }
 
-fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
+/// Has all work done by so many threads.
+pub(super) fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
     let Some(count) = threads else { return Ok(()) };
     rayon::ThreadPoolBuilder::new()
         .num_threads(count.into())

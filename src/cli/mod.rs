@@ -3,16 +3,18 @@
 //! | file          | what it holds                                                          |
 //! |---------------|------------------------------------------------------------------------|
 //! | `mod`         | runs a command; list of methods and families                           |
-//! | `args`        | what can be typed                                                      |
+//! | `args/`       | what can be typed                                                      |
 //! | `typed`       | what is typed for an option, read                                      |
 //! | `flatten`     | reads, solves, proves and writes; the example where no window opens    |
 //! | `job`         | a flattening of one chart or several, written and summed up            |
 //! | `check`       | diagnosis of a mesh, verdict on its texture coordinates                |
+//! | `compare`     | several methods on one mesh, side by side                              |
 //! | `figures`     | the paper's figures, computed again                                    |
 //! | `progress`    | the line that follows the work, and Ctrl-C                             |
 //! | `summary`     | the lines that sum a run up, and where its report goes                 |
 //! | `failed`      | the report of a run that came to nothing                               |
 //! | `parts`       | the parts of a mesh that are flattened                                 |
+//! | `pins`        | the pins that are asked for                                            |
 //! | `places`      | files of a run that must not be one another                            |
 //! | `seams`       | the form that a mesh is asked for in, with its seams                   |
 //! | `standard`    | `-` as a file: standard input and output                               |
@@ -21,12 +23,14 @@
 
 mod args;
 mod check;
+mod compare;
 mod exit;
 mod failed;
 mod figures;
 mod flatten;
 mod job;
 mod parts;
+mod pins;
 mod places;
 mod progress;
 mod say;
@@ -40,7 +44,10 @@ use std::process::ExitCode;
 use self::failed::Subject;
 use crate::solver::{Choice, Family, Method, Words};
 
-pub use args::{Arguments, Command, FlattenArguments};
+pub use args::{
+    Arguments, Command, CompareArguments, ComparisonFile, Cut, FlattenArguments, MeshArguments, SeamKind,
+    SolveArguments,
+};
 pub use exit::{Failure, Remedy, Status};
 pub use figures::pairs;
 pub use flatten::run_example;
@@ -50,7 +57,8 @@ pub use say::warn;
 pub fn run(command: &Command) -> ExitCode {
     progress::stop_on_interrupt();
     let (outcome, subject) = match command {
-        Command::Flatten(arguments) => (flatten::run(arguments), Some((&arguments.mesh, &arguments.report))),
+        Command::Flatten(arguments) => (flatten::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
+        Command::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
         Command::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Command::Figures(arguments) => (figures::run(&arguments.folder), None),
         Command::Methods => {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Failure;
-use super::args::{CheckArguments, FlattenArguments};
+use super::args::{CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, SolveArguments};
 use super::standard::is_standard;
 use crate::io::{
     MeshFile, PictureFile, StepsFolder, copies_of_materials, is_same_file, is_standard_input, material_files,
@@ -31,6 +31,13 @@ impl Places {
         let asked = [("-o", output), ("--svg", svg), ("--png", png), ("--report", report), ("--picture", &library)];
         let place = |(option, path): (_, &Option<PathBuf>)| Some(Place { option, path: path.clone()? });
         Self { files: asked.into_iter().filter_map(place).collect(), steps: arguments.steps.clone() }
+    }
+
+    pub(super) fn of_compare(arguments: &CompareArguments) -> Self {
+        let report = arguments.report.as_deref().map(|path| ("--report", path));
+        let outputs = arguments.outputs().into_iter().map(|(_, option, path)| (option, path));
+        let files = outputs.chain(report).map(|(option, path)| Place { option, path: path.to_owned() });
+        Self { files: files.collect(), steps: None }
     }
 
     pub(super) fn of_check(arguments: &CheckArguments) -> Self {
@@ -67,7 +74,7 @@ impl Places {
         let (option, copies) = match picture {
             Some(picture) => ("--picture", picture.copies_beside(mesh)?),
             None if arguments.copy_materials => {
-                ("--copy-materials", copies_of_materials(source, &arguments.mesh, mesh)?)
+                ("--copy-materials", copies_of_materials(source, &arguments.input.mesh, mesh)?)
             }
             None => return Ok(()),
         };
@@ -92,6 +99,18 @@ impl Places {
     /// Refuses to write over files that the mesh's materials name.
     pub(super) fn spare_materials(&self, source: &MeshFile, mesh: &Path) -> Result<(), Failure> {
         material_files(source, mesh).iter().try_for_each(|file| self.spare(file, "a file that belongs to the mesh"))
+    }
+
+    /// Refuses to write over the files that say what is solved: mesh, constraints, edges.
+    pub(super) fn spare_inputs(&self, input: &MeshArguments, solve: &SolveArguments) -> Result<(), Failure> {
+        self.spare(&input.mesh, "the mesh")?;
+        if let Some(constraints) = &solve.constraints {
+            self.spare(constraints, "the constraints")?;
+        }
+        match &input.cut {
+            Cut::Along(edges) => self.spare(edges, "the edges"),
+            Cut::None | Cut::Auto => Ok(()),
+        }
     }
 
     /// Refuses to write over a file that is read. `what` it is, in words.

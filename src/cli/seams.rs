@@ -1,7 +1,7 @@
 //! The form that a mesh is asked for in, with its seams.
 
 use super::Failure;
-use super::args::{Cut, FlattenArguments, SeamKind};
+use super::args::{Cut, MeshArguments, SeamKind};
 use crate::io::{LabelError, TextureError, read_edges};
 use crate::mesh::{Form, VertexId};
 use crate::session::Model;
@@ -11,7 +11,7 @@ use crate::session::Model;
 /// # Errors
 ///
 /// Seams along what the file does not have, or a file of edges that cannot be used.
-pub(super) fn formed(model: &Model, arguments: &FlattenArguments) -> Result<Model, Failure> {
+pub(super) fn formed(model: &Model, arguments: &MeshArguments) -> Result<Model, Failure> {
     let mut form = arguments.form();
     if form.seams.of_texture {
         check_texture(model)?;

@@ -9,8 +9,8 @@ use super::job::Solved;
 use super::say::{say, warn};
 use super::standard::is_standard;
 use crate::io::{
-    ChartReport, MeshReport, Output, PackingReport, PinsReport, Placement, Report, Seconds, WriteError,
-    write_atomically, write_report, write_to_standard_output,
+    ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, Output, PackingReport,
+    PinsReport, Placement, Report, Seconds, WriteError, write_atomically, write_report, write_to_standard_output,
 };
 use crate::mesh::VertexId;
 use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step, Verdict};
@@ -169,6 +169,19 @@ pub(super) fn atlas_summary(report: &Report) -> String {
         )
     }));
     lines.push(seconds_words(&report.seconds));
+    lines.join("\n")
+}
+
+/// What methods that were compared came to: a table, and below it why some failed.
+pub(super) fn comparison_summary(report: &ComparisonReport, by: Option<Column>) -> String {
+    let mut lines = vec![first_words(&report.mesh)];
+    lines.extend(mesh_words(&report.mesh));
+    lines.extend(report.chart.map(|ChartNumber { number, of }| format!("chart {number} of {of}")));
+    lines.push(report.table(by));
+    let failed = report.sorted(by).into_iter().filter_map(|method| Some((&method.name, method.error.as_ref()?)));
+    lines.extend(failed.map(|(name, error)| format!("{name}: {}", error.message)));
+    let ComparisonSeconds { read, total } = report.seconds;
+    lines.push(format!("{total:.3} s: read {read:.3}"));
     lines.join("\n")
 }
 

@@ -15,6 +15,7 @@
 //! | `charts`      | the charts of a result, each by itself and as one mesh                     |
 //! | `precision`   | the bits of the numbers that are written, and the proof of these              |
 //! | `report`      | report of a run (JSON)                                                     |
+//! | `comparison`  | report of several methods on one mesh (JSON), and its table                |
 //! | `step_report` | a step in the report, and as a row of a table                              |
 //! | `error_report`| report of a run that came to nothing (JSON)                                |
 //! | `svg`         | an embedding or a step as a drawing                                        |
@@ -30,6 +31,7 @@
 
 mod atomic;
 mod charts;
+mod comparison;
 mod constraints;
 mod door;
 mod edges;
@@ -56,6 +58,10 @@ mod unfinished;
 
 pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
 pub use charts::{OutputChart, Together, proved_together, together};
+pub use comparison::{
+    Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, MethodError, MethodReport,
+    MethodSeconds, ResultReport, TimedStep, VerdictCounts,
+};
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use edges::{EdgeFault, EdgesError, parse_edges, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};

@@ -219,7 +219,7 @@ pub struct PackingReport {
 }
 
 /// The pins of a run.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct PinsReport {
     /// How the pinned vertices' equations are treated in the step that is written.
     pub treatment: Treatment,

@@ -10,7 +10,7 @@ use crate::examples::Example;
 use crate::geom::{PackingOptions, VAxis};
 use crate::io::{OutputFit, OutputKind, Target};
 use crate::mesh::{HoleTreatment, Repair, Seams, VertexId, WeldDistance};
-use crate::solver::{Hold, Settings};
+use crate::solver::{Hold, Settings, Variant};
 
 /// A file to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -170,6 +170,8 @@ pub enum Action {
     ShowStep(usize),
     /// Compares the step on the screen with another one, or with none.
     Compare(Option<usize>),
+    /// Compares these methods in the background, on the document as it is and as it will be; none ends that.
+    CompareMethods(Vec<Variant>),
     /// Chooses where a run comes to rest.
     SetStop(StopConditions),
     /// Writes a file.

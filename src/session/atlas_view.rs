@@ -150,30 +150,30 @@ impl Session {
 
     /// Has the layout of all charts made, once each is solved.
     pub(super) fn poll_atlas(&mut self) {
-        match self.atlas_views.making.poll() {
-            Some((key, Ok(view))) => self.atlas_views.made = Some((key, view)),
-            Some((key, Err(_))) => self.atlas_views.failed = Some(key),
+        match self.charts.views.making.poll() {
+            Some((key, Ok(view))) => self.charts.views.made = Some((key, view)),
+            Some((key, Err(_))) => self.charts.views.failed = Some(key),
             None => {}
         }
         if self.charts().is_none() {
-            self.atlas_views.made = None;
+            self.charts.views.made = None;
             return;
         }
         // One after the other: steps may come faster than layouts.
-        let Some(key) = self.to_be_made().filter(|_| !self.atlas_views.making.is_busy()) else { return };
-        let views = &self.atlas_views;
+        let Some(key) = self.to_be_made().filter(|_| !self.charts.views.making.is_busy()) else { return };
+        let views = &self.charts.views;
         let known = views.made.iter().map(|(key, _)| key).chain(&views.failed);
         if known.into_iter().any(|known| known.is(&key)) {
             return;
         }
         if let Ok(solved) = self.solved_atlas() {
-            self.atlas_views.making.start(key, move |_| solved.view());
+            self.charts.views.making.start(key, move |_| solved.view());
         }
     }
 
     /// The layout of all charts, where each is solved and it was made.
     pub fn atlas(&self) -> Option<&AtlasView> {
-        let (key, view) = self.atlas_views.made.as_ref()?;
+        let (key, view) = self.charts.views.made.as_ref()?;
         self.to_be_made().is_some_and(|now| key.is(&now)).then_some(view)
     }
 }

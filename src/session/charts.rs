@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::atlas_view::AtlasViews;
 use super::model::ChartOf;
 use super::solving::{Next, Rest, Solving, Task};
 use super::stop::Goal;
@@ -39,6 +40,8 @@ pub(super) struct OtherCharts {
     forming: Background<(u64, usize), Model>,
     /// The chart that a person asked for, until it has been taken out.
     asked: Option<usize>,
+    /// How all of them lie together.
+    pub(super) views: AtlasViews,
 }
 
 /// A chart that is not on the screen.
@@ -56,7 +59,13 @@ fn share(of: &ChartOf) -> usize {
 
 impl OtherCharts {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { wake: Arc::clone(wake), others: BTreeMap::new(), forming: Background::new("chart", wake), asked: None }
+        Self {
+            wake: Arc::clone(wake),
+            others: BTreeMap::new(),
+            forming: Background::new("chart", wake),
+            asked: None,
+            views: AtlasViews::new(wake),
+        }
     }
 
     /// Drops all: another mesh is open, or the same one in another form.

@@ -1,5 +1,6 @@
 //! What a person opens and writes: from files to the parts of the session, and back.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::action::Together;
@@ -7,7 +8,6 @@ use super::in_use::Role;
 use super::opened::{Opened, Origin};
 use super::stop::Goal;
 use super::{History, Message, Place, SaveRequest, Session, Surface, Written};
-use crate::geom::Picture;
 use crate::io::{EXTENSIONS, OutputFit, OutputKind, Precision, write_atomically, write_constraints, write_durably};
 use crate::solver::{Settings, Start};
 
@@ -171,13 +171,13 @@ impl Session {
         is_formless
     }
 
-    /// Writes a picture of what the screen shows, as a PNG.
-    pub fn save_picture(&mut self, path: PathBuf, picture: Picture) {
+    /// Writes a file in the background, made there by `write`.
+    pub fn write_file(&mut self, path: PathBuf, write: impl FnOnce(&mut dyn Write) -> io::Result<()> + Send + 'static) {
         if self.refuses_to_replace(&path, None) {
             return;
         }
         self.files.write(move || {
-            write_atomically(&path, |out| picture.write_png(out))?;
+            write_atomically(&path, |out| write(out))?;
             Ok(Written::file(path))
         });
     }

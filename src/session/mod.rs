@@ -25,6 +25,8 @@
 //! | `stop`          | where a run comes to rest                                                  |
 //! | `atlas`         | solved charts, laid beside each other and proved together                  |
 //! | `outcome`       | a step with its proof, ready to be written; the problem that it solves     |
+//! | `comparing`     | part: methods that are compared in the background                          |
+//! | `comparison`    | methods run beside each other on one mesh                                  |
 //! | `atlas_view`    | part: that layout for files, and for the screen                            |
 //! | `chart_targets` | pins of a mesh with several charts, in files and in the document           |
 //! | `charts`        | part: charts that are not on the screen, solved in the background          |
@@ -52,6 +54,8 @@ mod atlas_view;
 mod background;
 mod chart_targets;
 mod charts;
+mod comparing;
+mod comparison;
 mod document;
 mod drag;
 mod edits;
@@ -90,6 +94,8 @@ pub use atlas::{Arrangement, SolvedChart, atlas};
 pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
 pub use charts::ChartState;
+pub use comparing::{Contender, ContenderState};
+pub use comparison::Compared;
 pub use document::{ChartEdits, Command, Document, Shape};
 pub use drag::Preview;
 pub use history::History;

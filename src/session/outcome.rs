@@ -208,6 +208,11 @@ impl Outcome {
         })
     }
 
+    /// Whether pins of the user's hold the embedding where it lies.
+    pub fn is_held(&self) -> bool {
+        self.targets_in_use().next().is_some()
+    }
+
     /// The targets of the user's pins, where the method takes any.
     pub(super) fn targets_in_use(&self) -> impl Iterator<Item = (&VertexId, &Target)> {
         self.problem.targets.iter().filter(|_| self.problem.settings.method.uses_pins())

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use super::atlas_view::AtlasViews;
 use super::charts::OtherCharts;
+use super::comparing::Comparing;
 use super::drag::Drag;
 use super::errands::Errands;
 use super::files::Files;
@@ -21,7 +21,7 @@ pub struct Session {
     /// The steps of the document's run.
     pub(super) solving: Solving,
     pub(super) charts: OtherCharts,
-    pub(super) atlas_views: AtlasViews,
+    pub(super) comparing: Comparing,
     pub(super) drag: Drag,
     pub(super) errands: Errands,
     pub(super) target_checks: TargetChecks,
@@ -44,7 +44,7 @@ impl Session {
             document: Document::default(),
             history: History::default(),
             charts: OtherCharts::new(&wake),
-            atlas_views: AtlasViews::new(&wake),
+            comparing: Comparing::new(&wake),
             drag: Drag::new(&wake),
             errands: Errands::new(&wake),
             target_checks: TargetChecks::new(&wake),
@@ -92,6 +92,7 @@ impl Session {
             Action::Cancel => self.cancel(),
             Action::ShowStep(index) => self.solving.show(index),
             Action::Compare(index) => self.solving.compare(index),
+            Action::CompareMethods(variants) => self.compare_methods(&variants),
             Action::SetStop(stop) => self.solving.set_stop(stop),
             Action::GiveUpGesture => self.travel(History::give_up_gesture),
             Action::Undo => self.undo(),
@@ -143,6 +144,7 @@ impl Session {
         self.poll_solving();
         self.poll_charts();
         self.poll_atlas();
+        self.poll_comparing();
         self.poll_drag();
         self.refresh_target_checks();
         self.files.poll_saving(&mut self.messages);

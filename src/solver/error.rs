@@ -241,6 +241,18 @@ impl SolveError {
         }
     }
 
+    /// Whether pins are asked for that cannot be, whatever the method.
+    pub const fn is_of_pins(&self) -> bool {
+        matches!(
+            self,
+            Self::CoincidentPins { .. }
+                | Self::NoSuchVertex { .. }
+                | Self::UnusedVertex { .. }
+                | Self::TargetNotFinite { .. }
+                | Self::WeightNotPositive { .. }
+        )
+    }
+
     /// Whether a method came to nothing with pins and settings that may be: another method may give an embedding.
     pub const fn is_failure_of_method(&self) -> bool {
         matches!(

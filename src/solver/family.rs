@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-use super::{Choice, Words};
+use super::{Choice, Method, Words};
 
 /// A family of weights: how the offset d depends on the edge length r.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,6 +39,11 @@ impl Family {
             Self::Power(p) => Some(p),
             Self::Uniform | Self::ShapePreserving => None,
         }
+    }
+
+    /// Whether a method can be solved with these weights: those that are not three-point need a convex boundary.
+    pub const fn goes_with(self, method: Method) -> bool {
+        self.power().is_some() || matches!(method, Method::Convex(_))
     }
 }
 

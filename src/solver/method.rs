@@ -78,6 +78,16 @@ impl Method {
         !matches!(self, Self::Convex(_))
     }
 
+    /// Whether it can be asked to meet constraints: pins beyond the two exact ones that fix the similarity.
+    pub const fn takes_constraints(self) -> bool {
+        self.uses_pins() && !matches!(self, Self::VirtualBoundary | Self::Schnyder)
+    }
+
+    /// Whether it has nothing of its own to do where there are no constraints.
+    pub const fn only_meets_constraints(self) -> bool {
+        matches!(self, Self::Continuation | Self::Matchmaker)
+    }
+
     /// What the weights of its vertices' equations are computed from.
     ///
     /// # Errors

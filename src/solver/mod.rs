@@ -3,6 +3,7 @@
 //! | files | what |
 //! |---|---|
 //! | `method`, `family`, `settings`, `choice` | what can be chosen, with its names and words |
+//! | `variant` | a method with its weights and its boundary, as comparisons name it |
 //! | `pins`, `conflicts` | pins and gauge; pins that contradict each other |
 //! | `placing`, `upright`, `sheet`, `rounding` | size, place and turn of what is not pinned, without a fold; the numbers that are written of it |
 //! | `units` | the units of a solve: near the origin and near size 1, wherever the targets are |
@@ -59,6 +60,7 @@ mod solution;
 mod system;
 mod units;
 mod upright;
+mod variant;
 mod verdict;
 mod vertex_equation;
 mod virtual_boundary;
@@ -92,6 +94,7 @@ pub use shape_preserving::shape_preserving;
 pub use sheet::Sheet;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
 pub use system::FreeSystem;
+pub use variant::Variant;
 pub use verdict::{Verdict, is_one_to_one, is_planar, verdict};
 pub use vertex_equation::{EquationTerm, NoEquation, VertexEquation, WeightSource, equation_of_step};
 pub use virtual_boundary::{Extended, Outline, VirtualBoundary};

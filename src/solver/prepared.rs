@@ -211,8 +211,7 @@ impl Prepared {
 }
 
 fn check_family(settings: &Settings) -> Result<(), SolveError> {
-    let needs_convex = settings.method.uses_family() && settings.family.power().is_none();
-    if needs_convex && !matches!(settings.method, Method::Convex(_)) {
+    if settings.method.uses_family() && !settings.family.goes_with(settings.method) {
         return Err(SolveError::FamilyNotApplicable {
             method: settings.method.name(),
             family: settings.family.to_string(),

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::pins::GAUGE_PINS;
 use super::{Choice, Family, Hold, Method, Pin, Pins, Words};
 use crate::geom::Bounds;
 
@@ -153,6 +154,12 @@ impl Settings {
             _ if pin_count > 2 => self.treatment.unwrap_or(Treatment::LeastSquares),
             _ => self.treatment.unwrap_or(Treatment::Eliminate),
         }
+    }
+
+    /// Whether pins are constraints: up to two exact ones only fix the similarity.
+    pub fn are_constraints(&self, pins: &Pins) -> bool {
+        let is_exact = || pins.values().all(|pin| self.is_exact(pin.hold));
+        pins.len() > GAUGE_PINS || (pins.len() == GAUGE_PINS && !is_exact())
     }
 
     /// Whether this treatment meets the targets of such pins to the last bit.

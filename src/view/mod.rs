@@ -9,6 +9,9 @@
 //! | `pick.rs`, `bvh.rs`, `kdtree.rs` | what lies under the pointer, and how it is found fast |
 //! | `draw.rs`, `picture.rs` | arrays for the graphics card, and normals; pictures with their smaller sizes |
 //! | `colour.rs` | scales of colours with their legends; the colours of the panes |
+//! | `beside.rs` | embeddings beside each other, under one camera |
+//! | `comparison.rs` | the picture of several methods side by side |
+//! | `quantity.rs` | numbers that faces are coloured by, on one scale for several embeddings |
 //!
 //! Spaces, as they appear in names:
 //!
@@ -20,23 +23,29 @@
 //! | clip      | of the graphics card: x, y in [−1, 1], y up, z in [0, 1]                                 |
 //! | pane      | points from a pane's upper left corner, y down                                          |
 
+mod beside;
 mod bvh;
 mod colour;
+mod comparison;
 mod draw;
 mod kdtree;
 mod orbit;
 mod pick;
 mod picture;
 mod plane;
+mod quantity;
 mod space;
 
+pub use beside::{CellFrame, CellFrames};
 pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
+pub use comparison::{CellShading, ComparisonPicture};
 pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, PlaneArrays, Revision, crease_normals};
 pub use kdtree::PlanePicker;
 pub use orbit::{OrbitCamera, Ray, UpAxis};
 pub use pick::{PICK_RADIUS, SurfaceHit, SurfacePicker, VertexPick, Visibility, snapped};
 pub use picture::Picture;
 pub use plane::{Grid, PlaneCamera};
+pub use quantity::Quantity;
 #[cfg(feature = "gui")]
 pub(crate) use space::split_point;
 pub use space::{Sphere, UnitPlane, bounds_of, part_around};

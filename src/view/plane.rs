@@ -48,6 +48,16 @@ impl PlaneCamera {
         Self { center: self.center + by, ..*self }
     }
 
+    /// The same view of another plane that is like this one, so many times as large, its `origin` in the place of this one's.
+    #[must_use]
+    pub fn over_similar(&self, origin: DVec2, size: f64) -> Self {
+        Self {
+            center: origin + size * self.center,
+            points_per_unit: self.points_per_unit / size,
+            scale_limits: self.scale_limits.map(|limit| limit / size),
+        }
+    }
+
     /// Moves the plane along with a drag in points.
     pub fn pan(&mut self, drag_in_points: DVec2) {
         self.center -= drag_in_points * DVec2::new(1.0, -1.0) / self.points_per_unit;

@@ -24,7 +24,7 @@ fn the_arguments_hold_together() {
 #[test]
 fn a_pin_is_a_vertex_and_two_numbers_and_perhaps_a_weight() {
     let uv = DVec2::new(0.5, -2.0);
-    let pins = |text: &str| parsed("--pin", text).map(|arguments| arguments.pins);
+    let pins = |text: &str| parsed("--pin", text).map(|arguments| arguments.solve.pins);
     assert_eq!(pins("7:0.5,-2").unwrap(), [(VertexId::new(7), Target::hard(uv))]);
     assert_eq!(pins("7:0.5,-2:3e2").unwrap(), [(VertexId::new(7), Target::weighted(uv, 300.0))]);
     for wrong in ["", "7", "7:1", "7:1,x", "-1:0,0", "7:1,2,3", "7:1,2:", "7:1,2:x", "7:1,2:0", "7:1,2:-1", "7:1,2:inf"]
@@ -35,7 +35,7 @@ fn a_pin_is_a_vertex_and_two_numbers_and_perhaps_a_weight() {
 
 #[test]
 fn an_aspect_is_a_width_and_a_height() {
-    let aspect = |text: &str| parsed("--aspect", text)?.aspect;
+    let aspect = |text: &str| parsed("--aspect", text)?.solve.aspect;
     assert_eq!(aspect("3:2").unwrap().to_bits(), 1.5_f64.to_bits());
     for wrong in ["", "3", "3:0", "0:3", "-3:2", "nan:1", "inf:1", "3x2", "1e300:1e-300"] {
         assert!(aspect(wrong).is_none(), "{wrong}");

@@ -14,6 +14,7 @@ mod charts_uv;
 mod check_cli;
 mod closed_polygon;
 mod common;
+mod compare_cli;
 mod conflicts;
 mod constrained;
 mod continuation;

@@ -182,7 +182,7 @@ const FILES: [(&str, &str); 13] = [
 ];
 
 /// Runs with their exit status: all kinds of fields of a report occur in them.
-const RUNS: [(&[&str], i32); 20] = [
+const RUNS: [(&[&str], i32); 23] = [
     (&["flatten", "parts.obj", "--pin", "0:0,0", "--pin", "1:1,0"], 0),
     (&["check", "charts.obj"], 4),
     (&["flatten", "tent.obj"], 0),
@@ -209,6 +209,23 @@ const RUNS: [(&[&str], i32); 20] = [
     (&["flatten", "fins.obj"], 3),
     (&["flatten", "ring.obj", "--holes", "cut"], 3),
     (&["flatten", "tent.obj", "--constraints", "pins.txt"], 3),
+    (&["compare", "tent.obj"], 0),
+    (&["compare", "parts.obj", "--methods", "natural,convex/uniform@square"], 0),
+    (
+        &[
+            "compare",
+            "tent.obj",
+            "--methods",
+            "natural,virtual-boundary",
+            "--pin",
+            "0:0,0",
+            "--pin",
+            "1:1,0.2:3",
+            "--pin",
+            "2:0.9,1",
+        ],
+        0,
+    ),
 ];
 
 /// Described fields that none of these runs writes, with the reason.

@@ -130,7 +130,7 @@ fn what_is_open_is_not_written_over() {
             assert!(message.text.contains(name) && message.text.contains(words), "{request:?}: {message:?}");
             assert_eq!(message.remedy.as_deref(), Some("choose another name"));
         }
-        session.save_picture(path.clone(), Picture::filled(2, 2, [0; 4]));
+        session.write_file(path.clone(), |out| Picture::filled(2, 2, [0; 4]).write_png(out));
         session.finish_writing();
         assert!(session.messages().last().expect("said").text.contains(words), "{:?}", session.messages());
         assert!(before == fs::read(&path).unwrap(), "{name}");

@@ -116,16 +116,19 @@ impl Mask {
         let bounds = Bounds::of(line.iter().copied());
         let (low, high) = (bounds.low.y - self.top as f64, bounds.high.y - self.top as f64);
         let (first, last) = (low.floor().max(0.0) as usize, (high.ceil().max(0.0) as usize).min(self.height));
-        let mut row_cover = vec![0.0_f32; self.width];
+        let left = ((bounds.low.x - self.left as f64).floor().max(0.0) as usize).min(self.width);
+        let right = ((bounds.high.x - self.left as f64).ceil().max(0.0) as usize).min(self.width);
+        let mut row_cover = vec![0.0_f32; right.saturating_sub(left)];
         for row in first..last {
             row_cover.fill(0.0);
             for scan in 0..SCAN_LINES {
                 let y = (self.top + row) as f64 + (f64::from(scan) + 0.5) / f64::from(SCAN_LINES);
                 for [from, to] in spans(line, y) {
-                    add_span(&mut row_cover, [from - self.left as f64, to - self.left as f64]);
+                    let origin = (self.left + left) as f64;
+                    add_span(&mut row_cover, [from - origin, to - origin]);
                 }
             }
-            for (cover, add) in self.cover[row * self.width..][..self.width].iter_mut().zip(&row_cover) {
+            for (cover, add) in self.cover[row * self.width + left..].iter_mut().zip(&row_cover) {
                 *cover = (*cover + add).min(1.0);
             }
         }

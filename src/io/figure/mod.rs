@@ -7,31 +7,41 @@
 //! |---------|------------------------------------------------------------------------|
 //! | `mod`   | the page and what is drawn on it                                       |
 //! | `sheet` | panels with their words, in rows, and the caption                      |
+//! | `grid`  | cells with lines of numbers, in rows, and one bar of colours           |
 //! | `panel` | an embedding in a panel: faces, hull and pockets, pins, insets         |
+//! | `tinted`| an embedding with a colour on each face                                |
+//! | `curves`| a quantity over time                                                   |
 //! | `space` | a mesh in space in a panel                                             |
 //! | `photo` | a picture with numbered marks in a panel                               |
 //! | `svg`   | a page as a drawing                                                    |
 //! | `ink`   | a page as a picture                                                    |
 //! | `font`  | letters made of strokes                                                |
 
+mod curves;
 mod font;
+mod grid;
 mod ink;
 mod panel;
 mod photo;
 mod sheet;
 mod space;
 mod svg;
+mod tinted;
 
 use glam::DVec2;
 
 use super::raster::Colour;
 use crate::geom::{Bounds, Picture, clip_polygon, clip_segment};
 
+pub use curves::{Curve, Curves};
 pub use font::has_glyph;
+pub use grid::{CellContent, ColourBar, Grid, GridCell};
+use panel::placing;
 pub use panel::{Outside, PlaneDrawing, Pockets, Window, zones_of};
 pub use photo::PhotoDrawing;
 pub use sheet::{Drawing, Panel, Sheet};
 pub use space::SpaceDrawing;
+pub use tinted::TintedDrawing;
 
 /// Colours of figures on white paper.
 pub mod colours {
@@ -61,6 +71,10 @@ pub mod colours {
     pub const PIN: Colour = [0x2f, 0x5b, 0xd8];
     /// A constraint.
     pub const CONSTRAINT: Colour = [0x00, 0x8f, 0xa3];
+    /// A boundary crossing.
+    pub const CROSSING: Colour = [0xe8, 0x70, 0x0a];
+    /// Lines behind curves.
+    pub const GRID: Colour = [0xdd, 0xdb, 0xd7];
     /// The frame around what an inset shows.
     pub const FRAME: Colour = [0x2f, 0x5b, 0xd8];
 }

@@ -245,7 +245,7 @@ impl PlaneDrawing {
 }
 
 /// From the plane to an area of the page, as large as fits.
-fn placing(area: Bounds, shown: Window) -> impl Fn(DVec2) -> DVec2 {
+pub(super) fn placing(area: Bounds, shown: Window) -> impl Fn(DVec2) -> DVec2 {
     let scale = area.size().min_element() / (2.0 * shown.half);
     move |z| area.middle() + scale * DVec2::new(z.x - shown.centre.x, shown.centre.y - z.y)
 }

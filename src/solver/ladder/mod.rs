@@ -8,6 +8,7 @@
 //! | `proof.rs` | a candidate proved in the numbers that are written of it: a step |
 //! | `rung.rs` | what a rung is: from the latest step to a candidate, or to a reason why there is none |
 //! | `task.rs` | what is asked for: settings and pins |
+//! | `ending.rs` | why a ladder has come to its end |
 //! | `step.rs` | [`Candidate`]: what a rung gives, before it is proved; [`Step`]: a candidate with its verdict |
 //! | `given.rs` | before all rungs: the layout that it is to start from |
 //! | `natural.rs` | rung 1: one linear solve |
@@ -26,6 +27,7 @@
 mod again;
 mod continuation;
 mod cut;
+mod ending;
 mod flights;
 mod given;
 mod iterate;
@@ -42,6 +44,7 @@ mod virtual_boundary;
 
 use std::sync::Arc;
 
+pub use self::ending::Ending;
 pub use self::plan::{Kept, PlanarStart};
 pub use self::step::{Candidate, Progress, Step, largest_move};
 
@@ -52,21 +55,6 @@ use self::task::Task;
 use super::units::Units;
 use super::{Control, Embedding, Method, Pins, Settings, Sheet, SolveError, fixed_pins, gauge_pins};
 use crate::mesh::DiskMesh;
-
-/// Why a ladder has come to its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// The embedding is proved planar.
-    Planar,
-    /// The method has no further step.
-    Done,
-    /// The iteration gets no better and hardly moves.
-    Stalled,
-    /// The iteration has taken as many steps as it may.
-    Limit,
-    /// The embedding is planar, but constraints could not be met without new vertices: [`Step::unmet`] names them.
-    Unmet,
-}
 
 /// A method under way on one mesh with one set of pins.
 #[derive(Debug)]

@@ -47,8 +47,7 @@ impl Task {
 
     /// Whether the pins are constraints: up to two exact ones only fix the similarity.
     pub(super) fn is_constrained(&self) -> bool {
-        let is_exact = || self.pins.values().all(|pin| self.settings.is_exact(pin.hold));
-        self.pins.len() > GAUGE_PINS || (self.pins.len() == GAUGE_PINS && !is_exact())
+        self.settings.are_constraints(&self.pins)
     }
 
     pub(super) fn has_open_gauge(&self) -> bool {
@@ -67,7 +66,7 @@ impl Task {
     /// Checks what the first rung does not.
     pub(super) fn check(&self, mesh: &DiskMesh) -> Result<(), SolveError> {
         match self.settings.method {
-            Method::VirtualBoundary | Method::Schnyder if self.is_constrained() => {
+            method if self.is_constrained() && !method.takes_constraints() => {
                 Err(SolveError::TooManyPins { count: self.pins.len(), most: GAUGE_PINS })
             }
             Method::Auto if self.is_constrained() => check_distances(mesh, &self.held()),

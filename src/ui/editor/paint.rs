@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use crate::mesh::{FaceId, TriMesh, VertexId};
 use crate::session::Outcome;
-use crate::solver::{Embedding, FaceDistortion, Step};
+use crate::solver::{Embedding, Step};
 use crate::ui::Shading;
-use crate::view::{FacePaint, Range, Scale};
+use crate::view::{FacePaint, Quantity, Range, Scale};
 
 /// Faces coloured by a shading, with what a legend needs.
 #[derive(Clone, Debug)]
@@ -39,6 +39,13 @@ pub struct Legend {
 
 const BARS: usize = 40;
 
+impl Legend {
+    /// Counts values on a scale with a range.
+    pub(super) fn new<'a>(scale: Scale, range: Range, values: impl IntoIterator<Item = &'a f64>) -> Self {
+        Self { scale, range, histogram: histogram(values, range) }
+    }
+}
+
 impl Paint {
     /// Colours the faces of an embedding; moves are measured from `base`.
     pub fn new(key: PaintKey, mesh: &TriMesh, outcome: Option<&Outcome>, base: Option<&Outcome>) -> Self {
@@ -52,18 +59,16 @@ impl Paint {
         let by_values = |scale: Scale, values: &[f64]| {
             let range = scale.robust_range(values);
             let faces = Arc::new(FacePaint::by_value(values, scale, range, flipped));
-            Self { key, faces, legend: Some(Legend { scale, range, histogram: histogram(values, range) }) }
+            Self { key, faces, legend: Some(Legend::new(scale, range, values)) }
         };
-        let by = |scale: Scale, of: fn(&FaceDistortion) -> f64| {
-            by_values(scale, &outcome.distortion.faces.iter().map(of).collect::<Vec<f64>>())
-        };
+        let by = |quantity: Quantity| by_values(quantity.scale(), &quantity.values(&outcome.distortion));
         match (key.shading, base) {
             (Shading::Plain | Shading::Checker | Shading::Picture | Shading::SeeThrough, _) | (Shading::Move, None) => {
                 plain(flipped)
             }
-            (Shading::Angle, _) => by(Scale::Angle, |face| face.angle),
-            (Shading::Area, _) => by(Scale::Area, |face| face.area.log2()),
-            (Shading::Stretch, _) => by(Scale::Stretch, |face| face.stretch_l2),
+            (Shading::Angle, _) => by(Quantity::Angle),
+            (Shading::Area, _) => by(Quantity::Area),
+            (Shading::Stretch, _) => by(Quantity::Stretch),
             (Shading::Move, Some(base)) => {
                 let before = embedding_on(&base.step, &outcome.step);
                 by_values(Scale::Move, &face_moves(mesh, &before, &outcome.step.solution.embedding))
@@ -72,9 +77,9 @@ impl Paint {
     }
 }
 
-fn histogram(values: &[f64], range: Range) -> Vec<u32> {
+fn histogram<'a>(values: impl IntoIterator<Item = &'a f64>, range: Range) -> Vec<u32> {
     let mut bars = vec![0; BARS];
-    for share in values.iter().map(|&v| range.share(v)).filter(|share| share.is_finite()) {
+    for share in values.into_iter().map(|&v| range.share(v)).filter(|share| share.is_finite()) {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share lies in 0 to 1")]
         let bar = (share * BARS as f64) as usize;
         bars[bar.min(BARS - 1)] += 1;

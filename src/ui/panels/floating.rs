@@ -190,7 +190,7 @@ impl Editor {
     pub(in crate::ui) fn poll_shot(&mut self) {
         let Some((path, shot)) = &self.files.shot else { return };
         if let Ok(picture) = shot.try_recv() {
-            self.session.save_picture(path.clone(), picture);
+            self.session.write_file(path.clone(), move |out| picture.write_png(out));
             self.files.shot = None;
         }
     }

@@ -117,7 +117,7 @@ fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
             if label.clicked() && !is_chosen {
                 settings.method = method;
                 // Uniform and shape-preserving weights need a convex boundary.
-                if settings.family.power().is_none() && !matches!(method, Method::Convex(_)) {
+                if !settings.family.goes_with(method) {
                     settings.family = Family::default();
                 }
             }
@@ -126,9 +126,9 @@ fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
 }
 
 fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
-    let is_convex = matches!(settings.method, Method::Convex(_));
+    let method = settings.method;
     list(ui, "Weights", 150.0, settings.family.words().title, |ui| {
-        for &family in Family::ALL.iter().filter(|family| is_convex || family.power().is_some()) {
+        for &family in Family::ALL.iter().filter(|family| family.goes_with(method)) {
             let is_chosen = settings.family.name() == family.name();
             let label = ui.selectable_label(is_chosen, family.words().title).on_hover_text(family.words().tip());
             if label.clicked() && !is_chosen {

@@ -1,0 +1,114 @@
+//! What is solved: pins, and settings of the solver.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum};
+
+use crate::cli::typed::{choice, parse_aspect, parse_pin};
+use crate::io::Target;
+use crate::mesh::VertexId;
+use crate::solver::{Family, Growth, Method, Settings, Start, Treatment};
+
+/// Pins, and settings of the solver but for the method.
+#[derive(Debug, Args)]
+pub struct SolveArguments {
+    /// What the first step is, where it is not a map of the surface alone: proved as it is, and the method goes on from it.
+    #[arg(long, value_enum)]
+    pub start: Option<StartOf>,
+    /// The weights: conformal, mean-value, wachspress, power:P, and for `--method convex` uniform, shape-preserving;
+    /// conformal without it.
+    #[arg(long, value_parser = Family::from_str)]
+    pub family: Option<Family>,
+    /// Pin a vertex, numbered from 0, at u,v: exactly, or pulled there by a weight. Repeatable.
+    #[arg(long = "pin", value_name = "V:U,V[:WEIGHT]", value_parser = parse_pin, allow_hyphen_values = true)]
+    pub pins: Vec<(VertexId, Target)>,
+    /// Pin vertices as a file says: lines `vertex u v [weight]`, vertices numbered from 0, comments behind a #.
+    #[arg(long, value_name = "FILE")]
+    pub constraints: Option<PathBuf>,
+    /// The picture that u and v are for, width to height: angles are kept on it. 1:1 without it.
+    #[arg(long, value_name = "W:H", value_parser = parse_aspect, conflicts_with = "picture")]
+    pub aspect: Option<f64>,
+    /// What becomes of the pinned vertices' equations. Without it: of two pins eliminated, of more kept, and kept in
+    /// the iteration.
+    #[arg(long, value_parser = choice::<Treatment>())]
+    pub treatment: Option<Treatment>,
+    /// The most mean-value iterations, for `auto` and `iterate`; 60 without it.
+    #[arg(long, value_name = "N")]
+    pub max_steps: Option<usize>,
+    /// After a planar end, lower the distortion in at most this many rounds, one-to-one throughout, constraints kept.
+    /// Without it `auto` does so until the map serves; a planar layout that `--start uv` goes on from stays as it is.
+    #[arg(long, value_name = "N")]
+    pub relax: Option<usize>,
+    /// Do not split edges where the constraints cannot be met otherwise, for `auto` and `continuation`: keep the best
+    /// planar embedding instead, and name the constraints that are not met.
+    #[arg(long)]
+    pub no_new_vertices: bool,
+    /// How the virtual boundary pins more of the boundary while it crosses itself, for `auto` and `virtual-boundary`.
+    #[arg(long, value_parser = choice::<Growth>())]
+    pub growth: Option<Growth>,
+    /// Threads to use; all cores without it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+/// Where the first step comes from, as it is typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum StartOf {
+    /// The texture coordinates of the mesh file
+    Uv,
+}
+
+impl SolveArguments {
+    /// The solver's settings for a method.
+    pub fn settings(&self, method: Method) -> Settings {
+        Settings {
+            treatment: self.treatment,
+            max_steps: self.max_steps.unwrap_or(Settings::MAX_STEPS),
+            growth: self.growth.unwrap_or_default(),
+            relax_rounds: self.relax,
+            new_vertices: !self.no_new_vertices,
+            start: if self.start.is_some() { Start::File } else { Start::Afresh },
+            ..Settings::new(method, self.family.unwrap_or_default())
+        }
+    }
+
+    /// An option that was given but means nothing to any of the methods, and why not to the first.
+    pub fn idle_option(&self, methods: &[Method]) -> Option<(&'static str, &'static str)> {
+        let [first, others @ ..] = methods else { return None };
+        let is_idle = |option: &str, method: Method| self.idle_options(method).iter().any(|(idle, _)| *idle == option);
+        let mut idle = self.idle_options(*first).into_iter();
+        idle.find(|(option, _)| others.iter().all(|&method| is_idle(option, method)))
+    }
+
+    /// All options that were given but mean nothing to a method, and why.
+    fn idle_options(&self, method: Method) -> Vec<(&'static str, &'static str)> {
+        let splits = method == Method::Auto;
+        let of_family =
+            if method.is_one_to_one() { "it solves no weighted equations" } else { "its weights are its own" };
+        let of_splits = match method {
+            Method::Matchmaker => "it meets constraints by nothing else",
+            _ => "only auto goes on to them",
+        };
+        let cases = [
+            (self.family.is_some(), method.uses_family(), "--family", of_family),
+            (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary by itself"),
+            (self.constraints.is_some(), method.uses_pins(), "--constraints", "it places the whole boundary by itself"),
+            (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
+            (self.max_steps.is_some(), method.iterates(), "--max-steps", "only auto and iterate do iterate"),
+            (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
+            (
+                self.start.is_some(),
+                method.goes_on_from_layout(),
+                "--start",
+                "it computes its map from the surface alone",
+            ),
+            (self.growth.is_some(), method.bends_boundary(), "--growth", "only auto and virtual-boundary pin more"),
+        ];
+        cases
+            .into_iter()
+            .filter(|(given, applies, ..)| *given && !applies)
+            .map(|(_, _, option, why)| (option, why))
+            .collect()
+    }
+}

@@ -1,0 +1,202 @@
+//! `freebound compare`: several methods on one mesh, one after the other, each with all threads and from its beginning, so that
+//! their times can be compared. Their verdicts and failures are data.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::args::{CompareArguments, ComparisonFile};
+use super::failed::await_report;
+use super::flatten::{disk_of, failure_of_layout, go_on, set_threads};
+use super::parts::with_parts;
+use super::pins::targets_on;
+use super::places::Places;
+use super::progress::{INTERRUPTED, Progress};
+use super::say::say;
+use super::seams::formed;
+use super::standard::{Sizes, is_standard, read_model};
+use super::summary::{comparison_summary, put_report};
+use super::{Failure, Status};
+use crate::io::figure::Page;
+use crate::io::{
+    ChartNumber, ComparisonReport, ComparisonSeconds, MeshReport, PictureFile, Targets, TimedStep, WriteError,
+    write_atomically, write_to_standard_output,
+};
+use crate::session::{Compared, Document, Model, Problem};
+use crate::solver::{Choice as _, Control, Method, Phase, Start, Variant};
+use crate::view::ComparisonPicture;
+
+/// Pixels per point of the picture.
+const PIXELS: f64 = 2.0;
+
+pub(super) fn run(arguments: &CompareArguments) -> Result<Status, Failure> {
+    let CompareArguments { input, solve, .. } = arguments;
+    let places = Places::of_compare(arguments);
+    places.keep_apart()?;
+    places.spare_inputs(input, solve)?;
+    if let Some(picture) = &arguments.picture {
+        places.spare(picture, "the picture")?;
+    }
+    if arguments.shading.is_some() && arguments.png.is_none() && arguments.svg.is_none() {
+        return Err(Failure::Usage("--shading is of the picture: give --png or --svg, too".into()));
+    }
+    await_report(arguments.report.as_deref());
+    set_threads(solve.threads)?;
+    let progress = Progress::default();
+    progress.follow(|| {
+        let start = Instant::now();
+        progress.enter("reading");
+        let read = read_model(&input.mesh, Sizes::typed(input.large))?;
+        let whole = with_parts(formed(&read, input)?, input.parts.as_ref())?;
+        places.spare_materials(&whole.source, &input.mesh)?;
+        let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
+        disk_of(&whole)?;
+        let targets = targets_on(&whole, &input.mesh, solve)?;
+        let model = chart_of(&whole, arguments.chart)?;
+        let document = Document {
+            targets: targets_of_chart(&model, targets)?,
+            settings: arguments.settings(),
+            picture: picture.map(Arc::new),
+            aspect: solve.aspect,
+            ..Document::default()
+        };
+        let problem = document.problem();
+        if problem.settings.start == Start::File {
+            problem.ladder_on(&model).map_err(|error| failure_of_layout(&model, error))?;
+        }
+        let problems = problems(arguments, &problem)?;
+        let read = start.elapsed().as_secs_f64();
+        let methods = run_all(&model, problems, &progress)?;
+        let mut report = report(&model, &problem, &methods);
+        report.seconds = ComparisonSeconds { read, total: start.elapsed().as_secs_f64() };
+        progress.enter("writing");
+        write(arguments, &report, || picture_of(arguments, &model, &methods))?;
+        conclude(arguments, &report)
+    })
+}
+
+/// The chart that is asked for, or the largest; the mesh itself, where it is one.
+fn chart_of(model: &Model, wanted: Option<usize>) -> Result<Model, Failure> {
+    let count = model.chart_count();
+    match wanted {
+        Some(number) if number >= count => {
+            let has = if count == 1 { "one chart".to_owned() } else { format!("charts 0 to {}", count - 1) };
+            Err(Failure::Usage(format!("{}: --chart {number}: the mesh has {has}", model.path_words())))
+        }
+        Some(number) => Ok(model.of_chart(number)),
+        None => Ok(model.chart.as_ref().map_or_else(|| model.clone(), |of| model.of_chart(of.charts.pick(None)))),
+    }
+}
+
+/// The targets by the vertices of the chart.
+fn targets_of_chart(model: &Model, targets: Targets) -> Result<Targets, Failure> {
+    let own = |(vertex, target)| match model.vertex_of_file(vertex) {
+        Some(own) => Ok((own, target)),
+        // What no mesh has the solver refuses.
+        None if model.chart.is_none() => Ok((vertex, target)),
+        None => {
+            let number = model.chart.as_ref().map_or(0, |of| of.number);
+            let text = format!("vertex {vertex} is pinned, but lies on another chart than {number}, which is compared");
+            Err(Failure::Usage(format!("{}: {text}: choose that one with --chart", model.path_words())))
+        }
+    };
+    targets.into_iter().map(own).collect()
+}
+
+/// The problem of each method that is asked for; of all that suit the pins, where none is.
+fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Problem>, Failure> {
+    let suited = || Method::ALL.iter().filter(|&&method| problem.suits(method));
+    let mut variants = arguments.methods.clone();
+    if variants.is_empty() {
+        variants = suited().map(|&method| Variant { method, family: None }).collect();
+    }
+    let methods: Vec<Method> = variants.iter().map(|variant| variant.method).collect();
+    if let Some((option, why)) = arguments.solve.idle_option(&methods) {
+        return Err(Failure::Usage(format!("no method that is compared takes {option}: {}: {why}", methods[0].name())));
+    }
+    let problems: Vec<Problem> = variants.into_iter().map(|variant| problem.by(variant)).collect();
+    for (count, second) in problems.iter().enumerate() {
+        if problems[..count].iter().any(|first| first.settings == second.settings) {
+            let name = Variant::of(&second.settings);
+            return Err(Failure::Usage(format!("--methods: {name} would run twice: leave out one of them")));
+        }
+    }
+    Ok(problems)
+}
+
+/// Runs each method to its end.
+///
+/// # Errors
+///
+/// Where the user asked to stop, or pins that no method can take.
+fn run_all(model: &Model, problems: Vec<Problem>, progress: &Progress) -> Result<Vec<Compared>, Failure> {
+    let report_phase = |phase: Phase| progress.enter(phase.words());
+    let control = Control::new(&INTERRUPTED, &report_phase);
+    let mut methods = Vec::new();
+    for problem in problems {
+        let name = Variant::of(&problem.settings).to_string();
+        progress.reach(name.clone());
+        let follow = |step: &TimedStep| progress.reach(format!("{name}, step {}", step.step.index));
+        let compared = Compared::run(model, problem, control, follow)?;
+        if let Err(error) = &compared.ending
+            && error.is_of_pins()
+        {
+            return Err(error.clone().renumbered(|vertex| model.vertex_in_file(vertex)).into());
+        }
+        methods.push(compared);
+    }
+    Ok(methods)
+}
+
+fn report(model: &Model, problem: &Problem, methods: &[Compared]) -> ComparisonReport {
+    let disk = model.disk().expect("methods have run on it");
+    let repairs = model.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
+    let mesh = MeshReport { repairs, ..MeshReport::new(model.path_words(), disk) };
+    let chart = model.chart.as_ref().map(|of| ChartNumber { number: of.number, of: of.charts.count() });
+    let mut report = ComparisonReport::new(mesh, chart, problem.frame.aspect);
+    report.methods = methods.iter().map(|method| method.report.clone()).collect();
+    report
+}
+
+fn picture_of(arguments: &CompareArguments, model: &Model, methods: &[Compared]) -> Page {
+    let methods: Vec<&Compared> = methods.iter().collect();
+    ComparisonPicture { model, methods: &methods, shading: arguments.shading.unwrap_or_default() }.page()
+}
+
+/// Writes all files but the report. The picture is drawn once, where it is asked for.
+fn write(arguments: &CompareArguments, report: &ComparisonReport, draw: impl Fn() -> Page) -> Result<(), Failure> {
+    let is_drawn = arguments.png.is_some() || arguments.svg.is_some();
+    let page = is_drawn.then(draw);
+    for (file, _, path) in arguments.outputs() {
+        go_on()?;
+        put(path, |mut out| match (file, &page) {
+            (ComparisonFile::Table, _) => report.write_csv(arguments.sort, out),
+            (ComparisonFile::Steps, _) => report.write_steps(out),
+            (ComparisonFile::Png, Some(page)) => page.picture(PIXELS).write_png(out),
+            (ComparisonFile::Svg, Some(page)) => page.write_svg(&mut out),
+            (ComparisonFile::Png | ComparisonFile::Svg, None) => Ok(()),
+        })?;
+    }
+    Ok(())
+}
+
+/// Writes a file whole or not at all, or to standard output for `-`.
+fn put(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
+    if is_standard(path) {
+        write_to_standard_output(|out| write(out))
+    } else {
+        write_atomically(path, |out| write(out))
+    }
+}
+
+/// Says the table, and writes the report. What goes to standard output as a file stands there alone.
+fn conclude(arguments: &CompareArguments, report: &ComparisonReport) -> Result<Status, Failure> {
+    let to = arguments.report.as_deref();
+    let is_taken = arguments.outputs().iter().any(|(_, _, path)| is_standard(path)) || to.is_some_and(is_standard);
+    if !is_taken {
+        say(comparison_summary(report, arguments.sort))?;
+    }
+    to.map_or(Ok(()), |path| put_report(report, path))?;
+    Ok(Status::Fine)
+}

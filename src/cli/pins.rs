@@ -1,0 +1,82 @@
+//! The pins that are asked for.
+
+use std::path::Path;
+
+use super::Failure;
+use super::args::SolveArguments;
+use super::standard::name_of_input;
+use crate::io::{Constraints, Target, Targets};
+use crate::mesh::VertexId;
+use crate::session::Model;
+use crate::solver::SolveError;
+
+/// The targets of all pins, by the vertices of the mesh, however many charts it has. `input` is its file.
+///
+/// # Errors
+///
+/// A file that cannot be used, a pin that clashes with another one, or one of a vertex that cannot be pinned.
+pub(super) fn targets_on(model: &Model, input: &Path, arguments: &SolveArguments) -> Result<Targets, Failure> {
+    let targets = gather(input, arguments, model.vertex_count_in_file())?;
+    refuse_pins_of_joined_vertices(model, &targets)?;
+    refuse_pins_of_no_face(model, &targets)?;
+    Ok(targets)
+}
+
+/// The targets of all pins, for a mesh with so many vertices.
+///
+/// # Errors
+///
+/// A file that cannot be used, or a pin that clashes with another one; where that stands in the file, with its line.
+fn gather(input: &Path, arguments: &SolveArguments, vertex_count: usize) -> Result<Targets, Failure> {
+    let file = match &arguments.constraints {
+        Some(path) => Constraints::read(path, vertex_count)?,
+        None => Constraints::default(),
+    };
+    let place = arguments.constraints.as_deref().unwrap_or(Path::new(""));
+    let mut targets = file.targets.clone();
+    for (vertex, target) in &arguments.pins {
+        if let Some(line) = file.lines.get(vertex) {
+            let text = format!("line {line}: vertex {vertex} is pinned by --pin, too: leave out one of them");
+            return Err(Failure::Usage(format!("{}: {text}", place.display())));
+        }
+        if let Some(first) = in_the_way(&file.targets, target) {
+            let line = file.lines[&first];
+            let text = format!("line {line}: vertex {first} has the target that --pin gives to vertex {vertex}");
+            return Err(Failure::Usage(format!("{}: {text}: move one of them, or give a weight", place.display())));
+        }
+        if targets.insert(*vertex, *target).is_some() {
+            let mesh = name_of_input(input);
+            return Err(Failure::Usage(format!("{mesh}: vertex {vertex} is pinned twice: leave out one of the --pin")));
+        }
+    }
+    Ok(targets)
+}
+
+/// Refuses pins of vertices that were joined with others: these stand for them.
+fn refuse_pins_of_joined_vertices(model: &Model, targets: &Targets) -> Result<(), Failure> {
+    let Some(repaired) = model.whole_repaired() else { return Ok(()) };
+    match targets.keys().find_map(|&vertex| Some((vertex, repaired.stands_for(vertex)?))) {
+        Some((vertex, other)) => {
+            let text = format!("vertex {vertex} is pinned, but was joined with vertex {other}: pin {other}");
+            Err(Failure::Usage(format!("{}: {text}", model.path_words())))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Refuses pins of vertices that belong to no chart, where the mesh has several.
+fn refuse_pins_of_no_face(model: &Model, targets: &Targets) -> Result<(), Failure> {
+    let Some(of) = &model.chart else { return Ok(()) };
+    let count = model.vertex_count_in_file();
+    match targets.keys().find(|&&vertex| of.charts.chart_of_vertex(vertex).is_none()) {
+        Some(&vertex) if vertex.index() >= count => Err(SolveError::NoSuchVertex { vertex, count }.into()),
+        Some(&vertex) => Err(SolveError::UnusedVertex { vertex }.into()),
+        None => Ok(()),
+    }
+}
+
+/// The exact pin that has the target of another exact one.
+fn in_the_way(targets: &Targets, target: &Target) -> Option<VertexId> {
+    let clashes = |other: &Target| target.hold.is_exact() && other.hold.is_exact() && other.uv == target.uv;
+    targets.iter().find(|(_, other)| clashes(other)).map(|(&vertex, _)| vertex)
+}

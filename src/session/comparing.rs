@@ -1,0 +1,235 @@
+//! Part: methods that are compared on the mesh on the screen, one after the other in the background, with the document's pins and
+//! settings. Where these change, all run again; what was found before stays to be looked at until then.
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::{Background, Compared, Model, Problem, Session, Wake};
+use crate::solver::{Control, Phase, SolveError, Variant};
+
+/// Methods that are compared.
+pub(super) struct Comparing {
+    wake: Wake,
+    contenders: Vec<Contender>,
+    /// The mesh that they run on, by its revision.
+    model: Option<u64>,
+    running: Option<Running>,
+    /// Counts what has come in.
+    revision: u64,
+}
+
+/// A method in a comparison.
+#[derive(Debug)]
+pub struct Contender {
+    variant: Variant,
+    state: State,
+    /// What it came to last, perhaps of pins and settings that were others.
+    found: Option<Arc<Compared>>,
+}
+
+/// How far a method has come with a problem.
+#[derive(Debug)]
+enum State {
+    /// It waits for its turn.
+    Waiting,
+    /// It is running.
+    Running,
+    /// It has come to its end with the problem of what was found.
+    Done,
+    /// Its thread was lost, in words, with a problem.
+    Lost(Problem, String),
+}
+
+/// How a method stands to the document.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ContenderState {
+    /// It waits for its turn.
+    Waiting,
+    /// It is running; what it does, and how many steps it has taken.
+    Running(Option<Phase>, usize),
+    /// What was found belongs to the document.
+    Done,
+    /// Nothing will be found, for this reason.
+    Lost(String),
+}
+
+impl Contender {
+    /// The method.
+    pub fn variant(&self) -> Variant {
+        self.variant
+    }
+
+    /// What it came to last. While it is not done that is of pins and settings that were others.
+    pub fn found(&self) -> Option<&Arc<Compared>> {
+        self.found.as_ref()
+    }
+}
+
+/// A method that runs in the background.
+struct Running {
+    variant: Variant,
+    job: Background<Problem, Result<Compared, SolveError>>,
+    progress: Arc<Mutex<RunProgress>>,
+}
+
+/// What the background does.
+#[derive(Clone, Copy, Debug, Default)]
+struct RunProgress {
+    phase: Option<Phase>,
+    steps: usize,
+}
+
+impl Comparing {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self { wake: Arc::clone(wake), contenders: Vec::new(), model: None, running: None, revision: 0 }
+    }
+
+    /// Compares these methods, in this order; none ends the comparison. What is known of them stays.
+    fn choose(&mut self, variants: &[Variant]) {
+        let mut before = std::mem::take(&mut self.contenders);
+        for &variant in variants {
+            if self.contenders.iter().any(|contender| contender.variant == variant) {
+                continue;
+            }
+            let place = before.iter().position(|contender| contender.variant == variant);
+            let new = || Contender { variant, state: State::Waiting, found: None };
+            self.contenders.push(place.map_or_else(new, |place| before.swap_remove(place)));
+        }
+        self.running = self.running.take().filter(|running| variants.contains(&running.variant));
+        self.revision += 1;
+    }
+
+    /// Drops what belongs to another mesh.
+    fn look_at_mesh(&mut self, revision: u64) {
+        if self.model.replace(revision) != Some(revision) {
+            self.running = None;
+            for contender in &mut self.contenders {
+                (contender.state, contender.found) = (State::Waiting, None);
+            }
+            self.revision += 1;
+        }
+    }
+
+    /// Has all run again whose problem is another one now.
+    fn look_at_problem(&mut self, problem: &Problem) {
+        let of = |variant: Variant| problem.by(variant);
+        let is_outdated = |running: &mut Running| {
+            let is_of_problem = running.job.key().is_some_and(|key| key.has_steps_of(&of(running.variant)));
+            !is_of_problem
+        };
+        self.running.take_if(is_outdated);
+        let running = self.running.as_ref().map(|running| running.variant);
+        for contender in &mut self.contenders {
+            let wanted = of(contender.variant);
+            let is_right = match &contender.state {
+                State::Waiting => true,
+                State::Running => running == Some(contender.variant),
+                State::Done => contender.found.as_ref().is_some_and(|found| found.problem.has_steps_of(&wanted)),
+                State::Lost(lost, _) => lost.has_steps_of(&wanted),
+            };
+            if !is_right {
+                contender.state = State::Waiting;
+            }
+        }
+    }
+
+    /// Takes in what has come to its end.
+    fn poll(&mut self) {
+        let Some(running) = &mut self.running else { return };
+        let Some((problem, outcome)) = running.job.poll() else { return };
+        let variant = running.variant;
+        self.running = None;
+        self.revision += 1;
+        let Some(contender) = self.contenders.iter_mut().find(|contender| contender.variant == variant) else { return };
+        (contender.state, contender.found) = match outcome {
+            Ok(Ok(compared)) => (State::Done, Some(Arc::new(compared))),
+            // Nobody asked it to stop that still waits for it.
+            Ok(Err(_)) => (State::Waiting, contender.found.take()),
+            Err(failure) => (State::Lost(problem, failure.words(variant.method.as_rung())), None),
+        };
+    }
+
+    /// Begins with the next method, where none runs.
+    fn begin_next(&mut self, model: &Arc<Model>, problem: &Problem) {
+        if self.running.is_some() {
+            return;
+        }
+        let is_waiting = |contender: &&mut Contender| matches!(contender.state, State::Waiting);
+        let Some(next) = self.contenders.iter_mut().find(is_waiting) else { return };
+        next.state = State::Running;
+        let (variant, problem, model) = (next.variant, problem.by(next.variant), Arc::clone(model));
+        let progress = Arc::new(Mutex::new(RunProgress::default()));
+        let mut job = Background::new("compare", &self.wake);
+        let (of_job, of_run, wake) = (Arc::clone(&progress), problem.clone(), Arc::clone(&self.wake));
+        job.start(problem, move |cancel: &AtomicBool| {
+            let note = |change: &dyn Fn(&mut RunProgress)| {
+                change(&mut of_job.lock().unwrap_or_else(PoisonError::into_inner));
+                wake();
+            };
+            let report = |phase: Phase| note(&|progress| progress.phase = Some(phase));
+            Compared::run(&model, of_run, Control::new(cancel, &report), |_| note(&|progress| progress.steps += 1))
+        });
+        self.running = Some(Running { variant, job, progress });
+        self.revision += 1;
+    }
+}
+
+impl Session {
+    /// The methods that are compared, in the order in which they were chosen; none where there is no comparison.
+    pub fn contenders(&self) -> &[Contender] {
+        &self.comparing.contenders
+    }
+
+    /// Changes with what is known of them.
+    pub fn comparison_revision(&self) -> u64 {
+        self.comparing.revision
+    }
+
+    /// How one of them stands to the document.
+    pub fn contender_state(&self, contender: &Contender) -> ContenderState {
+        let is_there = self.disk().is_some() && self.has_form_as_wanted();
+        match &contender.state {
+            State::Running => {
+                let running = self.comparing.running.as_ref().filter(|of| of.variant == contender.variant);
+                let progress = running.map(|of| *of.progress.lock().unwrap_or_else(PoisonError::into_inner));
+                let RunProgress { phase, steps } = progress.unwrap_or_default();
+                ContenderState::Running(phase, steps)
+            }
+            State::Done if is_there && !self.history.is_in_gesture() => ContenderState::Done,
+            State::Lost(_, words) => ContenderState::Lost(words.clone()),
+            State::Done | State::Waiting => ContenderState::Waiting,
+        }
+    }
+
+    /// Whether some of them are still to be run, and can be.
+    pub fn is_comparing(&self) -> bool {
+        let is_open = |contender: &Contender| matches!(contender.state, State::Waiting | State::Running);
+        self.disk().is_some() && self.comparing.contenders.iter().any(is_open)
+    }
+
+    /// Compares these methods, or none any more.
+    pub(super) fn compare_methods(&mut self, variants: &[Variant]) {
+        self.comparing.choose(variants);
+        self.poll_comparing();
+    }
+
+    /// Takes in what the methods have come to, and has the next one run: while nothing else is solved on the mesh, so that the
+    /// machine is its own and times can be compared.
+    pub(super) fn poll_comparing(&mut self) {
+        if self.comparing.contenders.is_empty() {
+            return;
+        }
+        self.comparing.look_at_mesh(self.model_revision());
+        self.comparing.poll();
+        // In a gesture the document changes from moment to moment.
+        if self.history.is_in_gesture() || !self.has_form_as_wanted() {
+            return;
+        }
+        let problem = self.document.problem();
+        self.comparing.look_at_problem(&problem);
+        let model = self.model().filter(|model| model.disk().is_some()).cloned();
+        if let Some(model) = model.filter(|_| !self.is_running() && self.busy().is_none()) {
+            self.comparing.begin_next(&model, &problem);
+        }
+    }
+}

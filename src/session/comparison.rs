@@ -1,0 +1,141 @@
+//! Methods run beside each other on one mesh: each from its beginning to its end, by itself, with nothing kept from another,
+//! so that their times can be compared.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::outcome::pins_report;
+use super::{Model, Outcome, Problem};
+use crate::io::{MethodError, MethodReport, MethodSeconds, ResultReport, StepReport, TimedStep, VerdictCounts};
+use crate::solver::{Control, Ending, Method, SolveError, Step, Variant};
+
+/// A method that has come to its end.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// What it solved.
+    pub problem: Problem,
+    /// The last step in which the constraints had a part; none where there is none.
+    pub outcome: Option<Arc<Outcome>>,
+    /// Why it came to its end; the error, where a rung failed.
+    pub ending: Result<Ending, SolveError>,
+    /// What is reported of it. Vertices are those of the file that the model came from.
+    pub report: MethodReport,
+}
+
+impl Compared {
+    /// Runs a problem's method from its beginning to its end, and hands over the numbers of each step as it is there. It begins
+    /// with the layout of the file where that is wanted and is there.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Cancelled`] where the caller asked to stop. All other errors are the method's end.
+    ///
+    /// # Panics
+    ///
+    /// If the model is no disk.
+    pub fn run(
+        model: &Model,
+        problem: Problem,
+        control: Control<'_>,
+        mut take: impl FnMut(&TimedStep),
+    ) -> Result<Self, SolveError> {
+        let mesh = model.disk().expect("only a disk is solved");
+        let mut ladder = problem.ladder_on(model).unwrap_or_else(|_| problem.ladder());
+        let (mut seconds, mut steps, mut last) = (MethodSeconds::default(), Vec::new(), None);
+        let mut since = Instant::now();
+        let ending = ladder.finish(mesh, control, |step| {
+            seconds.verify += step.verify_seconds;
+            seconds.solve += (since.elapsed().as_secs_f64() - step.verify_seconds).max(0.0);
+            let outcome = Outcome::new(mesh, problem.clone(), step);
+            let timed = timed(&outcome, seconds);
+            take(&timed);
+            steps.push(timed);
+            if !outcome.step.is_of_planar_start() {
+                last = Some(Arc::new(outcome));
+            }
+            // What was measured for the comparison does not count.
+            since = Instant::now();
+        });
+        // What a rung tried in vain counts too.
+        seconds.solve += since.elapsed().as_secs_f64();
+        if ending == Err(SolveError::Cancelled) {
+            return Err(SolveError::Cancelled);
+        }
+        let numbers = Numbers { ending: ending.clone(), steps, seconds };
+        let report = numbers.report(model, &problem, last.as_deref());
+        Ok(Self { problem, outcome: last, ending, report })
+    }
+}
+
+/// What a run came to, its embedding aside.
+struct Numbers {
+    /// The error, where a rung failed.
+    ending: Result<Ending, SolveError>,
+    steps: Vec<TimedStep>,
+    seconds: MethodSeconds,
+}
+
+impl Numbers {
+    fn report(self, model: &Model, problem: &Problem, outcome: Option<&Outcome>) -> MethodReport {
+        let settings = &problem.settings;
+        let variant = Variant::of(settings);
+        let shape = if let Method::Convex(shape) = settings.method { Some(shape) } else { None };
+        let in_file = |error: &SolveError| error.clone().renumbered(|vertex| model.vertex_in_file(vertex));
+        MethodReport {
+            name: variant.to_string(),
+            title: variant.title(),
+            method: settings.method,
+            family: variant.family,
+            shape,
+            ending: self.ending.as_ref().map_or("failed", |ending| ending.name()),
+            error: self.ending.as_ref().err().map(|error| MethodError::from(&in_file(error))),
+            result: outcome.map(|outcome| result(model, outcome)),
+            seconds: self.seconds,
+            factor_bytes: self.steps.iter().map(|timed| timed.step.factor_bytes).filter(|&bytes| bytes > 0).max(),
+            steps: self.steps,
+        }
+    }
+}
+
+/// The numbers of a step, with what it has come to by then.
+fn timed(outcome: &Outcome, seconds: MethodSeconds) -> TimedStep {
+    let summary = &outcome.distortion.summary;
+    TimedStep {
+        step: StepReport::of(&outcome.step),
+        elapsed: seconds.total(),
+        energy: summary.symmetric_dirichlet.mean,
+        stretch_l2: summary.stretch_l2,
+        stretch_linf: summary.stretch_linf,
+    }
+}
+
+fn result(model: &Model, outcome: &Outcome) -> ResultReport {
+    let step: &Step = &outcome.step;
+    let frame = outcome.problem.frame;
+    let coordinates = step.solution.embedding.iter().map(|&z| frame.uv_from_plane(z)).collect();
+    ResultReport {
+        verdict: VerdictCounts::from(&step.verdict),
+        boundary: if step.has_convex_boundary() { "convex" } else { "free" },
+        pins: pins_report(outcome, &coordinates).renumbered(|vertex| model.vertex_in_file(vertex)),
+        distortion: outcome.distortion.summary,
+        new_vertices: outcome.new_vertex_count(),
+    }
+}
+
+impl Problem {
+    /// The same problem for another method.
+    #[must_use]
+    pub fn by(&self, variant: Variant) -> Self {
+        Self { settings: variant.settings(&self.settings), ..self.clone() }
+    }
+
+    /// Whether a method has something of its own to do here: not one that takes no constraints where there are some, nor one
+    /// that does nothing but meet them where there are none.
+    pub fn suits(&self, method: Method) -> bool {
+        if self.settings.are_constraints(&self.pins()) {
+            method.takes_constraints()
+        } else {
+            !method.only_meets_constraints()
+        }
+    }
+}

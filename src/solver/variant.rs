@@ -1,0 +1,91 @@
+//! A method with its weights and its boundary, as comparisons name it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::{BoundaryShape, Choice, Family, Method, Settings, Start};
+
+/// What stands before the weights, and before the shape of the boundary.
+const FAMILY_MARK: char = '/';
+const SHAPE_MARK: char = '@';
+
+/// A method, on its boundary, with weights where it has a choice: `METHOD[/FAMILY][@BOUNDARY]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variant {
+    /// The method; `convex` with its shape.
+    pub method: Method,
+    /// Its weights; none where it has no choice, or takes those of the settings that it is run with.
+    pub family: Option<Family>,
+}
+
+impl Variant {
+    /// The method and the weights of settings.
+    pub fn of(settings: &Settings) -> Self {
+        let Settings { method, family, .. } = *settings;
+        Self { method, family: method.uses_family().then_some(family) }
+    }
+
+    /// The settings that it is run with, everything else as in `base`: without weights of its own it takes those there,
+    /// where they go with the method; it goes on from a layout where that is wanted and the method can.
+    pub fn settings(self, base: &Settings) -> Settings {
+        let of_base = Some(base.family).filter(|family| family.goes_with(self.method));
+        let start = if self.method.goes_on_from_layout() { base.start } else { Start::Afresh };
+        Settings { method: self.method, family: self.family.or(of_base).unwrap_or_default(), start, ..*base }
+    }
+
+    /// Its name on the screen.
+    pub fn title(&self) -> String {
+        let shape = match self.method {
+            Method::Convex(shape) if shape != BoundaryShape::default() => Some(shape.words().title.to_lowercase()),
+            _ => None,
+        };
+        let family = self.family.map(|family| match family {
+            Family::Power(power) => format!("power {power}"),
+            named => named.words().title.to_lowercase(),
+        });
+        let parts = [Some(self.method.words().title.to_owned()), family, shape];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// As it is typed; the usual weights and the usual shape are left out.
+impl fmt::Display for Variant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.method.name())?;
+        if let Some(family) = self.family.filter(|family| *family != Family::default()) {
+            write!(f, "{FAMILY_MARK}{family}")?;
+        }
+        match self.method {
+            Method::Convex(shape) if shape != BoundaryShape::default() => write!(f, "{SHAPE_MARK}{}", shape.written()),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl FromStr for Variant {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (text, shape) = text.split_once(SHAPE_MARK).map_or((text, None), |(text, shape)| (text, Some(shape)));
+        let (name, family) = text.split_once(FAMILY_MARK).map_or((text, None), |(text, family)| (text, Some(family)));
+        let method = Method::named(name).ok_or_else(|| format!("no method `{name}`: choose of {}", Method::names()))?;
+        let method = match (method, shape) {
+            (Method::Convex(_), Some(shape)) => {
+                let found = BoundaryShape::named(shape);
+                Method::Convex(
+                    found.ok_or_else(|| format!("no boundary `{shape}`: choose of {}", BoundaryShape::names()))?,
+                )
+            }
+            (_, Some(_)) => return Err(format!("{name} lays its boundary on no shape: leave out {SHAPE_MARK} and it")),
+            (method, None) => method,
+        };
+        let family = family.map(Family::from_str).transpose()?;
+        match family {
+            Some(_) if !method.uses_family() => Err(format!("{name} has no choice of weights: leave them out")),
+            Some(family) if !family.goes_with(method) => {
+                Err(format!("{family} weights are for convex boundaries only, not for {name}"))
+            }
+            _ => Ok(Self { method, family }),
+        }
+    }
+}

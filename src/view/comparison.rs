@@ -1,0 +1,172 @@
+//! The picture of a comparison: the embeddings of several methods side by side at one scale, with one scale of colours, and the
+//! numbers of each below it.
+
+use glam::{DVec2, DVec3};
+
+use super::{CellFrame, CellFrames, Quantity, Range};
+use crate::geom::{Bounds, Picture};
+use crate::io::figure::{CellContent, ColourBar, Curve, Curves, Grid, GridCell, Page, TintedDrawing, Window};
+use crate::io::raster::{Canvas, Paint, View, mesh_picture};
+use crate::mesh::{DiskMesh, FaceId, VertexId};
+use crate::session::{Compared, Model, Outcome};
+use crate::solver::{Choice, Words};
+
+/// Colours that values are rounded to, so that few paths are drawn.
+const LEVELS: u32 = 64;
+
+/// Fields of the checker along the side of a square as large as the embedding.
+const CHECKER_FIELDS: f64 = 20.0;
+
+/// Pixels of a picture of the mesh.
+const PICTURE_SIZE: u32 = 460;
+
+/// Steps from which on a method's energy over time is a curve.
+const CURVE_STEPS: usize = 3;
+
+/// How the cells of a comparison's picture are coloured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CellShading {
+    /// Faces of the embedding by a number each.
+    By(Quantity),
+    /// The mesh in space, under a checker of the plane.
+    Checker,
+}
+
+impl Default for CellShading {
+    fn default() -> Self {
+        Self::By(Quantity::default())
+    }
+}
+
+impl Choice for CellShading {
+    const ALL: &'static [Self] =
+        &[Self::By(Quantity::Angle), Self::By(Quantity::Area), Self::By(Quantity::Stretch), Self::Checker];
+
+    fn words(self) -> Words {
+        let (name, about) = match self {
+            Self::By(Quantity::Angle) => ("angle", "ratio of the singular values of each face: 1 keeps angles"),
+            Self::By(Quantity::Area) => ("area", "area in the plane over area on the surface"),
+            Self::By(Quantity::Stretch) => ("stretch", "root mean square stretch from the plane to the surface"),
+            Self::Checker => ("checker", "the mesh in space, under a checker of the plane"),
+        };
+        let title = if let Self::By(quantity) = self { quantity.title() } else { "Checker" };
+        Words { name, title, about, source: "" }
+    }
+}
+
+/// Methods that have run on a model, to be drawn side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct ComparisonPicture<'a> {
+    /// What they ran on: a disk.
+    pub model: &'a Model,
+    /// The methods.
+    pub methods: &'a [&'a Compared],
+    /// How the cells are coloured.
+    pub shading: CellShading,
+}
+
+impl ComparisonPicture<'_> {
+    /// Lays it out.
+    ///
+    /// # Panics
+    ///
+    /// If the model is no disk.
+    pub fn page(&self) -> Page {
+        let mesh = self.model.disk().expect("methods run on disks only");
+        let outcomes: Vec<&Outcome> = self.outcomes().collect();
+        let beside = CellFrames::new(mesh, &outcomes);
+        let mut frames = beside.frames.iter();
+        let range = match self.shading {
+            CellShading::By(quantity) => quantity.common_range(self.outcomes().map(|outcome| &outcome.distortion)),
+            CellShading::Checker => None,
+        };
+        let mut cells: Vec<GridCell> = self
+            .methods
+            .iter()
+            .map(|method| {
+                let content = match (&method.outcome, self.shading, range) {
+                    (Some(outcome), CellShading::By(quantity), Some(range)) => {
+                        let window = frames.next().map(|frame| window(*frame, beside.bounds));
+                        let window = window.expect("every embedding has its frame");
+                        CellContent::Plane(tinted(mesh, outcome, quantity, range, window))
+                    }
+                    (Some(outcome), ..) => CellContent::Photo(checkered(mesh, outcome)),
+                    (None, ..) => CellContent::Words(method.report.error_words()),
+                };
+                let lines = std::iter::once(method.report.verdict_line()).chain(method.report.number_lines());
+                GridCell { title: method.report.name.clone(), lines: lines.collect(), content }
+            })
+            .collect();
+        cells.extend(self.curves());
+        let bar = match (self.shading, range) {
+            (CellShading::By(quantity), Some(range)) => Some(bar(quantity, range)),
+            _ => None,
+        };
+        Grid { cells, bar, caption: self.caption(mesh) }.page()
+    }
+
+    fn outcomes(&self) -> impl Iterator<Item = &Outcome> {
+        self.methods.iter().filter_map(|method| method.outcome.as_deref())
+    }
+
+    fn caption(&self, mesh: &DiskMesh) -> String {
+        let faces = mesh.mesh().real_face_count();
+        let pins = self.methods.first().map_or(0, |method| method.problem.targets.len());
+        let pins = if pins == 0 { String::new() } else { format!(", {pins} pinned") };
+        format!("{}: {} vertices, {faces} faces{pins}. All at one scale.", self.model.name, mesh.real_vertex_count())
+    }
+
+    /// Energy over time, where methods take several steps.
+    fn curves(&self) -> Option<GridCell> {
+        let curve = |method: &&Compared| {
+            let report = &method.report;
+            let points = report.steps.iter().map(|step| DVec2::new(step.elapsed, step.energy)).collect();
+            (report.steps.len() >= CURVE_STEPS).then(|| Curve { name: report.name.clone(), points })
+        };
+        let curves: Vec<Curve> = self.methods.iter().filter_map(curve).collect();
+        let axes = ["seconds".to_owned(), "energy".to_owned()];
+        (!curves.is_empty()).then(|| GridCell {
+            title: "energy over time".to_owned(),
+            lines: vec!["a square for each step".to_owned()],
+            content: CellContent::Curves(Curves { axes, curves }),
+        })
+    }
+}
+
+/// What a cell shows of its embedding, where all are to be seen within a square.
+fn window(frame: CellFrame, bounds: Bounds) -> Window {
+    Window { centre: frame.own(bounds.middle()), half: frame.size() * bounds.size().max_element() / 2.0 }
+}
+
+fn tinted(mesh: &DiskMesh, outcome: &Outcome, quantity: Quantity, range: Range, window: Window) -> TintedDrawing {
+    let levels = f64::from(LEVELS - 1);
+    let colour = |value: f64| quantity.scale().colour_at((range.share(value) * levels).round() / levels);
+    let colours = quantity.values(&outcome.distortion).into_iter().map(colour).collect();
+    TintedDrawing::of_step(mesh, &outcome.step, colours, window)
+}
+
+/// The mesh in space under a checker of the plane, seen from the side that most faces look to.
+fn checkered(given: &DiskMesh, outcome: &Outcome) -> Picture {
+    let mesh = outcome.step.mesh(given).mesh();
+    let embedding = &outcome.step.solution.embedding;
+    let triangles = mesh.real_triangles();
+    let eye = (0..triangles.len()).map(|face| mesh.double_area_vector(FaceId::from_index(face))).sum();
+    let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
+    let double_area = |corners: &[VertexId; 3]| {
+        let [a, b, c] = corners.map(|v| embedding[v]);
+        (b - a).perp_dot(c - a).abs()
+    };
+    let area: f64 = triangles.iter().map(double_area).sum::<f64>() / 2.0;
+    let size = (area.sqrt() / CHECKER_FIELDS).max(f64::MIN_POSITIVE);
+    let paint = Paint::Checker { coordinates: embedding, size };
+    mesh_picture(&mesh.positions, triangles, &view, &Canvas::clay(PICTURE_SIZE, PICTURE_SIZE), paint)
+}
+
+fn bar(quantity: Quantity, range: Range) -> ColourBar {
+    let levels = f64::from(LEVELS - 1);
+    ColourBar {
+        title: quantity.title().to_owned(),
+        colours: (0..LEVELS).map(|level| quantity.scale().colour_at(f64::from(level) / levels)).collect(),
+        ticks: quantity.scale().ticks(range).into_iter().map(|tick| (tick.at, tick.label)).collect(),
+    }
+}
