@@ -1,9 +1,12 @@
-//! The convex hull of points, by Andrew's monotone chain with the exact predicate.
+//! The convex hull of points, by Andrew's monotone chain with the exact predicate; whether a point lies inside one.
 //!
 //! Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
 
+use std::cmp::Ordering;
+
 use glam::DVec2;
 
+use super::polygon::is_down;
 use super::{Orientation, orientation};
 
 /// The corners of the convex hull as places among the points, counter-clockwise from the leftmost, none within a side.
@@ -31,4 +34,42 @@ pub fn convex_hull(points: &[DVec2]) -> Vec<usize> {
     upper.pop();
     lower.append(&mut upper);
     lower
+}
+
+/// Whether a point lies strictly inside the convex hull of others: not on its rim, and not where the hull has no area.
+/// Exact; false where a coordinate is not finite.
+///
+/// So it is where the directions to the others leave no gap of half a turn or more: each of them, followed by the next one
+/// counter-clockwise, turns left. Others in the order of their directions are told at once; else they are sorted.
+pub fn is_inside_hull(point: DVec2, others: &[DVec2]) -> bool {
+    if !point.is_finite() || !others.iter().all(|other| other.is_finite()) {
+        return false;
+    }
+    let turns_left = |a: DVec2, b: DVec2| orientation(point, a, b) == Some(Orientation::CounterClockwise);
+    if others.len() > 2 && in_turn(others).all(|[a, b]| turns_left(a, b)) {
+        return true;
+    }
+    // With the half-turn of the direction: points on one line with it lie in one direction if they share that.
+    let halved = |&other: &DVec2| Some((is_down(point, other)?, other));
+    let mut sorted: Vec<(bool, DVec2)> = others.iter().filter_map(halved).collect();
+    sorted.sort_by(|a, b| a.0.cmp(&b.0).then_with(|| turn_order(orientation(point, a.1, b.1))));
+    let is_same = |a: &(bool, DVec2), b: &(bool, DVec2)| {
+        a.0 == b.0 && orientation(point, a.1, b.1) == Some(Orientation::Collinear)
+    };
+    sorted.dedup_by(|b, a| is_same(a, b));
+    sorted.len() > 2 && in_turn(&sorted).all(|[a, b]| turns_left(a.1, b.1))
+}
+
+/// Each with the next one, the last with the first.
+fn in_turn<T: Copy>(all: &[T]) -> impl Iterator<Item = [T; 2]> + '_ {
+    all.iter().zip(all.iter().cycle().skip(1)).map(|(&a, &b)| [a, b])
+}
+
+/// How two directions of one half-turn follow each other counter-clockwise, by the orientation of their points.
+fn turn_order(turn: Option<Orientation>) -> Ordering {
+    match turn {
+        Some(Orientation::CounterClockwise) => Ordering::Less,
+        Some(Orientation::Clockwise) => Ordering::Greater,
+        Some(Orientation::Collinear) | None => Ordering::Equal,
+    }
 }

@@ -77,7 +77,7 @@ fn orientation_in_integers(coordinates: [f64; 6]) -> Orientation {
 }
 
 /// A finite number as integer · 2^(exponent − 1075); the exponent is at least 1.
-fn integer_and_exponent(value: f64) -> (i64, u32) {
+pub(super) fn integer_and_exponent(value: f64) -> (i64, u32) {
     const FRACTION_BITS: u32 = 52;
     let bits = value.to_bits();
     let fraction = (bits & ((1 << FRACTION_BITS) - 1)).cast_signed();

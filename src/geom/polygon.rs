@@ -10,8 +10,9 @@ use glam::DVec2;
 
 use super::{Orientation, orientation};
 
-/// Whether the direction from one point to another is down; `None` where they coincide or are not finite.
-fn is_down(from: DVec2, to: DVec2) -> Option<bool> {
+/// Whether the direction from one point to another is down: an angle in [π, 2π), where up is [0, π). `None` where they coincide
+/// or are not finite.
+pub fn is_down(from: DVec2, to: DVec2) -> Option<bool> {
     let has_direction = from.is_finite() && to.is_finite() && from != to;
     has_direction.then_some(to.y < from.y || (to.y <= from.y && to.x <= from.x))
 }

@@ -21,6 +21,8 @@ pub struct StepReport {
     pub boundary_crossings: usize,
     /// Overwound vertices.
     pub overwound_vertices: usize,
+    /// Vertices outside the hull of their neighbours: no fault of their own, but why it folds.
+    pub outside_hull_vertices: usize,
     /// Turning number of the boundary.
     pub turning_number: Option<i64>,
     /// Largest move of a vertex since the step before.
@@ -60,7 +62,7 @@ fn cell(number: impl Into<Option<f64>>) -> String {
 
 impl StepReport {
     /// The fields as a row of a table, each with the head of its column; empty where there is no value.
-    pub fn row(&self) -> [(&'static str, String); 21] {
+    pub fn row(&self) -> [(&'static str, String); 22] {
         [
             ("rung", self.rung.name().to_owned()),
             ("index", self.index.to_string()),
@@ -69,6 +71,7 @@ impl StepReport {
             ("crossed_holes", self.crossed_holes.to_string()),
             ("boundary_crossings", self.boundary_crossings.to_string()),
             ("overwound_vertices", self.overwound_vertices.to_string()),
+            ("outside_hull_vertices", self.outside_hull_vertices.to_string()),
             ("turning_number", self.turning_number.map(|turns| turns.to_string()).unwrap_or_default()),
             ("max_move", cell(self.max_move)),
             ("residual", cell(self.residual)),
@@ -98,6 +101,7 @@ impl StepReport {
             crossed_holes: verdict.crossed_holes.len(),
             boundary_crossings: verdict.boundary_crossings.len(),
             overwound_vertices: verdict.overwound_vertices.len(),
+            outside_hull_vertices: step.outside_hull.len(),
             turning_number: verdict.turning_number,
             max_move: step.max_move,
             residual: solution.linear.map(|linear| linear.residual),

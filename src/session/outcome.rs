@@ -94,7 +94,7 @@ impl Outcome {
     /// Bytes of memory that it takes. The factors of a linear solve are kept once, for the next solve, and a mesh with
     /// new vertices once for all steps on it: both are left out.
     pub fn bytes(&self) -> usize {
-        let Step { candidate, verdict, .. } = &self.step;
+        let Step { candidate, verdict, outside_hull, .. } = &self.step;
         let Candidate { solution, virtual_boundary, outside, .. } = candidate;
         let pin_count = self.problem.targets.len() + solution.pins.len();
         let stages = virtual_boundary.as_ref().map_or(0, |stages| {
@@ -112,6 +112,7 @@ impl Outcome {
             + size_of_val(&*verdict.concave_polygons)
             + size_of_val(&*verdict.boundary_crossings)
             + size_of_val(&*verdict.overwound_vertices)
+            + size_of_val(&**outside_hull)
             + pin_count * size_of::<(VertexId, DVec2)>()
             + stages
             + outside

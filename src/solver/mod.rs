@@ -17,6 +17,7 @@
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
 //! | `verdict`, `atlas`, `distortion`, `vertex_equation` | what is said of an embedding |
+//! | `hull_condition`, `one_form` | vertices outside the hull of their neighbours; indices of one-forms |
 //! | `control`, `error` | progress and cancelling; why no embedding was produced |
 
 mod atlas;
@@ -35,6 +36,7 @@ mod fixed_solve;
 mod flatten;
 pub mod foldover_energy;
 mod free_solve;
+mod hull_condition;
 mod iterate;
 mod ladder;
 mod least_squares;
@@ -43,6 +45,7 @@ mod many_pins;
 mod matchmaker;
 mod membrane;
 mod method;
+mod one_form;
 mod outside;
 mod pieces;
 mod pins;
@@ -76,10 +79,12 @@ pub use embedding::Embedding;
 pub use error::SolveError;
 pub use family::Family;
 pub use flatten::{FlattenError, Options, flatten};
+pub use hull_condition::{CornerKind, HullStanding, hull_standing, vertices_outside_hull};
 pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, largest_move};
 pub use matchmaker::{Matched, matched, without_needless_vertices};
 pub use method::{BoundaryShape, Method};
+pub use one_form::{OneFormIndices, index_range};
 pub use outside::Outside;
 pub use pins::{
     Hold, Pin, PinPositions, Pins, TakenTargets, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins,

@@ -284,6 +284,11 @@ impl Verdict {
         self.flipped_faces.is_empty() && !self.is_filling_folded && self.boundary_crossings.is_empty()
     }
 
+    /// The orientation that its faces are judged by.
+    pub fn upright(&self) -> Orientation {
+        if self.mirrored { Orientation::Clockwise } else { Orientation::CounterClockwise }
+    }
+
     /// How many boundary crossings there are, in words: more than are listed, or just so many.
     pub fn crossing_count_in_words(&self) -> String {
         let more = if self.more_crossings { "more than " } else { "" };

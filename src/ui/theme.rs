@@ -27,6 +27,8 @@ pub struct Theme {
     pub concave: Color32,
     /// An overwound vertex.
     pub overwound: Color32,
+    /// A vertex outside the hull of its neighbours.
+    pub outside_hull: Color32,
     /// A pin.
     pub pin: Color32,
     /// A constraint, its line and its residual.
@@ -126,6 +128,7 @@ const fn theme(tone: Column) -> Theme {
         crossing: tone.colour(0x00E8_700A, 0x00FF_9A3D),
         concave: tone.colour(0x006E_7B00, 0x00D4_E157),
         overwound: tone.colour(0x00C0_26A8, 0x00F0_6BD8),
+        outside_hull: tone.colour(0x008A_5A2B, 0x00D9_A878),
         pin: tone.colour(0x002F_5BD8, 0x007B_9BFF),
         constraint: tone.colour(0x0000_8FA3, 0x002B_D4E6),
         selection: on_screen(selection),

@@ -223,3 +223,54 @@ fn go_to_takes_the_keyboard_when_it_opens_and_not_again() {
     assert!(window.editor().selection.vertices().contains(&VertexId::new(24)));
     assert!(window.editor().layout.go_to.is_none());
 }
+
+#[test]
+fn vertices_outside_their_hulls_are_counted_marked_and_gone_through_in_the_tab_of_defects() {
+    let mut window = folded();
+    let outside = window.outcome().step.outside_hull.clone();
+    assert!(outside.len() > 1, "it folds, and its boundary turns once: {outside:?}");
+    let defects = window.editor().defect_count();
+    window.click(&format!("Defects {defects}"));
+    let title = format!("{} vertices outside their hulls", outside.len());
+    assert!(!window.has_button("Next vertex outside"), "folded away at first");
+    window.harness.get_by_label(&title).click();
+    window.settle();
+    for &vertex in outside.iter().chain(&outside[..1]) {
+        window.click("Next vertex outside");
+        assert_eq!(*window.editor().selection.vertices(), [vertex].into());
+    }
+    window.click("Previous vertex outside");
+    assert_eq!(*window.editor().selection.vertices(), [outside[outside.len() - 1]].into());
+    assert!(window.shows(&format!("{0} of {0}", outside.len())));
+    assert!(!window.editor().selection.marks_outside_hull, "nothing is marked by itself");
+    window.harness.get_by_label("Mark them in both panes").click();
+    window.settle();
+    assert!(window.editor().selection.marks_outside_hull);
+    window.menu(&["View", "Vertices outside hulls"]);
+    assert!(!window.editor().selection.marks_outside_hull);
+    assert_eq!(window.editor().defect_count(), defects, "they are no defects of the verdict");
+}
+
+#[test]
+fn where_an_embedding_is_planar_nothing_is_said_of_hulls_but_of_the_vertex_that_is_selected() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    assert!(window.is_proved());
+    window.click("Defects");
+    assert!(!window.shows("outside their hulls") && !window.shows("hull of its neighbours"), "{:?}", window.words());
+    let rows = |window: &mut Window, vertex: u32| {
+        window.editor_mut().selection.select([VertexId::new(vertex)]);
+        window.click("Vertex");
+        window.settle();
+    };
+    rows(&mut window, 24);
+    let says = |window: &Window, name: &str| window.harness.query_by_label(name).is_some();
+    assert!(says(&window, "Hull of neighbours: inside") && says(&window, "Index: 0"), "{:?}", window.words());
+    rows(&mut window, 0);
+    assert!(says(&window, "Hull of neighbours: free, convex"), "{:?}", window.words());
+    fold(&mut window);
+    let outside = window.outcome().step.outside_hull[0];
+    rows(&mut window, outside.number());
+    assert!(window.shows("outside"), "{:?}", window.words());
+    let is_extreme = ["Index: −1 to 1", "Index: 0 to 1", "Index: −2 to 1"].iter().any(|index| says(&window, index));
+    assert!(is_extreme, "{:?}", window.words());
+}

@@ -1,15 +1,16 @@
 //! From candidates to steps: placed, taken to the plane, and proved in the numbers that are written.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
 
 use super::plan::Aim;
 use super::rung::Latest;
 use super::{Candidate, Ladder, Step, largest_move};
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::rest::Rest;
 use crate::solver::units::Units;
-use crate::solver::{Control, Method, Phase, Pins, SolveError, Verdict, verdict};
+use crate::solver::{Control, Embedding, Method, Phase, Pins, SolveError, Verdict, verdict, vertices_outside_hull};
 
 impl Ladder {
     /// Those of the part under way: a planar start lies in the plane where it lies.
@@ -25,8 +26,7 @@ impl Ladder {
         control: Control<'_>,
     ) -> Result<Step, SolveError> {
         control.enter(Phase::Verify).ok();
-        let start = Instant::now();
-        let units = self.units_in_force();
+        let (start, units) = (Instant::now(), self.units_in_force());
         let task = Arc::clone(&self.plan.part().task);
         let refinement = candidate.refinement.clone();
         let disk = refinement.as_ref().map_or(mesh, |refinement| refinement.disk());
@@ -43,6 +43,7 @@ impl Ladder {
             let of = candidate.mesh(mesh);
             candidate.progress = Some(Rest::new(of).progress(of, &candidate.solution.embedding, 0.0));
         }
+        let outside_hull = self.outside_hull_of(mesh, &candidate, &verdict);
         let verify_seconds = start.elapsed().as_secs_f64();
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
@@ -65,18 +66,32 @@ impl Ladder {
             }
         };
         let lies_as_given = task.start.is_some();
-        Ok(Step { candidate, index: self.step_count, verdict, max_move, verify_seconds, set_aside, lies_as_given })
+        let index = self.step_count;
+        Ok(Step { candidate, index, verdict, outside_hull, max_move, verify_seconds, set_aside, lies_as_given })
     }
 
     /// The verdict on a candidate as it is written.
     fn verdict_of(&self, mesh: &DiskMesh, candidate: &Candidate) -> Verdict {
-        let (units, disk) = (self.units_in_force(), candidate.mesh(mesh));
-        if units.is_plane() {
-            return verdict(disk, &self.plan.part().task.sheet.written(&candidate.solution.embedding));
+        verdict(candidate.mesh(mesh), &self.written(candidate))
+    }
+
+    /// Why a candidate folds: vertices outside the hull of their neighbours. None where it is one-to-one, by the theorem.
+    fn outside_hull_of(&self, mesh: &DiskMesh, candidate: &Candidate, verdict: &Verdict) -> Vec<VertexId> {
+        if verdict.is_one_to_one() {
+            return Vec::new();
         }
-        let mut embedding = candidate.solution.embedding.clone();
-        units.embedding_to_plane(&mut embedding, &self.asked.held());
-        verdict(disk, &self.asked.sheet.written(&embedding))
+        vertices_outside_hull(candidate.mesh(mesh), &self.written(candidate), verdict.upright())
+    }
+
+    /// The numbers that are written of a candidate.
+    fn written<'a>(&self, candidate: &'a Candidate) -> Cow<'a, Embedding> {
+        let (units, embedding) = (self.units_in_force(), &candidate.solution.embedding);
+        if units.is_plane() {
+            return self.plan.part().task.sheet.written(embedding);
+        }
+        let mut in_plane = embedding.clone();
+        units.embedding_to_plane(&mut in_plane, &self.asked.held());
+        Cow::Owned(self.asked.sheet.written(&in_plane).into_owned())
     }
 
     /// Gives back the embedding before a round of relaxing, where that was all that is asked for and this is not.

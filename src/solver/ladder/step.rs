@@ -102,6 +102,8 @@ pub struct Step {
     pub index: usize,
     /// The exact verdict on it.
     pub verdict: Verdict,
+    /// Vertices outside the hull of their neighbours, ascending: why it folds. None where it is one-to-one.
+    pub outside_hull: Vec<VertexId>,
     /// Largest move of a vertex since the step before, in the plane; none for the first.
     pub max_move: Option<f64>,
     /// Seconds that the verdict took.

@@ -220,6 +220,8 @@ pub enum Request {
     ZoomInset(Option<usize>, f64),
     /// Pans what an inset shows.
     PanInset(InsetPan),
+    /// Marks vertices outside the hull of their neighbours, or not.
+    ToggleOutsideHull,
     /// Lets vertices glide from step to step, or not.
     ToggleEase,
     /// Shows or hides hull and pockets of the virtual boundary.

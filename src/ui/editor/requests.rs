@@ -41,6 +41,7 @@ impl Editor {
             Request::SetPaneShading(pane, shading) => self.shade_pane(pane, shading),
             Request::ToggleWireframe => self.look.wireframe = !self.look.wireframe,
             Request::ToggleEase => self.look.glides = !self.look.glides,
+            Request::ToggleOutsideHull => self.selection.marks_outside_hull ^= true,
             Request::ToggleMagnifier => self.look.magnifier = !self.look.magnifier,
             Request::ZoomInset(of, by) => self.layout.insets.bring_nearer(of, by),
             Request::PanInset(drag) => self.layout.insets.pan(drag),

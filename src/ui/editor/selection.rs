@@ -19,6 +19,8 @@ pub struct Selection {
     /// Vertices of the file that were selected before the mesh had others, until these are known.
     of_file: BTreeSet<VertexId>,
     defect: Option<usize>,
+    /// Whether vertices outside the hull of their neighbours are marked: no defects of their own, but why it folds.
+    pub marks_outside_hull: bool,
 }
 
 impl Selection {

@@ -139,6 +139,11 @@ impl Editor {
         self.step_on_screen().map(|outcome| Defect::all(&outcome.step.verdict).collect()).unwrap_or_default()
     }
 
+    /// The vertices outside the hull of their neighbours in the embedding on the screen: why it folds.
+    pub fn outside_hull(&self) -> &[VertexId] {
+        self.step_on_screen().map_or(&[], |outcome| &outcome.step.outside_hull)
+    }
+
     /// How many defects are listed.
     pub fn defect_count(&self) -> usize {
         self.step_on_screen().map_or(0, |outcome| Defect::all(&outcome.step.verdict).count())

@@ -67,6 +67,7 @@ fn rows(timeline: &Timeline, steps: [usize; 2]) -> Vec<Row> {
         count("Concave", |record| record.concave_polygons),
         count("Holes", |record| record.crossed_holes),
         count("Overwound", |record| record.overwound_vertices),
+        count("Outside hull", |record| record.outside_hull_vertices),
         measured("Angle", |outcome| outcome.distortion.summary.angle.mean),
         measured("Area", |outcome| outcome.distortion.summary.area.mean),
         measured("Stretch", |outcome| outcome.distortion.summary.stretch_l2),

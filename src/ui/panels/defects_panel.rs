@@ -3,6 +3,7 @@
 use eframe::egui::{self, Color32, RichText, Role};
 
 use super::diagnosis;
+use super::hull_section::hull_section;
 use super::parts::parts;
 use super::welding::welding;
 use crate::mesh::VertexId;
@@ -98,6 +99,7 @@ pub(in crate::ui) fn defects_panel(ui: &mut egui::Ui, editor: &mut Editor, reque
             ui.weak(format!("{} of {}", at + 1, editor.defect_count()));
         }
     });
+    hull_section(ui, editor, requests);
     ui.separator();
     list(ui, editor, requests);
 }

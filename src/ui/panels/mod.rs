@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `mod.rs` | the tool bar at the left, the panel at the right with its tabs |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
+//! | `hull_section.rs` | vertices outside the hull of their neighbours: in the tabs of defects and of the vertex |
 //! | `charts_panel.rs` | the charts of a mesh that has several, and how they are packed |
 //! | `diagnosis.rs` | what is wrong with the mesh, and what mends it: in the tab of defects |
 //! | `parts.rs` | the parts of a mesh, each to be kept or left out: in the same tab |
@@ -29,6 +30,7 @@ mod diagnosis;
 pub(super) mod dialogs;
 pub(super) mod equation_table;
 pub(super) mod floating;
+mod hull_section;
 mod large;
 pub(super) mod menu;
 pub(super) mod method_panel;

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use eframe::egui;
 
 use super::equation_table;
+use super::hull_section::hull_rows;
 use super::status::short;
 use crate::mesh::{DiskMesh, HalfedgeId, NewVertex, VertexId};
 use crate::session::Action;
@@ -58,6 +59,9 @@ pub(in crate::ui) fn vertex_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
             number(ui, "Angles on the mesh", turns(angle_sum_on_mesh(disk, vertex)));
             if let Some(embedding) = embedding {
                 number(ui, "Angles in the plane", turns(angle_sum_in_plane(disk, embedding, vertex)));
+            }
+            if let Some(outcome) = editor.step_on_screen() {
+                hull_rows(ui, disk, outcome, vertex);
             }
         }
     });

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::pane::{self, Viewport};
 use super::pins::{self, Emphasis, PinKind};
-use super::{bars, header, legend, magnifier, seam, vertex_menu};
+use super::{bars, header, legend, magnifier, outside_hull, seam, vertex_menu};
 use crate::mesh::VertexId;
 use crate::render::{self, LineLayer, MeshFrame, PaneId, PictureLayer, Style};
 use crate::session::Action;
@@ -211,6 +211,9 @@ fn marks(ui: &egui::Ui, view: Viewport<OrbitCamera>, editor: &Editor, scene: &Me
     }
     for at in pane::overwound(editor).into_iter().filter_map(seen) {
         pane::overwound_mark(&painter, at, theme);
+    }
+    for at in outside_hull::marked(editor).filter_map(seen) {
+        outside_hull::mark(&painter, at, theme);
     }
     for at in new_vertices(scene).filter_map(seen) {
         new_vertex_mark(&painter, at, theme);

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `header.rs` | the bar over a pane: title, shading, switches |
 //! | `pane.rs` | what both panes share: places on the screen, clicks and boxes, the wheel, marks of defects |
+//! | `outside_hull.rs` | marks of vertices outside the hull of their neighbours |
 //! | `mesh_pane.rs` | the mesh in space |
 //! | `plane_pane.rs` | the embedding |
 //! | `bars.rs` | bars over a pane: messages and questions |
@@ -23,6 +24,7 @@ pub(super) mod inset;
 mod legend;
 mod magnifier;
 pub(super) mod mesh_pane;
+mod outside_hull;
 pub(super) mod pane;
 pub(super) mod pin_drag;
 pub(super) mod pins;

@@ -4,7 +4,7 @@
 use eframe::egui::{self, Color32, CursorIcon, FontId, Pos2, Rect, Response, Role, Sense, Stroke, Vec2};
 use glam::{DVec2, DVec3};
 
-use super::seam;
+use super::{outside_hull, seam};
 use crate::mesh::VertexId;
 use crate::session::Action;
 use crate::ui::editor::scene::{MeshScene, PlaneScene};
@@ -226,7 +226,7 @@ pub(super) fn wheel(ui: &egui::Ui) -> WheelMove {
 }
 
 /// Crossings and overwound vertices marked at most; the list in the panel has them all.
-const MARKS_SHOWN: usize = 500;
+pub(super) const MARKS_SHOWN: usize = 500;
 
 /// Ends of the two boundary edges of each crossing that is marked.
 pub(super) fn crossings(editor: &Editor, scene: &MeshScene) -> Vec<[[VertexId; 2]; 2]> {
@@ -261,6 +261,9 @@ pub(super) fn plane_marks(ui: &egui::Ui, view: Viewport<PlaneCamera>, editor: &E
     }
     for vertex in overwound(editor) {
         overwound_mark(painter, view.spot(at(vertex)), theme);
+    }
+    for vertex in outside_hull::marked(editor) {
+        outside_hull::mark(painter, view.spot(at(vertex)), theme);
     }
 }
 

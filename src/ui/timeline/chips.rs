@@ -247,6 +247,7 @@ fn numbers_of(record: &StepReport, standing: &Standing) -> Vec<(&'static str, St
     numbers.push(("Residual", residual_words(record.residual)));
     numbers.push(("Equation residual", residual_words(record.equation_residual)));
     let counts = [
+        ("Outside the hull of their neighbours", record.outside_hull_vertices),
         ("Constraints not met", standing.unmet),
         ("New vertices", standing.new_vertices),
         ("Boundary vertices bent", record.bent_vertices),

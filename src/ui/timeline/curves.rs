@@ -11,7 +11,7 @@ use crate::ui::panels::status::short;
 use crate::ui::{Control, Editor, Request, Theme, remark, theme_of};
 
 /// How many curves there are.
-pub(super) const CURVE_COUNT: usize = 10;
+pub(super) const CURVE_COUNT: usize = 11;
 
 /// A curve is at least so wide, points.
 const LEAST_WIDTH: f32 = 118.0;
@@ -92,6 +92,12 @@ const CURVES: [Curve; CURVE_COUNT] = [
         "overwound vertices",
         |record, _| Some(record.overwound_vertices as f64),
         |theme| theme.overwound,
+    ),
+    count(
+        "Outside hull",
+        "vertices outside the hull of their neighbours",
+        |record, _| Some(record.outside_hull_vertices as f64),
+        |theme| theme.outside_hull,
     ),
     size(
         "Residual",
