@@ -195,6 +195,7 @@ const fn code_of_solve(error: &SolveError) -> u8 {
         | SolveError::WeightNotPositive { .. }
         | SolveError::FamilyNotApplicable { .. }
         | SolveError::BoundaryTooShort { .. }
+        | SolveError::NoHull
         | SolveError::TooManyPins { .. } => WRONG_USE,
     }
 }

@@ -131,8 +131,11 @@ fn sizes(given: &[ChartSize], model: &Model, targets: &Targets) -> Result<BTreeM
 fn refuse_clashes(arguments: &FlattenArguments, places: &Places) -> Result<(), Failure> {
     places.keep_apart()?;
     places.spare_inputs(&arguments.input, &arguments.solve)?;
-    if let Some(picture) = &arguments.picture {
-        places.spare(picture, "the picture")?;
+    let polygon = arguments.boundary.as_ref().and_then(|typed| typed.file.as_deref());
+    for (file, what) in [(arguments.picture.as_deref(), "the picture"), (polygon, "the polygon")] {
+        if let Some(path) = file {
+            places.spare(path, what)?;
+        }
     }
     let beside = [(arguments.picture.is_some(), "--picture"), (arguments.copy_materials, "--copy-materials")];
     match beside.into_iter().find(|(given, _)| *given && arguments.output.as_deref().is_some_and(is_standard)) {

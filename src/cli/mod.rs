@@ -46,7 +46,7 @@ use crate::solver::{Choice, Family, Method, Words};
 
 pub use args::{
     Arguments, Command, CompareArguments, ComparisonFile, Cut, FlattenArguments, MeshArguments, SeamKind,
-    SolveArguments,
+    SolveArguments, TypedShape,
 };
 pub use exit::{Failure, Remedy, Status};
 pub use figures::pairs;

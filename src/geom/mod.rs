@@ -5,6 +5,7 @@
 //! | `orient.rs`, `along.rs` | the side of a line that a point lies on, and the order of points along a direction, exactly |
 //! | `bounds.rs`, `clip.rs`, `box_tree.rs` | boxes; segments and polygons cut to one; which of many boxes meet |
 //! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; where it meets itself |
+//! | `convex_polygon.rs` | a convex polygon that a person gives |
 //! | `hull.rs`, `rectangle.rs` | the convex hull, and whether a point lies inside; the rectangle of the least area around points |
 //! | `packing.rs` | boxes packed into a picture |
 //! | `triangulation.rs` | triangulations of points, and of what lies outside a polygon |
@@ -16,6 +17,7 @@ mod along;
 mod bounds;
 mod box_tree;
 mod clip;
+mod convex_polygon;
 mod crossings;
 mod hull;
 mod orient;
@@ -32,6 +34,7 @@ pub use along::order_along;
 pub use bounds::Bounds;
 pub use box_tree::{BoxTree, place_along_curve};
 pub use clip::{clip_polygon, clip_segment};
+pub use convex_polygon::{ConvexPolygon, PolygonFault};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::{convex_hull, is_inside_hull};
 pub use orient::{Orientation, orientation};

@@ -82,8 +82,8 @@ pub use project::{
     PROJECT_EXTENSION, PROJECT_VERSION, PathStyle, ProjectError, ProjectFile, ProjectSource, ProjectView, RecoveryNote,
 };
 pub use report::{
-    ChartReport, MeshReport, PackingReport, PinsReport, Placement, REPORT_SCHEMA, Report, Seconds, WeightedPinReport,
-    verdict_as_in_file, write_report,
+    ChartReport, MeshReport, PackingReport, PinsReport, Placement, REPORT_SCHEMA, Report, Seconds, ShapeReport,
+    WeightedPinReport, verdict_as_in_file, write_report,
 };
 pub use stamp::FileStamp;
 pub use step_report::StepReport;

@@ -6,7 +6,9 @@ use serde::Serialize;
 
 use super::{Precision, RoundingReport, StepReport, peak_memory_bytes};
 use crate::mesh::{DiskMesh, Done, FaceId, Part, TriMesh, VertexId};
-use crate::solver::{AtlasVerdict, DistortionSummary, Family, Method, Treatment, Verdict};
+use crate::solver::{
+    AtlasVerdict, BoundaryShape, DistortionSummary, Family, Method, Settings, Spacing, Treatment, Verdict,
+};
 
 /// Version of the form of reports, which `docs/report.schema.json` describes. It counts up where a field goes or changes
 /// its meaning, not where one comes.
@@ -33,6 +35,9 @@ pub struct Report {
     /// Whether the boundary is free, or convex: laid on a convex shape, or bent to one to make it simple.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub boundary: Option<&'static str>,
+    /// The convex shape that a boundary, or the padding around it, was laid on; absent where the method lays none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<ShapeReport>,
     /// Where the coordinates lie.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub placement: Option<Placement>,
@@ -112,6 +117,26 @@ pub enum Placement {
     File,
     /// Packed into a picture with other charts.
     Packed,
+}
+
+/// A convex shape, and what lies on it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ShapeReport {
+    /// The shape.
+    pub outline: BoundaryShape,
+    /// How far apart vertices lie on it.
+    pub spacing: Spacing,
+    /// Layers of virtual triangles between the boundary and the shape.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<usize>,
+}
+
+impl ShapeReport {
+    /// That of these settings, where their method lays a boundary on a shape.
+    pub fn of(settings: &Settings) -> Option<Self> {
+        let layers = settings.method.is_padded().then_some(settings.layers);
+        settings.method.boundary_shape().map(|outline| Self { outline, spacing: settings.spacing, layers })
+    }
 }
 
 /// The input mesh.

@@ -80,10 +80,14 @@ fn side_lengths([a, b, c]: [DVec3; 3]) -> [f64; 3] {
     [a.distance(b), b.distance(c), c.distance(a)]
 }
 
-/// A triangle whose sides are longer by so much, laid with its first corner at the origin and its first side along the
-/// x-axis, counter-clockwise seen from above.
+/// A triangle whose sides are longer by so much.
 fn mollified(corners: [DVec3; 3], by: f64) -> [DVec3; 3] {
-    let [first, opposite, last] = side_lengths(corners).map(|length| length + by);
+    triangle_of_sides(side_lengths(corners).map(|length| length + by))
+}
+
+/// A triangle by the lengths of the sides that leave each corner, laid with its first corner at the origin and its first
+/// side along the x-axis, counter-clockwise seen from above. Without an area where there is no such triangle.
+pub(crate) fn triangle_of_sides([first, opposite, last]: [f64; 3]) -> [DVec3; 3] {
     let along = (first * first + (last - opposite) * (last + opposite)) / (2.0 * first);
     let height = 2.0 * area([first, opposite, last]) / first;
     [DVec3::ZERO, DVec3::new(first, 0.0, 0.0), DVec3::new(along, height, 0.0)]

@@ -13,7 +13,7 @@ use super::{Model, Outcome};
 use crate::geom::{Bounds, Packing, PackingOptions, least_box_turn, pack};
 use crate::io::{
     ChartReport, Materials, MeshReport, Output, OutputChart, OutputFit, PackingReport, Placement, Report, Seconds,
-    StepReport, proved_together,
+    ShapeReport, StepReport, proved_together,
 };
 use crate::mesh::{FaceId, VertexId};
 use crate::solver::{Embedding, distortion, true_area_factor, verdict};
@@ -267,6 +267,7 @@ fn output<'a>(
     let report = Report {
         method: Some(settings.method),
         family: settings.method.uses_family().then_some(settings.family),
+        shape: ShapeReport::of(&settings),
         atlas: Some(proved_together(&written)),
         charts: reports,
         packing,

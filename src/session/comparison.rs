@@ -79,7 +79,7 @@ impl Numbers {
     fn report(self, model: &Model, problem: &Problem, outcome: Option<&Outcome>) -> MethodReport {
         let settings = &problem.settings;
         let variant = Variant::of(settings);
-        let shape = if let Method::Convex(shape) = settings.method { Some(shape) } else { None };
+        let shape = settings.method.boundary_shape();
         let in_file = |error: &SolveError| error.clone().renumbered(|vertex| model.vertex_in_file(vertex));
         MethodReport {
             name: variant.to_string(),

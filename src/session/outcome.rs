@@ -9,7 +9,7 @@ use super::Model;
 use crate::geom::{PictureFrame, VAxis};
 use crate::io::{
     LayoutError, Materials, MeshReport, Output, OutputChart, OutputFit, PinsReport, Placement, Report, Seconds,
-    StepReport, Target, Targets, WeightedPinReport, pins_in_plane, verdict_as_in_file,
+    ShapeReport, StepReport, Target, Targets, WeightedPinReport, pins_in_plane, verdict_as_in_file,
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
@@ -255,6 +255,7 @@ impl Outcome {
             family: settings.method.uses_family().then_some(settings.family),
             pins: Some(pins),
             boundary: Some(if step.has_convex_boundary() { "convex" } else { "free" }),
+            shape: ShapeReport::of(settings),
             placement: Some(placement),
             steps,
             verdict: Some(verdict_as_in_file(&verdict, mesh.mesh())),

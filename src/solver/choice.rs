@@ -8,7 +8,7 @@ use std::marker::PhantomData;
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 use serde::ser::{Serialize, Serializer};
 
-use super::{BoundaryShape, Family, Growth, Method, Treatment};
+use super::{BoundaryShape, Family, Growth, Method, Spacing, Treatment};
 
 /// What a choice is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,4 +103,4 @@ macro_rules! stand_by_name {
     )+};
 }
 
-stand_by_name!(Method, BoundaryShape, Family, Treatment, Growth);
+stand_by_name!(Method, BoundaryShape, Spacing, Family, Treatment, Growth);

@@ -176,9 +176,17 @@ fn sum_corners<T: Scalar>(
     mesh: &DiskMesh,
     weights: impl Fn([DVec3; 3]) -> CornerWeights<T> + Sync,
 ) -> Result<Equations<T>, SolveError> {
+    sum_corners_of(mesh, |corners| mesh.shape(corners), weights)
+}
+
+/// The same where the triangles of three vertices have other shapes than in space.
+pub(super) fn sum_corners_of<T: Scalar>(
+    mesh: &DiskMesh,
+    shape: impl Fn([VertexId; 3]) -> [DVec3; 3] + Sync,
+    weights: impl Fn([DVec3; 3]) -> CornerWeights<T> + Sync,
+) -> Result<Equations<T>, SolveError> {
     sum_pieces(mesh, |piece, k| {
-        let CornerWeights { shares: [to_next, to_previous], bounded } =
-            weights(from_corner(mesh.shape(piece.corners), k));
+        let CornerWeights { shares: [to_next, to_previous], bounded } = weights(from_corner(shape(piece.corners), k));
         ([(piece.links[k], to_next), (mesh.twin(piece.links[(k + 2) % 3]), to_previous)], bounded)
     })
 }

@@ -69,19 +69,27 @@ pub enum SolveError {
     },
 
     /// A boundary with too few vertices for the shape that it should lie on.
-    #[error("the boundary has {found} vertices, a square needs {needed}: choose a circle")]
+    #[error("the boundary has {found} vertices, {shape} needs {needed}: choose a circle")]
     BoundaryTooShort {
+        /// The shape, in words.
+        shape: &'static str,
         /// Vertices of the boundary loop.
         found: usize,
         /// Vertices that the shape needs.
         needed: usize,
     },
 
+    /// A boundary whose projection has no area, or goes round in no order.
+    #[error("the boundary's projection to its best plane has no hull that it runs around: choose a circle")]
+    NoHull,
+
     /// More pins than the method can do with.
     #[error(
-        "{count} vertices are constrained, but a virtual boundary goes with at most {most} exact pins: choose auto or iterate"
+        "{count} vertices are constrained, but {method} goes with at most {most} exact pins: choose auto or iterate"
     )]
     TooManyPins {
+        /// The method's name.
+        method: &'static str,
         /// Pins of the user's.
         count: usize,
         /// The most that only fix the similarity.
@@ -181,6 +189,7 @@ impl SolveError {
             Self::WeightNotPositive { .. } => "weight-not-positive",
             Self::FamilyNotApplicable { .. } => "family-not-applicable",
             Self::BoundaryTooShort { .. } => "boundary-too-short",
+            Self::NoHull => "no-hull",
             Self::TooManyPins { .. } => "too-many-pins",
             Self::TargetsTooNear { .. } => "targets-too-near",
             Self::Unmet => "unmet",
@@ -228,6 +237,7 @@ impl SolveError {
             Self::NotFinite { .. }
             | Self::FamilyNotApplicable { .. }
             | Self::BoundaryTooShort { .. }
+            | Self::NoHull
             | Self::TooManyPins { .. }
             | Self::Unmet
             | Self::TooFine

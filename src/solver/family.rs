@@ -43,7 +43,7 @@ impl Family {
 
     /// Whether a method can be solved with these weights: those that are not three-point need a convex boundary.
     pub const fn goes_with(self, method: Method) -> bool {
-        self.power().is_some() || matches!(method, Method::Convex(_))
+        self.power().is_some() || method.takes_any_family()
     }
 }
 
@@ -57,22 +57,22 @@ impl Choice for Family {
     fn words(self) -> Words {
         match self {
             Self::Conformal => Words::new("conformal", "Conformal")
-                .about("d = r: cotangents, keeps angles")
+                .about("d = r: cotangents, keeps angles; positive where opposite angles sum to less than 180°")
                 .source("paper §3.1; Pinkall and Polthier 1993"),
             Self::MeanValue => Words::new("mean-value", "Mean value")
                 .about("d = 1: always positive")
                 .source("paper §3.1; Floater 2003"),
-            Self::Wachspress => {
-                Words::new("wachspress", "Wachspress").about("d = 1/r").source("paper §3.1; Wachspress 1975")
-            }
+            Self::Wachspress => Words::new("wachspress", "Wachspress")
+                .about("d = 1/r; positive where rings of neighbours are convex")
+                .source("paper §3.1; Wachspress 1975"),
             Self::Power(_) => Words::new("power:P", "Power")
                 .about("d = r^P: Wachspress at −1, mean value at 0, conformal at 1")
                 .source("paper §3.1; Floater, Hormann and Kós 2006"),
-            Self::Uniform => {
-                Words::new("uniform", "Uniform").about("all weights equal; convex boundary only").source("Tutte 1963")
-            }
+            Self::Uniform => Words::new("uniform", "Uniform")
+                .about("all weights equal, so always positive; convex boundary only")
+                .source("Tutte 1963"),
             Self::ShapePreserving => Words::new("shape-preserving", "Shape-preserving")
-                .about("averaged barycentric coordinates; convex boundary only")
+                .about("averaged barycentric coordinates: always positive; convex boundary only")
                 .source("Floater 1997"),
         }
     }

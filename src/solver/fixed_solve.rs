@@ -70,6 +70,11 @@ impl FixedSolve {
         Ok((free.collect(), solved.residual))
     }
 
+    /// Its equations, without the factors.
+    pub(super) fn into_equations(self) -> Equations<f64> {
+        self.equations
+    }
+
     /// The numbers of a solve. Prescribed vertices have no equation.
     pub(super) fn numbers(&self, site: Site<'_>, embedding: &Embedding, residual: f64) -> LinearSolve {
         let has_equation = |v| site.system.row(v).is_some();

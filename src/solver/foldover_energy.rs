@@ -116,8 +116,18 @@ impl Element {
         Self { corners, gradients, weight }
     }
 
-    /// α = ½ Σ ḡ z and β = ½ Σ g z.
-    fn derivatives(&self, z: [DVec2; 3]) -> (DVec2, DVec2) {
+    /// Gradients of the three hat functions on the shape at rest.
+    pub fn gradients(&self) -> [DVec2; 3] {
+        self.gradients
+    }
+
+    /// Factor of its energy.
+    pub fn weight(&self) -> f64 {
+        self.weight
+    }
+
+    /// The derivatives ∂z/∂w and ∂z/∂w̄ of its map: α = ½ Σ ḡ z and β = ½ Σ g z.
+    pub fn derivatives(&self, z: [DVec2; 3]) -> (DVec2, DVec2) {
         let mut sums = (DVec2::ZERO, DVec2::ZERO);
         for (g, z) in self.gradients.iter().zip(z) {
             sums.0 += conjugate(*g).rotate(z);
@@ -190,11 +200,11 @@ fn smallest_positive_root([c, b, a]: [f64; 3]) -> f64 {
     if divisor > 0.0 { 2.0 * c / divisor } else { f64::INFINITY }
 }
 
-fn conjugate(z: DVec2) -> DVec2 {
+pub(super) fn conjugate(z: DVec2) -> DVec2 {
     DVec2::new(z.x, -z.y)
 }
 
-fn flat(vectors: [DVec2; 3]) -> [f64; 6] {
+pub(super) fn flat(vectors: [DVec2; 3]) -> [f64; 6] {
     let [a, b, c] = vectors;
     [a.x, a.y, b.x, b.y, c.x, c.y]
 }

@@ -1,6 +1,6 @@
 //! The ways to an embedding: all that is said of them by name stands here.
 
-use super::{Choice, NoEquation, WeightSource, Words};
+use super::{BoundaryShape, Choice, Family, NoEquation, Settings, WeightSource, Words};
 
 /// A way to an embedding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,10 +16,16 @@ pub enum Method {
     VirtualBoundary,
     /// The boundary on a convex shape, the inside at barycentres (Tutte 1963, Floater 1997).
     Convex(BoundaryShape),
+    /// The same with weights divided by stretch, solve after solve (Yoshizawa et al. 2004).
+    Stretch(BoundaryShape),
+    /// Layers of virtual triangles around the mesh, the outermost on a convex shape, peeled afterwards (Lee et al. 2002).
+    Lee(BoundaryShape),
     /// Least-squares conformal map (Lévy et al. 2002); the same as natural with conformal weights.
     Lscm,
     /// Lévy's triangle equations summed around each vertex (paper §3.2).
     Levy,
+    /// Scalable locally injective mappings (Rabinovich et al. 2017): Tutte's map on a circle, its energy lowered.
+    Slim,
     /// From a planar embedding without the constraints, one-to-one all the way to their targets.
     Continuation,
     /// Paths between the constraints on the mesh, with new vertices where they need room, straightened in the plane.
@@ -37,17 +43,37 @@ pub enum Method {
 impl Method {
     /// Whether the choice of family matters.
     pub const fn uses_family(self) -> bool {
-        matches!(self, Self::Auto | Self::Natural | Self::Iterate | Self::VirtualBoundary | Self::Convex(_))
+        matches!(self, Self::Auto | Self::Natural | Self::Iterate | Self::VirtualBoundary) || self.takes_any_family()
+    }
+
+    /// Whether it goes with families that want a convex boundary.
+    pub const fn takes_any_family(self) -> bool {
+        matches!(self, Self::Convex(_) | Self::Lee(_))
+    }
+
+    /// Whether it puts layers of virtual triangles around the mesh.
+    pub const fn is_padded(self) -> bool {
+        matches!(self, Self::Lee(_))
+    }
+
+    /// The family, where nobody says.
+    pub fn usual_family(self) -> Family {
+        if matches!(self, Self::Lee(_)) { Family::MeanValue } else { Family::default() }
     }
 
     /// Whether it iterates, so that a limit of its steps matters.
     pub const fn iterates(self) -> bool {
-        matches!(self, Self::Auto | Self::Iterate)
+        matches!(self, Self::Auto | Self::Iterate | Self::Stretch(_) | Self::Slim)
+    }
+
+    /// The most iterations, where nobody says: mean-value ones, solves of less stretch, or those of SLIM.
+    pub const fn usual_steps(self) -> usize {
+        if matches!(self, Self::Slim) { 20 } else { Settings::MAX_STEPS }
     }
 
     /// Whether it takes more steps than one linear solve.
     pub const fn takes_steps(self) -> bool {
-        !matches!(self, Self::Natural | Self::Convex(_) | Self::Lscm | Self::Levy)
+        !matches!(self, Self::Natural | Self::Convex(_) | Self::Lee(_) | Self::Lscm | Self::Levy)
     }
 
     /// Whether it keeps every step one-to-one on the way to the constraints.
@@ -75,12 +101,34 @@ impl Method {
 
     /// Whether pins matter.
     pub const fn uses_pins(self) -> bool {
-        !matches!(self, Self::Convex(_))
+        !matches!(self, Self::Convex(_) | Self::Stretch(_))
+    }
+
+    /// The shape that it lays a boundary on.
+    pub fn boundary_shape(mut self) -> Option<BoundaryShape> {
+        self.boundary_shape_mut().copied()
+    }
+
+    /// The same, to be changed.
+    pub const fn boundary_shape_mut(&mut self) -> Option<&mut BoundaryShape> {
+        match self {
+            Self::Convex(shape) | Self::Stretch(shape) | Self::Lee(shape) => Some(shape),
+            _ => None,
+        }
+    }
+
+    /// The same with this shape, if it lays a boundary on one.
+    #[must_use]
+    pub const fn on_shape(mut self, shape: BoundaryShape) -> Self {
+        if let Some(own) = self.boundary_shape_mut() {
+            *own = shape;
+        }
+        self
     }
 
     /// Whether it can be asked to meet constraints: pins beyond the two exact ones that fix the similarity.
     pub const fn takes_constraints(self) -> bool {
-        self.uses_pins() && !matches!(self, Self::VirtualBoundary | Self::Schnyder)
+        self.uses_pins() && !matches!(self, Self::VirtualBoundary | Self::Schnyder | Self::Lee(_) | Self::Slim)
     }
 
     /// Whether it has nothing of its own to do where there are no constraints.
@@ -95,12 +143,13 @@ impl Method {
     /// Why vertices have no equations with a barycentre.
     pub const fn weight_source(self) -> Result<WeightSource, NoEquation> {
         match self {
-            Self::Auto | Self::Natural | Self::Convex(_) | Self::Lscm => Ok(WeightSource::Surface),
+            Self::Auto | Self::Natural | Self::Convex(_) | Self::Lee(_) | Self::Lscm => Ok(WeightSource::Surface),
             Self::Iterate => Ok(WeightSource::StepBefore),
             Self::VirtualBoundary => Ok(WeightSource::Extended),
             Self::Levy => Err(NoEquation::OfTriangles),
+            Self::Stretch(_) => Err(NoEquation::OfStretch),
             Self::Schnyder => Err(NoEquation::OnGrid),
-            Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut => Err(NoEquation::OfEnergy),
+            Self::Slim | Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut => Err(NoEquation::OfEnergy),
             Self::Given => Err(NoEquation::OfFile),
         }
     }
@@ -129,7 +178,7 @@ impl Method {
     }
 }
 
-/// A convex boundary stands for all shapes, which are a choice of their own. Relaxing, cutting and a layout that was given
+/// A convex boundary stands for all shapes, as does another method with one, for shapes are a choice of their own. Relaxing, cutting and a layout that was given
 /// cannot be chosen: they are rungs only.
 impl Choice for Method {
     const ALL: &'static [Self] = &[
@@ -138,8 +187,11 @@ impl Choice for Method {
         Self::Iterate,
         Self::VirtualBoundary,
         Self::Convex(BoundaryShape::Circle),
+        Self::Stretch(BoundaryShape::Circle),
+        Self::Lee(BoundaryShape::Circle),
         Self::Lscm,
         Self::Levy,
+        Self::Slim,
         Self::Continuation,
         Self::Matchmaker,
         Self::Schnyder,
@@ -163,14 +215,32 @@ impl Choice for Method {
                 .about("natural boundary, then mesh and outside embedded together within a convex outline")
                 .source("paper §5"),
             Self::Convex(_) => Words::new("convex", "Convex boundary")
-                .about("boundary on a circle or a square (--boundary), inside at barycentres")
+                .about("boundary on a convex shape (--boundary), inside at barycentres")
                 .source("Tutte 1963, Floater 1997"),
+            Self::Stretch(_) => Words::new("stretch", "Stretch minimising")
+                .about(
+                    "convex boundary (--boundary), weights divided by stretch solve after solve, until the L² stretch \
+                     no longer falls",
+                )
+                .source("Yoshizawa, Belyaev and Seidel 2004"),
+            Self::Lee(_) => Words::new("lee", "Lee's virtual boundary")
+                .about(
+                    "layers of triangles around the mesh (--layers), the outermost on a convex shape (--boundary), peeled \
+                     off after the solve; planar, but not even a flat mesh comes back",
+                )
+                .source("Lee, Kim and Lee 2002"),
             Self::Lscm => Words::new("lscm", "Least-squares conformal")
                 .about("least-squares conformal map; equals natural with conformal weights")
                 .source("Lévy et al. 2002"),
             Self::Levy => Words::new("levy", "Lévy, summed")
                 .about("Lévy's triangle equations summed around each vertex")
                 .source("paper §3.2"),
+            Self::Slim => Words::new("slim", "SLIM")
+                .about(
+                    "symmetric Dirichlet energy lowered from Tutte's map on a circle, no face folded; its boundary may \
+                     cross itself",
+                )
+                .source("Rabinovich et al. 2017"),
             Self::Continuation => Words::new("continuation", "Continuation")
                 .about("from a planar map without constraints to their targets, one-to-one all the way")
                 .source("ours; energy of Garanzha et al. 2021"),
@@ -191,27 +261,6 @@ impl Choice for Method {
             Self::Given => {
                 Words::new("given", "File's layout").about("the texture coordinates of the mesh file, as they are")
             }
-        }
-    }
-}
-
-/// The shape that [`Method::Convex`] lays the boundary on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BoundaryShape {
-    /// A circle, arcs in proportion to edge lengths.
-    #[default]
-    Circle,
-    /// A square, its corners at vertices, sides in proportion to edge lengths.
-    Square,
-}
-
-impl Choice for BoundaryShape {
-    const ALL: &'static [Self] = &[Self::Circle, Self::Square];
-
-    fn words(self) -> Words {
-        match self {
-            Self::Circle => Words::new("circle", "Circle").about("a circle"),
-            Self::Square => Words::new("square", "Square").about("a square"),
         }
     }
 }

@@ -2,18 +2,21 @@
 //!
 //! | files | what |
 //! |---|---|
-//! | `method`, `family`, `settings`, `choice` | what can be chosen, with its names and words |
+//! | `method`, `family`, `boundary_shape`, `settings`, `choice` | what can be chosen, with its names and words |
 //! | `variant` | a method with its weights and its boundary, as comparisons name it |
 //! | `pins`, `conflicts` | pins and gauge; pins that contradict each other |
 //! | `placing`, `upright`, `sheet`, `rounding` | size, place and turn of what is not pinned, without a fold; the numbers that are written of it |
 //! | `units` | the units of a solve: near the origin and near size 1, wherever the targets are |
 //! | `embedding`, `solution` | positions of all vertices in the plane; one with the numbers of its solve |
 //! | `weights`, `pieces`, `equations`, `plane_weights`, `shape_preserving` | the equations of every vertex, from the surface or from the plane |
-//! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `many_pins`, `left_kernel`, `convex` | one linear solve, with a free or a fixed boundary |
+//! | `system`, `prepared`, `free_solve`, `fixed_solve`, `least_squares`, `many_pins`, `left_kernel`, `convex`, `hull_corners` | one linear solve, with a free or a fixed boundary |
 //! | `iterate` | one mean-value iteration (paper §4) |
+//! | `lee` | layers of virtual triangles around the mesh, on a convex shape |
+//! | `stretch` | a convex boundary with less and less stretch |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
 //! | `schnyder` | a drawing in whole numbers, planar by theorem |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
+//! | `slim` | an energy lowered from Tutte's map, as others ship it |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
 //! | `verdict`, `atlas`, `distortion`, `vertex_equation` | what is said of an embedding |
@@ -22,6 +25,7 @@
 
 mod atlas;
 mod block_pattern;
+mod boundary_shape;
 mod choice;
 mod conflicts;
 mod continuation;
@@ -37,9 +41,11 @@ mod flatten;
 pub mod foldover_energy;
 mod free_solve;
 mod hull_condition;
+mod hull_corners;
 mod iterate;
 mod ladder;
 mod least_squares;
+mod lee;
 mod left_kernel;
 mod many_pins;
 mod matchmaker;
@@ -59,7 +65,9 @@ mod schnyder;
 mod settings;
 mod shape_preserving;
 mod sheet;
+pub mod slim;
 mod solution;
+mod stretch;
 mod system;
 mod units;
 mod upright;
@@ -70,6 +78,7 @@ mod virtual_boundary;
 pub mod weights;
 
 pub use atlas::{AtlasVerdict, ChartVerdict, OVERLAPS_LISTED, atlas_verdict};
+pub use boundary_shape::{BoundaryShape, Spacing};
 pub use choice::{Choice, Words};
 pub use conflicts::{CONFLICTS_LISTED, Conflict, conflicts};
 pub use control::{Control, Phase};
@@ -82,8 +91,9 @@ pub use flatten::{FlattenError, Options, flatten};
 pub use hull_condition::{CornerKind, HullStanding, hull_standing, vertices_outside_hull};
 pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, largest_move};
+pub use lee::Padded;
 pub use matchmaker::{Matched, matched, without_needless_vertices};
-pub use method::{BoundaryShape, Method};
+pub use method::Method;
 pub use one_form::{OneFormIndices, index_range};
 pub use outside::Outside;
 pub use pins::{
@@ -98,6 +108,7 @@ pub use settings::{GaugeSize, Growth, Settings, Start, Treatment};
 pub use shape_preserving::shape_preserving;
 pub use sheet::Sheet;
 pub use solution::{LinearSolve, PhaseSeconds, Solution};
+pub use stretch::{LessStretched, StretchMinimising};
 pub use system::FreeSystem;
 pub use variant::Variant;
 pub use verdict::{Verdict, is_one_to_one, is_planar, verdict};

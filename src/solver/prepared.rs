@@ -74,7 +74,7 @@ impl Prepared {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
         let own_places = match settings.method {
-            Method::Convex(shape) => Some(convex_boundary(mesh, shape)?),
+            Method::Convex(shape) | Method::Stretch(shape) => Some(convex_boundary(mesh, shape, settings.spacing)?),
             _ if pins.len() < GAUGE_PINS => Some(gauge_pins(mesh)),
             _ => None,
         };
@@ -82,10 +82,11 @@ impl Prepared {
         let pins = own_places.clone().map_or_else(|| asked.clone(), fixed_pins);
         let mut seconds = PhaseSeconds::default();
         let (system, values) = match settings.method {
-            Method::Convex(_) => {
+            Method::Convex(_) | Method::Stretch(_) => {
                 let system = FreeSystem::new(mesh, |v| pins.contains_key(&v));
-                let equations = convex_equations(mesh, settings.family)?;
-                let is_symmetric = matches!(settings.family, Family::Conformal | Family::Uniform);
+                let family = if settings.method.uses_family() { settings.family } else { Family::MeanValue };
+                let equations = convex_equations(mesh, family)?;
+                let is_symmetric = matches!(family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
                 let kind = if is_symmetric { Kind::Hermitian } else { Kind::General };
                 let analysis = analyze(|| system.analysis(kind), &mut seconds, control)?;

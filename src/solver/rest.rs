@@ -10,7 +10,7 @@ use super::{Embedding, Hold, Outside, Pins, Progress, SolveError};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// Faces that are thinner, height to longest side, are measured as if they were so thick.
-const THINNEST: f64 = 1e-4;
+pub(super) const THINNEST: f64 = 1e-4;
 
 /// Triangles as they lie in space, each laid into the plane.
 #[derive(Debug)]
@@ -191,7 +191,7 @@ pub(super) fn mean_edge_length(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
 }
 
 /// A triangle of space in the plane, its first side along the x-axis.
-fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
+pub(super) fn laid_flat([a, b, c]: [DVec3; 3]) -> [DVec2; 3] {
     let (first, second) = (b - a, c - a);
     let length = first.length();
     if length == 0.0 {

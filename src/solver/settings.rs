@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::pins::GAUGE_PINS;
-use super::{Choice, Family, Hold, Method, Pin, Pins, Words};
+use super::{Choice, Family, Hold, Method, Pin, Pins, Spacing, Words};
 use crate::geom::Bounds;
 
 /// How the equations of pinned vertices are treated.
@@ -100,9 +100,13 @@ pub struct Settings {
     pub method: Method,
     /// The weights, where the method has a choice.
     pub family: Family,
+    /// How far apart vertices lie on a convex shape, where the method lays a boundary on one.
+    pub spacing: Spacing,
+    /// Layers of virtual triangles that [`Method::Lee`] puts around the mesh, 1 at least.
+    pub layers: usize,
     /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_on`] says.
     pub treatment: Option<Treatment>,
-    /// The most mean-value iterations after a linear solve; a ladder that starts again counts anew.
+    /// The most iterations after a linear solve; a ladder that starts again counts anew.
     pub max_steps: usize,
     /// How the virtual boundary goes on.
     pub growth: Growth,
@@ -122,6 +126,8 @@ impl Default for Settings {
         Self {
             method: Method::default(),
             family: Family::default(),
+            spacing: Spacing::default(),
+            layers: Self::LAYERS,
             treatment: None,
             max_steps: Self::MAX_STEPS,
             growth: Growth::default(),
@@ -134,12 +140,28 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The most mean-value iterations after a linear solve, where nobody says.
+    /// The most iterations after a linear solve, where nobody says; see [`Method::usual_steps`].
     pub const MAX_STEPS: usize = 60;
 
-    /// A method and a family, everything else as it is by default.
+    /// Layers of virtual triangles, where nobody says.
+    pub const LAYERS: usize = 2;
+
+    /// The most layers that can be asked for.
+    pub const MOST_LAYERS: u16 = 100;
+
+    /// A method and a family, everything else as it is by default for the method.
     pub fn new(method: Method, family: Family) -> Self {
-        Self { method, family, ..Self::default() }
+        Self { method, family, max_steps: method.usual_steps(), ..Self::default() }
+    }
+
+    /// The same by another method. What is as usual for this one is as usual for that, as are weights that do not go with it.
+    #[must_use]
+    pub fn by(self, method: Method) -> Self {
+        let is_usual = self.family == self.method.usual_family() || !self.family.goes_with(method);
+        let family = if is_usual { method.usual_family() } else { self.family };
+        let has_usual_steps = self.max_steps == self.method.usual_steps();
+        let max_steps = if has_usual_steps { method.usual_steps() } else { self.max_steps };
+        Self { method, family, max_steps, ..self }
     }
 
     /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the solver
@@ -148,9 +170,14 @@ impl Settings {
     pub fn treatment_on(&self, rung: Method, pin_count: usize) -> Treatment {
         match rung {
             // By hand after a convex boundary, all of which is pinned.
-            Method::Iterate if matches!(self.method, Method::Convex(_)) => Treatment::Eliminate,
+            Method::Iterate if !self.method.uses_pins() => Treatment::Eliminate,
             Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
-            Method::VirtualBoundary | Method::Schnyder | Method::Convex(_) => Treatment::Eliminate,
+            Method::VirtualBoundary
+            | Method::Schnyder
+            | Method::Convex(_)
+            | Method::Stretch(_)
+            | Method::Lee(_)
+            | Method::Slim => Treatment::Eliminate,
             _ if pin_count > 2 => self.treatment.unwrap_or(Treatment::LeastSquares),
             _ => self.treatment.unwrap_or(Treatment::Eliminate),
         }

@@ -7,19 +7,24 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::equations::Equations;
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
 /// Shape-preserving coefficients of the interior vertices' equations. Boundary rows stay empty.
 pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
+    shape_preserving_of(mesh, &|corners| mesh.shape(corners))
+}
+
+/// The same where the triangles of three vertices have other shapes than in space.
+pub(super) fn shape_preserving_of(mesh: &DiskMesh, shape: Shape<'_>) -> Equations<f64> {
     let mut coefficients = vec![0.0; mesh.link_count()];
     let mut bounded_corners = 0;
     for vertex in mesh.vertices().filter(|&v| mesh.boundary_place(v).is_none()) {
         let spokes: Vec<HalfedgeId> = mesh.outgoing(vertex).collect();
         let neighbours: Vec<VertexId> = spokes.iter().map(|&h| mesh.head(h)).collect();
-        let (weights, fell_back) = ring_weights(mesh, vertex, &neighbours);
+        let (weights, fell_back) = ring_weights(shape, vertex, &neighbours);
         bounded_corners += usize::from(fell_back);
         for (h, weight) in spokes.iter().zip(weights) {
             coefficients[h.index()] = weight;
@@ -28,29 +33,31 @@ pub fn shape_preserving(mesh: &DiskMesh) -> Equations<f64> {
     Equations { coefficients, bounded_corners }
 }
 
+/// The triangle of three vertices.
+pub(super) type Shape<'a> = &'a dyn Fn([VertexId; 3]) -> [DVec3; 3];
+
 /// Angle and radius of each neighbour in the flattened ring.
-fn polar_map(mesh: &DiskMesh, centre: VertexId, neighbours: &[VertexId]) -> Vec<(f64, f64)> {
+fn polar_map(shape: Shape<'_>, centre: VertexId, neighbours: &[VertexId]) -> Vec<(f64, f64)> {
+    // The angle to the neighbour that follows, and the radius.
     let gap = |(&next, &previous): (&VertexId, &VertexId)| {
-        let [at, a, b] = mesh.shape([centre, next, previous]);
-        (a - at).angle_between(b - at)
+        let [at, a, b] = shape([centre, next, previous]);
+        ((a - at).angle_between(b - at), at.distance(a))
     };
-    let gaps: Vec<f64> = neighbours.iter().zip(neighbours.iter().cycle().skip(1)).map(gap).collect();
-    let total: f64 = gaps.iter().sum();
+    let gaps: Vec<(f64, f64)> = neighbours.iter().zip(neighbours.iter().cycle().skip(1)).map(gap).collect();
+    let total: f64 = gaps.iter().map(|(gap, _)| gap).sum();
     let mut angle = 0.0;
-    neighbours
-        .iter()
-        .zip(gaps)
-        .map(|(&neighbour, gap)| {
+    gaps.into_iter()
+        .map(|(gap, radius)| {
             let here = angle;
             angle += gap * TAU / total;
-            (here, mesh.length([centre, neighbour]))
+            (here, radius)
         })
         .collect()
 }
 
 /// Weights of an interior vertex's ring, given by its neighbours in order, and whether a degenerate ring made them equal.
-pub(super) fn ring_weights(mesh: &DiskMesh, centre: VertexId, neighbours: &[VertexId]) -> (Vec<f64>, bool) {
-    let ring = polar_map(mesh, centre, neighbours);
+pub(super) fn ring_weights(shape: Shape<'_>, centre: VertexId, neighbours: &[VertexId]) -> (Vec<f64>, bool) {
+    let ring = polar_map(shape, centre, neighbours);
     let count = ring.len();
     let point = |i: usize| ring[i].1 * DVec2::from_angle(ring[i].0);
     let mut weights = vec![0.0; count];

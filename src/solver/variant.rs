@@ -12,7 +12,7 @@ const SHAPE_MARK: char = '@';
 /// A method, on its boundary, with weights where it has a choice: `METHOD[/FAMILY][@BOUNDARY]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variant {
-    /// The method; `convex` with its shape.
+    /// The method, with its shape where it lays a boundary on one.
     pub method: Method,
     /// Its weights; none where it has no choice, or takes those of the settings that it is run with.
     pub family: Option<Family>,
@@ -25,20 +25,22 @@ impl Variant {
         Self { method, family: method.uses_family().then_some(family) }
     }
 
-    /// The settings that it is run with, everything else as in `base`: without weights of its own it takes those there,
-    /// where they go with the method; it goes on from a layout where that is wanted and the method can.
+    /// The settings that it is run with, everything else as in `base`: without weights of its own it takes those there, where
+    /// they are unusual there and go with the method; it goes on from a layout where that is wanted and the method can.
     pub fn settings(self, base: &Settings) -> Settings {
-        let of_base = Some(base.family).filter(|family| family.goes_with(self.method));
+        let settings = base.by(self.method);
         let start = if self.method.goes_on_from_layout() { base.start } else { Start::Afresh };
-        Settings { method: self.method, family: self.family.or(of_base).unwrap_or_default(), start, ..*base }
+        Settings { family: self.family.unwrap_or(settings.family), start, ..settings }
+    }
+
+    /// The shape that its boundary is laid on, where that is not the usual one.
+    fn unusual_shape(&self) -> Option<BoundaryShape> {
+        self.method.boundary_shape().filter(|shape| *shape != BoundaryShape::default())
     }
 
     /// Its name on the screen.
     pub fn title(&self) -> String {
-        let shape = match self.method {
-            Method::Convex(shape) if shape != BoundaryShape::default() => Some(shape.words().title.to_lowercase()),
-            _ => None,
-        };
+        let shape = self.unusual_shape().map(|shape| shape.words().title.to_lowercase());
         let family = self.family.map(|family| match family {
             Family::Power(power) => format!("power {power}"),
             named => named.words().title.to_lowercase(),
@@ -52,12 +54,12 @@ impl Variant {
 impl fmt::Display for Variant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.method.name())?;
-        if let Some(family) = self.family.filter(|family| *family != Family::default()) {
+        if let Some(family) = self.family.filter(|family| *family != self.method.usual_family()) {
             write!(f, "{FAMILY_MARK}{family}")?;
         }
-        match self.method {
-            Method::Convex(shape) if shape != BoundaryShape::default() => write!(f, "{SHAPE_MARK}{}", shape.written()),
-            _ => Ok(()),
+        match self.unusual_shape() {
+            Some(shape) => write!(f, "{SHAPE_MARK}{}", shape.written()),
+            None => Ok(()),
         }
     }
 }
@@ -69,15 +71,17 @@ impl FromStr for Variant {
         let (text, shape) = text.split_once(SHAPE_MARK).map_or((text, None), |(text, shape)| (text, Some(shape)));
         let (name, family) = text.split_once(FAMILY_MARK).map_or((text, None), |(text, family)| (text, Some(family)));
         let method = Method::named(name).ok_or_else(|| format!("no method `{name}`: choose of {}", Method::names()))?;
-        let method = match (method, shape) {
-            (Method::Convex(_), Some(shape)) => {
+        let method = match (method.boundary_shape(), shape) {
+            (Some(_), Some(shape)) => {
                 let found = BoundaryShape::named(shape);
-                Method::Convex(
+                method.on_shape(
                     found.ok_or_else(|| format!("no boundary `{shape}`: choose of {}", BoundaryShape::names()))?,
                 )
             }
-            (_, Some(_)) => return Err(format!("{name} lays its boundary on no shape: leave out {SHAPE_MARK} and it")),
-            (method, None) => method,
+            (None, Some(_)) => {
+                return Err(format!("{name} lays its boundary on no shape: leave out {SHAPE_MARK} and it"));
+            }
+            (_, None) => method,
         };
         let family = family.map(Family::from_str).transpose()?;
         match family {

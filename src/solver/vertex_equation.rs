@@ -82,6 +82,10 @@ pub enum NoEquation {
     StepBeforeMissing,
     /// The weights are a last resort against rounding: equal ones, or those of the surface.
     OtherWeights,
+    /// The vertex has neighbours in layers that were peeled off.
+    Peeled,
+    /// The weights were divided by the stretch of solve after solve.
+    OfStretch,
     /// The step minimises an energy.
     OfEnergy,
     /// The step counts vertices.
@@ -100,6 +104,8 @@ impl NoEquation {
             Self::OtherWeights => "Its weights are a last resort against rounding, not those of an embedding.",
             Self::OfFile => "This step is the layout of the file: nothing was solved for it.",
             Self::OnGrid => "This step is a drawing on a grid: its coordinates count vertices.",
+            Self::Peeled => "It has neighbours among the virtual triangles, which were peeled off.",
+            Self::OfStretch => "Its weights were divided by the stretch of every solve before: they are not kept.",
             Self::OfEnergy => "This step minimises an energy of whole faces: vertices have no equations of their own.",
         }
     }
@@ -118,8 +124,10 @@ pub fn equation_of_step(
 ) -> Result<(VertexEquation, WeightSource), NoEquation> {
     let embedding = &step.solution.embedding;
     let source = step.rung.weight_source()?;
-    if matches!(step.rung, Method::Convex(_)) && mesh.boundary_place(vertex).is_some() {
-        return Err(NoEquation::Prescribed);
+    match step.rung {
+        Method::Convex(_) if mesh.boundary_place(vertex).is_some() => return Err(NoEquation::Prescribed),
+        Method::Lee(_) if mesh.boundary_place(vertex).is_some() => return Err(NoEquation::Peeled),
+        _ => {}
     }
     match (source, &step.virtual_boundary) {
         (WeightSource::StepBefore, _) => {
@@ -217,7 +225,9 @@ fn on_surface(mesh: &DiskMesh, family: Family, embedding: &Embedding, vertex: Ve
     let Some(power) = power else {
         let ones = vec![1.0; fan.neighbours.len()];
         let weights = match family {
-            Family::ShapePreserving if fan.ends.is_none() => ring_weights(mesh, vertex, &fan.neighbours).0,
+            Family::ShapePreserving if fan.ends.is_none() => {
+                ring_weights(&|corners| mesh.shape(corners), vertex, &fan.neighbours).0
+            }
             _ => ones.clone(),
         };
         return put_together(&fan, embedding, [weights, ones.clone(), ones]);

@@ -68,9 +68,13 @@ impl Offer {
     }
 }
 
+/// The most that a list opens to, points.
+const LIST_HEIGHT: f32 = 480.0;
+
 /// A list to choose from: its name, its width in points, what is chosen, and the entries where it is open.
 pub(in crate::ui) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entries: impl FnOnce(&mut Ui)) -> Response {
-    let list = ComboBox::from_id_salt(name).selected_text(shown).width(width);
+    // All entries at once: who has to scroll does not see what there is.
+    let list = ComboBox::from_id_salt(name).selected_text(shown).width(width).height(LIST_HEIGHT);
     list.show_ui(ui, entries).response.named(Role::ComboBox, name)
 }
 

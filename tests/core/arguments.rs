@@ -2,9 +2,10 @@
 
 use clap::{CommandFactory as _, Parser as _};
 use freebound::cli::{Arguments, Command, FlattenArguments};
+use freebound::geom::ConvexPolygon;
 use freebound::io::Target;
 use freebound::mesh::VertexId;
-use freebound::solver::{BoundaryShape, Choice, Family, Growth, Method, Treatment};
+use freebound::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Spacing, Treatment};
 use glam::DVec2;
 
 /// The arguments of `flatten` with an option.
@@ -54,7 +55,35 @@ fn assert_told_apart<C: Choice + PartialEq + std::fmt::Debug>() {
 fn every_choice_has_a_name_of_its_own_and_a_line_on_it() {
     assert_told_apart::<Method>();
     assert_told_apart::<BoundaryShape>();
+    assert_told_apart::<Spacing>();
     assert_told_apart::<Family>();
     assert_told_apart::<Treatment>();
     assert_told_apart::<Growth>();
+}
+
+#[test]
+fn a_boundary_is_a_name_or_corners() {
+    let shape = |text: &str| parsed("--boundary", text)?.boundary.map(|typed| typed.shape);
+    assert_eq!(shape("hull"), Some(BoundaryShape::Hull));
+    let triangle = ConvexPolygon::parse("0 0\n1 0\n0 1").expect("convex");
+    assert_eq!(shape("polygon:0 0; 1 0; 0,1"), Some(BoundaryShape::Polygon(triangle)));
+    assert_eq!(
+        BoundaryShape::named("polygon:0 0; 1 0; 0 1").map(|shape| shape.written().into_owned()).as_deref(),
+        Some("polygon:0 0; 1 0; 0 1")
+    );
+    for wrong in ["heart", "polygon", "polygon:", "polygon:0 0; 1 0", "polygon:0 0; 1 0; 2 0", "polygon:0 0; 0 1; 1 0"]
+    {
+        assert!(shape(wrong).is_none(), "{wrong}");
+    }
+}
+
+#[test]
+fn what_is_not_typed_follows_from_the_method() {
+    let settings = |method: &str| parsed("--method", method).expect("a method").settings();
+    assert_eq!(settings("slim").max_steps, 20);
+    assert_eq!(settings("stretch").max_steps, Settings::MAX_STEPS);
+    assert_eq!((settings("lee").family, settings("lee").layers), (Family::MeanValue, Settings::LAYERS));
+    assert_eq!((settings("convex").family, settings("convex").spacing), (Family::Conformal, Spacing::Chord));
+    assert_eq!(parsed("--layers", "7").expect("a number").settings().layers, 7);
+    assert!(parsed("--layers", "0").is_none() && parsed("--layers", "101").is_none());
 }

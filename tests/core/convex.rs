@@ -3,11 +3,12 @@
 #![allow(clippy::float_cmp, reason = "places on the outline are meant bit for bit")]
 
 use freebound::examples::Example;
+use freebound::geom::{Bounds, ConvexPolygon, convex_hull, turning_number};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::{
-    BoundaryShape, Control, Embedding, Family, Method, Pins, Prepared, Settings, hard_pins, shape_preserving,
-    solve_once, verdict,
+    BoundaryShape, Control, Embedding, Family, Ladder, Method, Pins, Prepared, Settings, SolveError, Spacing,
+    convex_boundary, hard_pins, shape_preserving, solve_once, verdict,
 };
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -85,6 +86,164 @@ fn the_boundary_lies_on_a_square_in_the_order_of_the_loop() {
         let places: Vec<f64> = boundary.iter().map(along).collect();
         assert!(places.is_sorted_by(|a, b| a < b), "{name}: {places:?}");
     }
+}
+
+/// Where the boundary comes to lie at the shape's own size and place.
+fn laid(mesh: &DiskMesh, shape: BoundaryShape, spacing: Spacing) -> Vec<DVec2> {
+    let places = convex_boundary(mesh, shape, spacing).expect("a boundary of many vertices");
+    mesh.boundary_loop().iter().map(|v| places[v]).collect()
+}
+
+/// Asserts that a boundary runs around a convex polygon once, counter-clockwise: its corners are those of its hull, and
+/// what lies between lies on the hull's sides, one after another.
+fn assert_runs_around(places: &[DVec2], name: &str) {
+    let hull: Vec<usize> = convex_hull(places);
+    let size = Bounds::of(places.iter().copied()).diameter();
+    assert!(turning_number(places) == Some(1), "{name}: turns {:?}", turning_number(places));
+    let first = (0..hull.len()).min_by_key(|&k| hull[k]).expect("a hull has corners");
+    let corners: Vec<usize> = (0..hull.len()).map(|k| hull[(first + k) % hull.len()]).collect();
+    assert!(corners.is_sorted(), "{name}: the hull goes around as the loop does");
+    for (k, &from) in corners.iter().enumerate() {
+        let to = corners[(k + 1) % corners.len()];
+        let steps = (to + places.len() - from - 1) % places.len() + 1;
+        let side = places[to] - places[from];
+        let mut before = 0.0;
+        for place in (1..steps).map(|step| places[(from + step) % places.len()]) {
+            let along = (place - places[from]).dot(side) / side.length_squared();
+            let off = (place - places[from]).perp_dot(side).abs() / side.length();
+            assert!(off < 1e-12 * size && along > before && along < 1.0, "{name}: {place} on a side of {side}");
+            before = along;
+        }
+    }
+}
+
+/// A kite, then a pentagon with sides of very different lengths.
+fn polygons() -> [ConvexPolygon; 2] {
+    ["0 0; 2 -1; 3 0; 2 1", "0 0; 10 0; 10.1 0.2; 9 4; 1 2"].map(|text| ConvexPolygon::parse(text).expect("convex"))
+}
+
+#[test]
+fn the_boundary_lies_on_a_polygon_with_vertices_on_its_corners() {
+    for (name, mesh) in examples() {
+        for polygon in polygons() {
+            for spacing in [Spacing::Chord, Spacing::Even] {
+                let places = laid(&mesh, BoundaryShape::Polygon(polygon), spacing);
+                assert_runs_around(&places, &name);
+                for corner in polygon.corners() {
+                    assert!(places.contains(corner), "{name}: no vertex at {corner}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_square_of_the_users_is_the_square() {
+    for (name, mesh) in examples() {
+        let polygon = ConvexPolygon::parse("0 0; 1 0; 1 1; 0 1").expect("convex");
+        for spacing in [Spacing::Chord, Spacing::Even] {
+            let own = laid(&mesh, BoundaryShape::Polygon(polygon), spacing);
+            assert_eq!(own, laid(&mesh, BoundaryShape::Square, spacing), "{name}");
+        }
+    }
+}
+
+#[test]
+fn vertices_lie_evenly_where_that_is_asked_for() {
+    for (name, mesh) in examples() {
+        let count = mesh.boundary_loop().len();
+        let on_circle = laid(&mesh, BoundaryShape::Circle, Spacing::Even);
+        for (k, z) in on_circle.iter().enumerate() {
+            let angle = k as f64 / count as f64 * std::f64::consts::TAU;
+            assert!(z.distance(DVec2::from_angle(angle)) < 1e-14, "{name}: place {k}");
+        }
+        // On a shape with corners the vertices of each side lie evenly.
+        for shape in [BoundaryShape::Square, BoundaryShape::Hull, BoundaryShape::Polygon(polygons()[0])] {
+            let places = laid(&mesh, shape, Spacing::Even);
+            let turns = |k: usize| {
+                let [a, b, c] = [k + count - 1, k, k + 1].map(|k| places[k % count]);
+                ((b - a).perp_dot(c - b) / ((b - a).length() * (c - b).length())).abs() > 1e-6
+            };
+            for k in (0..count).filter(|&k| !turns(k)) {
+                let [a, b, c] = [k + count - 1, k, k + 1].map(|k| places[k % count]);
+                assert!((a.distance(b) - b.distance(c)).abs() < 1e-12, "{name}, {shape:?}: place {k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_hull_is_that_of_the_projection_along_which_the_boundary_extends_least() {
+    for (name, mesh) in examples() {
+        assert_runs_around(&laid(&mesh, BoundaryShape::Hull, Spacing::Chord), &name);
+    }
+    // An ellipse that is a little rough, tilted in space: all its vertices are corners, as far apart as on the ellipse.
+    let ring: Vec<DVec2> = (0..30).map(|k| DVec2::from_angle(f64::from(k) * 0.2) * DVec2::new(3.0, 2.0)).collect();
+    let [x, y, z] =
+        [DVec3::new(2.0, -1.0, 2.0), DVec3::new(2.0, 2.0, -1.0), DVec3::new(-1.0, 2.0, 2.0)].map(|a| a / 3.0);
+    let rough = |k: usize| if k % 3 == 0 { 1e-3 } else { -1e-3 };
+    let mesh = fan_of(&ring, |k, p| x * p.x + y * p.y + z * rough(k));
+    let places = laid(&mesh, BoundaryShape::Hull, Spacing::Chord);
+    let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| ring[v.index() - 1]).collect();
+    let unit = places[0].distance(places[10]) / boundary[0].distance(boundary[10]);
+    for k in 0..30 {
+        for l in 0..k {
+            let ratio = places[k].distance(places[l]) / boundary[k].distance(boundary[l]) / unit;
+            assert!((ratio - 1.0).abs() < 1e-3, "{k} {l}: {ratio}");
+        }
+    }
+}
+
+#[test]
+fn a_flat_convex_boundary_comes_back_on_its_hull() {
+    // A tilted hexagon: its own corners, turned into the plane, and with them the whole mesh by mean-value weights.
+    let flat = fan_of(ConvexPolygon::HEXAGON.corners(), |_, p| DVec3::new(p.x, 0.6 * p.y, 0.8 * p.y));
+    let places = laid(&flat, BoundaryShape::Hull, Spacing::Chord);
+    for k in 0..6 {
+        for l in 0..6 {
+            let boundary = flat.boundary_loop();
+            let in_space = flat.position(boundary[k]).distance(flat.position(boundary[l]));
+            let unit = places[0].distance(places[1]);
+            assert!((places[k].distance(places[l]) / unit - in_space).abs() < 1e-12, "{k} {l}");
+        }
+    }
+    let embedding = embed(&flat, &convex(BoundaryShape::Hull, Family::MeanValue), "hexagon");
+    assert!(verdict(&flat, &embedding).planar);
+}
+
+#[test]
+fn a_boundary_that_crosses_itself_in_projection_lies_on_a_convex_outline_all_the_same() {
+    // A strip with a loop: seen along its best plane's normal it is an eight.
+    let along = |t: f64| DVec3::new(2.0 * t.sin(), (2.0 * t).sin(), 0.3 * t.cos());
+    let rim: Vec<DVec3> = (0..40).map(|k| along(f64::from(k) / 40.0 * std::f64::consts::TAU)).collect();
+    let positions: Vec<DVec3> = std::iter::once(DVec3::new(0.0, 0.0, 2.0)).chain(rim).collect();
+    let triangles: Vec<[u32; 3]> = (0..40).map(|k| [0, 1 + k, 1 + (k + 1) % 40]).collect();
+    let mesh = DiskMesh::try_from(TriMesh::new(positions, &triangles)).expect("a disk");
+    let places = laid(&mesh, BoundaryShape::Hull, Spacing::Chord);
+    assert_runs_around(&places, "eight");
+    let embedding = embed(&mesh, &convex(BoundaryShape::Hull, Family::Uniform), "eight");
+    assert!(verdict(&mesh, &embedding).planar);
+}
+
+#[test]
+fn a_boundary_without_a_hull_is_refused_by_name() {
+    for way in [DVec3::X, DVec3::new(0.3, -0.7, 1.9)] {
+        let line = [0.0, 1.0, 3.0, 2.0].map(|t| way * t).to_vec();
+        let mesh = DiskMesh::try_from(TriMesh::new(line, &[[0, 1, 3], [1, 2, 3]])).expect("mollified");
+        assert_eq!(convex_boundary(&mesh, BoundaryShape::Hull, Spacing::Chord), Err(SolveError::NoHull));
+    }
+}
+
+#[test]
+fn a_polygon_of_the_users_is_not_turned_and_its_corners_stay_in_their_order() {
+    let mesh = DiskMesh::try_from(Example::Face.mesh()).expect("well-formed by construction");
+    let polygon = polygons()[1];
+    let settings = convex(BoundaryShape::Polygon(polygon), Family::Uniform);
+    let step = Ladder::new(settings, Pins::new()).step(&mesh, Control::unattended()).expect("solvable");
+    let places = step.solution.embedding.boundary(&mesh);
+    let [low, high] =
+        [Bounds::of(places.iter().copied()), Bounds::of(polygon.corners().iter().copied())].map(|b| b.size());
+    assert!((low.x / low.y - high.x / high.y).abs() < 1e-9, "as wide and as high as it was given");
 }
 
 /// The family's weights, as the solver's own tests of weights know them.

@@ -114,6 +114,7 @@ fn the_table_shows_folds_in_figure_4_and_their_repair_in_5_and_6() {
     };
     assert_eq!(cells("1", "a"), [0, 0, 1, 0]);
     assert_eq!(cells("1", "b"), [0, 0, 1, 1]);
+    assert_eq!(cells("1", "c"), [0, 0, 1, 1]);
     for (k, panel) in ["a", "b", "c", "d", "e", "f"].iter().enumerate() {
         let [flips, crossings, turning, steps] = cells("4", panel);
         assert_eq!(flips, PAIRS[k / 3].flipped_faces[k % 3], "4 {panel}");

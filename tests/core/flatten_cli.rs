@@ -73,7 +73,7 @@ fn a_mesh_that_comes_out_planar_ends_with_0_and_a_folded_one_with_4() {
 fn wrong_use_ends_with_2_and_says_what_to_do() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str); 35] = [
+    let cases: [(&[&str], &str); 45] = [
         (&["--family", "uniform"], "convex"),
         (&["--family", "power:x"], "power:P"),
         (&["--method", "best"], "natural"),
@@ -107,6 +107,16 @@ fn wrong_use_ends_with_2_and_says_what_to_do() {
         (&["--method", "natural", "--no-new-vertices"], "--no-new-vertices"),
         (&["--boundary", "square"], "--boundary"),
         (&["--method", "lscm", "--family", "mean-value"], "--family"),
+        (&["--method", "slim", "--boundary", "square"], "--boundary"),
+        (&["--method", "natural", "--spacing", "even"], "--spacing"),
+        (&["--method", "convex", "--layers", "2"], "--layers"),
+        (&["--method", "lee", "--layers", "0"], "--layers"),
+        (&["--method", "stretch", "--family", "uniform"], "--family"),
+        (&["--method", "stretch", "--pin", "0:0,0"], "--pin"),
+        (&["--method", "lee", "--max-steps", "3"], "--max-steps"),
+        (&["--method", "convex", "--boundary", "polygon:missing.txt"], "missing.txt"),
+        (&["--method", "convex", "--boundary", "polygon:0 0; 0 1; 1 0"], "clockwise"),
+        (&["--method", "convex", "--boundary", "polygon:0 0; 2 0; 2 2; 1.5 1; 0 2"], "corner 4"),
         (&["--steps"], "--steps"),
         (&["--unknown"], "--unknown"),
     ];
@@ -126,6 +136,23 @@ fn a_square_of_three_boundary_vertices_is_wrong_use() {
     let run = program.run(&["flatten", "in.obj", "--method", "convex", "--boundary", "square"]).expect(2);
     assert!(run.stderr.contains("choose a circle"), "{}", run.stderr);
     program.run(&["flatten", "in.obj", "--method", "convex"]).expect(0);
+}
+
+#[test]
+fn a_polygon_is_read_from_its_file_said_in_the_report_and_not_written_over() {
+    let program = Program::new();
+    example_file(&program, Example::Dome);
+    program.write("shape.txt", "# a kite\n0 0\n2, -1\n3 0\n\n2 1 # the last\n");
+    let convex =
+        ["flatten", "in.obj", "--method", "convex", "--family", "mean-value", "--boundary", "polygon:shape.txt"];
+    let report = program.run(&[&convex[..], &["--report", "-"]].concat()).json();
+    let shape = serde_json::json!({"outline": "polygon:0 0; 2 -1; 3 0; 2 1", "spacing": "chord"});
+    assert_eq!((&report["shape"], &report["boundary"]), (&shape, &serde_json::json!("convex")));
+    let run = program.run(&[&convex[..], &["--svg", "shape.txt"]].concat()).expect(2);
+    assert!(run.stderr.contains("write over the polygon"), "{}", run.stderr);
+    program.write("shape.txt", "0 0\n1 0\n1 x\n");
+    let run = program.run(&convex).expect(2);
+    assert!(run.stderr.contains("shape.txt: line 3: \"1 x\" is no point"), "{}", run.stderr);
 }
 
 #[test]
@@ -209,7 +236,7 @@ fn the_same_run_writes_the_same_bytes_and_the_number_of_threads_changes_no_verdi
 fn all_methods_run_and_say_their_names() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str, Option<&str>); 14] = [
+    let cases: [(&[&str], &str, Option<&str>); 20] = [
         (&["--method", "natural", "--family", "power:0.5"], "natural", Some("power:0.5")),
         (&["--method", "natural", "--family", "wachspress"], "natural", Some("wachspress")),
         (&[], "auto", Some("conformal")),
@@ -224,6 +251,12 @@ fn all_methods_run_and_say_their_names() {
         (&["--method", "convex", "--family", "uniform"], "convex", Some("uniform")),
         (&["--method", "convex", "--family", "shape-preserving"], "convex", Some("shape-preserving")),
         (&["--method", "convex", "--boundary", "square", "--family", "mean-value"], "convex", Some("mean-value")),
+        (&["--method", "convex", "--boundary", "hull", "--spacing", "even"], "convex", Some("conformal")),
+        (&["--method", "stretch", "--boundary", "hull", "--max-steps", "2"], "stretch", None),
+        (&["--method", "slim"], "slim", None),
+        (&["--method", "slim", "--max-steps", "3"], "slim", None),
+        (&["--method", "lee"], "lee", Some("mean-value")),
+        (&["--method", "lee", "--layers", "1", "--family", "uniform"], "lee", Some("uniform")),
     ];
     for (options, method, family) in cases {
         let run = program.run(&[&["flatten", "in.obj", "--report", "-"][..], options].concat());
@@ -245,6 +278,9 @@ fn all_methods_run_and_say_their_names() {
         "continuation",
         "matchmaker",
         "schnyder",
+        "stretch",
+        "slim",
+        "lee",
     ];
     let families = ["conformal", "mean-value", "wachspress", "power:P", "uniform", "shape-preserving"];
     let names: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();

@@ -92,7 +92,10 @@ fn two_pins_are_met_to_the_last_bit_and_three_are_refused() {
             assert_eq!(step.solution.embedding[*vertex as usize], DVec2::from(*target));
         }
     }
-    assert_eq!(steps(&mesh, Method::Schnyder, pins(3)).err(), Some(SolveError::TooManyPins { count: 3, most: 2 }));
+    assert_eq!(
+        steps(&mesh, Method::Schnyder, pins(3)).err(),
+        Some(SolveError::TooManyPins { method: "schnyder", count: 3, most: 2 })
+    );
 }
 
 #[test]

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use freebound::examples::Example;
+use freebound::geom::ConvexPolygon;
 use freebound::geom::VAxis;
 use freebound::io::{FileStamp, PathStyle, ProjectFile, ProjectSource, ProjectView, Target};
 use freebound::session::{Action, Session, Severity};
-use freebound::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Treatment};
+use freebound::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Spacing, Treatment};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -38,6 +39,8 @@ fn with_everything() -> (TempDir, Session) {
         family: Family::Power(0.1 + 0.2),
         treatment: Some(Treatment::LeastSquares),
         max_steps: 7,
+        spacing: Spacing::Even,
+        layers: 5,
         growth: Growth::One,
         size: GaugeSize::default(),
         ..Settings::default()
@@ -84,6 +87,7 @@ fn every_choice_of_method_comes_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = project_in(&folder);
     let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(-0.1), Family::Uniform];
+    let triangle = ConvexPolygon::parse("0 0; 0.1 0.2; -7 1e-3").expect("convex");
     let methods = [
         Method::Auto,
         Method::Natural,
@@ -91,6 +95,11 @@ fn every_choice_of_method_comes_back() {
         Method::VirtualBoundary,
         Method::Convex(BoundaryShape::Circle),
         Method::Convex(BoundaryShape::Square),
+        Method::Convex(BoundaryShape::Hull),
+        Method::Convex(BoundaryShape::Polygon(triangle)),
+        Method::Stretch(BoundaryShape::Square),
+        Method::Lee(BoundaryShape::Polygon(triangle)),
+        Method::Slim,
         Method::Lscm,
         Method::Levy,
         Method::Continuation,

@@ -5,9 +5,10 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::examples::Example;
+use freebound::geom::ConvexPolygon;
 use freebound::mesh::VertexId;
 use freebound::session::Action;
-use freebound::solver::{BoundaryShape, Family, Method, Settings};
+use freebound::solver::{BoundaryShape, Family, Method, Settings, Spacing};
 use freebound::ui::{Tab, sentence};
 use glam::DVec2;
 
@@ -96,11 +97,55 @@ fn the_convex_boundary_can_be_a_square() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.choose("Method", "Convex boundary");
     let on_circle = window.embedding();
-    window.click("Square");
+    window.choose("Shape of the boundary", "Square");
     assert_eq!(settings(&window).method, Method::Convex(BoundaryShape::Square));
     assert_ne!(window.embedding(), on_circle);
-    window.click("Circle");
+    window.choose("Shape of the boundary", "Circle");
     assert_eq!(window.embedding(), on_circle);
+    window.choose("Shape of the boundary", "Hull");
+    assert_eq!(settings(&window).method, Method::Convex(BoundaryShape::Hull));
+    window.click("Even");
+    assert_eq!(settings(&window).spacing, Spacing::Even);
+    assert_eq!(window.outcome().problem.settings, settings(&window), "solved");
+}
+
+#[test]
+fn a_polygon_s_corners_are_typed_and_refused_with_the_reason() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.choose("Method", "Stretch minimising");
+    window.choose("Shape of the boundary", "Polygon");
+    let hexagon = Method::Stretch(BoundaryShape::Polygon(ConvexPolygon::HEXAGON));
+    assert_eq!(settings(&window).method, hexagon);
+    window.fill_in(Role::TextInput, "Corners of the polygon", "0 0; 3 0; 3 2; 0 2");
+    window.key(Key::Enter);
+    let rectangle = ConvexPolygon::parse("0 0; 3 0; 3 2; 0 2").expect("convex");
+    assert_eq!(settings(&window).method, Method::Stretch(BoundaryShape::Polygon(rectangle)));
+    assert_eq!(window.outcome().problem.settings, settings(&window), "solved");
+    window.fill_in(Role::TextInput, "Corners of the polygon", "0 0; 0 1; 1 0");
+    window.key(Key::Enter);
+    assert_eq!(settings(&window).method, Method::Stretch(BoundaryShape::Polygon(rectangle)), "not taken");
+    assert!(window.words().iter().any(|words| words.contains("clockwise")), "{:?}", window.words());
+    window.press(Modifiers::COMMAND, Key::Z);
+    assert_eq!(settings(&window).method, hexagon, "one step of undo");
+}
+
+#[test]
+fn lee_s_layers_are_a_number_of_the_method_s_tab() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.choose("Method", "Lee's virtual boundary");
+    assert_eq!(settings(&window).family, Family::MeanValue, "positive, so that it is planar");
+    assert!(window.is_proved(), "{}", window.verdict());
+    window.harness.get_by_label("More").click();
+    window.settle();
+    let before = window.embedding();
+    window.fill_in(Role::SpinButton, "Layers", "4");
+    window.key(Key::Enter);
+    assert_eq!(settings(&window).layers, 4);
+    assert_ne!(window.embedding(), before);
+    window.choose("Method", "SLIM");
+    assert_eq!((settings(&window).max_steps, settings(&window).family), (20, Family::Conformal));
+    window.choose("Method", "Natural boundary");
+    assert_eq!(settings(&window).max_steps, Settings::MAX_STEPS);
 }
 
 #[test]

@@ -1,16 +1,18 @@
 //! Arguments of `flatten`.
 
 use std::path::{Path, PathBuf};
+use std::str::FromStr as _;
 
 use clap::Args;
 use glam::{DVec2, UVec2};
 
-use super::{MeshArguments, SolveArguments};
+use super::solve::ONLY_ON_SHAPES;
+use super::{MeshArguments, SolveArguments, TypedShape};
 use crate::cli::typed::{ChartSize, choice, parse_chart_size, parse_pixels};
 use crate::geom::PackingOptions;
 use crate::io::{OutputFit, OutputKind, PictureFile, Precision};
 use crate::session::Arrangement;
-use crate::solver::{BoundaryShape, Choice as _, Method, Settings};
+use crate::solver::{Choice as _, Method, Settings};
 
 /// Arguments of `flatten`.
 #[derive(Debug, Args)]
@@ -25,9 +27,11 @@ pub struct FlattenArguments {
     /// How to flatten.
     #[arg(long, value_parser = choice::<Method>(), default_value = Method::Auto.name())]
     pub method: Method,
-    /// The shape of the boundary, for `--method convex`; a circle without it.
-    #[arg(long, value_parser = choice::<BoundaryShape>())]
-    pub boundary: Option<BoundaryShape>,
+    /// The shape of the boundary, for `--method convex` and `stretch`, or of the outermost layer, for `lee`; a circle without
+    /// it. `hull` is the hull of the boundary's projection to its best plane. A polygon is a file of lines `x y`, or its
+    /// corners themselves, for example `polygon:0 0; 3 0; 3 2; 0 2`: convex, counter-clockwise.
+    #[arg(long, value_name = "circle|square|hull|polygon:FILE", value_parser = TypedShape::from_str)]
+    pub boundary: Option<TypedShape>,
     /// Pins and settings.
     #[command(flatten)]
     pub solve: SolveArguments,
@@ -105,17 +109,13 @@ impl FlattenArguments {
 
     /// The solver's settings.
     pub fn settings(&self) -> Settings {
-        let method = match (self.method, self.boundary) {
-            (Method::Convex(_), Some(shape)) => Method::Convex(shape),
-            (method, _) => method,
-        };
-        self.solve.settings(method)
+        self.solve.settings(self.boundary.as_ref().map_or(self.method, |typed| self.method.on_shape(typed.shape)))
     }
 
     /// An option that was given but means nothing to the method, and why.
     pub fn idle_option(&self) -> Option<(&'static str, &'static str)> {
-        if self.boundary.is_some() && !matches!(self.method, Method::Convex(_)) {
-            return Some(("--boundary", "only convex lays the boundary on a shape"));
+        if self.boundary.is_some() && self.method.boundary_shape().is_none() {
+            return Some(("--boundary", ONLY_ON_SHAPES));
         }
         self.solve.idle_option(&[self.method])
     }

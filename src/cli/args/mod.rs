@@ -7,10 +7,12 @@
 //! | `solve`   | what is solved: pins, and settings of the solver       |
 //! | `flatten` | arguments of `flatten`                                 |
 //! | `compare` | arguments of `compare`                                 |
+//! | `shape`   | the shape of a boundary                                |
 
 mod compare;
 mod flatten;
 mod mesh;
+mod shape;
 mod solve;
 
 use std::path::PathBuf;
@@ -20,6 +22,7 @@ use clap::{Args, Parser, Subcommand};
 pub use compare::{CompareArguments, ComparisonFile};
 pub use flatten::FlattenArguments;
 pub use mesh::{Cut, MeshArguments, SeamKind};
+pub use shape::TypedShape;
 pub use solve::SolveArguments;
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.

@@ -8,7 +8,10 @@ use clap::{Args, ValueEnum};
 use crate::cli::typed::{choice, parse_aspect, parse_pin};
 use crate::io::Target;
 use crate::mesh::VertexId;
-use crate::solver::{Family, Growth, Method, Settings, Start, Treatment};
+use crate::solver::{Family, Growth, Method, Settings, Spacing, Start, Treatment};
+
+/// Why a shape's options mean nothing to other methods.
+pub(super) const ONLY_ON_SHAPES: &str = "only convex, stretch and lee lay a boundary on a shape";
 
 /// Pins, and settings of the solver but for the method.
 #[derive(Debug, Args)]
@@ -16,10 +19,17 @@ pub struct SolveArguments {
     /// What the first step is, where it is not a map of the surface alone: proved as it is, and the method goes on from it.
     #[arg(long, value_enum)]
     pub start: Option<StartOf>,
-    /// The weights: conformal, mean-value, wachspress, power:P, and for `--method convex` uniform, shape-preserving;
-    /// conformal without it.
+    /// The weights: conformal, mean-value, wachspress, power:P, and for `convex` and `lee` uniform, shape-preserving;
+    /// without it mean-value for `lee`, conformal for others.
     #[arg(long, value_parser = Family::from_str)]
     pub family: Option<Family>,
+    /// How far apart boundary vertices lie on a convex shape, for `convex`, `stretch` and `lee`: by their lengths, or evenly;
+    /// by their lengths without it.
+    #[arg(long, value_parser = choice::<Spacing>())]
+    pub spacing: Option<Spacing>,
+    /// Layers of virtual triangles around the mesh, for `lee`; 2 without it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(Settings::MOST_LAYERS)))]
+    pub layers: Option<u16>,
     /// Pin a vertex, numbered from 0, at u,v: exactly, or pulled there by a weight. Repeatable.
     #[arg(long = "pin", value_name = "V:U,V[:WEIGHT]", value_parser = parse_pin, allow_hyphen_values = true)]
     pub pins: Vec<(VertexId, Target)>,
@@ -33,7 +43,8 @@ pub struct SolveArguments {
     /// the iteration.
     #[arg(long, value_parser = choice::<Treatment>())]
     pub treatment: Option<Treatment>,
-    /// The most mean-value iterations, for `auto` and `iterate`; 60 without it.
+    /// The most mean-value iterations, for `auto` and `iterate`, or solves after the first, for `stretch`; 60 without it. For
+    /// `slim` its iterations; 20 without it.
     #[arg(long, value_name = "N")]
     pub max_steps: Option<usize>,
     /// After a planar end, lower the distortion in at most this many rounds, one-to-one throughout, constraints kept.
@@ -64,12 +75,14 @@ impl SolveArguments {
     pub fn settings(&self, method: Method) -> Settings {
         Settings {
             treatment: self.treatment,
-            max_steps: self.max_steps.unwrap_or(Settings::MAX_STEPS),
+            spacing: self.spacing.unwrap_or_default(),
+            layers: self.layers.map_or(Settings::LAYERS, usize::from),
+            max_steps: self.max_steps.unwrap_or(method.usual_steps()),
             growth: self.growth.unwrap_or_default(),
             relax_rounds: self.relax,
             new_vertices: !self.no_new_vertices,
             start: if self.start.is_some() { Start::File } else { Start::Afresh },
-            ..Settings::new(method, self.family.unwrap_or_default())
+            ..Settings::new(method, self.family.unwrap_or(method.usual_family()))
         }
     }
 
@@ -91,11 +104,13 @@ impl SolveArguments {
             _ => "only auto goes on to them",
         };
         let cases = [
+            (self.spacing.is_some(), method.boundary_shape().is_some(), "--spacing", ONLY_ON_SHAPES),
+            (self.layers.is_some(), method.is_padded(), "--layers", "only lee puts layers around the mesh"),
             (self.family.is_some(), method.uses_family(), "--family", of_family),
             (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary by itself"),
             (self.constraints.is_some(), method.uses_pins(), "--constraints", "it places the whole boundary by itself"),
             (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
-            (self.max_steps.is_some(), method.iterates(), "--max-steps", "only auto and iterate do iterate"),
+            (self.max_steps.is_some(), method.iterates(), "--max-steps", "it does not iterate"),
             (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
             (
                 self.start.is_some(),

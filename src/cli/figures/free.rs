@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 
 use super::pairs::{PAIRS, PinPair, WEIGHTS, settings};
 use super::{Figure, flips_in_words};
-use crate::io::figure::{Drawing, PlaneDrawing, SpaceDrawing};
+use crate::io::figure::{Drawing, Outside, PlaneDrawing, Pockets, SpaceDrawing};
 use crate::io::raster::View;
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
     BoundaryShape, Control, Embedding, Family, Ladder, Method, Pins, Settings, SolveError, Step, fixed_pins, verdict,
 };
@@ -23,11 +23,13 @@ const VIEWS: [(&str, View); 2] = [
     ("from below, into the opening", View { eye: DVec3::new(0.75, -0.75, 1.3), up: DVec3::Y }),
 ];
 
-/// A flat mesh, and its embedding by Tutte's method. The paper's panel (c), the padding of Lee et al., is not made yet.
+/// A flat mesh, its embedding by Tutte's method, and that with Lee's padding.
 pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Figure, SolveError> {
-    let caption = "Figure 1. Embedding of a flat mesh. A convex boundary distorts what needed no distortion at all: the \
-                   mesh itself, (a), is a planar embedding.";
-    let mut figure = Figure::new(1, 2, caption);
+    let caption = "Figure 1. Embedding of a flat mesh. A convex boundary, (b), distorts what needed no distortion at all: \
+                   the mesh itself, (a), is a planar embedding. Layers of virtual triangles, (c), green, whose outermost \
+                   ring lies on a circle, leave the boundary some freedom; they are peeled off afterwards. The mesh does \
+                   not come back.";
+    let mut figure = Figure::new(1, 3, caption);
     let input: Embedding = mesh.mesh().positions.iter().copied().map(DVec3::truncate).collect();
     let of_input = verdict(mesh, &input);
     let flat = Drawing::Plane(PlaneDrawing::new(mesh, input));
@@ -37,7 +39,25 @@ pub(super) fn figure_1(mesh: &Arc<DiskMesh>, control: Control<'_>) -> Result<Fig
     let tutte = PlaneDrawing { pins: Vec::new(), ..PlaneDrawing::of_step(mesh, &step) };
     let words = "Tutte: convex boundary, uniform weights";
     figure.panel(words, Drawing::Plane(tutte)).showing("Tutte").measure(&step);
+    let settings = Settings::new(Method::Lee(BoundaryShape::Circle), Family::Uniform);
+    let step = Ladder::new(settings, Pins::new()).step(mesh, control)?;
+    let words = format!("Lee et al.: {} virtual layers, uniform weights", settings.layers);
+    figure.panel(&words, Drawing::Plane(with_padding(mesh, &step))).showing("Lee et al.").measure(&step);
     Ok(figure)
+}
+
+/// A step of Lee's with the layers that were peeled off.
+fn with_padding(mesh: &Arc<DiskMesh>, step: &Step) -> PlaneDrawing {
+    let drawing = PlaneDrawing { pins: Vec::new(), ..PlaneDrawing::of_step(mesh, step) };
+    let Some(padding) = step.outside.as_deref() else { return drawing };
+    let embedding: Embedding = drawing.embedding.iter().chain(&padding.frame).copied().collect();
+    let outermost = embedding.len() - mesh.boundary_loop().len()..embedding.len();
+    let outside = Outside {
+        hull: outermost.map(VertexId::from_index).collect(),
+        pockets: padding.triangles.clone(),
+        style: Pockets::Triangulated,
+    };
+    PlaneDrawing { embedding, outside: Some(outside), ..drawing }
 }
 
 /// The cube from two sides.

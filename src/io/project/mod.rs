@@ -26,7 +26,7 @@ use super::paths::{named_in_files, relative, whole_folder_of};
 use super::{FileStamp, Targets, WriteError, write_durably};
 use crate::geom::{PackingOptions, VAxis};
 use crate::mesh::{Form, HoleTreatment, Repairs, Seams, WeldDistance};
-use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Start, Treatment};
+use crate::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Spacing, Start, Treatment};
 
 /// The version of the format that this program writes, and the newest that it reads.
 pub const PROJECT_VERSION: u64 = 1;
@@ -69,11 +69,15 @@ pub struct ProjectFile {
     /// Where v = 0 is on the picture.
     #[serde(default)]
     pub v_axis: VAxis,
-    /// Of [`Method::Convex`] the default; its shape stands in the next field.
+    /// Of one with a shape the default; its shape stands in the next field.
     #[serde(default)]
     method: Method,
     #[serde(default)]
     boundary: BoundaryShape,
+    #[serde(default)]
+    spacing: Spacing,
+    #[serde(default = "default_layers")]
+    layers: usize,
     #[serde(default)]
     family: Family,
     #[serde(default)]
@@ -117,6 +121,10 @@ pub struct ProjectFile {
 
 fn default_max_steps() -> usize {
     Settings::default().max_steps
+}
+
+fn default_layers() -> usize {
+    Settings::LAYERS
 }
 
 fn default_new_vertices() -> bool {
@@ -197,10 +205,8 @@ impl ProjectFile {
 
     /// A project of a mesh, with nothing but settings made of it yet.
     pub fn new(mesh: ProjectSource, settings: &Settings) -> Self {
-        let (method, boundary) = match settings.method {
-            Method::Convex(shape) => (Method::Convex(BoundaryShape::default()), shape),
-            other => (other, BoundaryShape::default()),
-        };
+        let boundary = settings.method.boundary_shape().unwrap_or_default();
+        let method = settings.method.on_shape(BoundaryShape::default());
         Self {
             freebound_project: PROJECT_VERSION,
             mesh,
@@ -215,6 +221,8 @@ impl ProjectFile {
             v_axis: VAxis::default(),
             method,
             boundary,
+            spacing: settings.spacing,
+            layers: settings.layers,
             family: settings.family,
             treatment: settings.treatment,
             growth: settings.growth,
@@ -236,10 +244,9 @@ impl ProjectFile {
     /// Method and weights. Their size follows from the picture, so that it is not in the file.
     pub fn settings(&self) -> Settings {
         Settings {
-            method: match self.method {
-                Method::Convex(_) => Method::Convex(self.boundary),
-                other => other,
-            },
+            method: self.method.on_shape(self.boundary),
+            spacing: self.spacing,
+            layers: self.layers.clamp(1, usize::from(Settings::MOST_LAYERS)),
             family: self.family,
             treatment: self.treatment,
             max_steps: self.max_steps,

@@ -1,9 +1,11 @@
 //! The rungs by name, and which flights of them a part of a plan can have.
 
-use self::Kind::{Again, Continuation, Fit, Given, Iterate, Matchmaker, Natural, Schnyder, VirtualBoundary};
+use self::Kind::{
+    Again, Continuation, Fit, Given, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim, Stretch, VirtualBoundary,
+};
 use super::plan::Kept;
 use super::rung::Rung;
-use super::{again, continuation, given, iterate, matchmaker, natural, schnyder, virtual_boundary};
+use super::{again, continuation, given, iterate, lee, matchmaker, natural, schnyder, slim, stretch, virtual_boundary};
 
 /// The rungs of a part, flight by flight.
 pub(super) type Flights = &'static [&'static [Kind]];
@@ -16,6 +18,12 @@ pub(super) const ITERATED: Flights = &[&[Natural, Iterate]];
 pub(super) const BENT: Flights = &[&[Natural], &[VirtualBoundary]];
 /// By theorem.
 pub(super) const DRAWN: Flights = &[&[Schnyder]];
+/// One linear solve of mesh and padding.
+pub(super) const PADDED: Flights = &[&[Lee]];
+/// As long as the energy falls.
+pub(super) const LESS_ENERGETIC: Flights = &[&[Slim]];
+/// As long as stretch falls.
+pub(super) const LESS_STRETCHED: Flights = &[&[Stretch]];
 /// One linear solve.
 pub(super) const LINEAR: Flights = &[&[Natural]];
 /// From a planar start until the constraints are met, or stuck.
@@ -41,6 +49,9 @@ pub(super) enum Kind {
     Again,
     VirtualBoundary,
     Schnyder,
+    Stretch,
+    Slim,
+    Lee,
     Fit,
     Continuation,
     Matchmaker,
@@ -55,6 +66,9 @@ impl Kind {
             Again => Box::<again::Again>::default(),
             VirtualBoundary => Box::<virtual_boundary::Bend>::default(),
             Schnyder => Box::<schnyder::Draw>::default(),
+            Stretch => Box::<stretch::Stretch>::default(),
+            Slim => Box::<slim::Iterations>::default(),
+            Lee => Box::<lee::Pad>::default(),
             Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
             Continuation => Box::<continuation::Continue>::default(),
             Matchmaker => Box::<matchmaker::Match>::default(),

@@ -14,6 +14,9 @@
 //! | `natural.rs` | rung 1: one linear solve |
 //! | `iterate.rs` | rung 2: mean-value iterations, and when they get no better |
 //! | `again.rs` | rung 1 once more, with the default weights and pins |
+//! | `lee.rs` | Lee's virtual boundary: layers around the mesh, peeled |
+//! | `slim.rs` | Tutte's map, iteration after iteration with less energy |
+//! | `stretch.rs` | a convex boundary, solve after solve with less stretch |
 //! | `virtual_boundary.rs` | rung 3: the boundary made simple, and the outside embedded with the mesh |
 //! | `schnyder.rs` | the end of rung 3: a grid drawing, planar by theorem |
 //! | `continuation.rs` | rung 4: a planar start fitted to the constraints, then one-to-one on the way to them |
@@ -31,6 +34,7 @@ mod ending;
 mod flights;
 mod given;
 mod iterate;
+mod lee;
 mod matchmaker;
 mod natural;
 mod plan;
@@ -38,7 +42,9 @@ mod proof;
 mod relax;
 mod rung;
 mod schnyder;
+mod slim;
 mod step;
+mod stretch;
 mod task;
 mod virtual_boundary;
 

@@ -10,8 +10,8 @@ use std::sync::Arc;
 use super::cut::Cut;
 use super::flights::Kind::{self, Fit, Iterate, Schnyder};
 use super::flights::{
-    BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, ITERATED, LADDER, LINEAR,
-    MATCHED,
+    BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, ITERATED, LADDER,
+    LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED,
 };
 use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
@@ -108,6 +108,9 @@ impl Plan {
             Method::Iterate => [part(ITERATED)].into(),
             Method::VirtualBoundary => [part(BENT)].into(),
             Method::Schnyder => [part(DRAWN)].into(),
+            Method::Stretch(_) => [part(LESS_STRETCHED)].into(),
+            Method::Slim => [part(LESS_ENERGETIC)].into(),
+            Method::Lee(_) => [part(PADDED)].into(),
             Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
         };
         Self { parts }

@@ -73,7 +73,7 @@ impl Candidate {
 
     /// Whether the boundary was bent to a convex polygon: it is no longer free.
     pub fn has_convex_boundary(&self) -> bool {
-        matches!(self.rung, Method::Convex(_)) || self.bent_vertices > 0
+        matches!(self.rung, Method::Convex(_) | Method::Stretch(_)) || self.bent_vertices > 0
     }
 
     /// The mesh that the embedding is of: `mesh` as given, or its refinement.

@@ -9,7 +9,10 @@ use crate::solver::pins::GAUGE_PINS;
 use crate::solver::placing::{Free, Placing};
 use crate::solver::units::Units;
 use crate::solver::upright::Turns;
-use crate::solver::{Conflict, Embedding, Method, Outside, Pins, Settings, Sheet, SolveError, check_pins, conflicts};
+use crate::solver::{
+    BoundaryShape, Choice as _, Conflict, Embedding, Method, Outside, Pins, Settings, Sheet, SolveError, check_pins,
+    conflicts,
+};
 
 #[derive(Debug)]
 pub(super) struct Task {
@@ -67,7 +70,7 @@ impl Task {
     pub(super) fn check(&self, mesh: &DiskMesh) -> Result<(), SolveError> {
         match self.settings.method {
             method if self.is_constrained() && !method.takes_constraints() => {
-                Err(SolveError::TooManyPins { count: self.pins.len(), most: GAUGE_PINS })
+                Err(SolveError::TooManyPins { method: method.name(), count: self.pins.len(), most: GAUGE_PINS })
             }
             Method::Auto if self.is_constrained() => check_distances(mesh, &self.held()),
             method if method.is_one_to_one() => {
@@ -138,13 +141,19 @@ impl Task {
         }
     }
 
-    /// How a candidate is turned where pins leave it free: upright; the sides of a convex boundary stay level.
+    /// How a candidate is turned where pins leave it free: upright; the sides of a square stay level, and a polygon of the
+    /// user's as it is.
     fn turns(&self, mesh: &DiskMesh, candidate: &Candidate) -> Turns {
         if !self.has_open_gauge() {
             return Turns::NONE;
         }
         let turns = Turns::upright(mesh, &candidate.solution.embedding);
-        if candidate.has_convex_boundary() { turns.by_quarters() } else { turns }
+        match candidate.rung.boundary_shape() {
+            Some(BoundaryShape::Polygon(_)) => Turns::NONE,
+            Some(BoundaryShape::Hull) => turns,
+            _ if candidate.has_convex_boundary() => turns.by_quarters(),
+            _ => turns,
+        }
     }
 
     /// Whether all pins that are to be met exactly lie on their targets.

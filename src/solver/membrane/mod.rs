@@ -9,6 +9,7 @@
 //! On request it is so for each triangle by itself: those that are unfolded have a barrier while others unfold.
 
 mod descent;
+mod reweighted;
 
 use glam::DVec2;
 use nalgebra_sparse::CscMatrix;
@@ -131,12 +132,21 @@ impl Membrane {
 
     /// Gradient by unknown, and Hessian. Where points are moved by `shift`, the gradient is that of the model there.
     fn linearise(&self, z: &[DVec2], energies: &Energies, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
+        self.assembled(z, |at, element| element.model(Self::corners(element, z), energies.of(at)), shift)
+    }
+
+    /// The same of these models of the elements, which are numbered.
+    fn assembled(
+        &self,
+        z: &[DVec2],
+        model_of: impl Fn(usize, &Element) -> Model + Sync,
+        shift: Option<&[DVec2]>,
+    ) -> (Vec<f64>, CscMatrix<f64>) {
         let mut gradient = vec![0.0; 2 * self.unknowns.len()];
         let mut values = vec![0.0; self.pattern.nnz()];
         let blocks = self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS));
         for (first, (block, slots)) in (0..).step_by(MODELS).zip(blocks) {
-            let model =
-                |(at, element): (usize, &Element)| element.model(Self::corners(element, z), energies.of(first + at));
+            let model = |(at, element): (usize, &Element)| model_of(first + at, element);
             let models: Vec<Model> = block.par_iter().enumerate().with_min_len(CHUNK / 8).map(model).collect();
             for ((element, slots), mut model) in block.iter().zip(slots).zip(models) {
                 if let Some(shift) = shift {

@@ -2,11 +2,12 @@
 
 use eframe::egui::{self, WidgetInfo};
 
+use super::boundary_rows::boundary_rows;
 use super::compare_panel::comparison;
 use super::status::short;
 use super::surface::{charts_row, holes_row, start_remark, start_row};
 use crate::session::{Action, Outcome};
-use crate::solver::{BoundaryShape, Choice, Family, Growth, Method, Settings, Treatment};
+use crate::solver::{Choice, Family, Growth, Method, Settings, Treatment};
 use crate::ui::timeline::chips::residual_words;
 use crate::ui::{
     Control, Editor, Request, Typed, figures, heads, list, number, pairs, remark, sentence, tip_with_keys,
@@ -26,15 +27,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         ui.label("Method");
         method_list(ui, chosen);
         ui.end_row();
-        if let Method::Convex(shape) = &mut chosen.method {
-            ui.label("Boundary");
-            ui.horizontal(|ui| {
-                for &choice in BoundaryShape::ALL {
-                    ui.selectable_value(shape, choice, choice.words().title);
-                }
-            });
-            ui.end_row();
-        }
+        boundary_rows(ui, chosen);
         if chosen.method.uses_family() {
             ui.label("Weights");
             family_list(ui, chosen);
@@ -115,11 +108,8 @@ fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
             let is_chosen = settings.method.name() == method.name();
             let label = ui.selectable_label(is_chosen, method.words().title).on_hover_text(method.words().tip());
             if label.clicked() && !is_chosen {
-                settings.method = method;
-                // Uniform and shape-preserving weights need a convex boundary.
-                if !settings.family.goes_with(method) {
-                    settings.family = Family::default();
-                }
+                let shape = settings.method.boundary_shape();
+                *settings = settings.by(shape.map_or(method, |shape| method.on_shape(shape)));
             }
         }
     });
@@ -179,7 +169,8 @@ fn new_vertices_box(ui: &mut egui::Ui, settings: &mut Settings) {
 /// What few people need: how long the iteration may go on, and how the virtual boundary does.
 fn more(ui: &mut egui::Ui, edit: &mut Edit) {
     let method = edit.settings.method;
-    if !method.iterates() && !method.bends_boundary() {
+    let is_padded = method.is_padded();
+    if !method.iterates() && !method.bends_boundary() && !is_padded {
         return;
     }
     ui.add_space(4.0);
@@ -188,6 +179,11 @@ fn more(ui: &mut egui::Ui, edit: &mut Edit) {
             if method.iterates() {
                 ui.label("Step limit");
                 step_limit(ui, edit);
+                ui.end_row();
+            }
+            if is_padded {
+                ui.label("Layers");
+                layers(ui, edit);
                 ui.end_row();
             }
             if method.bends_boundary() {
@@ -206,7 +202,18 @@ fn step_limit(ui: &mut egui::Ui, edit: &mut Edit) {
     let field = typed.name(ui, field, "Step limit");
     edit.slides |= field.changed();
     edit.ends |= field.has_ended();
-    field.on_hover_text("The most mean-value iterations of a run. Drag, or click to type.");
+    field.on_hover_text("The most iterations of a run. Drag, or click to type.");
+}
+
+fn layers(ui: &mut egui::Ui, edit: &mut Edit) {
+    let range = 1..=usize::from(Settings::MOST_LAYERS);
+    let typed = Typed::new("the number of layers", 1.0..=f64::from(Settings::MOST_LAYERS)).whole();
+    let drag = egui::DragValue::new(&mut edit.settings.layers).range(range).speed(0.1);
+    let field = ui.add(drag.custom_parser(|text| typed.number(text)));
+    let field = typed.name(ui, field, "Layers");
+    edit.slides |= field.changed();
+    edit.ends |= field.has_ended();
+    field.on_hover_text("Layers of virtual triangles around the mesh. Drag, or click to type.");
 }
 
 /// From Wachspress over mean value to conformal.

@@ -5,6 +5,7 @@
 //! | `mod.rs` | the tool bar at the left, the panel at the right with its tabs |
 //! | `method_panel.rs`, `pins_panel.rs`, `defects_panel.rs`, `vertex_panel.rs` | one tab each |
 //! | `hull_section.rs` | vertices outside the hull of their neighbours: in the tabs of defects and of the vertex |
+//! | `boundary_rows.rs` | the shape that a boundary is laid on: in the tab of the method |
 //! | `charts_panel.rs` | the charts of a mesh that has several, and how they are packed |
 //! | `diagnosis.rs` | what is wrong with the mesh, and what mends it: in the tab of defects |
 //! | `parts.rs` | the parts of a mesh, each to be kept or left out: in the same tab |
@@ -23,6 +24,7 @@
 //! | `unsaved.rs` | the question about unsaved work, the window's title |
 
 mod advice;
+mod boundary_rows;
 mod charts_panel;
 mod compare_panel;
 mod defects_panel;

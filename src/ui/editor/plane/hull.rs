@@ -126,11 +126,15 @@ impl HullScene {
     fn of_outside(result: &PlaneScene, outside: &Outside) -> Self {
         let embedding = result.positions();
         let points: Embedding = embedding.iter().chain(&outside.frame).copied().collect();
-        let around: Vec<VertexId> = (embedding.len()..points.len()).map(VertexId::from_index).collect();
-        let caption = format!(
-            "{} triangles around the mesh, up to a frame: while none turns over, the boundary stays simple",
-            outside.triangles.len()
-        );
+        let (count, step) = (outside.triangles.len(), &result.outcome.step);
+        let (outermost, caption) = if matches!(step.rung, Method::Lee(_)) {
+            let ring = result.mesh.disk().map_or(0, |disk| disk.boundary_loop().len());
+            (ring, format!("{count} virtual triangles around the mesh, embedded with it and peeled off"))
+        } else {
+            let why = "while none turns over, the boundary stays simple";
+            (outside.frame.len(), format!("{count} triangles around the mesh, up to a frame: {why}"))
+        };
+        let around: Vec<VertexId> = (points.len() - outermost..points.len()).map(VertexId::from_index).collect();
         let plane = Some(Arc::new(result.of_part(Part::WithOutside, points)));
         Self { plane, ..Self::of_hull(&around, &outside.triangles, caption) }
     }
@@ -142,7 +146,7 @@ impl HullScene {
         let points = result.outcome.step.solution.embedding.boundary(disk);
         let corners: Vec<VertexId> = convex_hull(&points).into_iter().map(|place| boundary[place]).collect();
         let caption = match result.outcome.step.rung {
-            Method::Convex(shape) => {
+            Method::Convex(shape) | Method::Stretch(shape) => {
                 let count = boundary.len();
                 format!("{count} of {count} boundary vertices pinned on {}", shape.words().about)
             }

@@ -1,0 +1,37 @@
+//! The shape of a boundary, as it is typed: by its name, by its corners, or by a file of corners.
+
+use std::fs;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use crate::geom::ConvexPolygon;
+use crate::solver::{BoundaryShape, Choice as _};
+
+/// A shape, and the file that it comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TypedShape {
+    /// The shape.
+    pub shape: BoundaryShape,
+    /// The file of its corners.
+    pub file: Option<PathBuf>,
+}
+
+impl FromStr for TypedShape {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let Some(corners) = text.strip_prefix(BoundaryShape::POLYGON) else {
+            let shape = BoundaryShape::named(text);
+            let shape = shape.ok_or_else(|| format!("choose one of {}, or polygon:FILE", BoundaryShape::names()))?;
+            return Ok(Self { shape, file: None });
+        };
+        let polygon = |text: &str| ConvexPolygon::parse(text).map_err(|fault| fault.to_string());
+        let path = PathBuf::from(corners);
+        if corners.contains(';') && !path.exists() {
+            return Ok(Self { shape: BoundaryShape::Polygon(polygon(corners)?), file: None });
+        }
+        let text = fs::read_to_string(&path).map_err(|error| format!("{corners}: {error}"))?;
+        let polygon = polygon(&text).map_err(|fault| format!("{corners}: {fault}"))?;
+        Ok(Self { shape: BoundaryShape::Polygon(polygon), file: Some(path) })
+    }
+}

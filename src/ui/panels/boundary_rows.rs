@@ -1,0 +1,63 @@
+//! What a boundary is laid on: rows of the method's tab.
+
+use eframe::egui::{self, Id, Role, Stroke, StrokeKind};
+
+use crate::geom::ConvexPolygon;
+use crate::solver::{BoundaryShape, Choice, Settings, Spacing};
+use crate::ui::{Control, list, remark, sentence, theme_of};
+
+/// Name of the field for a polygon's corners.
+const CORNERS: &str = "Corners of the polygon";
+
+/// The shape, with the corners of a polygon, and how far apart vertices lie on it; for methods that lay a boundary on one.
+pub(super) fn boundary_rows(ui: &mut egui::Ui, settings: &mut Settings) {
+    let Some(shape) = settings.method.boundary_shape_mut() else { return };
+    ui.label("Boundary");
+    list(ui, "Shape of the boundary", 150.0, shape.words().title, |ui| {
+        for &choice in BoundaryShape::ALL {
+            let is_chosen = shape.name() == choice.name();
+            let label = ui.selectable_label(is_chosen, choice.words().title);
+            if label.on_hover_text(sentence(choice.words().about)).clicked() && !is_chosen {
+                *shape = choice;
+            }
+        }
+    });
+    ui.end_row();
+    if let BoundaryShape::Polygon(polygon) = shape {
+        ui.label("Corners");
+        ui.vertical(|ui| corners_field(ui, polygon));
+        ui.end_row();
+    }
+    ui.label("Spacing");
+    ui.horizontal(|ui| {
+        for &choice in Spacing::ALL {
+            let label = ui.selectable_value(&mut settings.spacing, choice, choice.words().title);
+            label.on_hover_text(sentence(choice.words().about));
+        }
+    });
+    ui.end_row();
+}
+
+/// A field with the corners: taken when it is left, and marked where they are no convex polygon.
+fn corners_field(ui: &mut egui::Ui, polygon: &mut ConvexPolygon) {
+    let key = Id::unique(CORNERS);
+    let own = polygon.to_string();
+    // What is being typed, and for which polygon: another one shows its own corners.
+    let typed = ui.data(|data| data.get_temp::<[String; 2]>(key)).filter(|[of, _]| *of == own);
+    let mut text = typed.map_or_else(|| own.clone(), |[_, text]| text);
+    let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(200.0));
+    let parsed = ConvexPolygon::parse(&text);
+    if let Err(fault) = &parsed {
+        let stroke = Stroke::new(1.5, theme_of(ui).flipped);
+        ui.painter().rect_stroke(field.rect, 2.0, stroke, StrokeKind::Inside);
+        remark(ui, fault.to_string());
+    }
+    let field = field.named(Role::TextInput, CORNERS);
+    match parsed {
+        Ok(found) if field.lost_focus() => *polygon = found,
+        _ => {
+            ui.data_mut(|data| data.insert_temp(key, [own, text]));
+        }
+    }
+    field.on_hover_text("x y; x y; … counter-clockwise, every corner convex");
+}

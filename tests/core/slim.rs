@@ -1,0 +1,243 @@
+//! SLIM: its proxy against the energy, its steps against an energy computed here once more, and where it ends.
+
+use freebound::examples::Example;
+use freebound::mesh::{DiskMesh, VertexId};
+use freebound::solver::foldover_energy::{Element, Energy};
+use freebound::solver::slim::{Proxy, Slim};
+use freebound::solver::{
+    BoundaryShape, Control, Embedding, Ending, Family, Ladder, Method, Pins, Settings, SolveError, Step, hard_pins,
+    solve_once, verdict,
+};
+use glam::{DMat2, DVec2};
+use proptest::prelude::*;
+
+use crate::common::corpus_disks;
+use crate::makers::{disk, grid, tube};
+
+fn run(mesh: &DiskMesh, settings: Settings) -> (Vec<Step>, Ending) {
+    let mut steps = Vec::new();
+    let ending = Ladder::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step));
+    (steps, ending.expect("solvable"))
+}
+
+fn slim() -> Settings {
+    Settings::new(Method::Slim, Family::default())
+}
+
+fn tutte(mesh: &DiskMesh) -> Embedding {
+    let settings = Settings::new(Method::Convex(BoundaryShape::Circle), Family::Uniform);
+    solve_once(mesh, &settings, &Pins::new(), Control::unattended()).expect("solvable").embedding
+}
+
+/// The map of a face, from its shape in space: the sides of the face from its first corner on go to these in the plane.
+fn jacobian(mesh: &DiskMesh, embedding: &Embedding, [a, b, c]: [VertexId; 3]) -> (f64, DMat2) {
+    let (u, w) = (mesh.position(b) - mesh.position(a), mesh.position(c) - mesh.position(a));
+    let base = u.length();
+    let (along, height) = (w.dot(u) / base, u.cross(w).length() / base);
+    let at_rest = DMat2::from_cols(DVec2::new(base, 0.0), DVec2::new(along, height));
+    let moved = DMat2::from_cols(embedding[b] - embedding[a], embedding[c] - embedding[a]);
+    (base * height, moved * at_rest.inverse())
+}
+
+/// The mean over the surface of |J|² + |J⁻¹|².
+fn energy(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
+    let square = |m: DMat2| m.x_axis.length_squared() + m.y_axis.length_squared();
+    let (mut sum, mut total) = (0.0, 0.0);
+    for face in mesh.real_faces() {
+        let (double_area, map) = jacobian(mesh, embedding, mesh.face(face));
+        sum += double_area * (square(map) + square(map.inverse()));
+        total += double_area;
+    }
+    sum / total
+}
+
+fn meshes() -> Vec<(String, DiskMesh)> {
+    let built_in = [Example::Dome, Example::BumpyCap, Example::Cube, Example::Face];
+    let built_in = built_in.map(|example| (example.name().to_owned(), disk(example.mesh())));
+    let others =
+        corpus_disks().into_iter().filter(|entry| ["nefertiti_562.obj", "cathead.obj"].contains(&&*entry.file));
+    built_in.into_iter().chain(others.map(|entry| (entry.file.clone(), entry.disk()))).collect()
+}
+
+/// A triangle at rest, and one that is not folded.
+fn pair_of_triangles() -> impl Strategy<Value = (Element, [DVec2; 3])> {
+    let point = || (-1.0..1.0_f64, -1.0..1.0_f64).prop_map(|(x, y)| DVec2::new(x, y));
+    let triangle = move || {
+        [point(), point(), point()].prop_filter_map("an area", |[a, b, c]| {
+            let area = (b - a).perp_dot(c - a);
+            (area.abs() > 0.05).then_some(if area > 0.0 { [a, b, c] } else { [a, c, b] })
+        })
+    };
+    (triangle(), triangle(), 0.1..3.0_f64)
+        .prop_map(|(rest, z, weight)| (Element::new([0, 1, 2], rest, (weight, 1e-9)), z))
+}
+
+fn moved(mut z: [DVec2; 3], coordinate: usize, by: f64) -> [DVec2; 3] {
+    z[coordinate / 2][coordinate % 2] += by;
+    z
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_gradient_of_the_proxy_is_that_of_the_energy_where_it_is_made((element, z) in pair_of_triangles()) {
+        let proxy = Proxy::at(&element, z);
+        let model = proxy.model(&element, z);
+        let size = model.gradient.iter().map(|g| g.abs()).fold(1.0, f64::max);
+        for (i, &gradient) in model.gradient.iter().enumerate() {
+            let h = 1e-6;
+            let [after, before] = [h, -h].map(|by| element.energy(moved(z, i, by), Energy::SymmetricDirichlet));
+            let of_energy = (after - before) / (2.0 * h);
+            let [after, before] = [h, -h].map(|by| proxy.value(&element, moved(z, i, by)));
+            let of_proxy = (after - before) / (2.0 * h);
+            prop_assert!((of_energy - gradient).abs() < 1e-3 * size, "{of_energy} {gradient}");
+            prop_assert!((of_proxy - gradient).abs() < 1e-6 * size, "{of_proxy} {gradient}");
+        }
+        let exact = element.model(z, Energy::SymmetricDirichlet).gradient;
+        for (gradient, exact) in model.gradient.iter().zip(exact) {
+            prop_assert!((gradient - exact).abs() < 1e-9 * size, "{gradient} {exact}");
+        }
+    }
+
+    #[test]
+    fn the_hessian_of_the_proxy_makes_it_an_exact_quadratic((element, z) in pair_of_triangles(), by in prop::array::uniform6(-1.0..1.0_f64)) {
+        let proxy = Proxy::at(&element, z);
+        let model = proxy.model(&element, z);
+        let there = [0, 1, 2].map(|k| z[k] + DVec2::new(by[2 * k], by[2 * k + 1]));
+        let linear: f64 = model.gradient.iter().zip(by).map(|(g, by)| g * by).sum();
+        let curved: f64 = model.hessian.iter().zip(by).map(|(row, by_row)| {
+            by_row * row.iter().zip(by).map(|(h, by)| h * by).sum::<f64>()
+        }).sum();
+        let expected = proxy.value(&element, z) + linear + 0.5 * curved;
+        let found = proxy.value(&element, there);
+        prop_assert!((found - expected).abs() < 1e-9 * (1.0 + found.abs() + curved.abs()), "{found} {expected}");
+        prop_assert!(curved >= -1e-9 * (1.0 + curved.abs()));
+    }
+}
+
+#[test]
+fn at_rest_the_weights_are_those_of_a_rotation() {
+    let rest = [DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.4, 1.5)];
+    let element = Element::new([0, 1, 2], rest, (1.0, 1e-9));
+    for angle in [0.0, 0.7, 3.0] {
+        let z = rest.map(|z| DVec2::from_angle(angle).rotate(z));
+        let proxy = Proxy::at(&element, z);
+        assert!(proxy.value(&element, z).abs() < 1e-24);
+        // W² is 4 there: stretched by 1 + h both ways the proxy has ½ · 4 · 2 h².
+        let h = 1e-3;
+        assert!((proxy.value(&element, z.map(|z| (1.0 + h) * z)) - 4.0 * h * h).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_energy_falls_in_every_step_and_no_face_folds() {
+    for (name, mesh) in meshes() {
+        let (steps, _) = run(&mesh, slim());
+        assert_eq!(steps[0].rung, Method::Convex(BoundaryShape::Circle), "{name}: it begins with Tutte's map");
+        let start = Slim::new(&mesh, &tutte(&mesh)).expect("planar").progress().energy;
+        let said = steps[0].progress.expect("an energy").energy;
+        assert!((said / start - 1.0).abs() < 1e-12, "{name}: {said} {start}");
+        assert!((2..=21).contains(&steps.len()), "{name}: {}", steps.len());
+        let energies: Vec<f64> = steps.iter().map(|step| step.progress.expect("an energy").energy).collect();
+        assert!(energies.is_sorted_by(|before, after| after < before), "{name}: {energies:?}");
+        for step in &steps {
+            assert!(step.verdict.flipped_faces.is_empty(), "{name}, step {}: {}", step.index, step.verdict.summary());
+            assert!(step.progress.expect("a determinant").least_determinant > 0.0);
+            assert!(step.rung == Method::Slim || step.index == 0);
+        }
+        let last = steps.last().expect("a step");
+        let note = last.note.as_deref().expect("a reason");
+        let is_limit = note == "the last of 20 iterations, as many as it may take";
+        assert!(if steps.len() == 21 { is_limit } else { note.contains("gained less than") }, "{name}: {note}");
+        assert!(!last.has_convex_boundary());
+    }
+}
+
+#[test]
+fn the_energy_that_is_said_is_that_of_the_surface() {
+    for (name, mesh) in meshes() {
+        let start = tutte(&mesh);
+        let mut slim = Slim::new(&mesh, &start).expect("planar");
+        for _ in 0..3 {
+            let (said, found) = (slim.progress().energy, energy(&mesh, &slim.embedding()));
+            assert!((found / said - 1.0).abs() < 1e-9, "{name}: {found} {said}");
+            slim.step(Control::unattended()).expect("solvable").expect("it falls");
+        }
+    }
+}
+
+#[test]
+fn a_flat_mesh_comes_back_in_the_end() {
+    let mesh = disk(Example::Ell.mesh());
+    let (steps, _) = run(&mesh, Settings { max_steps: 200, ..slim() });
+    let last = steps.last().expect("a step");
+    let energy = last.progress.expect("an energy").energy;
+    assert!(energy < 4.0 + 1e-3, "{energy} after {} steps", steps.len());
+    assert!(last.verdict.planar, "{}", last.verdict.summary());
+    assert!(steps.len() < 200, "it ends by itself");
+    assert!(last.note.as_deref().is_some_and(|note| note.contains("gained less than")), "{:?}", last.note);
+}
+
+#[test]
+fn a_limit_of_iterations_ends_it() {
+    let mesh = disk(grid(6, 4));
+    for limit in 0..3 {
+        let (steps, _) = run(&mesh, Settings { max_steps: limit, ..slim() });
+        assert_eq!(steps.len(), limit + 1);
+        let note = steps[limit].note.as_deref().expect("a reason");
+        assert_eq!(note, format!("the last of {limit} iterations, as many as it may take"));
+    }
+}
+
+#[test]
+fn a_start_that_rounding_folds_ends_it_with_a_reason() {
+    // Each ring of the tube is a third of the one before: the innermost are beyond 64 bits.
+    let mesh = disk(tube(3, 400));
+    assert!(!verdict(&mesh, &tutte(&mesh)).planar, "nothing to test");
+    let (steps, ending) = run(&mesh, slim());
+    assert_eq!((steps.len(), ending), (1, Ending::Done));
+    let note = steps[0].note.as_deref().expect("a reason");
+    assert!(note.contains("SLIM cannot begin"), "{note}");
+    assert!(!steps[0].verdict.planar);
+    assert_eq!(Slim::new(&mesh, &tutte(&mesh)).err(), Some(SolveError::NotPlanar));
+}
+
+#[test]
+fn two_pins_say_where_it_lies_and_more_are_refused() {
+    let mesh = disk(Example::Dome.mesh());
+    let [a, b, c] = [0, 5, 10].map(|k| mesh.boundary_loop()[k]);
+    let targets = [(a, DVec2::new(3.0, 1.0)), (b, DVec2::new(4.0, -1.0)), (c, DVec2::ZERO)];
+    let mut steps = Vec::new();
+    let two = hard_pins(targets[..2].iter().copied());
+    Ladder::new(slim(), two.clone()).finish(&mesh, Control::unattended(), |step| steps.push(step)).expect("solvable");
+    for step in &steps {
+        assert!(two.iter().all(|(v, pin)| step.solution.embedding[*v] == pin.target), "step {}", step.index);
+    }
+    let refused = Ladder::new(slim(), hard_pins(targets)).step(&mesh, Control::unattended()).err();
+    assert_eq!(refused, Some(SolveError::TooManyPins { method: "slim", count: 3, most: 2 }));
+}
+
+#[test]
+#[ignore = "all disks of the corpus take minutes without optimisation"]
+fn every_disk_of_the_corpus_ends_with_less_energy_and_an_honest_verdict() {
+    for entry in corpus_disks() {
+        let mesh = entry.disk();
+        let start = std::time::Instant::now();
+        let (steps, _) = run(&mesh, slim());
+        let energies = [0, steps.len() - 1].map(|k| steps[k].progress.map(|progress| progress.energy));
+        let last = steps.last().expect("a step");
+        println!(
+            "{}: {} faces, {} steps, energy {:?}, {:.2} s, {}, {}",
+            entry.file,
+            mesh.face_count(),
+            steps.len(),
+            energies,
+            start.elapsed().as_secs_f64(),
+            last.verdict.summary(),
+            last.note.as_deref().unwrap_or_default()
+        );
+        assert!(steps.iter().skip(1).all(|step| step.verdict.flipped_faces.is_empty()), "{}", entry.file);
+        assert_eq!(verdict(&mesh, &last.solution.embedding), last.verdict);
+    }
+}
