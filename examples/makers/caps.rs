@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
+use super::Random;
 use super::fill::{Sheet, fill, walk_along};
-use super::random::Random;
 use freebound::mesh::TriMesh;
 
 /// Rounds of settling: enough for good triangles, too few for a regular pattern.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
+use super::Random;
 use super::fill::{Sheet, fill};
-use super::random::Random;
 use freebound::mesh::TriMesh;
 
 /// Edge length; the cube's is 1.

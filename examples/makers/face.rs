@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::Random;
 use super::caps::{project, rim, stretch, unproject};
 use super::fill::{Sheet, fill, walk_along};
-use super::random::Random;
 use super::sculpt::distance;
 use freebound::mesh::TriMesh;
 

@@ -9,8 +9,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use robust::orient2d;
 
+use super::Random;
 use super::delaunay::{coord, triangulate};
-use super::random::Random;
 use freebound::mesh::{EdgeTable, TriMesh, VertexId};
 
 /// Points nearer than this share of the wanted spacing are not thrown in.

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
+use super::Random;
 use super::fill::{Sheet, fill};
-use super::random::Random;
 use freebound::mesh::TriMesh;
 
 /// Rounds of settling: enough for good triangles, too few for a regular pattern.

@@ -1,8 +1,7 @@
-//! Makers of meshes, the portrait, and random numbers, for the assets, the tests and the benchmarks.
+//! Makers of meshes and the portrait, for the assets, the tests and the benchmarks.
 //!
 //! | file | what it makes |
 //! |---|---|
-//! | `random.rs` | repeatable random numbers |
 //! | `plain.rs` | small meshes with known numbers: grid, fan, tetrahedron, band |
 //! | `corpus.rs` | where the corpus lies: meshes of others, beside the project |
 //! | `deep.rs` | disks whose inside is far from a small boundary: stacked, tube, hand |
@@ -38,13 +37,13 @@ mod paint;
 mod plain;
 mod portrait;
 mod quads;
-mod random;
 mod relief;
 mod sculpt;
 mod sheet;
 
 use freebound::examples::Example;
 use freebound::mesh::TriMesh;
+pub(crate) use freebound::solver::study::Random;
 
 pub(crate) use caps::bumpy_cap_of;
 pub(crate) use corpus::corpus;
@@ -55,7 +54,6 @@ pub(crate) use landmarks::landmarks;
 pub(crate) use plain::{band, disk, fan, grid, shaped, sheet, tetrahedron, write_obj};
 pub(crate) use portrait::{PORTRAIT_SIZE, picture_from_sculpture, plane, portrait, sculpture_from_plane};
 pub(crate) use quads::{honeycomb, quad_sheet};
-pub(crate) use random::Random;
 pub(crate) use sheet::{jittered_sheet, sheet_of_faces};
 
 /// Makes a built-in mesh.

@@ -3,7 +3,7 @@
 use freebound::mesh::TriMesh;
 use glam::DVec3;
 
-use super::random::Random;
+use super::Random;
 
 /// Farthest that a vertex is moved, in cells. From a quarter on cells could turn over.
 const JITTER: f64 = 0.2;

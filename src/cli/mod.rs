@@ -10,6 +10,7 @@
 //! | `check`       | diagnosis of a mesh, verdict on its texture coordinates                |
 //! | `compare`     | several methods on one mesh, side by side                              |
 //! | `figures`     | the paper's figures, computed again                                    |
+//! | `study`       | the iteration on many random trials                                    |
 //! | `progress`    | the line that follows the work, and Ctrl-C                             |
 //! | `summary`     | the lines that sum a run up, and where its report goes                 |
 //! | `failed`      | the report of a run that came to nothing                               |
@@ -36,6 +37,7 @@ mod progress;
 mod say;
 mod seams;
 mod standard;
+mod study;
 mod summary;
 mod typed;
 
@@ -46,7 +48,7 @@ use crate::solver::{Choice, Family, Method, Words};
 
 pub use args::{
     Arguments, Command, CompareArguments, ComparisonFile, Cut, FlattenArguments, MeshArguments, SeamKind,
-    SolveArguments, TypedShape,
+    SolveArguments, StudyArguments, TypedShape,
 };
 pub use exit::{Failure, Remedy, Status};
 pub use figures::pairs;
@@ -61,6 +63,7 @@ pub fn run(command: &Command) -> ExitCode {
         Command::Compare(arguments) => (compare::run(arguments), Some((&arguments.input.mesh, &arguments.report))),
         Command::Check(arguments) => (check::run(arguments), Some((&arguments.mesh, &arguments.report))),
         Command::Figures(arguments) => (figures::run(&arguments.folder), None),
+        Command::Study(arguments) => (study::run(arguments), None),
         Command::Methods => {
             let lists = [list::<Method>("Methods (--method)"), list::<Family>("Families of weights (--family)")];
             (say::say(lists.join("\n\n")).map(|()| Status::Fine), None)

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::Failure;
-use super::args::{CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, SolveArguments};
+use super::args::{
+    CheckArguments, CompareArguments, Cut, FlattenArguments, MeshArguments, SolveArguments, StudyArguments,
+};
 use super::standard::is_standard;
 use crate::io::{
     MeshFile, PictureFile, StepsFolder, copies_of_materials, is_same_file, is_standard_input, material_files,
@@ -43,6 +45,12 @@ impl Places {
     pub(super) fn of_check(arguments: &CheckArguments) -> Self {
         let files = arguments.report.iter().map(|path| Place { option: "--report", path: path.clone() });
         Self { files: files.collect(), steps: None }
+    }
+
+    pub(super) fn of_study(arguments: &StudyArguments) -> Self {
+        let asked = [("--csv", &arguments.csv), ("--svg", &arguments.svg)];
+        let place = |(option, path): (_, &Option<PathBuf>)| Some(Place { option, path: path.clone()? });
+        Self { files: asked.into_iter().filter_map(place).collect(), steps: None }
     }
 
     /// Refuses two results in one place.

@@ -20,6 +20,8 @@
 //! | `error_report`| report of a run that came to nothing (JSON)                                |
 //! | `svg`         | an embedding or a step as a drawing                                        |
 //! | `steps`       | the steps of a run as a folder of drawings and a table                     |
+//! | `study_table` | the runs of a study as a table, out and in                                 |
+//! | `study_plots` | the runs of a study as plots                                               |
 //! | `raster`      | pictures of meshes without a screen                                        |
 //! | `figure`      | figures: panels on a page, as a drawing and as a picture                   |
 //! | `atomic`      | files that are written whole or not at all                                 |
@@ -52,6 +54,8 @@ mod report;
 mod stamp;
 mod step_report;
 mod steps;
+mod study_plots;
+mod study_table;
 mod svg;
 mod targets;
 mod unfinished;
@@ -88,5 +92,7 @@ pub use report::{
 pub use stamp::FileStamp;
 pub use step_report::StepReport;
 pub use steps::StepsFolder;
+pub use study_plots::study_plots;
+pub use study_table::{read_study, write_study};
 pub use targets::{Target, Targets, hard_targets, pins_in_plane};
 pub use unfinished::discard_unfinished;

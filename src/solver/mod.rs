@@ -21,6 +21,7 @@
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
 //! | `verdict`, `atlas`, `distortion`, `vertex_equation` | what is said of an embedding |
 //! | `hull_condition`, `one_form` | vertices outside the hull of their neighbours; indices of one-forms |
+//! | `study/` | the iteration on many random trials: the paper's open question (§7) |
 //! | `control`, `error` | progress and cancelling; why no embedding was produced |
 
 mod atlas;
@@ -68,6 +69,7 @@ mod sheet;
 pub mod slim;
 mod solution;
 mod stretch;
+pub mod study;
 mod system;
 mod units;
 mod upright;

@@ -298,6 +298,16 @@ mod interrupt {
     }
 
     #[test]
+    fn an_interrupted_study_ends_with_130_and_leaves_no_file() {
+        let program = Program::new();
+        program.write("in.obj", &obj_text(&PolygonMesh::from(&grid(60, 60))));
+        let arguments = ["study", "in.obj", "--runs", "100000", "--csv", "out.csv", "--svg", "out.svg"];
+        let run = interrupted(&program, &arguments, Duration::from_millis(100));
+        assert_eq!(run.status, Some(130), "{run:?}");
+        assert_eq!(program.files(), ["in.obj"]);
+    }
+
+    #[test]
     fn an_interrupted_check_ends_with_130_and_leaves_no_file() {
         let program = Program::new();
         let mesh = grid(300, 300);

@@ -8,12 +8,14 @@
 //! | `flatten` | arguments of `flatten`                                 |
 //! | `compare` | arguments of `compare`                                 |
 //! | `shape`   | the shape of a boundary                                |
+//! | `study`   | arguments of `study`                                   |
 
 mod compare;
 mod flatten;
 mod mesh;
 mod shape;
 mod solve;
+mod study;
 
 use std::path::PathBuf;
 
@@ -24,6 +26,7 @@ pub use flatten::FlattenArguments;
 pub use mesh::{Cut, MeshArguments, SeamKind};
 pub use shape::TypedShape;
 pub use solve::SolveArguments;
+pub use study::StudyArguments;
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]
@@ -38,6 +41,9 @@ pub struct Arguments {
 
 const EXIT_HELP: &str = "Exit status: 0 planar and proved, 1 internal error, 2 wrong use, 3 unusable input, \
                          4 not planar, a constraint not met, or no result by this method, 130 interrupted.";
+
+const STUDY_HELP: &str = "Exit status: 0 all runs were made, whatever came of them, 1 internal error, 2 wrong use, \
+                          3 unusable input, 130 interrupted.";
 
 const COMPARE_HELP: &str = "Exit status: 0 all methods have run, whatever came of them, 1 internal error, 2 wrong use, \
                             3 unusable input, 130 interrupted.";
@@ -59,6 +65,9 @@ pub enum Command {
     /// Compute the paper's figures again, as drawings (SVG), pictures (PNG) and a table (CSV).
     #[command(after_help = EXIT_HELP)]
     Figures(FiguresArguments),
+    /// Run the mean-value iteration on many random pins and constraints: how often and how fast it ends planar.
+    #[command(after_help = STUDY_HELP)]
+    Study(StudyArguments),
 }
 
 /// Arguments of `figures`.

@@ -13,6 +13,7 @@
 //! | `curves`| a quantity over time                                                   |
 //! | `space` | a mesh in space in a panel                                             |
 //! | `photo` | a picture with numbered marks in a panel                               |
+//! | `plot`  | shares as bars and curves                                              |
 //! | `svg`   | a page as a drawing                                                    |
 //! | `ink`   | a page as a picture                                                    |
 //! | `font`  | letters made of strokes                                                |
@@ -23,6 +24,7 @@ mod grid;
 mod ink;
 mod panel;
 mod photo;
+mod plot;
 mod sheet;
 mod space;
 mod svg;
@@ -39,6 +41,7 @@ pub use grid::{CellContent, ColourBar, Grid, GridCell};
 use panel::placing;
 pub use panel::{Outside, PlaneDrawing, Pockets, Window, zones_of};
 pub use photo::PhotoDrawing;
+pub use plot::{Bar, Curve, Marks, Plot, plots};
 pub use sheet::{Drawing, Panel, Sheet};
 pub use space::SpaceDrawing;
 pub use tinted::TintedDrawing;
@@ -77,6 +80,17 @@ pub mod colours {
     pub const GRID: Colour = [0xdd, 0xdb, 0xd7];
     /// The frame around what an inset shows.
     pub const FRAME: Colour = [0x2f, 0x5b, 0xd8];
+    /// Lines behind plots.
+    pub const GRID: Colour = [0xdd, 0xda, 0xd4];
+    /// Bars and curves, one after another: told apart by people who are colour-blind (Okabe and Ito 2008).
+    pub const SERIES: [Colour; 6] = [
+        [0x00, 0x72, 0xb2],
+        [0xe6, 0x9f, 0x00],
+        [0x00, 0x9e, 0x73],
+        [0xd5, 0x5e, 0x00],
+        [0xcc, 0x79, 0xa7],
+        [0x56, 0xb4, 0xe9],
+    ];
 }
 
 /// What a line or an outline is drawn with.

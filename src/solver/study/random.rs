@@ -2,11 +2,17 @@
 
 /// A stream of pseudo-random numbers that its seed decides.
 #[derive(Clone, Debug)]
-pub(crate) struct Random(pub(crate) u64);
+pub struct Random(pub u64);
 
 impl Random {
+    /// The stream of one of many runs: those of other seeds and of other numbers have nothing in common with it.
+    pub fn of_run(seed: u64, number: u64) -> Self {
+        let seed = Self(seed).bits();
+        Self(Self(seed ^ number).bits())
+    }
+
     /// 64 random bits.
-    pub(crate) fn bits(&mut self) -> u64 {
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -15,23 +21,31 @@ impl Random {
     }
 
     /// A number in `0..limit`.
-    pub(crate) fn below(&mut self, limit: u32) -> u32 {
+    ///
+    /// # Panics
+    ///
+    /// Where the limit is 0.
+    pub fn below(&mut self, limit: u32) -> u32 {
         u32::try_from(self.bits() % u64::from(limit)).expect("smaller than a u32")
     }
 
     /// A place in a list of so many.
-    pub(crate) fn index(&mut self, count: usize) -> usize {
+    ///
+    /// # Panics
+    ///
+    /// Where the list is empty.
+    pub fn index(&mut self, count: usize) -> usize {
         usize::try_from(self.bits() % count as u64).expect("smaller than a usize")
     }
 
     /// A number in `[0, 1)`.
-    pub(crate) fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         // The upper 53 bits are a whole multiple of 2⁻⁵³.
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// A number in `[low, high)`.
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 }

@@ -1,0 +1,134 @@
+//! `freebound study`: the mean-value iteration on many random trials, the paper's open question (§7).
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::args::StudyArguments;
+use super::flatten::{disk_of, set_threads};
+use super::places::Places;
+use super::progress::{INTERRUPTED, Progress};
+use super::say::say;
+use super::standard::{Sizes, is_standard, name_of_input, read_model};
+use super::{Failure, Status};
+use crate::io::{read_study, study_plots, write_atomically, write_study};
+use crate::mesh::Form;
+use crate::solver::Control;
+use crate::solver::study::{Group, Studied, Subject, summary};
+
+pub(super) fn run(arguments: &StudyArguments) -> Result<Status, Failure> {
+    let places = Places::of_study(arguments);
+    refuse_standard(arguments)?;
+    places.keep_apart()?;
+    arguments.meshes.iter().try_for_each(|mesh| places.spare(mesh, "a mesh"))?;
+    arguments.add.iter().try_for_each(|table| places.spare(table, "a table that is added"))?;
+    set_threads(arguments.threads)?;
+    let progress = Progress::default();
+    progress.follow(|| {
+        let mut studied = Vec::new();
+        for table in &arguments.add {
+            studied.extend(read_study(table)?);
+        }
+        refuse_doubles(&studied, &arguments.meshes)?;
+        for (number, path) in arguments.meshes.iter().enumerate() {
+            progress.enter("reading");
+            progress.reach(format!("mesh {} of {}", number + 1, arguments.meshes.len()));
+            studied.push(studied_mesh(arguments, &places, path, &progress)?);
+        }
+        progress.enter("writing");
+        if let Some(path) = &arguments.csv {
+            write_atomically(path, |out| write_study(out, &studied))?;
+        }
+        if let Some(path) = &arguments.svg {
+            write_atomically(path, |out| {
+                study_plots(&studied).write_svg(out)?;
+                out.flush()
+            })?;
+        }
+        say(table(&summary(&studied)))?;
+        Ok(Status::Fine)
+    })
+}
+
+/// Refuses runs on a mesh from two places: they may be the same.
+fn refuse_doubles(added: &[Studied], meshes: &[PathBuf]) -> Result<(), Failure> {
+    let mut names: Vec<String> = added.iter().map(|studied| studied.mesh.clone()).collect();
+    names.extend(meshes.iter().map(|path| name_of_input(path)));
+    names.sort();
+    match names.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(Failure::Usage(format!("{}: the mesh is there twice: leave out one of them", pair[0]))),
+        None => Ok(()),
+    }
+}
+
+/// Tables and drawings go into files: standard output has the summary.
+fn refuse_standard(arguments: &StudyArguments) -> Result<(), Failure> {
+    let asked = [("--csv", &arguments.csv), ("--svg", &arguments.svg)];
+    match asked.into_iter().find(|(_, path)| path.as_deref().is_some_and(is_standard)) {
+        Some((option, _)) => {
+            Err(Failure::Usage(format!("standard output: the summary goes there, not {option}: name a file")))
+        }
+        None => Ok(()),
+    }
+}
+
+fn studied_mesh(
+    arguments: &StudyArguments,
+    places: &Places,
+    path: &Path,
+    progress: &Progress,
+) -> Result<Studied, Failure> {
+    let model = read_model(path, Sizes::typed(arguments.large))?.in_form(Form::default());
+    places.spare_materials(&model.source, path)?;
+    let mesh = disk_of(&model)?;
+    let quiet = |_| {};
+    let control = Control::new(&INTERRUPTED, &quiet);
+    progress.enter("solving");
+    let subject = Subject::new(mesh, control)?;
+    let study = arguments.study(subject.form.faces);
+    let done = AtomicU64::new(0);
+    let name = name_of_input(path);
+    let records = study.records(&subject, control, || {
+        let count = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.reach(format!("{name}: {count} of {} runs", study.runs));
+    })?;
+    Ok(Studied { mesh: name, form: subject.form, records })
+}
+
+/// The summary in columns, for a person.
+fn table(groups: &[Group]) -> String {
+    let percent = |share: f64| if share.is_nan() { "-".to_owned() } else { format!("{:.1} %", 100.0 * share) };
+    let steps = |count: Option<usize>| count.map_or_else(|| "-".to_owned(), |count| count.to_string());
+    let head = ["runs", "planar at once", "mended of the rest", "planar", "median", "p90"].map(str::to_owned);
+    let mut rows = vec![(String::new(), head)];
+    let mut by = "all";
+    for group in groups {
+        if group.by != by {
+            by = group.by;
+            rows.push((by.to_owned(), std::array::from_fn(|_| String::new())));
+        }
+        let indent = if by == "all" { "" } else { "  " };
+        let cells = [
+            group.runs.to_string(),
+            percent(group.share_at_once()),
+            percent(group.share_mended()),
+            percent(group.share_planar()),
+            steps(group.median_steps),
+            steps(group.p90_steps),
+        ];
+        rows.push((format!("{indent}{}", group.name), cells));
+    }
+    in_columns(&rows)
+}
+
+/// Names on the left, cells in columns of their own on the right.
+fn in_columns(rows: &[(String, [String; 6])]) -> String {
+    let first = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let widths: [usize; 6] =
+        std::array::from_fn(|k| rows.iter().map(|(_, cells)| cells[k].chars().count()).max().unwrap_or(0));
+    let line = |(name, cells): &(String, [String; 6])| {
+        let cells = cells.iter().zip(widths).map(|(cell, width)| format!("  {cell:>width$}"));
+        format!("{name:<first$}{}", cells.collect::<String>()).trim_end().to_owned()
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}
