@@ -1,6 +1,6 @@
 //! The plots of a study: how often and how fast the iteration came to a planar map, against what it may depend on.
 
-use super::figure::{Bar, Curve, Marks, Page, Plot, plots};
+use super::figure::{Bar, Marks, Page, Plot, Shares, plots};
 use crate::solver::study::{Group, Outcome, Record, Studied, summary};
 use crate::solver::{Choice as _, Treatment};
 
@@ -61,7 +61,7 @@ fn curves(records: &[&Record]) -> Plot {
             of.iter().filter(|record| record.outcome == Outcome::Planar && record.steps <= steps).count()
         };
         let share = |steps: usize| within(steps) as f64 / of.len().max(1) as f64;
-        Curve { name: format!("{kind}, {}", treatment.name()), shares: (0..=last).map(share).collect() }
+        Shares { name: format!("{kind}, {}", treatment.name()), shares: (0..=last).map(share).collect() }
     };
     let kinds = [true, false].into_iter();
     let marks = kinds.flat_map(|is_pair| Treatment::ALL.iter().map(move |&of| (is_pair, of)));

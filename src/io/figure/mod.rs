@@ -41,7 +41,7 @@ pub use grid::{CellContent, ColourBar, Grid, GridCell};
 use panel::placing;
 pub use panel::{Outside, PlaneDrawing, Pockets, Window, zones_of};
 pub use photo::PhotoDrawing;
-pub use plot::{Bar, Curve, Marks, Plot, plots};
+pub use plot::{Bar, Marks, Plot, Shares, plots};
 pub use sheet::{Drawing, Panel, Sheet};
 pub use space::SpaceDrawing;
 pub use tinted::TintedDrawing;
@@ -80,8 +80,6 @@ pub mod colours {
     pub const GRID: Colour = [0xdd, 0xdb, 0xd7];
     /// The frame around what an inset shows.
     pub const FRAME: Colour = [0x2f, 0x5b, 0xd8];
-    /// Lines behind plots.
-    pub const GRID: Colour = [0xdd, 0xda, 0xd4];
     /// Bars and curves, one after another: told apart by people who are colour-blind (Okabe and Ito 2008).
     pub const SERIES: [Colour; 6] = [
         [0x00, 0x72, 0xb2],

@@ -43,9 +43,9 @@ pub struct Bar {
     pub parts: Vec<f64>,
 }
 
-/// A curve.
+/// A curve of shares.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct Shares {
     /// What it stands for.
     pub name: String,
     /// Shares at 0, 1, 2 and so on.
@@ -58,7 +58,7 @@ pub enum Marks {
     /// Bars side by side, with the names of their parts.
     Bars(Vec<Bar>, Vec<String>),
     /// Curves over each other.
-    Curves(Vec<Curve>),
+    Curves(Vec<Shares>),
 }
 
 impl Marks {
@@ -174,7 +174,7 @@ fn draw_bars(page: &mut Page, area: Bounds, bars: &[Bar]) {
 }
 
 /// Curves whose shares reach from 0 to `top`.
-fn draw_curves(page: &mut Page, area: Bounds, curves: &[Curve], top: f64) {
+fn draw_curves(page: &mut Page, area: Bounds, curves: &[Shares], top: f64) {
     let last = curves.iter().map(|curve| curve.shares.len()).max().unwrap_or(0).saturating_sub(1).max(1);
     let at = |number: usize| area.low.x + area.size().x * number as f64 / last as f64;
     for number in (0..=last).step_by(last.div_ceil(6)) {
