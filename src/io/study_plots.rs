@@ -7,7 +7,7 @@ use crate::solver::{Choice as _, Treatment};
 /// What bars show, and the groups of the summary that they stand for.
 const BARS: [(&str, &str); 9] = [
     ("first map, equations of pins kept", "First map not planar; all equations kept"),
-    ("first map, equations of pins dropped", "First map not planar; those of pins dropped"),
+    ("first map, equations of pins dropped", "First map not planar; equations of pins dropped"),
     ("treatment of a pair", "Two pins: what becomes of their equations"),
     ("treatment of constraints", "Constraints: what becomes of their equations"),
     ("distance of a pair", "Two pins: their distance in space, of the mesh's diagonal"),

@@ -140,7 +140,7 @@ fn past_a_stall_no_run_is_called_stalled() {
 #[test]
 fn what_cannot_be_studied_is_told_with_its_exit_status() {
     let program = with_meshes();
-    program.write("fan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 2 4\n");
+    program.write("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
     program.write("no.csv", "mesh,run\ncap.obj,x\n");
     program.run(&["study", "cap.obj", "--runs", "1", "--csv", "one.csv"]).expect(0);
     let before = program.files();
@@ -160,7 +160,7 @@ fn what_cannot_be_studied_is_told_with_its_exit_status() {
     }
     for unusable in [
         &["study", "none.obj"][..],
-        &["study", "fan.obj"],
+        &["study", "closed.obj"],
         &["study", "--add", "none.csv"],
         &["study", "--add", "no.csv"],
     ] {
