@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::solver::{Choice as _, Method, Step};
+use crate::solver::{Choice as _, Convergence, Method, Step};
 
 /// One step of one rung.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -27,7 +27,8 @@ pub struct StepReport {
     pub turning_number: Option<i64>,
     /// Largest move of a vertex since the step before.
     pub max_move: Option<f64>,
-    /// ‖Ax − b‖ / ‖b‖ of the linear solve; null where there is none, as in the next.
+    /// ‖Ax − b‖ / ‖b‖ of the linear solve; null where there is none, as in the next. Of an eigenvector what is left of its
+    /// equations, relative to the sizes of their terms.
     pub residual: Option<f64>,
     /// ‖A z‖ of all vertex equations, pinned ones included, relative to the sum of their terms' sizes.
     pub equation_residual: Option<f64>,
@@ -50,6 +51,9 @@ pub struct StepReport {
     pub least_determinant: Option<f64>,
     /// Largest distance of an exact pin from its target, in the plane.
     pub distance_left: Option<f64>,
+    /// How a method that approaches its answer within one step ended; absent where it does not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub convergence: Option<Convergence>,
     /// Remark on the step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
@@ -62,7 +66,7 @@ fn cell(number: impl Into<Option<f64>>) -> String {
 
 impl StepReport {
     /// The fields as a row of a table, each with the head of its column; empty where there is no value.
-    pub fn row(&self) -> [(&'static str, String); 22] {
+    pub fn row(&self) -> [(&'static str, String); 25] {
         [
             ("rung", self.rung.name().to_owned()),
             ("index", self.index.to_string()),
@@ -85,6 +89,9 @@ impl StepReport {
             ("energy", cell(self.energy)),
             ("least_determinant", cell(self.least_determinant)),
             ("distance_left", cell(self.distance_left)),
+            ("inner_steps", self.convergence.map(|inner| inner.steps.to_string()).unwrap_or_default()),
+            ("inner_residual", cell(self.convergence.map(|inner| inner.residual))),
+            ("inner_stop", self.convergence.map(|inner| inner.stop.name().to_owned()).unwrap_or_default()),
             ("note", self.note.clone().unwrap_or_default()),
         ]
     }
@@ -115,6 +122,7 @@ impl StepReport {
             energy: step.progress.map(|progress| progress.energy),
             least_determinant: step.progress.map(|progress| progress.least_determinant),
             distance_left: step.progress.map(|progress| progress.distance_left),
+            convergence: solution.convergence,
             note: step.note.clone(),
         }
     }

@@ -14,12 +14,14 @@
 //! | `llt.rs` | Hermitian definite: faer's supernodal Cholesky |
 //! | `ldlt.rs` | Hermitian augmented, for least squares: faer's supernodal `LDLᴴ` |
 //! | `lu/` | unsymmetric: our multifrontal LU |
+//! | `lanczos.rs` | the greatest eigenvalue of an operator, such as the inverse of a factored matrix |
 //! | `refine.rs`, `gmres.rs` | what makes a factor's answer good, or an error |
 //! | `sparse.rs`, `scalar.rs`, `error.rs` | products, norms and inner products; real and complex numbers alike; what can go wrong |
 
 mod analysis;
 mod error;
 mod gmres;
+mod lanczos;
 mod ldlt;
 mod llt;
 mod lu;
@@ -30,6 +32,7 @@ mod sparse;
 
 pub use analysis::{Analysis, Answer, Factor, FactorStats, Kind};
 pub use error::LinalgError;
+pub use lanczos::{EigenLimits, Eigenpair, greatest_eigenpair};
 pub use refine::Solved;
 pub use scalar::Scalar;
 pub use sparse::gram;

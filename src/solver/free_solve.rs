@@ -270,7 +270,8 @@ impl FreeSolve {
         if gradient > 0.0 { f64::sqrt(gradient / whole) } else { 0.0 }
     }
 
-    fn residuals(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
+    /// The residual of every vertex's equation.
+    pub(super) fn residuals(&self, mesh: &DiskMesh, embedding: &Embedding) -> Vec<Complex<f64>> {
         let at = |v: usize| self.equations.residual_of(mesh, embedding, VertexId::from_index(v));
         (0..mesh.vertex_count()).into_par_iter().map(at).collect()
     }

@@ -78,7 +78,7 @@ impl Iteration {
             // The embedding meets its equations, and no pin pulls: it is the answer.
             let seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
             let (embedding, linear) = (embedding.clone(), Some(LinearSolve::default()));
-            return Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds });
+            return Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds, convergence: None });
         }
         let equations = natural_in_plane(mesh, embedding);
         let unit = mean_edge_length_in_plane(mesh, embedding);
@@ -92,7 +92,7 @@ impl Iteration {
             solve.solve_from(site, Start { embedding, residuals: &residuals }, &targets_of(&pins))?;
         let linear = Some(solve.numbers(mesh, &embedding, residual));
         seconds.solve = start.elapsed().as_secs_f64();
-        Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds })
+        Ok(Solution { embedding, pins, gauge_completed: false, linear, seconds, convergence: None })
     }
 
     /// Whether it serves these pins: the same vertices, held in the same way, weighted ones with the same targets.

@@ -26,6 +26,12 @@ pub enum Method {
     Levy,
     /// Scalable locally injective mappings (Rabinovich et al. 2017): Tutte's map on a circle, its energy lowered.
     Slim,
+    /// The least conformal energy of all maps with one size of boundary (Mullen et al. 2008): no pins.
+    Spectral,
+    /// The angles nearest to those of the surface that make a plane, by a system of all of them (Sheffer, de Sturler 2001).
+    Abf,
+    /// The same angles by a system of a fifth of the unknowns (Sheffer et al. 2005).
+    AbfPlusPlus,
     /// From a planar embedding without the constraints, one-to-one all the way to their targets.
     Continuation,
     /// Paths between the constraints on the mesh, with new vertices where they need room, straightened in the plane.
@@ -73,7 +79,17 @@ impl Method {
 
     /// Whether it takes more steps than one linear solve.
     pub const fn takes_steps(self) -> bool {
-        !matches!(self, Self::Natural | Self::Convex(_) | Self::Lee(_) | Self::Lscm | Self::Levy)
+        !matches!(
+            self,
+            Self::Natural
+                | Self::Convex(_)
+                | Self::Lee(_)
+                | Self::Lscm
+                | Self::Levy
+                | Self::Spectral
+                | Self::Abf
+                | Self::AbfPlusPlus
+        )
     }
 
     /// Whether it keeps every step one-to-one on the way to the constraints.
@@ -126,9 +142,14 @@ impl Method {
         self
     }
 
+    /// Whether the shape does not depend on pins: they say at most where the embedding is to lie.
+    pub const fn only_places_pins(self) -> bool {
+        matches!(self, Self::Schnyder | Self::Lee(_) | Self::Slim | Self::Spectral | Self::Abf | Self::AbfPlusPlus)
+    }
+
     /// Whether it can be asked to meet constraints: pins beyond the two exact ones that fix the similarity.
     pub const fn takes_constraints(self) -> bool {
-        self.uses_pins() && !matches!(self, Self::VirtualBoundary | Self::Schnyder | Self::Lee(_) | Self::Slim)
+        self.uses_pins() && !self.only_places_pins() && !matches!(self, Self::VirtualBoundary)
     }
 
     /// Whether it has nothing of its own to do where there are no constraints.
@@ -143,12 +164,15 @@ impl Method {
     /// Why vertices have no equations with a barycentre.
     pub const fn weight_source(self) -> Result<WeightSource, NoEquation> {
         match self {
-            Self::Auto | Self::Natural | Self::Convex(_) | Self::Lee(_) | Self::Lscm => Ok(WeightSource::Surface),
+            Self::Auto | Self::Natural | Self::Convex(_) | Self::Lee(_) | Self::Lscm | Self::Spectral => {
+                Ok(WeightSource::Surface)
+            }
             Self::Iterate => Ok(WeightSource::StepBefore),
             Self::VirtualBoundary => Ok(WeightSource::Extended),
             Self::Levy => Err(NoEquation::OfTriangles),
             Self::Stretch(_) => Err(NoEquation::OfStretch),
             Self::Schnyder => Err(NoEquation::OnGrid),
+            Self::Abf | Self::AbfPlusPlus => Err(NoEquation::OfAngles),
             Self::Slim | Self::Continuation | Self::Matchmaker | Self::Relax | Self::Cut => Err(NoEquation::OfEnergy),
             Self::Given => Err(NoEquation::OfFile),
         }
@@ -192,6 +216,9 @@ impl Choice for Method {
         Self::Lscm,
         Self::Levy,
         Self::Slim,
+        Self::Spectral,
+        Self::Abf,
+        Self::AbfPlusPlus,
         Self::Continuation,
         Self::Matchmaker,
         Self::Schnyder,
@@ -241,6 +268,17 @@ impl Choice for Method {
                      cross itself",
                 )
                 .source("Rabinovich et al. 2017"),
+            Self::Spectral => Words::new("spectral", "Spectral conformal")
+                .about("the least conformal energy of all maps with one size of boundary: no pins, an eigenvector")
+                .source("Mullen et al. 2008"),
+            Self::Abf => Words::new("abf", "Angle based")
+                .about(
+                    "the angles nearest to the surface's that make a plane, by a system of all angles and conditions",
+                )
+                .source("Sheffer, de Sturler 2001"),
+            Self::AbfPlusPlus => Words::new("abf++", "Angle based, reduced")
+                .about("the same angles by a system of two unknowns per inner vertex: many times faster")
+                .source("Sheffer et al. 2005"),
             Self::Continuation => Words::new("continuation", "Continuation")
                 .about("from a planar map without constraints to their targets, one-to-one all the way")
                 .source("ours; energy of Garanzha et al. 2021"),

@@ -14,6 +14,8 @@
 //! | `lee` | layers of virtual triangles around the mesh, on a convex shape |
 //! | `stretch` | a convex boundary with less and less stretch |
 //! | `virtual_boundary` | mesh and outside embedded together (paper §5) |
+//! | `angles/` | angle based flattening: the angles first, then the plane |
+//! | `spectral` | the least conformal energy without a pin |
 //! | `schnyder` | a drawing in whole numbers, planar by theorem |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
 //! | `slim` | an energy lowered from Tutte's map, as others ship it |
@@ -24,6 +26,7 @@
 //! | `study/` | the iteration on many random trials: the paper's open question (§7) |
 //! | `control`, `error` | progress and cancelling; why no embedding was produced |
 
+mod angles;
 mod atlas;
 mod block_pattern;
 mod boundary_shape;
@@ -68,6 +71,7 @@ mod shape_preserving;
 mod sheet;
 pub mod slim;
 mod solution;
+mod spectral;
 mod stretch;
 pub mod study;
 mod system;
@@ -79,6 +83,7 @@ mod vertex_equation;
 mod virtual_boundary;
 pub mod weights;
 
+pub use angles::{AngleMap, AngleSystem, angle_based};
 pub use atlas::{AtlasVerdict, ChartVerdict, OVERLAPS_LISTED, atlas_verdict};
 pub use boundary_shape::{BoundaryShape, Spacing};
 pub use choice::{Choice, Words};
@@ -109,7 +114,8 @@ pub use schnyder::schnyder;
 pub use settings::{GaugeSize, Growth, Settings, Start, Treatment};
 pub use shape_preserving::shape_preserving;
 pub use sheet::Sheet;
-pub use solution::{LinearSolve, PhaseSeconds, Solution};
+pub use solution::{Convergence, LinearSolve, PhaseSeconds, Solution, Stop};
+pub use spectral::{Spectral, spectral};
 pub use stretch::{LessStretched, StretchMinimising};
 pub use system::FreeSystem;
 pub use variant::Variant;

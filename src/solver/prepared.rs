@@ -7,6 +7,7 @@ use std::time::Instant;
 use glam::DVec2;
 use num_complex::Complex;
 
+use super::angles::{AngleSystem, angle_based};
 use super::convex::convex_boundary;
 use super::equations::mean_edge_length;
 use super::equations::{self, Equations};
@@ -18,6 +19,7 @@ use super::pins::{
 };
 use super::placing::complete_gauge;
 use super::shape_preserving::shape_preserving;
+use super::spectral::spectral;
 use super::system::{FreeSystem, Site};
 use super::units::Units;
 use super::{Choice as _, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
@@ -57,7 +59,23 @@ pub fn solve_once(
     pins: &Pins,
     control: Control<'_>,
 ) -> Result<Solution, SolveError> {
-    Prepared::new(mesh, settings, pins, control)?.solve(mesh, pins, control)
+    let Some(solution) = own_solution(mesh, settings.method, control) else {
+        return Prepared::new(mesh, settings, pins, control)?.solve(mesh, pins, control);
+    };
+    check_pins(mesh, pins)?;
+    let mut solution = solution?;
+    complete_gauge(mesh, &mut solution.embedding, pins, settings.size);
+    Ok(solution)
+}
+
+/// The solution of a method that solves for something else than positions first, so that no factors serve other pins.
+fn own_solution(mesh: &DiskMesh, method: Method, control: Control<'_>) -> Option<Result<Solution, SolveError>> {
+    match method {
+        Method::Spectral => Some(spectral(mesh, control).map(|found| found.solution)),
+        Method::Abf => Some(angle_based(mesh, AngleSystem::Full, control).map(|found| found.solution)),
+        Method::AbfPlusPlus => Some(angle_based(mesh, AngleSystem::Reduced, control).map(|found| found.solution)),
+        _ => None,
+    }
 }
 
 impl Prepared {
@@ -206,6 +224,7 @@ impl Prepared {
             pins: in_force,
             gauge_completed: self.own_places.is_some(),
             linear: Some(linear),
+            convergence: None,
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..self.seconds },
         })
     }

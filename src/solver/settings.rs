@@ -172,12 +172,8 @@ impl Settings {
             // By hand after a convex boundary, all of which is pinned.
             Method::Iterate if !self.method.uses_pins() => Treatment::Eliminate,
             Method::Iterate => self.treatment.unwrap_or(Treatment::LeastSquares),
-            Method::VirtualBoundary
-            | Method::Schnyder
-            | Method::Convex(_)
-            | Method::Stretch(_)
-            | Method::Lee(_)
-            | Method::Slim => Treatment::Eliminate,
+            Method::VirtualBoundary | Method::Convex(_) | Method::Stretch(_) => Treatment::Eliminate,
+            rung if rung.only_places_pins() => Treatment::Eliminate,
             _ if pin_count > 2 => self.treatment.unwrap_or(Treatment::LeastSquares),
             _ => self.treatment.unwrap_or(Treatment::Eliminate),
         }

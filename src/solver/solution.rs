@@ -1,5 +1,7 @@
 //! What a solve gives back.
 
+use serde::Serialize;
+
 use super::{Embedding, Pins};
 use crate::linalg::FactorStats;
 
@@ -14,6 +16,8 @@ pub struct Solution {
     pub gauge_completed: bool,
     /// The linear solve; none where an energy was minimised.
     pub linear: Option<LinearSolve>,
+    /// How a method that comes nearer and nearer to its answer within one step ended; none where it does not.
+    pub convergence: Option<Convergence>,
     /// Where the time went.
     pub seconds: PhaseSeconds,
 }
@@ -37,6 +41,49 @@ pub struct LinearSolve {
 impl From<FactorStats> for LinearSolve {
     fn from(FactorStats { replaced_pivots, factor_bytes, .. }: FactorStats) -> Self {
         Self { replaced_pivots, factor_bytes, ..Self::default() }
+    }
+}
+
+/// How far a method has come that approaches its answer within one step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Convergence {
+    /// Solves or Newton steps that it took.
+    pub steps: usize,
+    /// What is left of its conditions: the method says of which, and relative to what.
+    pub residual: f64,
+    /// Why it ended.
+    pub stop: Stop,
+}
+
+/// Why a method went no further.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stop {
+    /// A further step would change nothing but rounding.
+    Converged,
+    /// No step led nearer.
+    Stalled,
+    /// It took as many steps as it may.
+    Limit,
+}
+
+impl Stop {
+    /// What a report calls it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::Stalled => "stalled",
+            Self::Limit => "limit",
+        }
+    }
+
+    /// The reason in words, to follow a count of steps.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::Stalled => "no step leads nearer",
+            Self::Limit => "as many as it may take",
+        }
     }
 }
 

@@ -91,6 +91,11 @@ impl FreeSystem {
         (row != NONE).then_some(row as usize)
     }
 
+    /// Where the values of the matrix have the diagonal entry of a row.
+    pub(super) fn place_of_diagonal(&self, row: usize) -> usize {
+        self.slot_of_diagonal[row] as usize
+    }
+
     /// Where the matrix has entries. Symmetric, with a full diagonal.
     pub fn pattern(&self) -> &SparsityPattern {
         &self.pattern

@@ -90,6 +90,8 @@ pub enum NoEquation {
     OfEnergy,
     /// The step counts vertices.
     OnGrid,
+    /// The step solves for the angles of faces.
+    OfAngles,
     /// The step is the layout of the file.
     OfFile,
 }
@@ -102,6 +104,7 @@ impl NoEquation {
             Self::OfTriangles => "Lévy's equations belong to triangles: they have no barycentre.",
             Self::StepBeforeMissing => "Its weights come from the step before, of which only the numbers were kept.",
             Self::OtherWeights => "Its weights are a last resort against rounding, not those of an embedding.",
+            Self::OfAngles => "This step solves for the angles of its faces: vertices have no equations of their own.",
             Self::OfFile => "This step is the layout of the file: nothing was solved for it.",
             Self::OnGrid => "This step is a drawing on a grid: its coordinates count vertices.",
             Self::Peeled => "It has neighbours among the virtual triangles, which were peeled off.",

@@ -73,7 +73,7 @@ fn a_mesh_that_comes_out_planar_ends_with_0_and_a_folded_one_with_4() {
 fn wrong_use_ends_with_2_and_says_what_to_do() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str); 45] = [
+    let cases: [(&[&str], &str); 48] = [
         (&["--family", "uniform"], "convex"),
         (&["--family", "power:x"], "power:P"),
         (&["--method", "best"], "natural"),
@@ -117,6 +117,9 @@ fn wrong_use_ends_with_2_and_says_what_to_do() {
         (&["--method", "convex", "--boundary", "polygon:missing.txt"], "missing.txt"),
         (&["--method", "convex", "--boundary", "polygon:0 0; 0 1; 1 0"], "clockwise"),
         (&["--method", "convex", "--boundary", "polygon:0 0; 2 0; 2 2; 1.5 1; 0 2"], "corner 4"),
+        (&["--method", "spectral", "--family", "mean-value"], "--family"),
+        (&["--method", "abf++", "--treatment", "weighted"], "--treatment"),
+        (&["--method", "abf+"], "abf++"),
         (&["--steps"], "--steps"),
         (&["--unknown"], "--unknown"),
     ];
@@ -236,7 +239,7 @@ fn the_same_run_writes_the_same_bytes_and_the_number_of_threads_changes_no_verdi
 fn all_methods_run_and_say_their_names() {
     let program = Program::new();
     example_file(&program, Example::Dome);
-    let cases: [(&[&str], &str, Option<&str>); 20] = [
+    let cases: [(&[&str], &str, Option<&str>); 23] = [
         (&["--method", "natural", "--family", "power:0.5"], "natural", Some("power:0.5")),
         (&["--method", "natural", "--family", "wachspress"], "natural", Some("wachspress")),
         (&[], "auto", Some("conformal")),
@@ -244,6 +247,9 @@ fn all_methods_run_and_say_their_names() {
         (&["--method", "virtual-boundary", "--family", "power:0.5"], "virtual-boundary", Some("power:0.5")),
         (&["--method", "lscm"], "lscm", None),
         (&["--method", "levy"], "levy", None),
+        (&["--method", "spectral"], "spectral", None),
+        (&["--method", "abf"], "abf", None),
+        (&["--method", "abf++"], "abf++", None),
         (&["--method", "convex"], "convex", Some("conformal")),
         (&["--method", "continuation"], "continuation", None),
         (&["--method", "matchmaker"], "matchmaker", None),
@@ -275,6 +281,9 @@ fn all_methods_run_and_say_their_names() {
         "convex",
         "lscm",
         "levy",
+        "spectral",
+        "abf",
+        "abf++",
         "continuation",
         "matchmaker",
         "schnyder",

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails fails its test")]
 #![allow(clippy::float_cmp, reason = "results are compared to the last bit on purpose")]
 
+mod angles;
 mod arguments;
 mod assets;
 mod atlas;
@@ -50,6 +51,7 @@ mod lee;
 mod linalg;
 mod linalg_augmented;
 mod linalg_faults;
+mod linalg_lanczos;
 mod linalg_matrices;
 mod linalg_mean_value;
 #[path = "../../examples/makers/mod.rs"]
@@ -112,6 +114,7 @@ mod session_wishes;
 mod shapes;
 mod signals;
 mod slim;
+mod spectral;
 mod start;
 mod start_cli;
 mod start_session;

@@ -182,7 +182,7 @@ const FILES: [(&str, &str); 13] = [
 ];
 
 /// Runs with their exit status: all kinds of fields of a report occur in them.
-const RUNS: [(&[&str], i32); 25] = [
+const RUNS: [(&[&str], i32); 27] = [
     (&["flatten", "parts.obj", "--pin", "0:0,0", "--pin", "1:1,0"], 0),
     (&["check", "charts.obj"], 4),
     (&["flatten", "tent.obj"], 0),
@@ -198,6 +198,8 @@ const RUNS: [(&[&str], i32); 25] = [
     (&["flatten", "tent.obj", "--method", "convex", "--fit", "true", "--precision", "f32"], 0),
     (&["flatten", "tent.obj", "--method", "lee", "--boundary", "square", "--spacing", "even", "--layers", "3"], 0),
     (&["flatten", "tent.obj", "--method", "stretch", "--boundary", "polygon:0 0; 2 0; 1 2"], 0),
+    (&["flatten", "tent.obj", "--method", "spectral"], 0),
+    (&["flatten", "tent.obj", "--method", "abf++"], 0),
     (&["check", "tent.obj"], 0),
     (&["check", "folded.obj"], 4),
     (&["check", "half.obj"], 3),

@@ -34,7 +34,7 @@ fn extent(points: &[DVec2]) -> f64 {
 }
 
 /// Largest distance from the best similar image of `plane`, relative to the embedding's extent.
-fn distance_up_to_similarity(plane: &[DVec2], embedding: &Embedding) -> f64 {
+pub(crate) fn distance_up_to_similarity(plane: &[DVec2], embedding: &Embedding) -> f64 {
     let count = plane.len() as f64;
     let mean = |points: &[DVec2]| points.iter().map(|&z| complex(z)).sum::<Complex<f64>>() / count;
     let (from, to) = (mean(plane), mean(embedding));
@@ -119,7 +119,7 @@ fn interior_pins_hold_a_planar_mesh_in_place() {
 /// of pins elsewhere leaves a system that is singular in 64 bits, although all equations together determine the plane
 /// well (third singular value 5e-4 on the spiral, smallest one without the pins' equations below 1e-16).
 fn hermitian_methods() -> Vec<Settings> {
-    [Method::Natural, Method::Lscm].map(|method| Settings::new(method, Family::Conformal)).to_vec()
+    [Method::Natural, Method::Lscm, Method::Spectral].map(|method| Settings::new(method, Family::Conformal)).to_vec()
 }
 
 #[test]

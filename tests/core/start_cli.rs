@@ -215,7 +215,7 @@ fn a_layout_that_is_cut_where_the_surface_is_not_is_refused_with_what_to_do() {
 fn options_that_go_against_a_layout_are_refused() {
     let program = Program::new();
     program.write("in.obj", &sheet(0.0));
-    for method in ["natural", "lscm", "levy", "convex", "schnyder"] {
+    for method in ["natural", "lscm", "levy", "spectral", "abf", "abf++", "convex", "schnyder"] {
         let run = program.run(&["flatten", "in.obj", "--start", "uv", "--method", method]).expect(2);
         assert!(run.stderr.contains("takes no --start"), "{}", run.stderr);
     }

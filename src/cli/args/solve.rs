@@ -99,6 +99,12 @@ impl SolveArguments {
         let splits = method == Method::Auto;
         let of_family =
             if method.is_one_to_one() { "it solves no weighted equations" } else { "its weights are its own" };
+        let treats_pins = method.uses_pins() && !method.only_places_pins();
+        let of_treatment = if method.uses_pins() {
+            "no equation of its depends on a pin"
+        } else {
+            "it places the whole boundary by itself"
+        };
         let of_splits = match method {
             Method::Matchmaker => "it meets constraints by nothing else",
             _ => "only auto goes on to them",
@@ -109,7 +115,7 @@ impl SolveArguments {
             (self.family.is_some(), method.uses_family(), "--family", of_family),
             (!self.pins.is_empty(), method.uses_pins(), "--pin", "it places the whole boundary by itself"),
             (self.constraints.is_some(), method.uses_pins(), "--constraints", "it places the whole boundary by itself"),
-            (self.treatment.is_some(), method.uses_pins(), "--treatment", "it places the whole boundary by itself"),
+            (self.treatment.is_some(), treats_pins, "--treatment", of_treatment),
             (self.max_steps.is_some(), method.iterates(), "--max-steps", "it does not iterate"),
             (self.no_new_vertices, splits, "--no-new-vertices", of_splits),
             (

@@ -1,11 +1,15 @@
 //! The rungs by name, and which flights of them a part of a plan can have.
 
 use self::Kind::{
-    Again, Continuation, Fit, Given, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim, Stretch, VirtualBoundary,
+    Again, Angles, Continuation, Fit, Given, Iterate, Lee, Matchmaker, Natural, Schnyder, Slim, Spectral, Stretch,
+    VirtualBoundary,
 };
 use super::plan::Kept;
 use super::rung::Rung;
-use super::{again, continuation, given, iterate, lee, matchmaker, natural, schnyder, slim, stretch, virtual_boundary};
+use super::{
+    again, angles, continuation, given, iterate, lee, matchmaker, natural, schnyder, slim, spectral, stretch,
+    virtual_boundary,
+};
 
 /// The rungs of a part, flight by flight.
 pub(super) type Flights = &'static [&'static [Kind]];
@@ -24,6 +28,10 @@ pub(super) const PADDED: Flights = &[&[Lee]];
 pub(super) const LESS_ENERGETIC: Flights = &[&[Slim]];
 /// As long as stretch falls.
 pub(super) const LESS_STRETCHED: Flights = &[&[Stretch]];
+/// Angles, laid out.
+pub(super) const ANGLES: Flights = &[&[Angles]];
+/// One eigenvector.
+pub(super) const SPECTRAL: Flights = &[&[Spectral]];
 /// One linear solve.
 pub(super) const LINEAR: Flights = &[&[Natural]];
 /// From a planar start until the constraints are met, or stuck.
@@ -52,6 +60,8 @@ pub(super) enum Kind {
     Stretch,
     Slim,
     Lee,
+    Spectral,
+    Angles,
     Fit,
     Continuation,
     Matchmaker,
@@ -69,6 +79,8 @@ impl Kind {
             Stretch => Box::<stretch::Stretch>::default(),
             Slim => Box::<slim::Iterations>::default(),
             Lee => Box::<lee::Pad>::default(),
+            Spectral => Box::<spectral::Eigenvector>::default(),
+            Angles => Box::<angles::Angles>::default(),
             Fit => Box::new(continuation::Fit { start: kept.planar_start.clone(), is_done: false }),
             Continuation => Box::<continuation::Continue>::default(),
             Matchmaker => Box::<matchmaker::Match>::default(),

@@ -18,6 +18,8 @@
 //! | `slim.rs` | Tutte's map, iteration after iteration with less energy |
 //! | `stretch.rs` | a convex boundary, solve after solve with less stretch |
 //! | `virtual_boundary.rs` | rung 3: the boundary made simple, and the outside embedded with the mesh |
+//! | `angles.rs` | angles, then the plane |
+//! | `spectral.rs` | one eigenvector, without pins |
 //! | `schnyder.rs` | the end of rung 3: a grid drawing, planar by theorem |
 //! | `continuation.rs` | rung 4: a planar start fitted to the constraints, then one-to-one on the way to them |
 //! | `matchmaker.rs` | rung 5: new vertices |
@@ -28,6 +30,7 @@
 //! cancelled leaves the ladder as it was.
 
 mod again;
+mod angles;
 mod continuation;
 mod cut;
 mod ending;
@@ -43,6 +46,7 @@ mod relax;
 mod rung;
 mod schnyder;
 mod slim;
+mod spectral;
 mod step;
 mod stretch;
 mod task;

@@ -10,8 +10,8 @@ use std::sync::Arc;
 use super::cut::Cut;
 use super::flights::Kind::{self, Fit, Iterate, Schnyder};
 use super::flights::{
-    BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, ITERATED, LADDER,
-    LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED,
+    ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, ITERATED, LADDER,
+    LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED, SPECTRAL,
 };
 use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
@@ -111,6 +111,8 @@ impl Plan {
             Method::Stretch(_) => [part(LESS_STRETCHED)].into(),
             Method::Slim => [part(LESS_ENERGETIC)].into(),
             Method::Lee(_) => [part(PADDED)].into(),
+            Method::Spectral => [part(SPECTRAL)].into(),
+            Method::Abf | Method::AbfPlusPlus => [part(ANGLES)].into(),
             Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
         };
         Self { parts }

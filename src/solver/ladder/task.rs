@@ -72,6 +72,7 @@ impl Task {
             method if self.is_constrained() && !method.takes_constraints() => {
                 Err(SolveError::TooManyPins { method: method.name(), count: self.pins.len(), most: GAUGE_PINS })
             }
+            method if method.only_places_pins() => check_pins(mesh, &self.pins),
             Method::Auto if self.is_constrained() => check_distances(mesh, &self.held()),
             method if method.is_one_to_one() => {
                 check_pins(mesh, &self.held())?;

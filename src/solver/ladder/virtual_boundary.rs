@@ -210,6 +210,7 @@ impl Bend {
             pins: Pins::new(),
             gauge_completed: true,
             linear: Some(linear),
+            convergence: None,
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() },
         };
         let candidate = Candidate::new(Method::VirtualBoundary, Family::MeanValue, solution);

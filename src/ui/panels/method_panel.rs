@@ -33,7 +33,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
             family_list(ui, chosen);
             ui.end_row();
         }
-        if chosen.method.uses_pins() {
+        if chosen.method.uses_pins() && !chosen.method.only_places_pins() {
             ui.label("Pinned");
             treatment_list(ui, &mut chosen.treatment);
             ui.end_row();

@@ -246,6 +246,8 @@ fn numbers_of(record: &StepReport, standing: &Standing) -> Vec<(&'static str, St
     }
     numbers.push(("Residual", residual_words(record.residual)));
     numbers.push(("Equation residual", residual_words(record.equation_residual)));
+    let inner = record.convergence.map(|inner| format!("{}: {}", inner.steps, inner.stop.words()));
+    numbers.extend(inner.map(|words| ("Solves within the step", words)));
     let counts = [
         ("Outside the hull of their neighbours", record.outside_hull_vertices),
         ("Constraints not met", standing.unmet),

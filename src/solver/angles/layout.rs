@@ -1,0 +1,91 @@
+//! From angles to the plane: the embedding whose faces have these angles, or come nearest to them.
+//!
+//! # Equation
+//!
+//! A face with angles α has the shape of a triangle with sides sin α. The least-squares conformal map of faces of these
+//! shapes, edges joined, is the source's system of equations
+//!
+//! ```text
+//! z₂ − z₀ = (sin α₁ / sin α₂) e^{iα₀} (z₁ − z₀)         per face, by weights that make no corner another's better
+//! ```
+//!
+//! in least squares. Its normal equations are the natural boundary's with cot α of the solved angles in place of those of the
+//! surface: Hermitian, n × n, and exact where the angles meet their conditions. Two pins fix the similarity; which two is
+//! then no matter.
+//!
+//! Source: A. Sheffer, B. Lévy, M. Mogilnitsky, A. Bogomyakov, "ABF++", 2005, §4.2, after B. Lévy, S. Petitjean, N. Ray,
+//! J. Maillot, "Least squares conformal maps", 2002.
+
+use std::time::Instant;
+
+use glam::DVec2;
+use num_complex::Complex;
+
+use crate::linalg::Kind;
+use crate::mesh::{DiskMesh, HalfedgeId};
+use crate::solver::equations::Equations;
+use crate::solver::free_solve::{FreeSolve, Layout, Setup, Start};
+use crate::solver::pins::{fixed_pins, gauge_pins};
+use crate::solver::system::Site;
+use crate::solver::weights::bounded;
+use crate::solver::{Control, Embedding, Phase, PhaseSeconds, Solution, SolveError, Treatment};
+
+/// Solves at most, each from where the one before has come: thin faces have large cotangents, and what is left of the
+/// equations is better measured on edges than on positions.
+const SOLVES: usize = 3;
+
+/// Lays faces of these angles out, the gauge pins where they lie by default.
+pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_>) -> Result<Solution, SolveError> {
+    control.enter(Phase::Assemble)?;
+    let start = Instant::now();
+    let equations = equations_of(mesh, angles);
+    let targets = gauge_pins(mesh);
+    let layout = Layout::new(&fixed_pins(targets.clone()), Treatment::Eliminate, |_| Ok(Vec::new()))?;
+    let system = layout.system(mesh);
+    let site = Site { mesh, system: &system };
+    let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
+    control.enter(Phase::Analyze)?;
+    let start = Instant::now();
+    let analysis = layout.analysis(site, Kind::Hermitian)?;
+    seconds.analyze = start.elapsed().as_secs_f64();
+    let setup = Setup { equations, unit: 1.0, analysis: &analysis, layout: &layout };
+    let solve = FreeSolve::new(site, setup, &mut seconds, control)?;
+    control.enter(Phase::Solve)?;
+    let start = Instant::now();
+    let mut embedding = Embedding::from(vec![DVec2::ZERO; mesh.vertex_count()]);
+    for (&vertex, &target) in &targets {
+        embedding[vertex] = target;
+    }
+    let mut residual = f64::INFINITY;
+    for _ in 0..SOLVES {
+        let start = Start { embedding: &embedding, residuals: &solve.residuals(mesh, &embedding) };
+        let (nearer, left) = solve.solve_from(site, start, &targets)?;
+        if !(left < residual) {
+            break;
+        }
+        (embedding, residual) = (nearer, left);
+    }
+    let linear = Some(solve.numbers(mesh, &embedding, residual));
+    seconds.solve = start.elapsed().as_secs_f64();
+    let pins = fixed_pins(targets);
+    Ok(Solution { embedding, pins, gauge_completed: true, linear, convergence: None, seconds })
+}
+
+/// Cotangents of the angles in place of those of the surface.
+fn equations_of(mesh: &DiskMesh, angles: &[[f64; 3]]) -> Equations<Complex<f64>> {
+    let mut coefficients = vec![Complex::ZERO; mesh.link_count()];
+    let mut bounded_corners = 0;
+    for (face, angles) in angles.iter().enumerate() {
+        for (k, angle) in angles.iter().enumerate() {
+            let (cotangent, was_bounded) = bounded(angle.tan().recip());
+            bounded_corners += usize::from(was_bounded);
+            let opposite = HalfedgeId::from_index(3 * face + (k + 1) % 3);
+            for side in [opposite, mesh.twin(opposite)] {
+                coefficients[side.index()] += cotangent;
+            }
+        }
+    }
+    let mut equations = Equations { coefficients, bounded_corners };
+    equations.add_boundary_terms(mesh, |_| 1.0);
+    equations
+}
