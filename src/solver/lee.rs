@@ -205,7 +205,8 @@ impl<'a> Padded<'a> {
         let embedding = Embedding::of_mesh(self.mesh, &solved);
         let frame: Vec<DVec2> = solved[self.mesh.vertex_count()..].to_vec();
         let triangles = self.disk.mesh().triangles[self.mesh.face_count()..].to_vec();
-        let solution = Solution { embedding, pins: Pins::new(), gauge_completed: true, linear, seconds };
+        let solution =
+            Solution { embedding, pins: Pins::new(), gauge_completed: true, linear, convergence: None, seconds };
         Ok((solution, Outside { frame, triangles }))
     }
 }

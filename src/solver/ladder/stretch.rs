@@ -81,7 +81,8 @@ impl Run {
         self.taken += 1;
         let LessStretched { embedding, linear, seconds, .. } = *solved;
         let pins = fixed_pins(self.minimising.places.keys().map(|&vertex| (vertex, embedding[vertex])));
-        let solution = Solution { embedding, pins, gauge_completed: true, linear: Some(linear), seconds };
+        let solution =
+            Solution { embedding, pins, gauge_completed: true, linear: Some(linear), convergence: None, seconds };
         let rung = Method::Stretch(self.shape);
         Ok(Candidate { note: Some(note), ..Candidate::new(rung, Family::MeanValue, solution) })
     }
