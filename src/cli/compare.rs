@@ -20,10 +20,10 @@ use super::summary::{comparison_summary, put_report};
 use super::{Failure, Status};
 use crate::io::figure::Page;
 use crate::io::{
-    ChartNumber, ComparisonReport, ComparisonSeconds, MeshReport, PictureFile, Targets, TimedStep, WriteError,
-    write_atomically, write_to_standard_output,
+    ComparisonReport, ComparisonSeconds, PictureFile, Targets, TimedStep, WriteError, write_atomically,
+    write_to_standard_output,
 };
-use crate::session::{Compared, Document, Model, Problem};
+use crate::session::{Compared, Document, Model, Problem, comparison_report};
 use crate::solver::{Choice as _, Control, Method, Phase, Start, Variant};
 use crate::view::ComparisonPicture;
 
@@ -68,7 +68,8 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<Status, Failure> {
         let problems = problems(arguments, &problem)?;
         let read = start.elapsed().as_secs_f64();
         let methods = run_all(&model, problems, &progress)?;
-        let mut report = report(&model, &problem, &methods);
+        let methods: Vec<&Compared> = methods.iter().collect();
+        let mut report = comparison_report(&model, &methods);
         report.seconds = ComparisonSeconds { read, total: start.elapsed().as_secs_f64() };
         progress.enter("writing");
         write(arguments, &report, || picture_of(arguments, &model, &methods))?;
@@ -149,19 +150,8 @@ fn run_all(model: &Model, problems: Vec<Problem>, progress: &Progress) -> Result
     Ok(methods)
 }
 
-fn report(model: &Model, problem: &Problem, methods: &[Compared]) -> ComparisonReport {
-    let disk = model.disk().expect("methods have run on it");
-    let repairs = model.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
-    let mesh = MeshReport { repairs, ..MeshReport::new(model.path_words(), disk) };
-    let chart = model.chart.as_ref().map(|of| ChartNumber { number: of.number, of: of.charts.count() });
-    let mut report = ComparisonReport::new(mesh, chart, problem.frame.aspect);
-    report.methods = methods.iter().map(|method| method.report.clone()).collect();
-    report
-}
-
-fn picture_of(arguments: &CompareArguments, model: &Model, methods: &[Compared]) -> Page {
-    let methods: Vec<&Compared> = methods.iter().collect();
-    ComparisonPicture { model, methods: &methods, shading: arguments.shading.unwrap_or_default() }.page()
+fn picture_of(arguments: &CompareArguments, model: &Model, methods: &[&Compared]) -> Page {
+    ComparisonPicture { model, methods, shading: arguments.shading.unwrap_or_default() }.page()
 }
 
 /// Writes all files but the report. The picture is drawn once, where it is asked for.

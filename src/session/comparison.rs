@@ -6,7 +6,10 @@ use std::time::Instant;
 
 use super::outcome::pins_report;
 use super::{Model, Outcome, Problem};
-use crate::io::{MethodError, MethodReport, MethodSeconds, ResultReport, StepReport, TimedStep, VerdictCounts};
+use crate::io::{
+    ChartNumber, ComparisonReport, MeshReport, MethodError, MethodReport, MethodSeconds, ResultReport, StepReport,
+    TimedStep, VerdictCounts,
+};
 use crate::solver::{Control, Ending, Method, SolveError, Step, Variant};
 
 /// A method that has come to its end.
@@ -65,6 +68,22 @@ impl Compared {
         let report = numbers.report(model, &problem, last.as_deref());
         Ok(Self { problem, outcome: last, ending, report })
     }
+}
+
+/// What is reported of methods that have run on a model, in their order.
+///
+/// # Panics
+///
+/// If the model is no disk.
+pub fn comparison_report(model: &Model, methods: &[&Compared]) -> ComparisonReport {
+    let disk = model.disk().expect("methods run on disks only");
+    let repairs = model.whole_repaired().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
+    let mesh = MeshReport { repairs, ..MeshReport::new(model.path_words(), disk) };
+    let chart = model.chart.as_ref().map(|of| ChartNumber { number: of.number, of: of.charts.count() });
+    let aspect = methods.first().map_or(1.0, |method| method.problem.frame.aspect);
+    let mut report = ComparisonReport::new(mesh, chart, aspect);
+    report.methods = methods.iter().map(|method| method.report.clone()).collect();
+    report
 }
 
 /// What a run came to, its embedding aside.

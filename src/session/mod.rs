@@ -95,7 +95,7 @@ pub use atlas_view::AtlasView;
 pub use background::{Background, Failure, Wake};
 pub use charts::ChartState;
 pub use comparing::{Contender, ContenderState};
-pub use comparison::Compared;
+pub use comparison::{Compared, comparison_report};
 pub use document::{ChartEdits, Command, Document, Shape};
 pub use drag::Preview;
 pub use history::History;

@@ -4,6 +4,7 @@ use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke};
 
 use super::Tool;
 use super::theme::Theme;
+use crate::io::Direction;
 
 /// Points given on a grid of 24 × 24.
 fn on_grid(rect: Rect, points: &[(f32, f32)]) -> Vec<Pos2> {
@@ -70,6 +71,15 @@ impl Sign {
             Self::Working | Self::Moving => theme.weak_text,
         }
     }
+}
+
+/// An arrow head, up for a column whose numbers grow downwards.
+pub(super) fn order(painter: &egui::Painter, rect: Rect, direction: Direction, colour: Color32) {
+    let points = match direction {
+        Direction::Up => [(3.0, 18.0), (21.0, 18.0), (12.0, 5.0)],
+        Direction::Down => [(3.0, 6.0), (21.0, 6.0), (12.0, 19.0)],
+    };
+    painter.add(Shape::convex_polygon(on_grid(rect, &points), colour, Stroke::NONE));
 }
 
 /// A check mark.

@@ -75,6 +75,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(NONE, Key::Enter, "End the seam that is being drawn", || Request::EndSeam),
     bind(NONE, Key::Delete, "Free the selected pins", || Request::UnpinSelected),
     bind(NONE, Key::Backspace, "Free the selected pins", || Request::UnpinSelected),
+    bind(SHIFT, Key::C, "Compare methods side by side, and back", || Request::ToggleComparison),
     bind(NONE, Key::F, "Frame the selection, or all", || Request::Frame),
     bind(NONE, Key::G, "Go to a vertex, edge or face by number", || Request::AskGoTo),
     bind(NONE, Key::Num1, "Plain shading", || Request::SetShading(Shading::Plain)),

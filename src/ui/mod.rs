@@ -30,7 +30,9 @@ pub use controls::sentence;
 use controls::{
     Control, Offer, close_button, counted, figures, five_digits, heads, list, number, pairs, remark, tip_with_keys,
 };
-pub use editor::{Defect, Editor, Pane, Request, SeamClick, SeamRule, Shading, Stage, StepTarget, Tab, Tool};
+pub use editor::{
+    ComparisonExport, Defect, Editor, Pane, Request, SeamClick, SeamRule, Shading, Stage, StepTarget, Tab, Tool,
+};
 use editor::{Element, HullScene, Purpose};
 use keys::keys_of;
 pub use keys::{BINDINGS, Binding};

@@ -6,6 +6,7 @@ use super::keys;
 use super::theme::{BOTTOM_HEIGHT, PANEL_WIDTHS, TOOLS_WIDTH, TOP_HEIGHT, theme_of};
 use super::{Editor, Intent, Pane, Request};
 use crate::ui::panels::{self, floating, menu, status, unsaved};
+use crate::ui::panes::comparison::comparison_ui;
 use crate::ui::panes::constrain;
 use crate::ui::panes::mesh_pane::mesh_pane_ui;
 use crate::ui::panes::plane_pane::plane_pane_ui;
@@ -36,7 +37,7 @@ pub fn window_ui(ui: &mut egui::Ui, editor: &mut Editor) {
         let shown = panel.frame(frame).show(ui, |ui| within(ui, |ui| panels::side_panel(ui, editor, &mut requests)));
         editor.layout.set_panel_width(shown.response.rect.width());
     }
-    if editor.has_disk() {
+    if editor.has_disk() && !editor.shows_comparison_alone() {
         Panel::bottom("timeline")
             .exact_size(editor.timeline.height())
             .frame(bar)
@@ -90,15 +91,24 @@ fn panes(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     };
     match editor.layout.full() {
         Some(Pane::Mesh) => part(ui, all, &mut |ui| mesh_pane_ui(ui, editor, requests)),
-        Some(Pane::Plane) => part(ui, all, &mut |ui| plane_pane_ui(ui, editor, requests)),
+        Some(Pane::Plane) => part(ui, all, &mut |ui| plane(ui, editor, requests)),
         None => {
             let middle = all.left() + all.width() * editor.layout.split();
             let left = Rect::from_min_max(all.min, egui::pos2(middle - SPLITTER / 2.0, all.bottom()));
             let right = Rect::from_min_max(egui::pos2(middle + SPLITTER / 2.0, all.top()), all.max);
             part(ui, left, &mut |ui| mesh_pane_ui(ui, editor, requests));
-            part(ui, right, &mut |ui| plane_pane_ui(ui, editor, requests));
+            part(ui, right, &mut |ui| plane(ui, editor, requests));
             splitter(ui, editor, all, middle);
         }
+    }
+}
+
+/// The embedding, or methods side by side.
+fn plane(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    if editor.plane.comparison.is_shown() {
+        comparison_ui(ui, editor, requests);
+    } else {
+        plane_pane_ui(ui, editor, requests);
     }
 }
 

@@ -130,6 +130,7 @@ mod verdict_oracle;
 mod verdict_random;
 mod vertex_equation;
 mod view;
+mod view_beside;
 mod view_parts;
 mod virtual_boundary;
 mod weighted;

@@ -151,6 +151,8 @@ impl Window {
             && !editor.plane.is_easing()
             && !editor.look.is_making_picture()
             && !editor.tools.seam.is_busy()
+            && !session.is_comparing()
+            && editor.plane.comparison.is_drawn(session)
             && !editor.host.has_presses_waiting();
         session.busy().is_none() && !session.is_following() && scenes_drawn
     }

@@ -8,6 +8,7 @@ mod advice;
 mod artist;
 mod charts;
 mod compare;
+mod comparison;
 mod constrained;
 mod constraint_rows;
 mod constraints;

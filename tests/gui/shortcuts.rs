@@ -106,6 +106,7 @@ fn shortcuts_do_what_the_table_says() {
             Request::Frame => editor.mesh.pane.camera() != orbit,
             Request::AskGoTo => editor.layout.go_to.is_some(),
             Request::SetShading(shading) => editor.shading(Pane::Plane) == shading,
+            Request::ToggleComparison => editor.plane.comparison.is_shown() && editor.session.contenders().len() == 6,
             Request::ToggleHull => editor.plane.hull_shown(),
             Request::ToggleWireframe => editor.look.wireframe,
             Request::TogglePane => editor.layout.full() == Some(Pane::Plane),

@@ -91,6 +91,11 @@ impl Layout {
         self.full = if self.full.is_some() { None } else { Some(pane) };
     }
 
+    /// Shows a pane in full size, or both.
+    pub(super) fn show_full(&mut self, pane: Option<Pane>) {
+        self.full = pane;
+    }
+
     pub fn mesh_hidden(&self) -> bool {
         self.full == Some(Pane::Plane)
     }

@@ -250,6 +250,9 @@ impl Editor {
 
     /// Shades the pane under the pointer, or both where it is over neither.
     pub(super) fn shade(&mut self, shading: Shading) {
+        if self.pointer.pane() != Some(Pane::Mesh) && self.shade_comparison(shading) {
+            return;
+        }
         match self.pointer.pane() {
             Some(pane) => self.shade_pane(pane, shading),
             None => Pane::BOTH.into_iter().for_each(|pane| self.shade_pane(pane, shading)),

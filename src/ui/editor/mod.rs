@@ -5,6 +5,7 @@
 //! | `mod.rs` | the editor: its parts, and what it does in each frame |
 //! | `request.rs`, `requests.rs` | what a person asks of the window, and what it does; moves along the timeline |
 //! | `purpose.rs` | files that are asked for |
+//! | `comparison.rs` | methods side by side in the embedding's pane |
 //! | `mesh_view.rs` | the mesh's pane: place, camera, scene |
 //! | `plane/` | the embedding's pane: place, camera, what it draws |
 //! | `scene.rs` | what the panes draw and pick in |
@@ -28,6 +29,7 @@
 //! | `views.rs` | what the cameras look at; defects |
 
 mod around;
+pub(super) mod comparison;
 mod element;
 mod frames;
 mod host;
@@ -38,7 +40,7 @@ mod look;
 mod making;
 mod mesh_view;
 mod opened;
-mod paint;
+pub(super) mod paint;
 mod plane;
 pub(super) mod purpose;
 mod request;
@@ -55,6 +57,7 @@ pub(super) mod views;
 pub(super) use element::Element;
 pub(super) use plane::HullScene;
 pub use plane::Stage;
+pub use purpose::ComparisonExport;
 pub(super) use purpose::Purpose;
 pub use request::{Pane, Request, Shading, StepTarget, Tab, Tool};
 pub use seam_rules::SeamRule;

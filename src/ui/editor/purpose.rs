@@ -34,6 +34,33 @@ pub enum Purpose {
     Export(OutputKind, Option<OutputFit>),
     /// Where to write what a pane shows.
     PanePicture(Pane),
+    /// Where to write what methods that are compared have come to.
+    Comparison(ComparisonExport),
+}
+
+/// What can be written of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ComparisonExport {
+    /// The embeddings side by side.
+    Picture,
+    /// The table.
+    Table,
+    /// Every step of every method.
+    Steps,
+}
+
+impl ComparisonExport {
+    /// All of them, in the order of menus.
+    pub const ALL: [Self; 3] = [Self::Picture, Self::Table, Self::Steps];
+
+    /// Its entry in menus, and what it is.
+    pub(in crate::ui) const fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Picture => ["Picture…", "PNG, drawn anew: the embeddings at one scale, with their numbers"],
+            Self::Table => ["Table…", "CSV, a line for each method"],
+            Self::Steps => ["Steps…", "CSV, every step of every method with its seconds, energy and stretch"],
+        }
+    }
 }
 
 /// The dialog of a purpose.
@@ -76,6 +103,15 @@ impl Purpose {
             Self::PanePicture(Pane::Mesh) => ("Export a picture of the pane", "PNG picture", &["png"], "-mesh.png"),
             Self::PanePicture(Pane::Plane) => {
                 ("Export a picture of the pane", "PNG picture", &["png"], "-embedding.png")
+            }
+            Self::Comparison(ComparisonExport::Picture) => {
+                ("Export a picture of the comparison", "PNG picture", &["png"], "-comparison.png")
+            }
+            Self::Comparison(ComparisonExport::Table) => {
+                ("Export the table of the comparison", "CSV table", &["csv"], "-comparison.csv")
+            }
+            Self::Comparison(ComparisonExport::Steps) => {
+                ("Export the steps of the comparison", "CSV table", &["csv"], "-comparison-steps.csv")
             }
         };
         DialogForm { title, files, extensions, ending }

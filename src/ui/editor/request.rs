@@ -3,14 +3,15 @@
 use eframe::egui;
 use glam::DVec2;
 
-use crate::io::OutputFit;
+use crate::io::{Column, OutputFit};
 use crate::mesh::VertexId;
 use crate::session::Action;
-use crate::solver::Hold;
+use crate::solver::{Hold, Variant};
 use crate::ui::editor::seam_rules::SeamRule;
 use crate::ui::editor::seam_tool::SeamClick;
 use crate::ui::panes::inset::InsetPan;
 use crate::ui::{Answer, Purpose, Stage};
+use crate::view::Quantity;
 
 /// What the left mouse button does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -266,6 +267,18 @@ pub enum Request {
     ToggleFull(Pane),
     /// Shows the pane without the pointer in full size, or both again.
     TogglePane,
+    /// Shows methods side by side in the place of the embedding, or the embedding again.
+    ToggleComparison,
+    /// Has a method take part in the comparison, or no more.
+    ToggleContender(Variant),
+    /// Takes a method of the comparison as that of the document.
+    TakeContender(Variant),
+    /// Colours the faces of all methods by a quantity, or not at all.
+    ColourComparison(Option<Quantity>),
+    /// Sorts the table of the comparison by a column.
+    SortComparison(Column),
+    /// Shows or hides the table of the comparison.
+    ToggleComparisonTable,
     /// Asks for a file.
     Ask(Purpose),
     /// Saves the project where it was saved before, or asks where.

@@ -69,6 +69,12 @@ impl Editor {
                 let pane = self.pointer.pane().unwrap_or(Pane::Plane);
                 self.handle(Request::ToggleFull(pane));
             }
+            Request::ToggleComparison => self.toggle_comparison(),
+            Request::ToggleContender(variant) => self.toggle_contender(variant),
+            Request::TakeContender(variant) => self.act(self.take_contender(variant)),
+            Request::ColourComparison(quantity) => self.plane.comparison.colour_by(quantity),
+            Request::SortComparison(column) => self.plane.comparison.sort_by(column),
+            Request::ToggleComparisonTable => self.plane.comparison.toggle_table(),
             Request::Ask(purpose) => self.ask(purpose),
             Request::SaveProject => self.save_project(),
             Request::ToggleExports => self.layout.exports_shown = !self.layout.exports_shown,
@@ -109,6 +115,7 @@ impl Editor {
                 self.act(Action::SaveProject(path));
             }
             Purpose::PanePicture(pane) => self.shoot_pane(pane, path),
+            Purpose::Comparison(what) => self.export_comparison(what, path),
             Purpose::Export(kind, fit) => {
                 let fit = fit.unwrap_or(self.files.fit);
                 self.act(Action::Save(SaveRequest { path, kind, fit }));
@@ -204,6 +211,7 @@ impl Editor {
         } else if self.tools.pair().is_some() {
             self.tools.set_pair(None);
         } else if self.tools.seam.end() {
+        } else if self.leave_comparison() {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
         } else {

@@ -71,6 +71,7 @@ pub(in crate::ui) fn picture_box(document: &Document) -> Bounds {
 
 impl Editor {
     pub(super) fn frame(&mut self) {
+        self.plane.comparison.frame();
         let Some(scene) = self.mesh_scene() else { return };
         let selected: Vec<VertexId> = self.selection.vertices().iter().copied().collect();
         let positions = &scene.mesh().positions;

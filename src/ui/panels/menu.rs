@@ -284,6 +284,9 @@ fn solve_menu(menu: &mut Menu<'_>) {
     menu.item(session.busy().is_some(), "Cancel", Action::Cancel);
     menu.ui.separator();
     menu.item(true, "Method and weights", Request::ShowTab(Tab::Method));
+    let is_comparing = editor.plane.comparison.is_shown();
+    let words = if is_comparing { "Leave the comparison" } else { "Compare methods…" };
+    menu.item(is_comparing || editor.has_disk(), words, Request::ToggleComparison);
 }
 
 /// What is open: name, vertices, faces.

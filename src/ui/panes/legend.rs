@@ -3,8 +3,9 @@
 use eframe::egui::{self, Align2, FontId, Pos2, Rect, RichText, Role, Sense, Stroke, Vec2};
 
 use crate::session::Action;
+use crate::ui::editor::paint::Legend;
 use crate::ui::theme::{on_screen, rgb, theme_of};
-use crate::ui::{Control, Editor, Pane, Request, Shading, close_button};
+use crate::ui::{Control, Editor, Pane, Request, Shading, Theme, close_button};
 
 /// Whether the embedding's pane has a legend of its own: where that of the mesh's pane does not speak for both.
 pub(super) fn plane_has_own(editor: &Editor) -> bool {
@@ -28,18 +29,45 @@ pub(super) fn legend(ui: &egui::Ui, rect: Rect, editor: &Editor, pane: Pane) {
     painter.rect_filled(frame, 4.0, theme.panel.gamma_multiply(0.92));
     painter.text(frame.min + Vec2::new(10.0, 6.0), Align2::LEFT_TOP, title, FontId::proportional(11.0), theme.text);
     let bar = Rect::from_min_size(frame.min + Vec2::new(10.0, 44.0), Vec2::new(size.x - 20.0, 9.0));
+    columns(&painter, bar, legend, theme);
+    scale(&painter, bar, legend, theme);
+}
+
+/// The same in one low line: title, bar, numbers.
+pub(super) fn strip(ui: &egui::Ui, rect: Rect, title: &str, legend: &Legend) {
+    let theme = theme_of(ui);
+    let painter = ui.painter_at(rect);
+    let left = rect.left_center() + Vec2::new(12.0, 0.0);
+    let words = painter.text(left, Align2::LEFT_CENTER, title, FontId::proportional(11.0), theme.text);
+    let width = (rect.right() - words.right() - 40.0).min(220.0);
+    if width >= 60.0 {
+        let bar = Rect::from_min_size(Pos2::new(words.right() + 16.0, rect.top() + 5.0), Vec2::new(width, 8.0));
+        scale(&painter, bar, legend, theme);
+    }
+}
+
+/// How many faces lie where, above a bar.
+fn columns(painter: &egui::Painter, bar: Rect, legend: &Legend, theme: &Theme) {
     let most = legend.histogram.iter().copied().max().unwrap_or(0).max(1);
     let width = bar.width() / legend.histogram.len() as f32;
     for (i, &count) in legend.histogram.iter().enumerate() {
         let left = bar.left() + width * i as f32;
-        let share = (i as f64 + 0.5) / legend.histogram.len() as f64;
-        let cell = Rect::from_min_size(Pos2::new(left, bar.top()), Vec2::new(width + 0.5, bar.height()));
-        painter.rect_filled(cell, 0.0, rgb(legend.scale.colour_at(share)));
         #[expect(clippy::cast_possible_truncation, reason = "a height in points")]
         let height = (20.0 * f64::from(count) / f64::from(most)) as f32;
         let column =
             Rect::from_min_max(Pos2::new(left, bar.top() - 1.0 - height), Pos2::new(left + width, bar.top() - 1.0));
         painter.rect_filled(column, 0.0, theme.weak_text.gamma_multiply(0.6));
+    }
+}
+
+/// The bar with its colours, and the numbers below it.
+fn scale(painter: &egui::Painter, bar: Rect, legend: &Legend, theme: &Theme) {
+    let count = legend.histogram.len();
+    let width = bar.width() / count as f32;
+    for i in 0..count {
+        let cell =
+            Rect::from_min_size(bar.min + Vec2::new(width * i as f32, 0.0), Vec2::new(width + 0.5, bar.height()));
+        painter.rect_filled(cell, 0.0, rgb(legend.scale.colour_at((i as f64 + 0.5) / count as f64)));
     }
     for tick in legend.scale.ticks(legend.range) {
         #[expect(clippy::cast_possible_truncation, reason = "points of the screen are f32")]

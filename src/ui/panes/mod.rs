@@ -7,6 +7,7 @@
 //! | `outside_hull.rs` | marks of vertices outside the hull of their neighbours |
 //! | `mesh_pane.rs` | the mesh in space |
 //! | `plane_pane.rs` | the embedding |
+//! | `comparison/` | methods side by side, in the place of the embedding |
 //! | `bars.rs` | bars over a pane: messages and questions |
 //! | `legend.rs` | the legend of a shading, words about steps that are compared |
 //! | `constrain.rs` | the constrain tool: vertex and place on the picture |
@@ -18,6 +19,7 @@
 //! | `vertex_menu.rs` | what a secondary click on a vertex or a pin offers |
 
 mod bars;
+pub(super) mod comparison;
 pub(super) mod constrain;
 mod header;
 pub(super) mod inset;

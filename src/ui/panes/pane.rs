@@ -131,6 +131,17 @@ pub(super) fn empty_state(ui: &egui::Ui, rect: Rect, lines: &[&str]) {
     }
 }
 
+/// A few words in the middle of a part of a pane.
+pub(super) fn small_state(ui: &egui::Ui, rect: Rect, words: &str) {
+    let theme = theme_of(ui);
+    let width = (rect.width() - 16.0).max(40.0);
+    let mut job = egui::text::LayoutJob::simple(words.to_owned(), FontId::proportional(12.0), theme.weak_text, width);
+    job.halign = egui::Align::Center;
+    let galley = ui.painter().layout_job(job);
+    let at = rect.center() - Vec2::new(0.0, galley.size().y / 2.0);
+    ui.painter_at(rect).galley(at, galley, theme.weak_text);
+}
+
 /// A ring around a vertex.
 pub(super) fn halo(painter: &egui::Painter, at: Pos2, colour: Color32, radius: f32) {
     painter.circle_stroke(at, radius + 1.5, Stroke::new(1.5, Color32::from_black_alpha(90)));

@@ -105,7 +105,8 @@ fn waiting_words(editor: &Editor) -> Vec<&'static str> {
     }
 }
 
-fn navigate(ui: &egui::Ui, response: &Response, camera: &mut PlaneCamera) {
+/// Camera moves: pan, zoom to the pointer.
+pub(super) fn navigate(ui: &egui::Ui, response: &Response, camera: &mut PlaneCamera) {
     let drag = DVec2::new(response.drag_delta().x.into(), response.drag_delta().y.into());
     let boxing = ui.input(|input| input.modifiers.command);
     if response.dragged() && !(boxing && response.dragged_by(egui::PointerButton::Primary)) {

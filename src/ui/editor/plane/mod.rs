@@ -18,6 +18,7 @@ pub(super) use steps::SECONDS;
 use eframe::egui;
 use glam::DVec2;
 
+use super::comparison::ComparisonView;
 use super::host::Host;
 use super::making::Making;
 use super::scene::{MeshScene, PlaneScene};
@@ -45,6 +46,8 @@ pub struct PlaneView {
     preview: Option<PreviewScene>,
     hull: HullView,
     ghost: Option<Ghost>,
+    /// Methods side by side, in the place of all this.
+    pub comparison: ComparisonView,
 }
 
 /// What follows a pin that is dragged: the first solve's embedding, drawn at once. It is not repaired, and what is wrong
@@ -92,6 +95,7 @@ impl PlaneView {
             preview: None,
             hull: HullView::new(wake),
             ghost: None,
+            comparison: ComparisonView::new(wake),
         }
     }
 
@@ -175,12 +179,12 @@ impl PlaneView {
     }
 
     pub(super) fn is_making_scene(&self) -> bool {
-        self.job.is_busy() || self.hull.is_making_scene()
+        self.job.is_busy() || self.hull.is_making_scene() || self.comparison.is_making()
     }
 
     /// Why what is drawn could not be made; each failure once.
     pub(super) fn take_failure(&mut self) -> Option<Failure> {
-        self.job.take_failure().or_else(|| self.hull.take_failure())
+        self.job.take_failure().or_else(|| self.hull.take_failure()).or_else(|| self.comparison.take_failure())
     }
 
     /// Takes in what was made in the background, and has made what is missing. Returns a scene that is new on the screen.
@@ -193,6 +197,7 @@ impl PlaneView {
         self.refresh_preview(around);
         self.poll_hull();
         self.refresh_ghost(around.session);
+        self.comparison.refresh(around.session, around.mesh);
         let is_new = |scene: &Arc<PlaneScene>| before.as_ref().is_none_or(|before| !Arc::ptr_eq(before, scene));
         self.scene.clone().filter(is_new)
     }

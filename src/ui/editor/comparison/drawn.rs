@@ -1,0 +1,187 @@
+//! What is drawn of methods side by side: their scenes, faces coloured on one scale, and one camera.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::mesh::DiskMesh;
+use crate::session::{Contender, Failure, Outcome, Wake};
+use crate::ui::editor::making::Making;
+use crate::ui::editor::paint::Legend;
+use crate::ui::editor::scene::{MeshScene, PlaneScene};
+use crate::view::{CellFrame, CellFrames, FacePaint, PlaneCamera, Quantity};
+
+/// What is drawn of the methods.
+#[derive(Debug)]
+pub(super) struct Drawn {
+    scenes: Vec<Arc<PlaneScene>>,
+    /// By the place of an outcome in memory.
+    job: Making<usize, PlaneScene>,
+    paints: Option<Paints>,
+}
+
+/// Faces coloured on one scale.
+#[derive(Clone, Debug)]
+struct Paints {
+    key: (Option<Quantity>, Vec<usize>),
+    faces: Vec<Arc<FacePaint>>,
+    legend: Option<Legend>,
+}
+
+/// How the cells are looked at.
+#[derive(Debug, Default)]
+pub(super) struct Sight {
+    frames: Option<(Vec<usize>, CellFrames)>,
+    /// Of a cell, points; all are alike.
+    size: DVec2,
+    camera: Option<PlaneCamera>,
+    /// The camera as the window chose it by itself.
+    framed: Option<PlaneCamera>,
+}
+
+/// What a cell draws.
+#[derive(Clone)]
+pub(in crate::ui) struct CellScene {
+    pub(in crate::ui) plane: Arc<PlaneScene>,
+    pub(in crate::ui) faces: Arc<FacePaint>,
+    pub(in crate::ui) frame: CellFrame,
+}
+
+/// The place of an outcome in memory: two that are there at the same time have two places.
+fn place_of(outcome: &Arc<Outcome>) -> usize {
+    Arc::as_ptr(outcome).addr()
+}
+
+/// The embedding that a method came to last.
+pub(super) fn outcome_of(contender: &Contender) -> Option<&Arc<Outcome>> {
+    contender.found()?.outcome.as_ref()
+}
+
+impl Drawn {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self { scenes: Vec::new(), job: Making::new("compared scene", wake), paints: None }
+    }
+
+    pub(super) fn is_making(&self) -> bool {
+        self.job.is_busy()
+    }
+
+    pub(super) fn take_failure(&mut self) -> Option<Failure> {
+        self.job.take_failure()
+    }
+
+    /// Takes in a scene that was made, has one made that is missing, and lets go of what is not wanted any more. `given` is the mesh
+    /// as given.
+    pub(super) fn refresh(&mut self, wanted: &[Arc<Outcome>], given: Option<&Arc<MeshScene>>) {
+        if let Some((_, scene)) = self.job.poll() {
+            self.scenes.push(Arc::new(scene));
+        }
+        self.scenes.retain(|scene| wanted.iter().any(|outcome| Arc::ptr_eq(outcome, &scene.outcome)));
+        let missing = wanted.iter().find(|outcome| self.place_of_scene(outcome).is_none());
+        if let Some((given, outcome)) = given.zip(missing) {
+            let (given, outcome) = (Arc::clone(given), Arc::clone(outcome));
+            self.job.make(place_of(&outcome), move |_| {
+                let mesh = MeshScene::of_step(&given, None, &outcome.step);
+                PlaneScene::new(mesh, outcome, 0)
+            });
+        }
+    }
+
+    /// What the cell of an embedding draws, once that is made and has its place.
+    pub(super) fn cell(&self, outcome: &Arc<Outcome>, sight: &Sight) -> Option<CellScene> {
+        let index = self.place_of_scene(outcome)?;
+        Some(CellScene {
+            plane: Arc::clone(&self.scenes[index]),
+            faces: Arc::clone(self.paints.as_ref()?.faces.get(index)?),
+            frame: sight.frame_of(index, outcome)?,
+        })
+    }
+
+    pub(super) fn legend(&self) -> Option<&Legend> {
+        self.paints.as_ref()?.legend.as_ref()
+    }
+
+    fn place_of_scene(&self, outcome: &Arc<Outcome>) -> Option<usize> {
+        self.scenes.iter().position(|scene| Arc::ptr_eq(outcome, &scene.outcome))
+    }
+
+    fn places(&self) -> Vec<usize> {
+        self.scenes.iter().map(|scene| place_of(&scene.outcome)).collect()
+    }
+
+    /// Colours the faces of all scenes on one scale, where that is not done yet.
+    pub(super) fn paint(&mut self, quantity: Option<Quantity>) {
+        let key = (quantity, self.places());
+        if self.paints.as_ref().is_some_and(|paints| paints.key == key) {
+            return;
+        }
+        let outcomes = || self.scenes.iter().map(|scene| &scene.outcome);
+        let range = quantity.and_then(|quantity| quantity.common_range(outcomes().map(|outcome| &outcome.distortion)));
+        let values: Vec<Vec<f64>> =
+            outcomes().map(|outcome| quantity.map_or_else(Vec::new, |by| by.values(&outcome.distortion))).collect();
+        let faces = outcomes().zip(&values).map(|(outcome, values)| {
+            let flipped = &outcome.step.verdict.flipped_faces;
+            Arc::new(match quantity.zip(range) {
+                Some((by, range)) => FacePaint::by_value(values, by.scale(), range, flipped),
+                None => FacePaint::plain(outcome.distortion.faces.len(), flipped),
+            })
+        });
+        let faces = faces.collect();
+        let legend = quantity.zip(range).map(|(by, range)| Legend::new(by.scale(), range, values.iter().flatten()));
+        self.paints = Some(Paints { key, faces, legend });
+    }
+}
+
+impl Sight {
+    /// Lays out the scenes that there are, where they are others than before.
+    pub(super) fn refresh(&mut self, mesh: &DiskMesh, drawn: &Drawn) {
+        let places = drawn.places();
+        if self.frames.as_ref().is_none_or(|(of, _)| *of != places) {
+            let outcomes: Vec<&Outcome> = drawn.scenes.iter().map(|scene| &*scene.outcome).collect();
+            self.take(places, CellFrames::new(mesh, &outcomes));
+        }
+    }
+
+    /// The camera of all cells, which are so large.
+    pub(super) fn camera_in(&mut self, cell: DVec2) -> Option<PlaneCamera> {
+        self.look_in(cell);
+        self.camera
+    }
+
+    pub(super) fn camera(&self) -> Option<PlaneCamera> {
+        self.camera
+    }
+
+    pub(super) fn set_camera(&mut self, camera: Option<PlaneCamera>) {
+        self.camera = camera;
+    }
+
+    fn frame_of(&self, index: usize, outcome: &Arc<Outcome>) -> Option<CellFrame> {
+        let (places, frames) = self.frames.as_ref()?;
+        frames.frames.get(index).filter(|_| places.get(index) == Some(&place_of(outcome))).copied()
+    }
+
+    /// Takes another layout of the cells. A camera that nobody has moved goes along.
+    fn take(&mut self, places: Vec<usize>, frames: CellFrames) {
+        let is_first = self.frames.as_ref().is_none_or(|(before, _)| before.is_empty());
+        let is_other = self.frames.as_ref().is_none_or(|(_, before)| before.bounds != frames.bounds);
+        self.frames = Some((places, frames));
+        if is_first || (is_other && self.is_framed()) {
+            self.camera = None;
+        }
+    }
+
+    fn is_framed(&self) -> bool {
+        self.camera == self.framed
+    }
+
+    /// Chooses a camera for cells of a size, where nobody has chosen another.
+    fn look_in(&mut self, cell: DVec2) {
+        let has_other_size = std::mem::replace(&mut self.size, cell) != cell;
+        let Some((_, frames)) = self.frames.as_ref().filter(|(_, frames)| !frames.frames.is_empty()) else { return };
+        if self.camera.is_none() || (has_other_size && self.is_framed()) {
+            self.camera = Some(PlaneCamera::framing(frames.bounds, cell));
+            self.framed = self.camera;
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Which methods take part in a comparison.
+
+use eframe::egui::{self, Role};
+
+use crate::solver::{BoundaryShape, Choice as _, Family, Method, Variant};
+use crate::ui::editor::comparison::COUNTS;
+use crate::ui::{Control, Editor, Request, remark, sentence};
+
+/// A button that opens the list of methods.
+pub(super) fn chooser(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let count = editor.session.contenders().len();
+    let [_, most] = COUNTS;
+    let config =
+        egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+    let button = egui::containers::menu::MenuButton::new(format!("Methods {count}")).config(config);
+    let (response, _) = button.ui(ui, |ui| {
+        let height = (ui.ctx().content_rect().height() - 120.0).clamp(120.0, 460.0);
+        egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+            ui.set_min_width(230.0);
+            remark(ui, format!("Two to {most}, with the pins and settings of the document"));
+            for variant in usual(editor) {
+                entry(ui, editor, variant, requests);
+            }
+            egui::CollapsingHeader::new("Other weights and boundaries").show(ui, |ui| {
+                for variant in others(editor) {
+                    entry(ui, editor, variant, requests);
+                }
+            });
+        });
+    });
+    response.named(Role::Button, "Methods that are compared").on_hover_text("Choose the methods that are compared");
+}
+
+/// Every method, with the weights of the document where it has a choice.
+fn usual(editor: &Editor) -> Vec<Variant> {
+    let settings = editor.session.document().settings;
+    Method::ALL.iter().map(|&method| Variant::of(&Variant { method, family: None }.settings(&settings))).collect()
+}
+
+/// Every method that has a choice, with all other weights and on all other shapes.
+fn others(editor: &Editor) -> Vec<Variant> {
+    let usual = usual(editor);
+    let mut all = Vec::new();
+    for &method in Method::ALL.iter().filter(|method| method.uses_family()) {
+        let on_shapes = match method {
+            Method::Convex(_) => BoundaryShape::ALL.iter().map(|&shape| Method::Convex(shape)).collect(),
+            method => vec![method],
+        };
+        for method in on_shapes {
+            let families = Family::ALL.iter().filter(|family| family.goes_with(method));
+            all.extend(families.map(|&family| Variant { method, family: Some(family) }));
+        }
+    }
+    all.retain(|variant| !usual.contains(variant));
+    all
+}
+
+/// A method to be checked.
+fn entry(ui: &mut egui::Ui, editor: &Editor, variant: Variant, requests: &mut Vec<Request>) {
+    let chosen = editor.session.contenders();
+    let mut is_chosen = chosen.iter().any(|contender| contender.variant() == variant);
+    let [least, most] = COUNTS;
+    let suits = editor.session.document().problem().suits(variant.method);
+    let why_not = match (is_chosen, suits) {
+        (true, _) if chosen.len() <= least => Some("A comparison has two methods or more"),
+        (false, _) if chosen.len() >= most => Some("Six at most: leave another one out first"),
+        (false, false) => Some("It has nothing of its own to do with the pins that there are"),
+        _ => None,
+    };
+    let tip = sentence(&variant.method.words().tip());
+    let check = ui.add_enabled(why_not.is_none(), egui::Checkbox::new(&mut is_chosen, variant.title()));
+    let check = check.on_hover_text(tip).on_disabled_hover_text(why_not.unwrap_or_default());
+    if check.changed() {
+        requests.push(Request::ToggleContender(variant));
+    }
+}

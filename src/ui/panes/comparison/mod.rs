@@ -1,0 +1,170 @@
+//! Methods side by side, in the place of the embedding: a cell for each, one camera, one scale of colours, and their numbers.
+//!
+//! | file | what |
+//! |---|---|
+//! | `mod.rs` | the bar over it, and how cells and table share the room |
+//! | `chooser.rs` | which methods take part |
+//! | `cell.rs` | one method: its embedding, and the numbers below it |
+//! | `table.rs` | the numbers of all, sorted by any column |
+
+mod cell;
+mod chooser;
+mod table;
+
+use eframe::egui::{self, Rect, Role, Vec2};
+
+use super::{bars, legend, pane};
+use crate::session::Surface;
+use crate::ui::{ComparisonExport, Control, Editor, Pane, Purpose, Request, theme_of, tip_with_keys};
+use crate::view::Quantity;
+
+/// Free space between cells, points.
+const GAP: f32 = 6.0;
+
+/// Height of the bar, points.
+const BAR: f32 = 26.0;
+
+/// Height of the strip with the legend, points.
+const LEGEND: f32 = 30.0;
+
+/// A pane lower than this has no table beside its cells until it is asked for, and then no cells, points.
+const ROOM_FOR_BOTH: f32 = 480.0;
+
+/// A pane narrower than this has short words in its bar, points.
+const ROOM_FOR_WORDS: f32 = 560.0;
+
+pub(in crate::ui) fn comparison_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let is_roomy = ui.available_height() - BAR >= ROOM_FOR_BOTH;
+    editor.plane.comparison.set_roomy(is_roomy);
+    bar(ui, editor, requests);
+    let room = ui.available_rect_before_wrap();
+    let theme = theme_of(ui);
+    ui.painter_at(room).rect_filled(room, 0.0, theme.background);
+    bars::over(ui, room, editor, Pane::Plane, requests);
+    if let Some(words) = nothing_to_compare(editor) {
+        return pane::empty_state(ui, room, &words);
+    }
+    let has_table = editor.plane.comparison.has_table();
+    let has_cells = is_roomy || !has_table;
+    let height = if has_table { table::height(editor, room) } else { 0.0 };
+    let cells = Rect::from_min_max(room.min, room.max - Vec2::new(0.0, if has_cells { height } else { room.height() }));
+    if has_cells {
+        let strip = if editor.plane.comparison.legend().is_some() { LEGEND } else { 0.0 };
+        let [above, below] = cells.split_top_bottom_at_y(cells.bottom() - strip).into();
+        grid(ui, above, editor, requests);
+        if let Some((quantity, shown)) = editor.plane.comparison.legend() {
+            legend::strip(ui, below, quantity.title(), shown);
+        }
+    }
+    if has_table {
+        let below = Rect::from_min_max(egui::pos2(room.left(), cells.bottom()), room.max);
+        table::table(ui, below, editor, requests);
+    }
+}
+
+/// What there is to say where no method can run.
+fn nothing_to_compare(editor: &Editor) -> Option<Vec<&'static str>> {
+    match editor.session.model().map(|model| &model.surface) {
+        None => Some(vec!["Nothing to compare", "Open a mesh: the methods run on it one after the other"]),
+        Some(Surface::Faulty(..)) => Some(vec![
+            "This mesh cannot be flattened as it is",
+            "The bars over the mesh and the tab Defects say what is wrong",
+        ]),
+        Some(Surface::Disk(_)) => None,
+    }
+}
+
+/// Title, methods, colours, table, exports, and the way back.
+fn bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let is_roomy = ui.available_width() >= ROOM_FOR_WORDS;
+    ui.horizontal(|ui| {
+        ui.set_min_height(BAR);
+        ui.add_space(8.0);
+        if is_roomy {
+            ui.strong("Methods side by side");
+        }
+        chooser::chooser(ui, editor, requests);
+        colours(ui, editor, requests);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add_space(4.0);
+            let tip = tip_with_keys(ui, "Show the embedding of the document again", &Request::ToggleComparison);
+            let back = ui.add(egui::Button::new("Back").frame(false)).on_hover_text(tip);
+            back.named(Role::Button, "Leave the comparison").asks(Request::ToggleComparison, requests);
+            let (glyph, words) = match editor.layout.full() {
+                Some(_) => ("Both", "Show both panes"),
+                None => ("Full", "Show this pane alone"),
+            };
+            let full = ui.add(egui::Button::new(glyph).frame(false)).on_hover_text(words);
+            let full = full.named(Role::Button, &format!("{words}: Comparison"));
+            full.asks(Request::ToggleFull(Pane::Plane), requests);
+            exports(ui, editor, requests);
+            numbers_switch(ui, editor, requests);
+        });
+    });
+}
+
+/// Whether the table shows.
+fn numbers_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let switch = ui.selectable_label(editor.plane.comparison.has_table(), "Table");
+    let switch = switch.on_hover_text("Show or hide the table of all numbers");
+    switch.asks(Request::ToggleComparisonTable, requests);
+}
+
+/// What faces are coloured by.
+fn colours(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let now = editor.plane.comparison.quantity();
+    let title = |quantity: Option<Quantity>| quantity.map_or("Plain", Quantity::title);
+    let width = ui.spacing().combo_width.min((ui.available_width() - 170.0).max(60.0));
+    let menu = crate::ui::list(ui, "Colours of the comparison", width, title(now), |ui| {
+        for quantity in std::iter::once(None).chain(Quantity::ALL.map(Some)) {
+            let entry = ui.selectable_label(now == quantity, title(quantity));
+            entry.asks(Request::ColourComparison(quantity), requests);
+        }
+    });
+    menu.on_hover_text("What faces are coloured by, on one scale in all cells");
+}
+
+/// What can be written.
+fn exports(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let is_there = editor.session.contenders().iter().any(|contender| contender.found().is_some());
+    ui.add_enabled_ui(is_there, |ui| {
+        let menu = ui.menu_button("Export", |ui| {
+            for what in ComparisonExport::ALL {
+                let [words, about] = what.words();
+                if ui.button(words).on_hover_text(about).asks(Request::Ask(Purpose::Comparison(what)), requests) {
+                    ui.close();
+                }
+            }
+        });
+        menu.response.named(Role::Button, "Export the comparison");
+    });
+}
+
+/// The cells.
+fn grid(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, requests: &mut Vec<Request>) {
+    let count = editor.session.contenders().len();
+    if count == 0 || room.width() < 1.0 || room.height() < 1.0 {
+        return;
+    }
+    let columns = columns(room.size(), count);
+    let rows = count.div_ceil(columns);
+    let of = |whole: f32, parts: usize| ((whole - GAP) / parts as f32 - GAP).max(1.0);
+    let size = Vec2::new(of(room.width(), columns), of(room.height(), rows));
+    let place = |number: usize| {
+        let [column, row] = [number % columns, number / columns].map(|at| at as f32);
+        Rect::from_min_size(room.min + Vec2::splat(GAP) + Vec2::new(column, row) * (size + Vec2::splat(GAP)), size)
+    };
+    for number in 0..count {
+        cell::cell(ui, place(number), editor, number, requests);
+    }
+}
+
+/// How many cells stand in a row: so many that embeddings are as large as they can be.
+fn columns(room: Vec2, count: usize) -> usize {
+    let side = |columns: usize| {
+        let size = room / Vec2::new(columns as f32, count.div_ceil(columns) as f32);
+        let view = cell::view_of(Rect::from_min_size(egui::Pos2::ZERO, size), size);
+        view.width().min(view.height())
+    };
+    (1..=count).max_by(|&a, &b| side(a).total_cmp(&side(b)).then(b.cmp(&a))).unwrap_or(1)
+}
