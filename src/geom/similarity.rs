@@ -49,6 +49,21 @@ impl Similarity {
         (factor.is_finite() && factor > 0.0).then_some(Self { turn: turn * factor, from, to })
     }
 
+    /// The similarity back.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        let back = DVec2::new(self.turn.x, -self.turn.y) / self.turn.length_squared();
+        Self { turn: back, from: self.to, to: self.from }
+    }
+
+    /// A share of it: of its turn by less than half around, of its factor in powers, and of its move. 0 is none of it, 1 all, up to
+    /// rounding.
+    #[must_use]
+    pub fn part(self, share: f64) -> Self {
+        let turn = DVec2::from_angle(share * self.turn.to_angle()) * self.turn.length().powf(share);
+        Self { turn, from: self.from, to: self.from.lerp(self.to, share) }
+    }
+
     /// The same turn and size, with the first of two points taken to the second.
     #[must_use]
     pub fn moved(self, [from, to]: [DVec2; 2]) -> Self {

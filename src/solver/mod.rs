@@ -21,6 +21,7 @@
 //! | `slim` | an energy lowered from Tutte's map, as others ship it |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
+//! | `morph/` | a way between two planar embeddings, planar throughout |
 //! | `verdict`, `atlas`, `distortion`, `vertex_equation` | what is said of an embedding |
 //! | `hull_condition`, `one_form` | vertices outside the hull of their neighbours; indices of one-forms |
 //! | `study/` | the iteration on many random trials: the paper's open question (§7) |
@@ -55,6 +56,7 @@ mod many_pins;
 mod matchmaker;
 mod membrane;
 mod method;
+mod morph;
 mod one_form;
 mod outside;
 mod pieces;
@@ -101,6 +103,7 @@ pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, l
 pub use lee::Padded;
 pub use matchmaker::{Matched, matched, without_needless_vertices};
 pub use method::Method;
+pub use morph::{Morph, MorphOptions, NoMorph, Route, morph};
 pub use one_form::{OneFormIndices, index_range};
 pub use outside::Outside;
 pub use pins::{

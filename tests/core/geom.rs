@@ -228,3 +228,18 @@ fn a_polygon_is_cut_to_its_part_inside() {
     let beside = [[2.0, 0.0], [3.0, 0.0], [3.0, 1.0]].map(DVec2::from);
     assert!(clip_polygon(&beside, UNIT).is_empty());
 }
+
+#[test]
+fn a_similarity_goes_back_and_in_parts_that_make_up_the_whole() {
+    let similarity = Similarity::new(DVec2::from_angle(2.5) * 3.0, DVec2::new(1.0, -2.0), DVec2::new(-4.0, 7.0));
+    for z in [DVec2::ZERO, DVec2::new(1.0, -2.0), DVec2::new(-0.3, 12.0)] {
+        assert!(similarity.inverse().apply(similarity.apply(z)).distance(z) < 1e-14 * 20.0);
+        assert!(similarity.part(0.0).apply(z).distance(z) < 1e-14);
+        assert!(similarity.part(1.0).apply(z).distance(similarity.apply(z)) < 1e-13);
+    }
+    // Half of it turns by half the angle and scales by the root of the factor.
+    let half = similarity.part(0.5);
+    let arm = half.apply(DVec2::new(2.0, -2.0)) - half.apply(DVec2::new(1.0, -2.0));
+    assert!(arm.distance(DVec2::from_angle(1.25) * 3_f64.sqrt()) < 1e-14);
+    assert!(half.apply(DVec2::new(1.0, -2.0)).distance(DVec2::new(-1.5, 2.5)) < 1e-14);
+}

@@ -62,6 +62,7 @@ mod matchmaker;
 mod materials;
 mod memory;
 mod mesh;
+mod morph;
 mod natural;
 mod needless;
 mod numbers;
