@@ -5,41 +5,50 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::args::StudyArguments;
-use super::flatten::{disk_of, set_threads};
+use super::flatten::{disk_of, go_on, set_threads};
 use super::places::Places;
 use super::progress::{INTERRUPTED, Progress};
 use super::say::say;
 use super::standard::{Sizes, is_standard, name_of_input, read_model};
 use super::{Failure, Status};
-use crate::io::{read_study, study_plots, write_atomically, write_study};
+use crate::io::{read_study, study_plots, try_place, write_atomically, write_study};
 use crate::mesh::Form;
 use crate::solver::Control;
-use crate::solver::study::{Group, Studied, Subject, summary};
+use crate::solver::study::{Group, Limits, Patience, Studied, Subject, summary};
 
 pub(super) fn run(arguments: &StudyArguments) -> Result<Status, Failure> {
     let places = Places::of_study(arguments);
     refuse_standard(arguments)?;
+    if let Some(option) = arguments.idle_option() {
+        return Err(Failure::Usage(format!("--add takes no {option}: its runs are made: give a mesh to run on, too")));
+    }
     places.keep_apart()?;
     arguments.meshes.iter().try_for_each(|mesh| places.spare(mesh, "a mesh"))?;
     arguments.add.iter().try_for_each(|table| places.spare(table, "a table that is added"))?;
+    // Tried before all work: runs that nobody can write down are lost.
+    arguments.csv.iter().chain(&arguments.svg).try_for_each(|path| try_place(path))?;
     set_threads(arguments.threads)?;
     let progress = Progress::default();
     progress.follow(|| {
         let mut studied = Vec::new();
         for table in &arguments.add {
             studied.extend(read_study(table)?);
+            refuse_other_limits(arguments, &studied, table)?;
         }
         refuse_doubles(&studied, &arguments.meshes)?;
         for (number, path) in arguments.meshes.iter().enumerate() {
+            go_on()?;
             progress.enter("reading");
             progress.reach(format!("mesh {} of {}", number + 1, arguments.meshes.len()));
             studied.push(studied_mesh(arguments, &places, path, &progress)?);
         }
         progress.enter("writing");
         if let Some(path) = &arguments.csv {
+            go_on()?;
             write_atomically(path, |out| write_study(out, &studied))?;
         }
         if let Some(path) = &arguments.svg {
+            go_on()?;
             write_atomically(path, |out| {
                 study_plots(&studied).write_svg(out)?;
                 out.flush()
@@ -59,6 +68,20 @@ fn refuse_doubles(added: &[Studied], meshes: &[PathBuf]) -> Result<(), Failure> 
         Some(pair) => Err(Failure::Usage(format!("{}: the mesh is there twice: leave out one of them", pair[0]))),
         None => Ok(()),
     }
+}
+
+/// Refuses runs that might go on for longer than others: shares and steps of all would mean nothing. `table` is the one
+/// that was read last.
+fn refuse_other_limits(arguments: &StudyArguments, studied: &[Studied], table: &Path) -> Result<(), Failure> {
+    let own = (!arguments.meshes.is_empty()).then(|| arguments.limits());
+    let Some(first) = own.or(studied.first().map(|studied| studied.limits)) else { return Ok(()) };
+    let Some(other) = studied.iter().find(|studied| studied.limits != first) else { return Ok(()) };
+    let typed = |limits: Limits| {
+        let past_stall = if limits.patience == Patience::ToTheLimit { " --past-stall" } else { "" };
+        format!("--max-steps {}{past_stall}", limits.max_steps)
+    };
+    let text = format!("its runs are of {}, others of {}", typed(other.limits), typed(first));
+    Err(Failure::Usage(format!("{}: {text}: leave it out, or make both with the same", table.display())))
 }
 
 /// Tables and drawings go into files: standard output has the summary.
@@ -81,6 +104,10 @@ fn studied_mesh(
     let model = read_model(path, Sizes::typed(arguments.large))?.in_form(Form::default());
     places.spare_materials(&model.source, path)?;
     let mesh = disk_of(&model)?;
+    if model.chart_count() > 1 {
+        let text = format!("the mesh has {} charts, and study takes one disk", model.chart_count());
+        return Err(Failure::Usage(format!("{}: {text}: give a file with one of them alone", model.path_words())));
+    }
     let quiet = |_| {};
     let control = Control::new(&INTERRUPTED, &quiet);
     progress.enter("solving");
@@ -92,7 +119,7 @@ fn studied_mesh(
         let count = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress.reach(format!("{name}: {count} of {} runs", study.runs));
     })?;
-    Ok(Studied { mesh: name, form: subject.form, records })
+    Ok(Studied { mesh: name, form: subject.form, limits: study.limits, records })
 }
 
 /// The summary in columns, for a person.

@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use tempfile::NamedTempFile;
+
 use super::unfinished::Unfinished;
 
 /// Bytes gathered before they are handed to the operating system.
@@ -51,6 +53,23 @@ pub fn write_atomically(
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), WriteError> {
     write_inner(path, write).map_err(|source| WriteError::writing(path, source))
+}
+
+/// Tries whether [`write_atomically`] could write a file, and leaves nothing behind: before long work whose result goes
+/// there.
+///
+/// # Errors
+///
+/// [`WriteError`] where its folder is missing or takes no new file, or where it is a folder itself.
+pub fn try_place(path: &Path) -> Result<(), WriteError> {
+    let target = target_of(path);
+    let tried = match fs::metadata(&target) {
+        Ok(data) if data.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        // To open a pipe would wait for its reader.
+        Ok(data) if !data.is_file() => Ok(()),
+        _ => aside_of(&target).map(|(_unfinished, aside)| drop(aside)),
+    };
+    tried.map_err(|source| WriteError::writing(path, source))
 }
 
 /// As [`write_atomically`], and when it returns the file is on the disk: a loss of power leaves the old file or the new
@@ -115,9 +134,7 @@ fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Resu
         write(&mut out)?;
         return out.flush();
     }
-    // Made as any new file is: what `tempfile` makes by itself shuts out all others.
-    let (_unfinished, aside) =
-        Unfinished::new(|names| names.make_in(folder_of(&target), |path| File::create_new(path)))?;
+    let (_unfinished, aside) = aside_of(&target)?;
     let (file, aside) = aside.into_parts();
     if let Some(data) = present {
         file.set_permissions(data.permissions())?;
@@ -127,6 +144,12 @@ fn write_inner(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Resu
     drop(out.into_inner().map_err(io::IntoInnerError::into_error)?);
     aside.persist(&target).map_err(|error| error.error)?;
     Ok(())
+}
+
+/// A new file beside the one that is to be written. It is removed where it is dropped.
+fn aside_of(target: &Path) -> io::Result<(Unfinished, NamedTempFile<File>)> {
+    // Made as any new file is: what `tempfile` makes by itself shuts out all others.
+    Unfinished::new(|names| names.make_in(folder_of(target), |path| File::create_new(path)))
 }
 
 fn folder_of(path: &Path) -> &Path {

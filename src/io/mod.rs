@@ -60,7 +60,7 @@ mod svg;
 mod targets;
 mod unfinished;
 
-pub use atomic::{WriteError, write_atomically, write_durably, write_to_standard_output};
+pub use atomic::{WriteError, try_place, write_atomically, write_durably, write_to_standard_output};
 pub use charts::{OutputChart, Together, proved_together, together};
 pub use comparison::{
     Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, MethodError, MethodReport,

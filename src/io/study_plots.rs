@@ -48,10 +48,11 @@ fn bars(groups: &[Group], by: &str, title: &str) -> Plot {
 
 /// Shares of the runs whose first map was not planar that were planar after so many iterations.
 fn curves(records: &[&Record]) -> Plot {
-    let begins_folded: Vec<&Record> = records.iter().copied().filter(|record| !record.is_planar_at_once()).collect();
-    let last = begins_folded.iter().map(|record| record.steps).max().unwrap_or(0);
+    let is_to_mend = |record: &&Record| record.first.is_some() && !record.is_planar_at_once();
+    let to_mend: Vec<&Record> = records.iter().copied().filter(is_to_mend).collect();
+    let last = to_mend.iter().map(|record| record.steps).max().unwrap_or(0);
     let curve = |is_pair: bool, treatment: Treatment| {
-        let of: Vec<&Record> = begins_folded
+        let of: Vec<&Record> = to_mend
             .iter()
             .copied()
             .filter(|record| record.trial.displacement.is_none() == is_pair && record.trial.treatment == treatment)
@@ -66,7 +67,7 @@ fn curves(records: &[&Record]) -> Plot {
     let kinds = [true, false].into_iter();
     let marks = kinds.flat_map(|is_pair| Treatment::ALL.iter().map(move |&of| (is_pair, of)));
     Plot {
-        title: "Runs that began with folds: planar after so many iterations".to_owned(),
+        title: "First map not planar: planar after so many iterations".to_owned(),
         along: "iterations; per cent of runs".to_owned(),
         marks: Marks::Curves(marks.map(|(is_pair, treatment)| curve(is_pair, treatment)).collect()),
     }

@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use super::WriteError;
 use crate::mesh::VertexId;
-use crate::solver::study::{Defects, Form, Outcome, Record, Rest, Studied, Trial};
+use crate::solver::study::{Defects, Form, Limits, Outcome, Patience, Record, Rest, Studied, Trial};
 use crate::solver::{Family, Pins, Treatment, hard_pins};
 
-/// A row: everything that is needed to run it again, and what came of it.
+/// A row: everything that is needed to run it again on its mesh, and what came of it.
 #[derive(Debug, Serialize, Deserialize)]
 struct Row {
     mesh: String,
@@ -46,6 +46,8 @@ struct Row {
     boundary_vertices: usize,
     dividing_edges: usize,
     ears: usize,
+    max_steps: usize,
+    past_stall: bool,
 }
 
 impl Row {
@@ -85,6 +87,8 @@ impl Row {
             boundary_vertices: form.boundary,
             dividing_edges: form.dividing_edges,
             ears: form.ears,
+            max_steps: studied.limits.max_steps,
+            past_stall: studied.limits.patience == Patience::ToTheLimit,
         }
     }
 
@@ -96,6 +100,11 @@ impl Row {
             dividing_edges: self.dividing_edges,
             ears: self.ears,
         }
+    }
+
+    fn limits(&self) -> Limits {
+        let patience = if self.past_stall { Patience::ToTheLimit } else { Patience::OfMethod };
+        Limits { max_steps: self.max_steps, patience }
     }
 
     /// The record that it is of; none where its words are not such a table's.
@@ -178,8 +187,10 @@ pub fn read_study(path: &Path) -> Result<Vec<Studied>, WriteError> {
             return Err(failed(io::Error::new(io::ErrorKind::InvalidData, text)));
         };
         match studied.last_mut() {
-            Some(last) if last.mesh == row.mesh => last.records.push(record),
-            _ => studied.push(Studied { form: row.form(), mesh: row.mesh, records: vec![record] }),
+            Some(last) if last.mesh == row.mesh && last.limits == row.limits() => last.records.push(record),
+            _ => {
+                studied.push(Studied { form: row.form(), limits: row.limits(), mesh: row.mesh, records: vec![record] })
+            }
         }
     }
     Ok(studied)

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use freebound::io::study_plots;
 use freebound::mesh::DiskMesh;
 use freebound::solver::study::{
-    Defects, Form, Outcome, Patience, Record, Studied, Study, Subject, Trial, run, summary,
+    Defects, Form, Limits, Outcome, Patience, Record, Studied, Study, Subject, Trial, run, summary,
 };
 use freebound::solver::{Choice as _, Control, Family, Method, Pins, Settings, Treatment, solve_once};
 
@@ -14,7 +15,9 @@ use crate::shapes::irregular_cube;
 /// A residual that is rounding: equations have no unit, and their coefficients are near 1.
 const ROUNDING: f64 = 1e-9;
 
-const STUDY: Study = Study { runs: 40, seed: 7, max_steps: 60, patience: Patience::OfMethod };
+const LIMITS: Limits = Limits { max_steps: 60, patience: Patience::OfMethod };
+
+const STUDY: Study = Study { runs: 40, seed: 7, limits: LIMITS };
 
 fn subject(mesh: &DiskMesh) -> Subject<'_> {
     Subject::new(mesh, Control::unattended()).expect("nobody cancels")
@@ -128,9 +131,10 @@ fn planar_ends_meet_all_their_equations_and_folded_ones_do_not() {
 fn past_a_stall_a_run_goes_on_to_its_limit_and_takes_the_same_steps_before() {
     let mesh = irregular_cube(3, &mut Random(3));
     let subject = subject(&mesh);
-    let patient = Study { patience: Patience::ToTheLimit, max_steps: 30, ..STUDY };
+    let limits = Limits { max_steps: 30, ..LIMITS };
+    let patient = Limits { patience: Patience::ToTheLimit, ..limits };
     let mut stalls = 0;
-    for record in records(&mesh, Study { runs: 24, max_steps: 30, ..STUDY }) {
+    for record in records(&mesh, Study { runs: 24, limits, ..STUDY }) {
         let further = run(&subject, record.trial.clone(), patient, Control::unattended()).unwrap();
         assert!(further.outcome != Outcome::Stalled);
         if record.outcome == Outcome::Stalled {
@@ -180,7 +184,7 @@ fn groups_count_what_was_planar_at_once_and_what_was_mended_and_how_fast() {
         told(6, Outcome::Limit, 60),
         planar(7, 0),
     ];
-    let studied = [Studied { mesh: "a.obj".into(), form: Form::default(), records }];
+    let studied = [Studied { mesh: "a.obj".into(), form: Form::default(), limits: LIMITS, records }];
     let groups = summary(&studied);
     let all = &groups[0];
     assert_eq!((all.by, all.runs, all.at_once, all.mended), ("all", 8, 2, 3));
@@ -201,4 +205,30 @@ fn groups_count_what_was_planar_at_once_and_what_was_mended_and_how_fast() {
     assert!(of("first map, equations of pins kept").is_empty());
     assert!(of("displacement of constraints").is_empty());
     assert_eq!(of("mesh")[0].name, "a.obj");
+}
+
+/// A run whose first solve failed has no map to tell of.
+#[test]
+fn runs_without_a_first_map_are_in_no_group_of_first_maps_and_in_no_curve() {
+    let mended = told(0, Outcome::Planar, 1);
+    let stalled = told(1, Outcome::Stalled, 5);
+    let failed = Record { first: None, ..told(2, Outcome::Failed("singular".into()), 0) };
+    let of = |records: Vec<Record>| [Studied { mesh: "a.obj".into(), form: Form::default(), limits: LIMITS, records }];
+    let with_failed = of(vec![mended.clone(), stalled.clone(), failed]);
+    let groups = summary(&with_failed);
+    assert_eq!(groups[0].runs, 3);
+    let first_maps = groups.iter().filter(|group| group.by.contains("first map"));
+    let kinds = ["angle", "first map, equations", "turning", "crossings", "flipped"];
+    for kind in kinds {
+        let runs: usize = first_maps.clone().filter(|group| group.by.starts_with(kind)).map(|group| group.runs).sum();
+        assert_eq!(runs, 2, "{kind}");
+    }
+    let curves = |studied: &[Studied]| {
+        let mut svg = Vec::new();
+        study_plots(studied).write_svg(&mut svg).unwrap();
+        let svg = String::from_utf8(svg).unwrap();
+        svg.split("First map not planar; all equations kept").next().unwrap().to_owned()
+    };
+    assert!(curves(&with_failed) == curves(&of(vec![mended.clone(), stalled])));
+    assert!(curves(&with_failed) != curves(&of(vec![mended])));
 }

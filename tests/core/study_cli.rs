@@ -38,15 +38,18 @@ impl Table {
 #[test]
 fn a_row_of_the_table_run_again_by_hand_gives_the_same_numbers() {
     let program = with_meshes();
-    program.run(&["study", "cube.obj", "--runs", "24", "--csv", "runs.csv", "--seed", "5"]).expect(0);
+    program
+        .run(&["study", "cube.obj", "--runs", "24", "--csv", "runs.csv", "--seed", "5", "--max-steps", "9"])
+        .expect(0);
     let table = Table::read(&program, "runs.csv");
     assert_eq!(table.rows().len(), 24);
     let mut outcomes = std::collections::BTreeSet::new();
     for row in table.rows() {
         let cell = |column: &str| table.cell(row, column);
+        assert_eq!(cell("past_stall"), "false");
         let mut arguments =
             vec!["flatten", "cube.obj", "--method", "iterate", "--family", cell("family"), "--report", "-"];
-        arguments.extend(["--treatment", cell("treatment")]);
+        arguments.extend(["--treatment", cell("treatment"), "--max-steps", cell("max_steps")]);
         arguments.extend(cell("pins").split(' ').flat_map(|pin| ["--pin", pin]));
         let run = program.run(&arguments);
         outcomes.insert(cell("outcome").to_owned());
@@ -135,6 +138,90 @@ fn past_a_stall_no_run_is_called_stalled() {
     let table = Table::read(&program, "runs.csv");
     let outcomes: Vec<&str> = table.rows().iter().map(|row| table.cell(row, "outcome")).collect();
     assert!(outcomes.contains(&"limit") && !outcomes.contains(&"stalled"), "{outcomes:?}");
+    let told = |row: &Vec<String>| table.cell(row, "past_stall") == "true" && table.cell(row, "max_steps") == "20";
+    assert!(table.rows().iter().all(told));
+}
+
+#[test]
+fn a_mesh_of_two_charts_is_refused_by_name() {
+    let program = Program::new();
+    let square = |height: usize, first: usize| {
+        let corners = ["0 0", "1 0", "1 1", "0 1"].map(|corner| format!("v {corner} {height}\n")).concat();
+        let [a, b, c, d] = std::array::from_fn(|k| first + k);
+        format!("{corners}f {a} {b} {c}\nf {a} {c} {d}\n")
+    };
+    program.write("two.obj", &(square(0, 1) + &square(5, 5)));
+    let before = program.files();
+    let run = program.run(&["study", "two.obj", "--runs", "2", "--csv", "runs.csv"]).expect(2);
+    assert!(run.stderr.contains("two.obj: the mesh has 2 charts"), "{}", run.stderr);
+    assert_eq!(program.files(), before);
+}
+
+#[test]
+fn tables_of_other_limits_are_not_put_together_and_one_without_limits_is_none() {
+    let program = with_meshes();
+    let study = ["study", "--runs", "3", "--csv"];
+    for table in [
+        &["cap.csv", "cap.obj"][..],
+        &["few.csv", "cube.obj", "--max-steps", "9"],
+        &["past.csv", "cube.obj", "--past-stall"],
+    ] {
+        program.run(&[&study[..], table].concat()).expect(0);
+    }
+    for [table, words] in [["few.csv", "--max-steps 9"], ["past.csv", "--max-steps 60 --past-stall"]] {
+        for run in [
+            program.run(&["study", "--add", "cap.csv", "--add", table]),
+            program.run(&["study", "cap.obj", "--runs", "1", "--add", table]),
+        ] {
+            let run = run.expect(2);
+            assert!(run.stderr.contains(table) && run.stderr.contains(words), "{}", run.stderr);
+        }
+        program.run(&["study", "--add", table]).expect(0);
+    }
+    let old: String = fs::read_to_string(program.path("cap.csv"))
+        .unwrap()
+        .lines()
+        .map(|line| line.rsplitn(3, ',').last().unwrap().to_owned() + "\n")
+        .collect();
+    program.write("old.csv", &old);
+    let run = program.run(&["study", "--add", "old.csv"]).expect(3);
+    assert!(run.stderr.contains("old.csv") && run.stderr.contains("max_steps"), "{}", run.stderr);
+}
+
+#[test]
+fn options_of_runs_are_refused_where_there_is_no_mesh_to_run_on() {
+    let program = with_meshes();
+    program.run(&["study", "cap.obj", "--runs", "2", "--csv", "one.csv"]).expect(0);
+    for idle in [
+        &["--runs", "7"][..],
+        &["--most-faces", "9"],
+        &["--seed", "1"],
+        &["--max-steps", "60"],
+        &["--past-stall"],
+        &["--large"],
+    ] {
+        let run = program.run(&[&["study", "--add", "one.csv"], idle].concat()).expect(2);
+        assert!(run.stderr.contains(idle[0]), "{}", run.stderr);
+    }
+    program.run(&["study", "--add", "one.csv", "--threads", "1"]).expect(0);
+}
+
+/// The mesh is missing, which is told of only where the outputs can be written.
+#[test]
+fn outputs_are_tried_before_all_work() {
+    let program = with_meshes();
+    fs::create_dir(program.path("folder")).unwrap();
+    let before = program.files();
+    for place in ["none/runs", "folder"] {
+        for option in ["--csv", "--svg"] {
+            let run = program.run(&["study", "missing.obj", option, place]).expect(1);
+            assert!(run.stderr.contains(place), "{}", run.stderr);
+        }
+    }
+    program.run(&["study", "missing.obj", "--csv", "runs.csv"]).expect(3);
+    // Nothing is written where one of two cannot be.
+    program.run(&["study", "cap.obj", "--runs", "1", "--csv", "runs.csv", "--svg", "folder"]).expect(1);
+    assert_eq!(program.files(), before);
 }
 
 #[test]

@@ -5,7 +5,7 @@
 //! mean-value equations and turns once has no flipped face.
 
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::study::{Outcome, Patience, Record, Study, Subject, Trial, run};
+use freebound::solver::study::{Limits, Outcome, Patience, Record, Subject, Trial, run};
 use freebound::solver::{Control, Family, Treatment, hard_pins};
 use glam::DVec2;
 
@@ -37,9 +37,9 @@ fn pyramid(sides: u32, height: f64, ragged: f64, seed: u64) -> DiskMesh {
 fn iterated(mesh: &DiskMesh, family: Family, treatment: Treatment, [first, second]: [u32; 2]) -> Record {
     let pins = hard_pins([(VertexId::new(first), DVec2::ZERO), (VertexId::new(second), DVec2::X)]);
     let trial = Trial { number: 0, family, treatment, pins, displacement: None };
-    let study = Study { runs: 1, seed: 0, max_steps: 200, patience: Patience::ToTheLimit };
+    let limits = Limits { max_steps: 200, patience: Patience::ToTheLimit };
     let subject = Subject::new(mesh, Control::unattended()).expect("nobody cancels");
-    run(&subject, trial, study, Control::unattended()).expect("nobody cancels")
+    run(&subject, trial, limits, Control::unattended()).expect("nobody cancels")
 }
 
 /// A move, as a share of the diameter, that is rounding.

@@ -5,7 +5,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `mod.rs` | [`Study`]: all runs on a mesh |
+//! | `mod.rs` | [`Study`]: all runs on a mesh; [`Limits`]: how long each may go on |
 //! | `subject.rs` | [`Subject`]: the mesh, where pins can be, what of its form may count |
 //! | `trial.rs` | [`Trial`]: pins, weights and treatment, drawn at random |
 //! | `record.rs` | [`run`]: a trial run to its end; [`Record`]: what is kept of it |
@@ -35,6 +35,13 @@ pub struct Study {
     pub runs: u64,
     /// What all trials are drawn from.
     pub seed: u64,
+    /// How long a run may go on.
+    pub limits: Limits,
+}
+
+/// How long a run may go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
     /// The most mean-value iterations of a run.
     pub max_steps: usize,
     /// What becomes of an iteration that gets no better.
@@ -64,7 +71,7 @@ impl Study {
         done: impl Fn() + Sync,
     ) -> Result<Vec<Record>, SolveError> {
         let record = |number| {
-            let record = run(subject, Trial::draw(subject, self.seed, number), self, control)?;
+            let record = run(subject, Trial::draw(subject, self.seed, number), self.limits, control)?;
             done();
             Ok(record)
         };

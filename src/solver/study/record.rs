@@ -2,7 +2,7 @@
 
 use num_complex::Complex;
 
-use super::{Patience, Study, Subject, Trial};
+use super::{Limits, Patience, Subject, Trial};
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::plane_weights::residuals_in_plane;
 use crate::solver::{Control, Ending, Ladder, SolveError, Step, distortion};
@@ -118,9 +118,9 @@ impl Record {
 /// # Errors
 ///
 /// [`SolveError::Cancelled`] at the caller's wish to stop; other errors are ends.
-pub fn run(subject: &Subject<'_>, trial: Trial, study: Study, control: Control<'_>) -> Result<Record, SolveError> {
+pub fn run(subject: &Subject<'_>, trial: Trial, limits: Limits, control: Control<'_>) -> Result<Record, SolveError> {
     let mesh = subject.mesh;
-    let mut ladder = Ladder::new(trial.settings(study.max_steps), trial.pins.clone());
+    let mut ladder = Ladder::new(trial.settings(limits.max_steps), trial.pins.clone());
     let (mut first, mut last) = (None, None);
     let mut angle = f64::INFINITY;
     let mut take = |step: Step| {
@@ -128,12 +128,12 @@ pub fn run(subject: &Subject<'_>, trial: Trial, study: Study, control: Control<'
             first = Some(Defects::of(&step));
             angle = distortion(mesh, &step.solution.embedding).summary.angle.mean;
         }
-        let ends = step.verdict.planar || step.index >= study.max_steps;
+        let ends = step.verdict.planar || step.index >= limits.max_steps;
         last = Some(step);
         ends
     };
     let mut ending = ladder.finish(mesh, control, |step| _ = take(step));
-    while study.patience == Patience::ToTheLimit && ending == Ok(Ending::Stalled) {
+    while limits.patience == Patience::ToTheLimit && ending == Ok(Ending::Stalled) {
         ending = match ladder.step(mesh, control).map(&mut take) {
             Ok(is_end) => Ok(if is_end { Ending::Limit } else { Ending::Stalled }),
             Err(error) => Err(error),

@@ -1,6 +1,6 @@
 //! Runs in groups: how often and how fast the iteration came to a planar map, against what it may depend on.
 
-use super::{Form, Outcome, Record};
+use super::{Defects, Form, Limits, Outcome, Record};
 use crate::solver::{Choice as _, Treatment};
 
 /// Runs of one kind.
@@ -74,6 +74,8 @@ pub struct Studied {
     pub mesh: String,
     /// Its form.
     pub form: Form,
+    /// How long its runs might go on.
+    pub limits: Limits,
     /// Its runs, by number.
     pub records: Vec<Record>,
 }
@@ -109,7 +111,7 @@ pub fn summary(studied: &[Studied]) -> Vec<Group> {
         let is_of = move |run: Run<'_>| (run.record.trial.treatment != Treatment::Eliminate) == is_kept;
         table.add(by, |run| first_map(run).filter(|_| is_of(run)).map(str::to_owned));
     }
-    table.add("turning number of the first map", |run| Some(turning(run.record)));
+    table.add("turning number of the first map", |run| run.record.first.map(turning));
     table.add("crossings of the first map", |run| run.record.first.map(|first| counted(first.crossings)));
     table.add("flipped faces of the first map", |run| run.record.first.map(|first| counted(first.flips)));
     table.add("dividing edges of the mesh", |run| Some(some_or_none(run.of.form.dividing_edges)));
@@ -201,8 +203,8 @@ fn first_map(run: Run<'_>) -> Option<&'static str> {
     })
 }
 
-fn turning(record: &Record) -> String {
-    match record.first.and_then(|first| first.turning_number) {
+fn turning(first: Defects) -> String {
+    match first.turning_number {
         Some(1) => "1".to_owned(),
         Some(-1) => "-1".to_owned(),
         Some(_) => "another".to_owned(),
