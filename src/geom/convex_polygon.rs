@@ -104,15 +104,12 @@ impl ConvexPolygon {
     ///
     /// A line that is no point, or what is wrong with the corners.
     pub fn parse(text: &str) -> Result<Self, PolygonFault> {
-        let mut corners = Vec::new();
-        for (line, content) in (1..).zip(text.lines()) {
-            let content = content.split('#').next().unwrap_or_default();
-            for part in content.split(';').map(str::trim).filter(|part| !part.is_empty()) {
-                let not_a_point = || PolygonFault::NotAPoint { line, text: part.to_owned() };
-                corners.push(point(part).ok_or_else(not_a_point)?);
-            }
-        }
-        Self::new(&corners)
+        Self::new(&corners_in(text)?)
+    }
+
+    /// What is wrong with a text, if anything, while it is only being typed: nothing is kept of it.
+    pub fn fault_in(text: &str) -> Option<PolygonFault> {
+        corners_in(text).and_then(|corners| check(&corners)).err()
     }
 
     /// The corners, counter-clockwise.
@@ -129,6 +126,18 @@ impl fmt::Display for ConvexPolygon {
         let corners: Vec<String> = self.0.iter().map(|corner| format!("{} {}", corner.x, corner.y)).collect();
         f.write_str(&corners.join("; "))
     }
+}
+
+fn corners_in(text: &str) -> Result<Vec<DVec2>, PolygonFault> {
+    let mut corners = Vec::new();
+    for (line, content) in (1..).zip(text.lines()) {
+        let content = content.split('#').next().unwrap_or_default();
+        for part in content.split(';').map(str::trim).filter(|part| !part.is_empty()) {
+            let not_a_point = || PolygonFault::NotAPoint { line, text: part.to_owned() };
+            corners.push(point(part).ok_or_else(not_a_point)?);
+        }
+    }
+    Ok(corners)
 }
 
 fn point(text: &str) -> Option<DVec2> {

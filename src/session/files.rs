@@ -43,7 +43,7 @@ pub(super) struct Files {
     /// The machine's memory, bytes: what may take more than half of it is opened once a person has said so.
     pub(super) memory: Option<u64>,
     /// What waits for that.
-    large: Option<LargeFile>,
+    pub(super) large: Option<LargeFile>,
     /// What follows once that is open.
     together: Option<Together>,
     /// Results being written.
@@ -139,32 +139,13 @@ impl Files {
         self.load(wanted, self.memory);
     }
 
-    fn load(&mut self, wanted: Wanted, memory: Option<u64>) {
+    pub(super) fn load(&mut self, wanted: Wanted, memory: Option<u64>) {
         self.large = None;
         self.loading.start(wanted.clone(), move |_| wanted.open(memory));
     }
 
-    /// What waits for a word, for it may take more than half of the machine's memory.
-    pub(super) fn large(&self) -> Option<&LargeFile> {
-        self.large.as_ref()
-    }
-
-    /// Opens what waits for a word.
-    pub(super) fn open_large(&mut self) {
-        if let Some(large) = self.large.take() {
-            self.load(large.wanted, None);
-        }
-    }
-
-    /// Leaves it.
-    pub(super) fn leave_large(&mut self) {
-        if self.large.take().is_some() {
-            self.end_opening();
-        }
-    }
-
     /// Nothing came of what was to be opened.
-    fn end_opening(&mut self) {
+    pub(super) fn end_opening(&mut self) {
         self.together = None;
         self.autosave.give_up_claim();
     }

@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 
 use super::Session;
+use super::files::Files;
 use super::opened::{OpenError, Opened};
 use crate::examples::Example;
 use crate::io::MemoryShortage;
@@ -41,6 +42,22 @@ pub struct LargeFile {
     pub shortage: MemoryShortage,
 }
 
+impl Files {
+    /// Opens what waits for a word.
+    pub(super) fn open_large(&mut self) {
+        if let Some(large) = self.large.take() {
+            self.load(large.wanted, None);
+        }
+    }
+
+    /// Leaves it.
+    pub(super) fn leave_large(&mut self) {
+        if self.large.take().is_some() {
+            self.end_opening();
+        }
+    }
+}
+
 impl Session {
     /// Asks before it opens what may take more than half of this memory, bytes.
     pub fn heed_memory(&mut self, bytes: u64) {
@@ -50,6 +67,6 @@ impl Session {
     /// The file that waits for [`Action::OpenLarge`](super::Action::OpenLarge) or
     /// [`Action::LeaveLarge`](super::Action::LeaveLarge).
     pub fn large_file(&self) -> Option<&LargeFile> {
-        self.files.large()
+        self.files.large.as_ref()
     }
 }

@@ -13,8 +13,9 @@
 //! ```
 //!
 //! The outermost ring lies on a convex shape. All vertices within, those of the mesh and of the inner rings, lie at weighted
-//! means of their neighbours. The weights are positive, and no edge joins two vertices of the outermost ring but its own:
-//! so the padded mesh is planar by the theorem of Tutte and Floater, and so is the mesh, once the padding is peeled. Its
+//! means of their neighbours. Where the weights are positive (mean value and equal ones always are, conformal, Wachspress and
+//! powers may be negative), and since no edge joins two vertices of the outermost ring but its own, the padded mesh is planar
+//! by the theorem of Tutte and Floater, and so is the mesh, once the padding is peeled. Its
 //! boundary is free to be what it likes, but for the pull of the padding: a planar mesh does not come back, not even one
 //! with a convex boundary (the paper, §1.1).
 //!

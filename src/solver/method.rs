@@ -202,8 +202,8 @@ impl Method {
     }
 }
 
-/// A convex boundary stands for all shapes, as does another method with one, for shapes are a choice of their own. Relaxing, cutting and a layout that was given
-/// cannot be chosen: they are rungs only.
+/// A convex boundary stands for all shapes, as does another method with one, for shapes are a choice of their own. Relaxing,
+/// cutting and a layout that was given cannot be chosen: they are rungs only.
 impl Choice for Method {
     const ALL: &'static [Self] = &[
         Self::Auto,
@@ -253,7 +253,7 @@ impl Choice for Method {
             Self::Lee(_) => Words::new("lee", "Lee's virtual boundary")
                 .about(
                     "layers of triangles around the mesh (--layers), the outermost on a convex shape (--boundary), peeled \
-                     off after the solve; planar, but not even a flat mesh comes back",
+                     off after the solve; planar where weights are positive, but not even a flat mesh comes back",
                 )
                 .source("Lee, Kim and Lee 2002"),
             Self::Lscm => Words::new("lscm", "Least-squares conformal")

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::geom::ConvexPolygon;
+
 use super::{BoundaryShape, Choice, Family, Method, Settings, Start};
 
 /// What stands before the weights, and before the shape of the boundary.
@@ -72,12 +74,7 @@ impl FromStr for Variant {
         let (name, family) = text.split_once(FAMILY_MARK).map_or((text, None), |(text, family)| (text, Some(family)));
         let method = Method::named(name).ok_or_else(|| format!("no method `{name}`: choose of {}", Method::names()))?;
         let method = match (method.boundary_shape(), shape) {
-            (Some(_), Some(shape)) => {
-                let found = BoundaryShape::named(shape);
-                method.on_shape(
-                    found.ok_or_else(|| format!("no boundary `{shape}`: choose of {}", BoundaryShape::names()))?,
-                )
-            }
+            (Some(_), Some(shape)) => method.on_shape(shape_named(shape)?),
             (None, Some(_)) => {
                 return Err(format!("{name} lays its boundary on no shape: leave out {SHAPE_MARK} and it"));
             }
@@ -92,4 +89,15 @@ impl FromStr for Variant {
             _ => Ok(Self { method, family }),
         }
     }
+}
+
+/// The shape of that name, or with these corners.
+fn shape_named(text: &str) -> Result<BoundaryShape, String> {
+    if let Some(corners) = text.strip_prefix(BoundaryShape::POLYGON) {
+        let polygon = ConvexPolygon::parse(corners);
+        return polygon.map(BoundaryShape::Polygon).map_err(|fault| {
+            format!("{text}: {fault}; among methods the numbers of a corner have a space between, no comma")
+        });
+    }
+    BoundaryShape::named(text).ok_or_else(|| format!("no boundary `{text}`: choose of {}", BoundaryShape::names()))
 }

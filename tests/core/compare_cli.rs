@@ -100,9 +100,8 @@ fn every_variant_has_a_name_that_stands_for_it() {
     let mut names = BTreeSet::new();
     let mut count = 0;
     for &method in Method::ALL {
-        let shapes = if let Method::Convex(_) = method { BoundaryShape::ALL } else { &BoundaryShape::ALL[..1] };
-        for &shape in shapes {
-            let method = if let Method::Convex(_) = method { Method::Convex(shape) } else { method };
+        let shapes = if method.boundary_shape().is_some() { BoundaryShape::ALL } else { &BoundaryShape::ALL[..1] };
+        for method in shapes.iter().map(|&shape| method.on_shape(shape)) {
             for &family in Family::ALL.iter().filter(|family| method.uses_family() && family.goes_with(method)) {
                 let variant = Variant { method, family: Some(family) };
                 let read = Variant::from_str(&variant.to_string()).expect("its own name");
@@ -122,6 +121,8 @@ fn every_variant_has_a_name_that_stands_for_it() {
         ("lscm/mean-value", "no choice of weights"),
         ("natural@square", "on no shape"),
         ("convex@ring", "choose of circle"),
+        ("convex@polygon:0", "\"0\" is no point"),
+        ("lee@polygon:0 0; 0 1; 1 0", "clockwise"),
         ("", "no method"),
     ] {
         let error = Variant::from_str(wrong).expect_err(wrong);

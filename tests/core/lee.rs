@@ -205,6 +205,13 @@ fn a_single_triangle_can_be_padded() {
     }
 }
 
+/// Faces whose corners do not run counter-clockwise, in exact arithmetic.
+fn faces_not_positive(mesh: &DiskMesh, embedding: &Embedding) -> usize {
+    let at = |vertex: VertexId| robust::Coord { x: embedding[vertex].x, y: embedding[vertex].y };
+    let faces = mesh.mesh().triangles.iter();
+    faces.filter(|corners| robust::orient2d(at(corners[0]), at(corners[1]), at(corners[2])) <= 0.0).count()
+}
+
 #[test]
 #[ignore = "all disks of the corpus take half a minute without optimisation"]
 fn every_disk_of_the_corpus_ends_with_an_honest_verdict() {
@@ -220,11 +227,17 @@ fn every_disk_of_the_corpus_ends_with_an_honest_verdict() {
                 Ladder::new(settings, Pins::new()).finish(&mesh, Control::unattended(), |step| last = Some(step));
             let words = match (&outcome, &last) {
                 (Ok(_), Some(step)) => {
+                    let flipped = faces_not_positive(&mesh, &step.solution.embedding);
+                    assert_eq!(step.verdict.flipped_faces.len(), flipped, "{}", entry.file);
                     let summary = distortion(&mesh, &step.solution.embedding).summary;
                     let stretch = (summary.angle.mean, summary.area.mean, summary.stretch_l2);
                     format!("{stretch:.3?}, {}", step.verdict.summary())
                 }
-                (outcome, _) => format!("{outcome:?}"),
+                (Err(error), None) => {
+                    assert!(error.is_failure_of_method(), "{}: {error}", entry.file);
+                    error.to_string()
+                }
+                (outcome, step) => panic!("{}: {outcome:?} with {step:?}", entry.file),
             };
             let seconds = start.elapsed().as_secs_f64();
             println!("{}, {layers} layers, {family}: {seconds:.2} s, {words}", entry.file);

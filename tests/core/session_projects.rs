@@ -8,7 +8,7 @@ use freebound::geom::ConvexPolygon;
 use freebound::geom::VAxis;
 use freebound::io::{FileStamp, PathStyle, ProjectFile, ProjectSource, ProjectView, Target};
 use freebound::session::{Action, Session, Severity};
-use freebound::solver::{BoundaryShape, Family, GaugeSize, Growth, Method, Settings, Spacing, Treatment};
+use freebound::solver::{BoundaryShape, Choice as _, Family, GaugeSize, Growth, Method, Settings, Spacing, Treatment};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -88,26 +88,16 @@ fn every_choice_of_method_comes_back() {
     let path = project_in(&folder);
     let families = [Family::Conformal, Family::MeanValue, Family::Wachspress, Family::Power(-0.1), Family::Uniform];
     let triangle = ConvexPolygon::parse("0 0; 0.1 0.2; -7 1e-3").expect("convex");
-    let methods = [
-        Method::Auto,
-        Method::Natural,
-        Method::Iterate,
-        Method::VirtualBoundary,
-        Method::Convex(BoundaryShape::Circle),
+    let on_shapes = [
         Method::Convex(BoundaryShape::Square),
         Method::Convex(BoundaryShape::Hull),
         Method::Convex(BoundaryShape::Polygon(triangle)),
         Method::Stretch(BoundaryShape::Square),
         Method::Lee(BoundaryShape::Polygon(triangle)),
-        Method::Slim,
-        Method::Lscm,
-        Method::Levy,
-        Method::Continuation,
-        Method::Matchmaker,
-        Method::Schnyder,
     ];
+    let methods = Method::ALL.iter().copied().chain(on_shapes);
     let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
-    for (index, method) in methods.into_iter().enumerate() {
+    for (index, method) in methods.enumerate() {
         let family = families[index % families.len()];
         let (treatment, new_vertices) = (treatments[index % 4], index % 3 != 1);
         let settings = Settings {

@@ -77,7 +77,9 @@ pub struct AngleMap {
     pub angles: Vec<[f64; 3]>,
     /// Σ w (α − φ)².
     pub energy: f64,
-    /// Angles that a barrier keeps from 0, where the least energy has them there.
+    /// Weight κ of the barrier that the energy is the least with, 0 without one.
+    pub barrier: f64,
+    /// Angles that the barrier keeps from 0, where the least energy has them there.
     pub held: usize,
 }
 
@@ -91,10 +93,17 @@ pub fn angle_based(mesh: &DiskMesh, system: AngleSystem, control: Control<'_>) -
     control.enter(Phase::Assemble)?;
     let start = Instant::now();
     let net = Net::new(mesh)?;
-    let found = Newton::new(&net, system)?.run(control)?;
+    let assembled = start.elapsed().as_secs_f64();
+    control.enter(Phase::Analyze)?;
+    let newton = Newton::new(&net, system)?;
+    let analyzed = start.elapsed().as_secs_f64();
+    let found = newton.run(control)?;
     let seconds = start.elapsed().as_secs_f64();
     let mut solution = layout::laid_out(mesh, &found.angles, control)?;
-    solution.seconds.solve += seconds;
+    solution.seconds.assemble += assembled;
+    solution.seconds.analyze += analyzed - assembled;
+    // Newton's steps, each with a factorization.
+    solution.seconds.solve += seconds - analyzed;
     solution.convergence = Some(found.convergence);
-    Ok(AngleMap { solution, angles: found.angles, energy: found.energy, held: found.held })
+    Ok(AngleMap { solution, angles: found.angles, energy: found.energy, barrier: found.barrier, held: found.held })
 }

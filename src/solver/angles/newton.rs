@@ -5,7 +5,7 @@
 //! With the multipliers λ of the wheels (those of sums have no curvature) the Lagrangian's Hessian is diagonal:
 //!
 //! ```text
-//! W_i = 2/φ_i² + κ/α_i² + (λ_previous − λ_next) / sin² α_i
+//! W_i = 2/φ_i² + κ/α_i² + (λ_next − λ_previous) / sin² α_i
 //! ```
 //!
 //! `next` is the vertex at the face's next corner: it sees α_i as the angle of its previous corner, and the other way
@@ -99,8 +99,17 @@ pub(super) struct Found {
     pub(super) convergence: Convergence,
     /// Σ (α/φ − 1)².
     pub(super) energy: f64,
-    /// Angles that a barrier keeps from 0.
+    /// κ at the end.
+    pub(super) barrier: f64,
+    /// Angles that the barrier keeps from 0.
     pub(super) held: usize,
+}
+
+/// Where a barrier came to.
+#[derive(Debug)]
+struct Kept {
+    angles: Vec<[f64; 3]>,
+    barrier: f64,
 }
 
 #[derive(Debug)]
@@ -129,7 +138,7 @@ pub(super) struct Newton<'a> {
     /// κ.
     barrier: f64,
     /// Where the least barrier came to, while it is tried without one.
-    kept: Option<Vec<[f64; 3]>>,
+    kept: Option<Kept>,
     steps: usize,
 }
 
@@ -156,7 +165,7 @@ impl<'a> Newton<'a> {
                 Stage::GoesOn => {}
                 Stage::Arrived if self.barrier > LEAST_BARRIER => self.barrier *= FALL,
                 Stage::Arrived if self.barrier > 0.0 => {
-                    self.kept = Some(self.angles.clone());
+                    self.kept = Some(Kept { angles: self.angles.clone(), barrier: self.barrier });
                     self.barrier = 0.0;
                 }
                 Stage::Arrived => {
@@ -178,19 +187,21 @@ impl<'a> Newton<'a> {
         self.barrier = GREATEST_BARRIER;
     }
 
-    /// The end. What converged with the least barrier, and has not without it, is as it was with it.
+    /// The end. What converged with the least barrier, and has not without it, is as it was with it: the least of the energy
+    /// with that barrier.
     fn found(self, stop: Stop) -> Found {
         let Self { net, angles, barrier, kept, steps, .. } = self;
         let (angles, barrier, stop) = match kept {
-            Some(kept) => (kept, LEAST_BARRIER, Stop::Converged),
+            Some(kept) => (kept.angles, kept.barrier, Stop::Converged),
             None => (angles, barrier, stop),
         };
         let pairs = || angles.as_flattened().iter().zip(net.targets.as_flattened());
-        // Below this the barrier is steeper than the energy.
-        let held = pairs().filter(|(angle, target)| **angle < barrier.sqrt() * **target).count();
+        // Below this the barrier, κ/α², is curved more than the energy, 2/φ². On the way to the end that tells nothing.
+        let most = if stop == Stop::Converged { (barrier / 2.0).sqrt() } else { 0.0 };
+        let held = pairs().filter(|(angle, target)| **angle < most * **target).count();
         let energy = pairs().map(|(angle, target)| (angle / target - 1.0).powi(2)).sum();
         let residual = largest(net.gaps(&angles).as_flattened()).max(largest(&face_gaps(&angles)));
-        Found { angles, convergence: Convergence { steps, residual, stop }, energy, held }
+        Found { angles, convergence: Convergence { steps, residual, stop }, energy, barrier, held }
     }
 
     fn step(&mut self, control: Control<'_>) -> Result<Stage, SolveError> {

@@ -31,9 +31,10 @@ fn note(found: &AngleMap) -> Option<String> {
     let convergence = found.solution.convergence?;
     let steps = format!("{} Newton steps: {}", convergence.steps, convergence.stop.words());
     let left = format!("conditions on the angles met to {:.1e}, energy {:.4e}", convergence.residual, found.energy);
-    let held = match found.held {
-        0 => String::new(),
-        count => format!(", {count} angles kept from 0"),
+    let held = if found.barrier > 0.0 {
+        format!(", with a barrier of weight {:.2} that keeps {} angles from 0", found.barrier, found.held)
+    } else {
+        String::new()
     };
     Some(format!("{steps}, {left}{held}"))
 }

@@ -46,18 +46,17 @@ fn corners_field(ui: &mut egui::Ui, polygon: &mut ConvexPolygon) {
     let typed = ui.data(|data| data.get_temp::<[String; 2]>(key)).filter(|[of, _]| *of == own);
     let mut text = typed.map_or_else(|| own.clone(), |[_, text]| text);
     let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(200.0));
-    let parsed = ConvexPolygon::parse(&text);
-    if let Err(fault) = &parsed {
+    let fault = ConvexPolygon::fault_in(&text);
+    if let Some(fault) = &fault {
         let stroke = Stroke::new(1.5, theme_of(ui).flipped);
         ui.painter().rect_stroke(field.rect, 2.0, stroke, StrokeKind::Inside);
         remark(ui, fault.to_string());
     }
     let field = field.named(Role::TextInput, CORNERS);
-    match parsed {
-        Ok(found) if field.lost_focus() => *polygon = found,
-        _ => {
-            ui.data_mut(|data| data.insert_temp(key, [own, text]));
-        }
+    if fault.is_none() && field.lost_focus() {
+        *polygon = ConvexPolygon::parse(&text).unwrap_or(*polygon);
+    } else {
+        ui.data_mut(|data| data.insert_temp(key, [own, text]));
     }
     field.on_hover_text("x y; x y; … counter-clockwise, every corner convex");
 }
