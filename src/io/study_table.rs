@@ -189,7 +189,7 @@ pub fn read_study(path: &Path) -> Result<Vec<Studied>, WriteError> {
         match studied.last_mut() {
             Some(last) if last.mesh == row.mesh && last.limits == row.limits() => last.records.push(record),
             _ => {
-                studied.push(Studied { form: row.form(), limits: row.limits(), mesh: row.mesh, records: vec![record] })
+                studied.push(Studied { form: row.form(), limits: row.limits(), mesh: row.mesh, records: vec![record] });
             }
         }
     }

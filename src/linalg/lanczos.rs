@@ -66,7 +66,9 @@ pub fn greatest_eigenpair<E>(
     let mut basis: Vec<Vec<C64>> = Vec::new();
     let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
     loop {
-        next.iter_mut().for_each(|x| *x /= length);
+        for x in &mut next {
+            *x /= length;
+        }
         basis.push(next);
         let newest = &basis[basis.len() - 1];
         next = apply(newest)?;

@@ -66,6 +66,7 @@ impl Session {
     }
 
     /// Carries out a request. Work that takes time goes on in the background.
+    #[expect(clippy::too_many_lines, reason = "a line for each request")]
     pub fn handle(&mut self, action: Action) {
         match action {
             Action::Open(path) => self.files.open(path),

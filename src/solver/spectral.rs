@@ -28,7 +28,7 @@
 //!
 //! | source | code         | meaning                                            | unit            |
 //! |--------|--------------|----------------------------------------------------|-----------------|
-//! | L_C    | `matrix` − σB| conformal energy, Hermitian, n × n                 | none            |
+//! | `L_C`  | `matrix` − σB| conformal energy, Hermitian, n × n                 | none            |
 //! | B      | `boundary`   | rows of the boundary vertices                      | none            |
 //! | σ      | `shift`      | moves all eigenvalues up                           | none            |
 //! | λ      | `eigenvalue` | energy at boundary norm 1                          | none            |
@@ -131,7 +131,9 @@ fn first_iterate(mesh: &DiskMesh) -> Vec<C64> {
 /// Takes the constant part out.
 fn centre(x: &mut [C64]) {
     let mean = x.iter().sum::<C64>() / x.len() as f64;
-    x.iter_mut().for_each(|x| *x -= mean);
+    for x in x {
+        *x -= mean;
+    }
 }
 
 struct Setup<'a> {

@@ -60,8 +60,10 @@ impl CellFrames {
             _ => 1.0,
         };
         let boxes: Vec<Bounds> = outcomes.iter().map(|outcome| outcome.step.solution.embedding.bounds()).collect();
-        let sizes: Vec<f64> =
-            outcomes.iter().map(|outcome| Some(size_of(outcome)).filter(is_scale).unwrap_or(1.0)).collect();
+        let sizes: Vec<f64> = outcomes
+            .iter()
+            .map(|outcome| Some(size_of(outcome)).filter(|&size| is_scale(size)).unwrap_or(1.0))
+            .collect();
         let held = outcomes.iter().zip(&boxes).filter(|(outcome, _)| outcome.is_held()).map(|(_, bounds)| *bounds);
         let extents = boxes.iter().zip(&sizes).map(|(bounds, size)| bounds.size().max_element() / size);
         let (side, held) = (common_side(extents), around(&held.collect::<Vec<_>>()));
@@ -74,8 +76,8 @@ impl CellFrames {
     }
 }
 
-fn is_scale(size: &f64) -> bool {
-    size.is_normal() && *size > 0.0
+fn is_scale(size: f64) -> bool {
+    size.is_normal() && size > 0.0
 }
 
 /// The square around a point with so long a side.

@@ -106,12 +106,12 @@ fn assert_runs_around(places: &[DVec2], name: &str) {
     for (k, &from) in corners.iter().enumerate() {
         let to = corners[(k + 1) % corners.len()];
         let steps = (to + places.len() - from - 1) % places.len() + 1;
-        let side = places[to] - places[from];
+        let way = places[to] - places[from];
         let mut before = 0.0;
         for place in (1..steps).map(|step| places[(from + step) % places.len()]) {
-            let along = (place - places[from]).dot(side) / side.length_squared();
-            let off = (place - places[from]).perp_dot(side).abs() / side.length();
-            assert!(off < 1e-12 * size && along > before && along < 1.0, "{name}: {place} on a side of {side}");
+            let along = (place - places[from]).dot(way) / way.length_squared();
+            let off = (place - places[from]).perp_dot(way).abs() / way.length();
+            assert!(off < 1e-12 * size && along > before && along < 1.0, "{name}: {place} on a way of {way}");
             before = along;
         }
     }
@@ -181,7 +181,7 @@ fn the_hull_is_that_of_the_projection_along_which_the_boundary_extends_least() {
     let ring: Vec<DVec2> = (0..30).map(|k| DVec2::from_angle(f64::from(k) * 0.2) * DVec2::new(3.0, 2.0)).collect();
     let [x, y, z] =
         [DVec3::new(2.0, -1.0, 2.0), DVec3::new(2.0, 2.0, -1.0), DVec3::new(-1.0, 2.0, 2.0)].map(|a| a / 3.0);
-    let rough = |k: usize| if k % 3 == 0 { 1e-3 } else { -1e-3 };
+    let rough = |k: usize| if k.is_multiple_of(3) { 1e-3 } else { -1e-3 };
     let mesh = fan_of(&ring, |k, p| x * p.x + y * p.y + z * rough(k));
     let places = laid(&mesh, BoundaryShape::Hull, Spacing::Chord);
     let boundary: Vec<DVec2> = mesh.boundary_loop().iter().map(|v| ring[v.index() - 1]).collect();
@@ -242,7 +242,7 @@ fn a_polygon_of_the_users_is_not_turned_and_its_corners_stay_in_their_order() {
     let step = Ladder::new(settings, Pins::new()).step(&mesh, Control::unattended()).expect("solvable");
     let places = step.solution.embedding.boundary(&mesh);
     let [low, high] =
-        [Bounds::of(places.iter().copied()), Bounds::of(polygon.corners().iter().copied())].map(|b| b.size());
+        [Bounds::of(places.iter().copied()), Bounds::of(polygon.corners().iter().copied())].map(Bounds::size);
     assert!((low.x / low.y - high.x / high.y).abs() < 1e-9, "as wide and as high as it was given");
 }
 

@@ -171,7 +171,7 @@ fn between_boundaries_that_are_not_convex_weights_of_mesh_and_outside_serve() {
 
 /// Another embedding of a mesh: a drawing in whole numbers, or an even one on a circle.
 fn other_embedding(mesh: &DiskMesh, round: usize) -> Embedding {
-    if round % 2 == 0 {
+    if round.is_multiple_of(2) {
         return schnyder(mesh);
     }
     let settings = Settings::new(Method::Convex(BoundaryShape::Circle), Family::Uniform);

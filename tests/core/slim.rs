@@ -31,9 +31,9 @@ fn tutte(mesh: &DiskMesh) -> Embedding {
 
 /// The map of a face, from its shape in space: the sides of the face from its first corner on go to these in the plane.
 fn jacobian(mesh: &DiskMesh, embedding: &Embedding, [a, b, c]: [VertexId; 3]) -> (f64, DMat2) {
-    let (u, w) = (mesh.position(b) - mesh.position(a), mesh.position(c) - mesh.position(a));
-    let base = u.length();
-    let (along, height) = (w.dot(u) / base, u.cross(w).length() / base);
+    let [first, second] = [b, c].map(|vertex| mesh.position(vertex) - mesh.position(a));
+    let base = first.length();
+    let (along, height) = (second.dot(first) / base, first.cross(second).length() / base);
     let at_rest = DMat2::from_cols(DVec2::new(base, 0.0), DVec2::new(along, height));
     let moved = DMat2::from_cols(embedding[b] - embedding[a], embedding[c] - embedding[a]);
     (base * height, moved * at_rest.inverse())
@@ -238,8 +238,8 @@ fn every_disk_of_the_corpus_ends_with_less_energy_and_an_honest_verdict() {
             last.note.as_deref().unwrap_or_default()
         );
         assert!(steps.iter().skip(1).all(|step| step.verdict.flipped_faces.is_empty()), "{}", entry.file);
-        let [Some(first), Some(least)] = energies else { panic!("{}: no energy", entry.file) };
-        assert!(steps.len() == 1 || least < first, "{}: {first} to {least}", entry.file);
+        let [Some(before), Some(after)] = energies else { panic!("{}: no energy", entry.file) };
+        assert!(steps.len() == 1 || after < before, "{}: {before} to {after}", entry.file);
         assert!(last.note.is_some(), "{}: it says why it ends", entry.file);
     }
 }

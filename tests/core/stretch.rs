@@ -26,7 +26,7 @@ fn settings(method: Method) -> Settings {
     Settings::new(method, Family::default())
 }
 
-/// Twice the area on the surface and in the plane of a face, and its squared L² stretch: (|S_s|² + |S_t|²) / 2 with the
+/// Twice the area on the surface and in the plane of a face, and its squared L² stretch: `(|S_s|² + |S_t|²) / 2` with the
 /// derivatives of the surface by the coordinates of the plane.
 fn of_face(mesh: &DiskMesh, embedding: &Embedding, corners: [VertexId; 3]) -> [f64; 3] {
     let [q1, q2, q3] = corners.map(|v| mesh.position(v));

@@ -90,10 +90,10 @@ impl Rows {
         let cotangents = angles.map(|angle| angle.tan().recip());
         for (k, &place) in net.corners[face].iter().enumerate().filter(|(_, place)| **place != HELD) {
             let [sum, wheel] = self.of_vertices[place as usize];
-            let (next, previous) = ((k + 1) % 3, (k + 2) % 3);
+            let [after, before] = [(k + 1) % 3, (k + 2) % 3];
             found.push(Coefficient { corner: k, row: sum, value: 1.0 });
-            found.push(Coefficient { corner: next, row: wheel, value: cotangents[next] });
-            found.push(Coefficient { corner: previous, row: wheel, value: -cotangents[previous] });
+            found.push(Coefficient { corner: after, row: wheel, value: cotangents[after] });
+            found.push(Coefficient { corner: before, row: wheel, value: -cotangents[before] });
         }
         found
     }

@@ -60,7 +60,7 @@ pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_
     for _ in 0..SOLVES {
         let start = Start { embedding: &embedding, residuals: &solve.residuals(mesh, &embedding) };
         let (nearer, left) = solve.solve_from(site, start, &targets)?;
-        if !(left < residual) {
+        if left >= residual || left.is_nan() {
             break;
         }
         (embedding, residual) = (nearer, left);

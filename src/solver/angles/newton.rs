@@ -8,7 +8,7 @@
 //! W_i = 2/φ_i² + κ/α_i² + (λ_next − λ_previous) / sin² α_i
 //! ```
 //!
-//! `next` is the vertex at the face's next corner: it sees α_i as the angle of its previous corner, and the other way
+//! `next` is the vertex at the face's next corner: it sees `α_i` as the angle of its previous corner, and the other way
 //! round. Where the last term is below zero, W is kept above a share of the others: so W is positive, and every step goes
 //! down the merit
 //!

@@ -36,10 +36,10 @@ impl Pairs {
             let nearer = net.mesh.outgoing(vertex).find(is_nearer).expect("the boundary is some steps away");
             // An inner halfedge leaves the corner of its own number.
             let (face, corner) = (nearer.index() / 3, nearer.index() % 3);
-            let (next, previous) = ((corner + 1) % 3, (corner + 2) % 3);
+            let [after, before] = [(corner + 1) % 3, (corner + 2) % 3];
             // The wheel hardly depends on an angle near π/2.
             let says_much = |k: usize| net.targets[face][k] * net.targets[face][k].tan().recip().abs();
-            let (own, other) = if says_much(next) >= says_much(previous) { (next, previous) } else { (previous, next) };
+            let [own, other] = if says_much(after) >= says_much(before) { [after, before] } else { [before, after] };
             of_vertices.push([corner, own].map(|k| 3 * face + k));
             of_faces[face] = 3 * face + other;
         }

@@ -83,8 +83,10 @@ impl Circle {
         let moment = half.moment(time);
         let outline = half.outline(moment);
         let mut start = self.latest.clone();
-        outline.iter().for_each(|(&vertex, &at)| start[vertex] = at);
-        let layer = half.layers_held(moment);
+        for (&vertex, &at) in &outline {
+            start[vertex] = at;
+        }
+        let layer = moment.layers_held();
         let held = match self.held.take().filter(|held| (held.0, held.1) == (which, layer)) {
             Some((_, _, held)) => held,
             None => Held::new(&half.disk, |v| outline.contains_key(&v), control)?,

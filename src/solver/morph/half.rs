@@ -32,6 +32,13 @@ pub(super) struct Moment {
     share: f64,
 }
 
+impl Moment {
+    /// How many layers are held then: each from the stage on in which it is pushed.
+    pub(super) fn layers_held(self) -> usize {
+        (self.stage + 1).saturating_sub(FIRST_RELEASE) / 2
+    }
+}
+
 /// The circle, and how directions on it are turned.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Round {
@@ -152,12 +159,6 @@ impl Half {
             left -= lasts;
         }
         Moment { stage: stages.len(), share: 0.0 }
-    }
-
-    /// How many layers are held at a moment.
-    pub(super) fn layers_held(&self, moment: Moment) -> usize {
-        // A layer is held from the stage on in which it is pushed.
-        (moment.stage + 1).saturating_sub(FIRST_RELEASE) / 2
     }
 
     /// The places of all that is held at a moment: the outline.

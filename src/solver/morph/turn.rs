@@ -24,7 +24,7 @@ impl Turn {
 
     /// The end as it lies over the beginning.
     pub(super) fn taken_back(&self, end: &Embedding) -> Embedding {
-        let back = self.0.map(|turn| turn.inverse());
+        let back = self.0.map(Similarity::inverse);
         end.iter().map(|&z| back.map_or(z, |back| back.apply(z))).collect()
     }
 

@@ -21,6 +21,7 @@ const BESIDE: &[&str] = &["mtl", "bin"];
 
 impl Editor {
     /// Carries out a request.
+    #[expect(clippy::too_many_lines, reason = "a line for each request")]
     pub fn handle(&mut self, request: Request) {
         match request {
             Request::Do(action) => self.act(action),
@@ -210,8 +211,7 @@ impl Editor {
         } else if self.pointer.end_box() {
         } else if self.tools.pair().is_some() {
             self.tools.set_pair(None);
-        } else if self.tools.seam.end() {
-        } else if self.leave_comparison() {
+        } else if self.tools.seam.end() || self.leave_comparison() {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
         } else {
