@@ -24,7 +24,7 @@ use crate::io::{
     write_to_standard_output,
 };
 use crate::session::{Compared, Document, Model, Problem, comparison_report};
-use crate::solver::{Choice as _, Control, Method, Phase, Start, Variant};
+use crate::solver::{Choice as _, Control, Family, Method, Phase, Start, Variant};
 use crate::view::ComparisonPicture;
 
 /// Pixels per point of the picture.
@@ -116,6 +116,9 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
     if let Some((option, why)) = arguments.solve.idle_option(&methods) {
         return Err(Failure::Usage(format!("no method that is compared takes {option}: {}: {why}", methods[0].name())));
     }
+    if let Some(family) = arguments.solve.family {
+        give_weights(&mut variants, family)?;
+    }
     let problems: Vec<Problem> = variants.into_iter().map(|variant| problem.by(variant)).collect();
     for (count, second) in problems.iter().enumerate() {
         if problems[..count].iter().any(|first| first.settings == second.settings) {
@@ -124,6 +127,27 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
         }
     }
     Ok(problems)
+}
+
+/// Gives the weights that were asked for to the methods that name none and can take them.
+///
+/// # Errors
+///
+/// Where there are none of these.
+fn give_weights(variants: &mut [Variant], family: Family) -> Result<(), Failure> {
+    let mut refused = None;
+    let mut are_given = false;
+    for variant in variants.iter_mut().filter(|variant| variant.method.uses_family() && variant.family.is_none()) {
+        match family.check_for(variant.method) {
+            Ok(()) => (variant.family, are_given) = (Some(family), true),
+            Err(error) => refused = refused.or(Some(error)),
+        }
+    }
+    match refused {
+        _ if are_given => Ok(()),
+        Some(error) => Err(error.into()),
+        None => Err(Failure::Usage("no method that is compared takes --family: all name their own weights".into())),
+    }
 }
 
 /// Runs each method to its end.

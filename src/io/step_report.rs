@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::solver::{Choice as _, Convergence, Method, Step};
 
 /// One step of one rung.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct StepReport {
     /// The rung's method.
     pub rung: Method,
@@ -21,7 +21,8 @@ pub struct StepReport {
     pub boundary_crossings: usize,
     /// Overwound vertices.
     pub overwound_vertices: usize,
-    /// Vertices outside the hull of their neighbours: no fault of their own, but why it folds.
+    /// Vertices outside the hull of their neighbours, or without one on the surface's side where the boundary goes straight on:
+    /// no fault of their own, but why it folds.
     pub outside_hull_vertices: usize,
     /// Turning number of the boundary.
     pub turning_number: Option<i64>,

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-use super::{Choice, Method, Words};
+use super::{Choice, Method, SolveError, Words};
 
 /// A family of weights: how the offset d depends on the edge length r.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,6 +44,22 @@ impl Family {
     /// Whether a method can be solved with these weights: those that are not three-point need a convex boundary.
     pub const fn goes_with(self, method: Method) -> bool {
         self.power().is_some() || method.takes_any_family()
+    }
+
+    /// Whether a method that has a choice of weights can be solved with these.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::FamilyNotApplicable`] where it cannot.
+    pub fn check_for(self, method: Method) -> Result<(), SolveError> {
+        if !method.uses_family() || self.goes_with(method) {
+            return Ok(());
+        }
+        Err(SolveError::FamilyNotApplicable {
+            method: method.name(),
+            family: self.to_string(),
+            remedy: "it needs a convex boundary (method convex)",
+        })
     }
 }
 

@@ -6,7 +6,8 @@
 //! every interior vertex lies in the convex hull of its neighbours, and so does every *reflex* vertex of the boundary, where
 //! the boundary turns right. (S. Gortler, C. Gotsman, D. Thurston, "Discrete one-forms on meshes and applications to 3D mesh
 //! parameterization", 2006; so stated in the proof of the paper's Theorem 1.) Planar is meant locally: all faces are
-//! positive. With a simple boundary it is so globally. For a surface with holes the turning number of each inner loop is to be −1.
+//! positive. With a simple boundary it is so globally. For a surface with holes the turning number of each inner loop is to be
+//! −1, with the surface to its left ([`holes_turn_once`]): that of the outer loop alone says too little.
 //!
 //! # Why
 //!
@@ -16,6 +17,10 @@
 //! extreme of the boundary. A boundary with the turning number 1 and r reflex extremes has 2 + r convex ones; the outside
 //! then has the index 1 − (2 + 2r)/2 = −r. So the sum of 2 is reached only where every convex extreme has the index 1 and
 //! every other vertex 0, for each of these directions: neighbours go once around each vertex, and nothing folds.
+//!
+//! An inner loop with the turning number −1 and c convex extremes has c + 2 reflex ones, and the index 1 − (2c + 2)/2 = −c:
+//! again the convex extremes cannot make up for more. Where several loops meet in a vertex it is a corner of each; all its
+//! edges lie to one side only where it is an extreme of each of them. So one convex corner is enough for it to be free.
 //!
 //! Here *inside* is strict, and a vertex where the boundary goes straight on must have a neighbour on the surface's side: so no
 //! face is without area, and the mesh need not be 3-connected.
@@ -31,7 +36,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::Embedding;
-use crate::geom::{Orientation, is_down, is_inside_hull, orientation};
+use crate::geom::{Orientation, is_down, is_inside_hull, orientation, turning_number};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// What is asked of a vertex.
@@ -44,7 +49,8 @@ pub enum CornerKind {
     /// The boundary, or the loop around a hole, goes straight on: it lies on the rim of the hull then, and a neighbour has to lie on the
     /// surface's side.
     Straight,
-    /// The boundary turns toward the surface, or exactly back: nothing is asked of it.
+    /// The boundary turns toward the surface, or exactly back: nothing is asked of it. So it is where several loops meet and
+    /// one of them does.
     Convex,
 }
 
@@ -67,7 +73,18 @@ impl HullStanding {
 /// Vertices whose neighbours' positions share the work of one task.
 const VERTICES_PER_TASK: usize = 1024;
 
-/// The vertices that violate the hull condition, ascending. `upright` is the orientation that faces should have: clockwise for an
+/// Whether the loop around each hole turns once, as the theorem asks besides the outer loop: +1 in the direction in which its
+/// filling runs around, and that is −1 with the surface to the left. The other way round where `upright` is clockwise. Exact.
+pub fn holes_turn_once(mesh: &DiskMesh, embedding: &Embedding, upright: Orientation) -> bool {
+    let once = if upright == Orientation::Clockwise { -1 } else { 1 };
+    mesh.mesh().holes().iter().all(|hole| {
+        let places: Vec<DVec2> = hole.rim.iter().map(|&v| embedding[v]).collect();
+        turning_number(&places) == Some(once)
+    })
+}
+
+/// The vertices that violate the hull condition, ascending: inside the surface, and where its boundary turns away from it or
+/// goes straight on. `upright` is the orientation that faces should have: clockwise for an
 /// embedding that is judged in the mirror. Exact; vertices with a neighbour that is not finite count as outside.
 pub fn vertices_outside_hull(mesh: &DiskMesh, embedding: &Embedding, upright: Orientation) -> Vec<VertexId> {
     let is_at_fault = |ring: &mut Ring, vertex: VertexId| {
@@ -93,26 +110,23 @@ pub fn hull_standing(
     Some(ring.standing(embedding, vertex, upright))
 }
 
+/// The neighbours of a vertex along edges of the surface, counter-clockwise: edges within what fills a hole lead to none. Empty
+/// for a vertex of no real face.
+pub(super) fn neighbours_on_surface(mesh: &DiskMesh, vertex: VertexId) -> Vec<VertexId> {
+    let mut ring = Ring::default();
+    ring.surround(mesh, vertex).map_or_else(Vec::new, |()| ring.neighbours)
+}
+
 /// The neighbours of a vertex along edges of the surface: what only fills holes is none of it.
 #[derive(Debug, Default)]
 struct Ring {
-    /// Counter-clockwise; of a vertex on the rim from the next one along the rim to the one before.
+    /// Counter-clockwise; of a vertex on the rim they begin with one that is next along it.
     neighbours: Vec<VertexId>,
     places: Vec<DVec2>,
-    rim: Rim,
+    /// Of each loop that the vertex is a corner of, the vertices before and after it, the surface being to the left.
+    corners: Vec<[VertexId; 2]>,
     /// The heads of all halfedges that leave the vertex, and whether a face of the surface lies to the left.
     spokes: Vec<(VertexId, bool)>,
-}
-
-/// Whether the surface ends at a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Rim {
-    #[default]
-    None,
-    /// It is a corner of one loop.
-    Once,
-    /// It is a corner of several holes, between which faces stand alone.
-    Several,
 }
 
 impl Ring {
@@ -123,23 +137,27 @@ impl Ring {
         self.spokes.clear();
         self.spokes.extend(mesh.outgoing(vertex).map(|h| (mesh.head(h), is_real(h))));
         let (spokes, count) = (&self.spokes, self.spokes.len());
-        let begins = |&k: &usize| spokes[k].1 && !spokes[(k + count - 1) % count].1;
-        let mut beginnings = (0..count).filter(begins);
-        let first = beginnings.next();
-        self.rim = match (first, beginnings.next()) {
-            (None, _) => Rim::None,
-            (Some(_), None) => Rim::Once,
-            (Some(_), Some(_)) => Rim::Several,
-        };
+        // Whether faces of the surface lie before and behind a spoke.
+        let sides = |k: usize| [spokes[(k + count - 1) % count].1, spokes[k].1];
+        let first = (0..count).find(|&k| sides(k) == [false, true]);
         if first.is_none() && !spokes.iter().any(|&(_, is_real)| is_real) {
             return None;
         }
-        let first = first.unwrap_or(0);
         self.neighbours.clear();
-        for k in first..first + count {
-            let touches = spokes[k % count].1 || spokes[(k + count - 1) % count].1;
-            self.neighbours.extend(touches.then_some(spokes[k % count].0));
+        self.corners.clear();
+        let mut before = None;
+        let begin = first.unwrap_or(0);
+        for k in (begin..begin + count).map(|k| k % count) {
+            let neighbour = spokes[k].0;
+            match sides(k) {
+                [false, false] => continue,
+                [false, true] => self.corners.extend(before.take().map(|before| [before, neighbour])),
+                [true, false] => before = Some(neighbour),
+                [true, true] => {}
+            }
+            self.neighbours.push(neighbour);
         }
+        self.corners.extend(before.zip(first).map(|(before, first)| [before, spokes[first].0]));
         Some(())
     }
 
@@ -147,30 +165,32 @@ impl Ring {
         self.places.clear();
         self.places.extend(self.neighbours.iter().map(|v| embedding[v]));
         let place = embedding[vertex];
-        let corner = self.corner(place, upright);
-        let is_on_side =
-            |other: &DVec2| orientation(self.places[self.places.len() - 1], place, *other) == Some(upright);
+        let is_of_kind = |kind: &CornerKind| {
+            self.corners.iter().any(|corner| kind_of(corner.map(|v| embedding[v]), place, upright) == *kind)
+        };
+        // Of several loops the one that asks least counts.
+        let kinds = [CornerKind::Convex, CornerKind::Straight, CornerKind::Reflex];
+        let corner = kinds.into_iter().find(is_of_kind).unwrap_or(CornerKind::Interior);
+        let is_on_side = |[before, _]: &[VertexId; 2]| {
+            self.places.iter().any(|&other| orientation(embedding[*before], place, other) == Some(upright))
+        };
         let is_inside = match corner {
-            CornerKind::Straight => self.places.iter().any(is_on_side),
+            CornerKind::Straight => self.corners.iter().all(is_on_side),
             _ => is_inside_hull(place, &self.places),
         };
         HullStanding { corner, is_inside }
     }
+}
 
-    fn corner(&self, place: DVec2, upright: Orientation) -> CornerKind {
-        let (Some(&next), Some(&before)) = (self.places.first(), self.places.last()) else { return CornerKind::Convex };
-        match self.rim {
-            Rim::None => CornerKind::Interior,
-            Rim::Several => CornerKind::Convex,
-            Rim::Once => match orientation(before, place, next) {
-                Some(Orientation::Collinear) => {
-                    let goes_on = is_down(before, place).zip(is_down(place, next)).is_some_and(|(a, b)| a == b);
-                    if goes_on { CornerKind::Straight } else { CornerKind::Convex }
-                }
-                turn if turn == Some(upright) => CornerKind::Convex,
-                // Also where it cannot be told, for a coordinate is not finite.
-                _ => CornerKind::Reflex,
-            },
+/// What is asked of a vertex between those before and after it along a loop.
+fn kind_of([before, next]: [DVec2; 2], place: DVec2, upright: Orientation) -> CornerKind {
+    match orientation(before, place, next) {
+        Some(Orientation::Collinear) => {
+            let goes_on = is_down(before, place).zip(is_down(place, next)).is_some_and(|(a, b)| a == b);
+            if goes_on { CornerKind::Straight } else { CornerKind::Convex }
         }
+        turn if turn == Some(upright) => CornerKind::Convex,
+        // Also where it cannot be told, for a coordinate is not finite.
+        _ => CornerKind::Reflex,
     }
 }

@@ -97,7 +97,7 @@ pub use embedding::Embedding;
 pub use error::SolveError;
 pub use family::Family;
 pub use flatten::{FlattenError, Options, flatten};
-pub use hull_condition::{CornerKind, HullStanding, hull_standing, vertices_outside_hull};
+pub use hull_condition::{CornerKind, HullStanding, holes_turn_once, hull_standing, vertices_outside_hull};
 pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, largest_move};
 pub use lee::Padded;

@@ -30,6 +30,7 @@ use std::cmp::Ordering;
 use glam::DVec2;
 
 use super::Embedding;
+use super::hull_condition::neighbours_on_surface;
 use crate::geom::{Orientation, is_down, order_along, orientation};
 use crate::mesh::{DiskMesh, HalfedgeId, VertexId};
 
@@ -79,16 +80,16 @@ fn index_of(signs: &[bool]) -> i64 {
     1 - i64::try_from(changes / 2).expect("a vertex has fewer than 2⁶³ edges")
 }
 
-/// The least and the greatest index of a vertex over all directions that no edge of it is at right angles to. Exact; none
-/// for a vertex of no face, and where a neighbour has its place or is not finite.
+/// The least and the greatest index of a vertex over all directions that no edge of it is at right angles to. Edges within
+/// what fills a hole do not count: it may fold without harm. Exact; none for a vertex of no real face, and where a neighbour has its place or is not finite.
 ///
 /// A direction that turns has the sign of an edge change where it comes to be at right angles to it. So the edges are sorted by
 /// their lines, and half a turn is gone through line by line: O(d log d) for d neighbours.
 pub fn index_range(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> Option<[i64; 2]> {
     let place = embedding.get(vertex.index()).copied()?;
     let mut spokes: Vec<Spoke> = Vec::new();
-    for halfedge in mesh.outgoing(vertex) {
-        let end = embedding[mesh.head(halfedge)];
+    for neighbour in neighbours_on_surface(mesh, vertex) {
+        let end = embedding[neighbour];
         spokes.push(Spoke { end, is_down: is_down(place, end)? });
     }
     // Just before the angle 0, whatever points up lies to the left.

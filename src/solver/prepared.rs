@@ -22,7 +22,7 @@ use super::shape_preserving::shape_preserving;
 use super::spectral::spectral;
 use super::system::{FreeSystem, Site};
 use super::units::Units;
-use super::{Choice as _, Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use super::{Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -86,7 +86,7 @@ impl Prepared {
     /// Pins that cannot be, a family that does not go with the method, degenerate weights, a singular matrix, or the
     /// caller's wish to stop.
     pub fn new(mesh: &DiskMesh, settings: &Settings, pins: &Pins, control: Control<'_>) -> Result<Self, SolveError> {
-        check_family(settings)?;
+        settings.family.check_for(settings.method)?;
         let pins = if settings.method.uses_pins() { pins } else { &Pins::new() };
         check_pins(mesh, pins)?;
         control.enter(Phase::Assemble)?;
@@ -228,17 +228,6 @@ impl Prepared {
             seconds: PhaseSeconds { solve: start.elapsed().as_secs_f64(), ..self.seconds },
         })
     }
-}
-
-fn check_family(settings: &Settings) -> Result<(), SolveError> {
-    if settings.method.uses_family() && !settings.family.goes_with(settings.method) {
-        return Err(SolveError::FamilyNotApplicable {
-            method: settings.method.name(),
-            family: settings.family.to_string(),
-            remedy: "it needs a convex boundary (method convex)",
-        });
-    }
-    Ok(())
 }
 
 fn convex_equations(mesh: &DiskMesh, family: Family) -> Result<Equations<f64>, SolveError> {

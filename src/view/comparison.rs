@@ -1,7 +1,7 @@
 //! The picture of a comparison: the embeddings of several methods side by side at one scale, with one scale of colours, and the
 //! numbers of each below it.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::{CellFrame, CellFrames, Quantity, Range};
 use crate::geom::{Bounds, Picture};
@@ -145,13 +145,13 @@ fn tinted(mesh: &DiskMesh, outcome: &Outcome, quantity: Quantity, range: Range, 
     TintedDrawing::of_step(mesh, &outcome.step, colours, window)
 }
 
-/// The mesh in space under a checker of the plane, seen from the side that most faces look to.
+/// The mesh in space under a checker of the plane, seen from the side that most of it looks to; from the front where it is a
+/// closed surface that was cut open.
 fn checkered(given: &DiskMesh, outcome: &Outcome) -> Picture {
     let mesh = outcome.step.mesh(given).mesh();
     let embedding = &outcome.step.solution.embedding;
     let triangles = mesh.real_triangles();
-    let eye = (0..triangles.len()).map(|face| mesh.double_area_vector(FaceId::from_index(face))).sum();
-    let view = View { eye, up: if eye.cross(DVec3::Y) == DVec3::ZERO { DVec3::Z } else { DVec3::Y } };
+    let view = View::facing((0..triangles.len()).map(|face| mesh.double_area_vector(FaceId::from_index(face))));
     let double_area = |corners: &[VertexId; 3]| {
         let [a, b, c] = corners.map(|v| embedding[v]);
         (b - a).perp_dot(c - a).abs()

@@ -143,6 +143,47 @@ fn weights_of_the_settings_are_for_methods_that_name_none_and_go_with_them() {
     let compared = methods(&program, &["tent.obj", "--methods", "convex@circle,convex@square"]);
     assert_eq!(names(&compared), ["convex", "convex@square"]);
     assert_eq!((compared[0]["shape"].as_str(), compared[1]["shape"].as_str()), (Some("circle"), Some("square")));
+    let compared = methods(&program, &["tent.obj", "--methods", "natural,lee", "--family", "conformal"]);
+    assert_eq!(
+        names(&compared),
+        ["natural", "lee/conformal"],
+        "what is asked for is taken, also where it is usual for others"
+    );
+}
+
+#[test]
+fn weights_that_no_method_takes_are_refused_and_the_table_says_which_are_used() {
+    let program = tent();
+    let with =
+        |list: &'static str, family: &'static str| ["compare", "tent.obj", "--methods", list, "--family", family];
+    for family in ["uniform", "shape-preserving"] {
+        let run = program.run(&with("natural,lscm", family)).expect(2);
+        assert!(run.stderr.contains(&format!("natural does not go with the family {family}")), "{}", run.stderr);
+    }
+    let run = program.run(&with("natural/mean-value,lscm", "wachspress")).expect(2);
+    assert!(run.stderr.contains("all name their own weights"), "{}", run.stderr);
+    let arguments = with("natural,convex,lscm", "uniform");
+    let run = program.run(&arguments).expect(0);
+    let begin = |row: &str| row.split_whitespace().take(2).map(str::to_owned).collect::<Vec<_>>();
+    let rows: Vec<Vec<String>> = run.stdout.lines().map(begin).collect();
+    for row in [["Method", "Weights"], ["natural", "conformal"], ["convex/uniform", "uniform"], ["lscm", "–"]] {
+        assert!(rows.iter().any(|other| *other == row), "{row:?} is not in\n{}", run.stdout);
+    }
+    let csv = csv_rows(&program.run(&[&arguments[..], &["--csv", "-"]].concat()).expect(0).stdout);
+    let at = csv[0].iter().position(|head| head == "family").expect("a column");
+    assert_eq!(csv[1..].iter().map(|row| row[at].as_str()).collect::<Vec<_>>(), ["conformal", "uniform", ""]);
+}
+
+#[test]
+fn the_table_of_steps_has_its_head_where_no_method_took_one() {
+    let program = tent();
+    let steps = |list: &str| {
+        let arguments = [&["compare", "tent.obj", "--methods", list, "--steps-csv", "-"], &PINS[..]].concat();
+        csv_rows(&program.run(&arguments).expect(0).stdout)
+    };
+    let (none, some) = (steps("virtual-boundary"), steps("natural"));
+    assert!(some.len() > 1);
+    assert_eq!(none, some[..1]);
 }
 
 #[test]

@@ -4,10 +4,10 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve as _;
 use freebound::geom::{Orientation, convex_hull, is_inside_hull, orientation};
-use freebound::mesh::{DiskMesh, Form, VertexId};
+use freebound::mesh::{DiskMesh, Form, PolygonMesh, VertexId};
 use freebound::solver::{
     BoundaryShape, Control, CornerKind, Embedding, Family, Ladder, Method, Pins, Settings, Step, hard_pins,
-    hull_standing, verdict, vertices_outside_hull,
+    holes_turn_once, hull_standing, verdict, vertices_outside_hull,
 };
 use glam::{DVec2, DVec3};
 
@@ -40,12 +40,18 @@ struct Facts {
 fn facts(mesh: &DiskMesh, embedding: &Embedding) -> Facts {
     let verdict = verdict(mesh, embedding);
     let once = if verdict.mirrored { -1 } else { 1 };
+    let is_on_surface =
+        |v: &&VertexId| mesh.outgoing(**v).filter_map(|h| mesh.face_of(h)).all(|face| !mesh.is_virtual(face));
     Facts {
         outside: vertices_outside_hull(mesh, embedding, verdict.upright()),
-        turns_once: verdict.turning_number == Some(once),
-        is_locally_planar: verdict.flipped_faces.is_empty() && verdict.overwound_vertices.is_empty(),
-        has_simple_boundary: verdict.boundary_crossings.is_empty(),
-        is_one_to_one: verdict.is_one_to_one(),
+        turns_once: verdict.turning_number == Some(once) && holes_turn_once(mesh, embedding, verdict.upright()),
+        is_locally_planar: verdict.flipped_faces.is_empty()
+            && verdict.overwound_vertices.iter().find(is_on_surface).is_none(),
+        has_simple_boundary: verdict.boundary_crossings.is_empty() && verdict.crossed_holes.is_empty(),
+        // The surface alone: what fills its holes may fold.
+        is_one_to_one: verdict.flipped_faces.is_empty()
+            && verdict.crossed_holes.is_empty()
+            && verdict.boundary_crossings.is_empty(),
     }
 }
 
@@ -259,6 +265,81 @@ fn of_a_planar_surface_with_holes_no_vertex_is_outside_however_its_filling_lies(
     assert!(planar > 50, "{planar} planar, {folded_filling} with a folded filling");
 }
 
+/// A polygon mesh as a disk whose holes are filled.
+fn filled(mesh: &PolygonMesh) -> DiskMesh {
+    DiskMesh::try_from(Form::default().repaired(mesh).triangulate()).unwrap()
+}
+
+/// Triangles between a regular polygon of radius 3 and one of radius 1, whose corners come behind those of the outer one.
+pub(super) fn ring(count: u32) -> DiskMesh {
+    let corner = |k: u32| DVec2::from_angle(std::f64::consts::TAU * f64::from(k % count) / f64::from(count));
+    let positions = (0..2 * count).map(|k| (corner(k) * if k < count { 3.0 } else { 1.0 }).extend(0.0)).collect();
+    let faces = (0..count).flat_map(|k| {
+        let next = (k + 1) % count;
+        [[k, next, count + k], [count + k, next, count + next]].concat()
+    });
+    let corners: Vec<VertexId> = faces.map(VertexId::new).collect();
+    let starts = Some((0..=2 * count).map(|face| 3 * face).collect());
+    let mesh = filled(&PolygonMesh { positions, corners, starts });
+    assert_eq!((mesh.boundary_loop().len(), mesh.mesh().holes().len()), (count as usize, 1));
+    mesh
+}
+
+/// Where the vertices of a mesh lie from above.
+fn from_above(mesh: &DiskMesh) -> Embedding {
+    mesh.mesh().positions.iter().map(|p| p.truncate()).collect()
+}
+
+#[test]
+fn a_ring_that_is_mirrored_within_folds_without_a_vertex_outside_for_its_hole_does_not_turn_once() {
+    let mesh = ring(3);
+    let mut embedding = from_above(&mesh);
+    assert!(facts(&mesh, &embedding).is_one_to_one && facts(&mesh, &embedding).turns_once);
+    (3..6).for_each(|k| embedding[k].y = -embedding[k].y);
+    let verdict = verdict(&mesh, &embedding);
+    assert_eq!((verdict.turning_number, verdict.flipped_faces.len()), (Some(1), 2));
+    for vertex in (0..6).map(VertexId::new) {
+        let standing = hull_standing(&mesh, &embedding, vertex, Orientation::CounterClockwise).unwrap();
+        assert_eq!(standing.corner, CornerKind::Convex, "{vertex}");
+    }
+    assert_eq!(vertices_outside_hull(&mesh, &embedding, Orientation::CounterClockwise), []);
+    assert!(!holes_turn_once(&mesh, &embedding, Orientation::CounterClockwise));
+    let mirrored: Embedding = embedding.iter().map(|z| DVec2::new(-z.x, z.y)).collect();
+    assert!(!holes_turn_once(&mesh, &mirrored, Orientation::Clockwise));
+}
+
+/// A sheet without two squares that meet at a corner.
+fn holes_about_a_vertex() -> DiskMesh {
+    let mut random = Random(38);
+    let sheet = quad_sheet(4, 4, 0.0, &mut random);
+    filled(&without_faces(&sheet, |face| [5, 10].contains(&face)))
+}
+
+#[test]
+fn the_theorem_and_its_converse_hold_with_holes_whose_loops_all_turn_once() {
+    let mut random = Random(37);
+    let meshes = [ring(3), ring(4), ring(5), holes_about_a_vertex()];
+    let (mut one_to_one, mut folded_turning_once, mut only_holes_tell) = (0, 0, 0);
+    for round in 0..24_000 {
+        let mesh = &meshes[round % meshes.len()];
+        let scale = f64::from(1 + random.below(5));
+        let mut embedding = from_above(mesh);
+        let size = u32::try_from(1 + round % 4).unwrap();
+        for place in embedding.iter_mut() {
+            let by = DVec2::new(f64::from(random.below(2 * size + 1)), f64::from(random.below(2 * size + 1)));
+            *place = (scale * *place + by - f64::from(size)).round();
+        }
+        let facts = facts(mesh, &embedding);
+        assert_theorem(&facts, &(round, &embedding));
+        one_to_one += usize::from(facts.is_one_to_one);
+        folded_turning_once += usize::from(facts.turns_once && !facts.is_locally_planar);
+        let is_missed = facts.outside.is_empty() && !facts.is_locally_planar;
+        only_holes_tell += usize::from(is_missed && verdict(mesh, &embedding).turning_number == Some(1));
+    }
+    let counts = [one_to_one, folded_turning_once, only_holes_tell];
+    assert!(one_to_one > 1_000 && folded_turning_once > 1_000 && only_holes_tell > 20, "{counts:?}: too few to tell");
+}
+
 fn steps_of(mesh: &DiskMesh, settings: Settings) -> Vec<Step> {
     let mut steps = Vec::new();
     Ladder::new(settings, Pins::new()).finish(mesh, Control::unattended(), |step| steps.push(step)).unwrap();
@@ -294,6 +375,7 @@ fn a_folded_step_with_a_boundary_that_turns_once_has_a_vertex_outside() {
         let mut ladder = Ladder::new(Settings::new(Method::Iterate, Family::Conformal), pins);
         ladder
             .finish(&mesh, Control::unattended(), |step| {
+                assert_eq!(step.hull_seconds > 0.0, !step.verdict.is_one_to_one(), "looked for only where it folds");
                 let is_folded = !step.verdict.flipped_faces.is_empty() && step.verdict.turning_number == Some(1);
                 folded += usize::from(is_folded);
                 assert!(!is_folded || !step.outside_hull.is_empty(), "step {} of cube {case}", step.index);

@@ -9,6 +9,7 @@ use freebound::solver::{CornerKind, Embedding, OneFormIndices, hull_standing, in
 use glam::DVec2;
 use num_rational::BigRational;
 
+use super::hull_condition::ring;
 use super::verdict_cases::{grid_case, nearly_planar_case, nudge};
 use crate::makers::{Random, grid};
 
@@ -134,4 +135,27 @@ fn a_vertex_inside_the_hull_is_an_extreme_along_no_direction_and_one_away_from_i
 fn is_off_the_rim(mesh: &DiskMesh, embedding: &Embedding, vertex: VertexId) -> bool {
     let arms: Vec<DVec2> = mesh.outgoing(vertex).map(|h| embedding[mesh.head(h)] - embedding[vertex]).collect();
     arms.iter().enumerate().all(|(k, a)| arms[..k].iter().all(|b| a.perp_dot(*b) != 0.0))
+}
+
+#[test]
+fn around_a_hole_of_a_planar_surface_no_index_is_negative_however_its_filling_folds() {
+    let mut random = Random(46);
+    let (mesh, mut folded) = (ring(7), 0);
+    for _ in 0..2_000 {
+        let mut embedding: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
+        (7..14).for_each(|k| embedding[k] *= 0.2 + 2.3 * random.unit());
+        for vertex in mesh.virtual_vertices() {
+            embedding[vertex] = DVec2::new(random.unit(), random.unit()) * 3.0;
+        }
+        let verdict = verdict(&mesh, &embedding);
+        if !verdict.planar {
+            continue;
+        }
+        folded += usize::from(verdict.is_filling_folded);
+        for vertex in (0..14).map(VertexId::new) {
+            let range = index_range(&mesh, &embedding, vertex).expect("no two places are one");
+            assert!(range[0] >= 0, "{vertex}: {range:?} in {embedding:?}");
+        }
+    }
+    assert!(folded > 100, "{folded} with a folded filling: too few to tell");
 }

@@ -5,7 +5,7 @@ use freebound::io::ProvedEmbedding;
 use freebound::io::raster::{Canvas, Colour, Paint, Shading, View, colours, mesh_picture, plane_picture};
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{Embedding, verdict};
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 const SQUARE: [DVec2; 4] = [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0), DVec2::new(0.0, 1.0)];
 
@@ -187,4 +187,36 @@ fn the_picture_does_not_depend_on_the_number_of_threads() {
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool").install(draw);
     let three = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("a pool").install(draw);
     assert_eq!(alone, three);
+}
+
+/// Twice the area vectors of a box's triangles, turned; without those of the side towards x where it is open.
+fn box_areas(turn: DQuat, is_open: impl Fn(DVec3) -> bool) -> (DVec3, Vec<DVec3>) {
+    let corner = |k: usize| turn * DVec3::new([0.1, 0.7][k & 1], [0.2, 0.9][k >> 1 & 1], [0.3, 1.4][k >> 2]);
+    let sides = [[1, 3, 7, 5], [0, 4, 6, 2], [2, 6, 7, 3], [0, 1, 5, 4], [4, 5, 7, 6], [0, 2, 3, 1]];
+    let areas = sides
+        .into_iter()
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(corner)).map(|[a, b, c]| (b - a).cross(c - a)));
+    let areas: Vec<DVec3> = areas.filter(|&area| !is_open(area)).collect();
+    (areas.iter().sum(), areas)
+}
+
+#[test]
+fn a_closed_surface_is_seen_from_the_front_and_an_open_one_from_the_side_that_it_looks_to() {
+    let mut noisy = 0;
+    for k in 0..50 {
+        let turn = DQuat::from_axis_angle(DVec3::new(0.36, 0.48, 0.8), f64::from(k) * 0.7);
+        let (left, areas) = box_areas(turn, |_| false);
+        assert!(left.length() < 1e-14, "the area vectors of a closed surface cancel out: {left}");
+        noisy += usize::from(left != DVec3::ZERO);
+        assert_eq!(View::facing(areas), View::FRONT);
+        let open = turn * DVec3::X;
+        let (_, areas) = box_areas(turn, |area| area.normalize_or_zero().dot(open) > 0.9);
+        assert_eq!(areas.len(), 10);
+        let eye = View::facing(areas).eye;
+        assert!(eye.normalize_or_zero().distance(-open) < 1e-12, "{eye} is not against {open}");
+    }
+    assert!(noisy > 25, "{noisy}: what is left would be zero anyhow");
+    assert_eq!(View::facing([]), View::FRONT);
+    let almost_up = DVec3::new(1e-15, 2.0, 0.0);
+    assert_eq!(View::facing([almost_up]), View { eye: almost_up, up: DVec3::Z });
 }

@@ -166,7 +166,7 @@ impl From<&Verdict> for VerdictCounts {
 }
 
 /// A step with what it has come to by then: points of curves over time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct TimedStep {
     /// The step.
     pub step: StepReport,

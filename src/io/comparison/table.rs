@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::column::exact_number;
-use super::{Column, ComparisonReport, Direction, MethodReport, TimedStep};
+use super::{Cell, Column, ComparisonReport, Direction, MethodReport, TimedStep};
 use crate::solver::Choice as _;
 
 /// Blanks between two columns.
@@ -19,16 +19,23 @@ impl ComparisonReport {
         methods
     }
 
-    /// The table in columns, for a person: words at the left, numbers at the right.
+    /// The table in columns, for a person: words at the left, numbers at the right; behind the method's name its weights.
     pub fn table(&self, by: Option<Column>) -> String {
-        let row = |of: &MethodReport| Column::ALL.iter().map(|column| column.cell(of).words()).collect::<Vec<_>>();
-        let heads = Column::ALL.iter().map(|column| column.words().title.to_owned()).collect();
+        let row = |of: &MethodReport| {
+            let mut cells: Vec<String> = Column::ALL.iter().map(|column| column.cell(of).words()).collect();
+            cells.insert(1, of.family.map_or_else(|| Cell::Nothing.words(), |family| family.to_string()));
+            cells
+        };
+        let mut heads: Vec<String> = Column::ALL.iter().map(|column| column.words().title.to_owned()).collect();
+        heads.insert(1, "Weights".to_owned());
+        let mut are_words: Vec<bool> = Column::ALL.iter().map(|column| column.is_of_words()).collect();
+        are_words.insert(1, true);
         let rows: Vec<Vec<String>> = std::iter::once(heads).chain(self.sorted(by).into_iter().map(row)).collect();
         let width = |at: usize| rows.iter().map(|row| row[at].chars().count()).max().unwrap_or(0);
-        let widths: Vec<usize> = (0..Column::ALL.len()).map(width).collect();
+        let widths: Vec<usize> = (0..are_words.len()).map(width).collect();
         let line = |row: &Vec<String>| {
-            let cells = row.iter().zip(&widths).zip(Column::ALL).map(|((cell, &width), column)| {
-                if column.is_of_words() { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+            let cells = row.iter().zip(&widths).zip(&are_words).map(|((cell, &width), is_of_words)| {
+                if *is_of_words { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
             });
             cells.collect::<Vec<_>>().join(GAP).trim_end().to_owned()
         };
@@ -42,12 +49,13 @@ impl ComparisonReport {
     /// What `out` says.
     pub fn write_csv(&self, by: Option<Column>, out: impl Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
-        table.write_record(Column::ALL.iter().map(|column| column.head()).chain(["planar", "error"]))?;
+        table.write_record(Column::ALL.iter().map(|column| column.head()).chain(["planar", "error", "family"]))?;
         for of in self.sorted(by) {
             let planar = of.result.as_ref().map(|result| result.verdict.planar.to_string()).unwrap_or_default();
             let error = of.error.as_ref().map(|error| error.message.clone()).unwrap_or_default();
+            let family = of.family.map(|family| family.to_string()).unwrap_or_default();
             let cells = Column::ALL.iter().map(|column| column.cell(of).exact());
-            table.write_record(cells.chain([planar, error]))?;
+            table.write_record(cells.chain([planar, error, family]))?;
         }
         table.flush()
     }
@@ -59,14 +67,11 @@ impl ComparisonReport {
     /// What `out` says.
     pub fn write_steps(&self, out: impl Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
-        let mut has_head = false;
+        let heads = TimedStep::default().row();
+        table.write_record(std::iter::once("method").chain(heads.iter().map(|(head, _)| *head)))?;
         for of in &self.methods {
             for step in &of.steps {
                 let row = step.row();
-                if !has_head {
-                    table.write_record(std::iter::once("method").chain(row.iter().map(|(head, _)| *head)))?;
-                    has_head = true;
-                }
                 table
                     .write_record(std::iter::once(of.name.as_str()).chain(row.iter().map(|(_, cell)| cell.as_str())))?;
             }

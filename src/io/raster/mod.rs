@@ -45,6 +45,10 @@ pub mod colours {
     pub const CHECKER: Colour = [0x6f, 0x8f, 0xb8];
 }
 
+/// Share of their lengths below which what is left of vectors that cancel out is taken for rounding: far above that, which is
+/// some 1e-13 for a million of them, and far below what gives a surface a side.
+const CANCELLED: f64 = 1e-6;
+
 /// Where a mesh is seen from. Parallel projection; the mesh is framed by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
@@ -61,6 +65,20 @@ impl View {
     /// Turned around y by an angle, radians: positive shows more of the +x side.
     pub fn turned(angle: f64) -> Self {
         Self { eye: DVec3::new(angle.sin(), 0.0, angle.cos()), up: DVec3::Y }
+    }
+
+    /// From the side that most of a surface looks to, given the area vectors of its faces; y up, or z where that is towards the
+    /// eye. From the front where they cancel out, as those of a closed surface do.
+    pub fn facing(areas: impl IntoIterator<Item = DVec3>) -> Self {
+        let add = |(sum, total): (DVec3, f64), area: DVec3| (sum + area, total + area.length());
+        let (eye, total) = areas.into_iter().fold((DVec3::ZERO, 0.0), add);
+        let is_side = eye.length() > CANCELLED * total;
+        let is_steep = eye.cross(DVec3::Y).length() <= CANCELLED * eye.length();
+        match (is_side, is_steep) {
+            (false, _) => Self::FRONT,
+            (true, false) => Self { eye, up: DVec3::Y },
+            (true, true) => Self { eye, up: DVec3::Z },
+        }
     }
 
     /// Points in the axes of the view: right, up and towards the eye.

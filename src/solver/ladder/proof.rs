@@ -43,8 +43,8 @@ impl Ladder {
             let of = candidate.mesh(mesh);
             candidate.progress = Some(Rest::new(of).progress(of, &candidate.solution.embedding, 0.0));
         }
-        let outside_hull = self.outside_hull_of(mesh, &candidate, &verdict);
         let verify_seconds = start.elapsed().as_secs_f64();
+        let (outside_hull, hull_seconds) = self.outside_hull_of(mesh, &candidate, &verdict);
         // New vertices have no position before, or another one's.
         let old = mesh.vertex_count();
         let moved = |latest: &Latest| largest_move(&latest.embedding[..old], &candidate.solution.embedding[..old]);
@@ -67,7 +67,18 @@ impl Ladder {
         };
         let lies_as_given = task.start.is_some();
         let index = self.step_count;
-        Ok(Step { candidate, index, verdict, outside_hull, max_move, verify_seconds, set_aside, lies_as_given })
+        let step = Step {
+            candidate,
+            index,
+            verdict,
+            outside_hull,
+            max_move,
+            verify_seconds,
+            hull_seconds,
+            set_aside,
+            lies_as_given,
+        };
+        Ok(step)
     }
 
     /// The verdict on a candidate as it is written.
@@ -75,12 +86,15 @@ impl Ladder {
         verdict(candidate.mesh(mesh), &self.written(candidate))
     }
 
-    /// Why a candidate folds: vertices outside the hull of their neighbours. None where it is one-to-one, by the theorem.
-    fn outside_hull_of(&self, mesh: &DiskMesh, candidate: &Candidate, verdict: &Verdict) -> Vec<VertexId> {
+    /// Why a candidate folds: vertices outside the hull of their neighbours, and the seconds that finding them took. None where
+    /// it is one-to-one, by the theorem.
+    fn outside_hull_of(&self, mesh: &DiskMesh, candidate: &Candidate, verdict: &Verdict) -> (Vec<VertexId>, f64) {
         if verdict.is_one_to_one() {
-            return Vec::new();
+            return (Vec::new(), 0.0);
         }
-        vertices_outside_hull(candidate.mesh(mesh), &self.written(candidate), verdict.upright())
+        let start = Instant::now();
+        let found = vertices_outside_hull(candidate.mesh(mesh), &self.written(candidate), verdict.upright());
+        (found, start.elapsed().as_secs_f64())
     }
 
     /// The numbers that are written of a candidate.

@@ -102,12 +102,15 @@ pub struct Step {
     pub index: usize,
     /// The exact verdict on it.
     pub verdict: Verdict,
-    /// Vertices outside the hull of their neighbours, ascending: why it folds. None where it is one-to-one.
+    /// Vertices outside the hull of their neighbours, ascending, or without a neighbour on the surface's side where the boundary
+    /// goes straight on: why it folds. None where it is one-to-one.
     pub outside_hull: Vec<VertexId>,
     /// Largest move of a vertex since the step before, in the plane; none for the first.
     pub max_move: Option<f64>,
     /// Seconds that the verdict took.
     pub verify_seconds: f64,
+    /// Seconds that it took to find those vertices: part of neither solve nor verdict. 0 where it is one-to-one.
+    pub hull_seconds: f64,
     /// Pins that have no part in it: all constraints, where it is on the way to a planar start without them.
     pub set_aside: Pins,
     /// Whether it lies as the layout does that it started from, as far as pins leave that open.

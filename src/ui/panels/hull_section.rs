@@ -5,23 +5,23 @@ use eframe::egui::{self, CollapsingHeader, Role};
 
 use crate::mesh::{DiskMesh, VertexId};
 use crate::session::Outcome;
-use crate::solver::{CornerKind, HullStanding, Verdict, hull_standing, index_range};
+use crate::solver::{CornerKind, HullStanding, Verdict, holes_turn_once, hull_standing, index_range};
 use crate::ui::{Control, Editor, Request, counted, number, remark, theme_of};
 
 /// What the theorem says, for who wonders what to do with the list.
-const ABOUT: &str = "Where the boundary turns once and folds show, a vertex inside the surface, or one where the boundary turns \
-                     away from it, lies outside the hull of its neighbours. A planar embedding has none. Weights that are \
-                     positive pull vertices inside back, so what is left along an iteration says where it hangs.";
+const ABOUT: &str = "Where the boundary and the loop around each hole turn once and faces fold, a vertex inside the surface, or one \
+                     where its boundary turns away from it or goes straight on, lies outside the hull of its neighbours. A \
+                     planar embedding has none. Weights that are positive pull vertices inside back, so what is left along an \
+                     iteration says where it hangs.";
 
 /// Beside the list of defects: how many there are, marks, and a way from one to the next.
 pub(super) fn hull_section(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
-    let Some(verdict) = editor.step_on_screen().map(|outcome| &outcome.step.verdict) else { return };
+    let Some(scene) = editor.plane.scene().filter(|scene| !is_faultless(&scene.outcome.step.verdict)) else { return };
     let outside = editor.outside_hull();
-    if verdict.is_one_to_one() {
-        return;
-    }
     let Some(&first) = outside.first() else {
-        remark(ui, why_without(verdict));
+        if let Some(disk) = scene.mesh.disk() {
+            remark(ui, why_without(disk, &scene.outcome));
+        }
         return;
     };
     let title = counted(outside.len(), "vertex outside its hull", "vertices outside their hulls");
@@ -53,13 +53,24 @@ pub(super) fn hull_section(ui: &mut egui::Ui, editor: &Editor, requests: &mut Ve
     });
 }
 
-/// Why an embedding folds that has none.
-fn why_without(verdict: &Verdict) -> &'static str {
+/// Whether the surface is one-to-one, its polygons aside: what fills its holes may fold.
+fn is_faultless(verdict: &Verdict) -> bool {
+    verdict.flipped_faces.is_empty() && verdict.crossed_holes.is_empty() && verdict.boundary_crossings.is_empty()
+}
+
+/// Why an embedding is not one-to-one that has none.
+fn why_without(disk: &DiskMesh, outcome: &Outcome) -> &'static str {
+    let (embedding, verdict) = (&outcome.step.solution.embedding, &outcome.step.verdict);
+    let holes_turn_once = embedding.len() == disk.vertex_count() && holes_turn_once(disk, embedding, verdict.upright());
     let once = if verdict.mirrored { -1 } else { 1 };
-    if verdict.turning_number == Some(once) {
+    if verdict.turning_number != Some(once) {
+        "Every vertex lies in the hull of its neighbours: it folds because the boundary does not turn once."
+    } else if !holes_turn_once {
+        "Every vertex lies in the hull of its neighbours: it folds because the loop around a hole does not turn once."
+    } else if disk.mesh().holes().is_empty() {
         "Every vertex lies in the hull of its neighbours: only the boundary meets itself."
     } else {
-        "Every vertex lies in the hull of its neighbours: it folds because the boundary does not turn once."
+        "Every vertex lies in the hull of its neighbours: no face folds, but the boundary or loops around holes meet."
     }
 }
 
