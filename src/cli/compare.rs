@@ -121,7 +121,7 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
     }
     let problems: Vec<Problem> = variants.into_iter().map(|variant| problem.by(variant)).collect();
     for (count, second) in problems.iter().enumerate() {
-        if problems[..count].iter().any(|first| first.settings == second.settings) {
+        if problems[..count].iter().any(|first| first.settings.amounts_to(&second.settings)) {
             let name = Variant::of(&second.settings);
             return Err(Failure::Usage(format!("--methods: {name} would run twice: leave out one of them")));
         }

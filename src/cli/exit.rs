@@ -196,6 +196,7 @@ const fn code_of_solve(error: &SolveError) -> u8 {
         | SolveError::FamilyNotApplicable { .. }
         | SolveError::BoundaryTooShort { .. }
         | SolveError::NoHull
+        | SolveError::NoLinearSolve { .. }
         | SolveError::TooManyPins { .. } => WRONG_USE,
     }
 }

@@ -266,7 +266,7 @@ fn output<'a>(
     let solve = charts.iter().flat_map(|chart| chart.steps).map(|step| step.seconds).sum();
     let report = Report {
         method: Some(settings.method),
-        family: settings.method.uses_family().then_some(settings.family),
+        family: settings.method.uses_family().then_some(settings.family()),
         shape: ShapeReport::of(&settings),
         atlas: Some(proved_together(&written)),
         charts: reports,

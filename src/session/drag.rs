@@ -3,6 +3,7 @@
 //! The first solve is complex-linear in the targets: z = Φ t. Moving pins by δ adds δ times their columns of Φ, one
 //! multiply-add a vertex, at any size. So when a drag begins, the embedding and the column of what is dragged are solved
 //! for once, in the background; from then on every move shows at once. The exact verdict on it lags behind, and says so.
+//! Where the method does not begin with that solve, nothing follows the pointer until it rests.
 //!
 //! ```text
 //! first move ──▶ job: base, column ──▶ Follow
@@ -191,8 +192,10 @@ impl Session {
 
     /// Lets the embedding follow pins that were moved.
     pub(super) fn follow(&mut self, dragged: Vec<VertexId>) {
-        // Where the mesh is to be turned around, a solve follows by itself.
-        if let Some(task) = self.task() {
+        // Where the method begins with something else than the solve that follows pins, the screen keeps what is proved. Where
+        // the mesh is to be turned around, a solve follows by itself.
+        let task = self.task().filter(|_| self.document.settings.begin_with_pins_held());
+        if let Some(task) = task {
             self.drag.follow(task, dragged, self.solving.prepared());
         }
     }

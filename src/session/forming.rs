@@ -7,7 +7,7 @@ use super::errands::Errand;
 use super::open_mesh::Near;
 use super::{Command, Place, Session};
 use crate::mesh::{Form, HoleTreatment, WeldDistance, near_vertices};
-use crate::solver::{Family, Method, Settings, Start};
+use crate::solver::{Method, Settings, Start};
 
 /// The errand that brings the mesh into another form, or takes a chart out of it.
 pub(super) const FORMING: &str = "turning or mending the faces";
@@ -58,7 +58,7 @@ impl Session {
         let mut seams = form.seams.clone();
         seams.of_texture |= is_torn;
         let method = if before.method.goes_on_from_layout() { before.method } else { Method::Auto };
-        let family = if before.family.power().is_some() { before.family } else { Family::default() };
+        let family = before.family.filter(|family| family.power().is_some());
         let settings = Settings { method, family, start: Start::File, ..before };
         if !self.is_bare() {
             self.choose(settings);

@@ -62,7 +62,7 @@ impl Problem {
 
     /// Whether another problem differs in its targets alone: the same vertices, held in the same way.
     pub(super) fn differs_in_targets_alone(&self, other: &Self) -> bool {
-        let is_alike = self.settings == other.settings && self.frame == other.frame;
+        let is_alike = self.settings.amounts_to(&other.settings) && self.frame == other.frame;
         is_alike && are_held_alike(&self.pins(), &other.pins())
     }
 
@@ -252,7 +252,7 @@ impl Outcome {
         let repairs = model.repaired.as_ref().map(|repaired| repaired.done().to_vec()).unwrap_or_default();
         let report = Report {
             method: Some(settings.method),
-            family: settings.method.uses_family().then_some(settings.family),
+            family: settings.method.uses_family().then_some(settings.family()),
             pins: Some(pins),
             boundary: Some(if step.has_convex_boundary() { "convex" } else { "free" }),
             shape: ShapeReport::of(settings),

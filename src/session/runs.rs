@@ -3,7 +3,7 @@
 use super::solving::{Next, Rest, Task};
 use super::stop::Goal;
 use super::{Command, Session};
-use crate::solver::{Family, Method, Settings};
+use crate::solver::{Method, Settings};
 
 /// The most rounds of relaxing that are asked for at once.
 const RELAX_ROUNDS: usize = 20;
@@ -138,7 +138,7 @@ impl Session {
         if before.method == Method::Auto {
             return self.go_on(Goal::End);
         }
-        let family = if before.family.power().is_some() { before.family } else { Family::default() };
+        let family = before.family.filter(|family| family.power().is_some());
         let settings = Settings { method: Method::Auto, family, ..before };
         let edits = std::iter::once(Command::SetSettings(settings)).chain(self.drop_relaxing());
         if self.history.apply(Command::Together(edits.collect()), &mut self.document) {

@@ -62,7 +62,7 @@ impl StopConditions {
     /// The same for the reasons that hold however often the run is asked to go on.
     pub fn reason_for_good(&self, outcome: &Outcome, ending: Option<Ending>) -> Option<Stop> {
         // Beyond the method's own ending the number of steps is the only limit that is left.
-        let beyond = (outcome.step.index >= outcome.problem.settings.max_steps).then_some(Ending::Limit);
+        let beyond = (outcome.step.index >= outcome.problem.settings.max_steps()).then_some(Ending::Limit);
         let ending = match ending? {
             Ending::Planar if !self.planar => beyond,
             Ending::Stalled if !self.stalled => beyond,

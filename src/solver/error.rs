@@ -83,6 +83,13 @@ pub enum SolveError {
     #[error("the boundary's projection to its best plane has no hull that it runs around: choose a circle")]
     NoHull,
 
+    /// Equations and factors were asked for, but the method does not begin with a linear solve that has any.
+    #[error("{method} does not begin with a linear solve for positions: only a whole run gives its embedding")]
+    NoLinearSolve {
+        /// The method's name.
+        method: &'static str,
+    },
+
     /// More pins than the method can do with.
     #[error(
         "{count} vertices are constrained, but {method} goes with at most {most} exact pins: choose auto or iterate"
@@ -196,6 +203,7 @@ impl SolveError {
             Self::TooFine => "too-fine",
             Self::TooManyNewVertices { .. } => "too-many-new-vertices",
             Self::NotPlanar => "not-planar",
+            Self::NoLinearSolve { .. } => "no-linear-solve",
             Self::AllBent => "all-bent",
             Self::LadderExhausted { .. } => "ladder-exhausted",
             Self::OutOfRange { .. } => "out-of-range",
@@ -243,6 +251,7 @@ impl SolveError {
             | Self::TooFine
             | Self::TooManyNewVertices { .. }
             | Self::NotPlanar
+            | Self::NoLinearSolve { .. }
             | Self::AllBent
             | Self::LadderExhausted { .. }
             | Self::ResidualTooLarge { .. }

@@ -186,7 +186,7 @@ impl<'a> Padded<'a> {
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
         let places = self.places(settings)?;
-        let equations = self.equations(settings.family)?;
+        let equations = self.equations(settings.family())?;
         let system = FreeSystem::new(&self.disk, |v| places.contains_key(&v));
         let site = Site { mesh: &self.disk, system: &system };
         let assemble = start.elapsed().as_secs_f64();

@@ -147,6 +147,11 @@ impl Method {
         matches!(self, Self::Schnyder | Self::Lee(_) | Self::Slim | Self::Spectral | Self::Abf | Self::AbfPlusPlus)
     }
 
+    /// Whether its first step is one linear solve for positions, with the user's pins held.
+    pub const fn begins_with_pins_held(self) -> bool {
+        matches!(self, Self::Auto | Self::Natural | Self::Iterate | Self::VirtualBoundary | Self::Lscm | Self::Levy)
+    }
+
     /// Whether it can be asked to meet constraints: pins beyond the two exact ones that fix the similarity.
     pub const fn takes_constraints(self) -> bool {
         self.uses_pins() && !self.only_places_pins() && !matches!(self, Self::VirtualBoundary)

@@ -19,10 +19,13 @@ use super::pins::{
 };
 use super::placing::complete_gauge;
 use super::shape_preserving::shape_preserving;
+use super::slim::tutte;
 use super::spectral::spectral;
 use super::system::{FreeSystem, Site};
 use super::units::Units;
-use super::{Control, Family, Method, Phase, PhaseSeconds, Settings, Solution, SolveError};
+use super::{
+    Choice as _, Control, Family, Method, Padded, Phase, PhaseSeconds, Settings, Solution, SolveError, schnyder,
+};
 use crate::linalg::{Analysis, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
@@ -47,8 +50,8 @@ enum Values {
     Fixed(FixedSolve),
 }
 
-/// Solves for an embedding once, by a linear method or the first rung of another. Nothing is proved of it:
-/// [`flatten`](super::flatten) goes on until it is.
+/// Solves for an embedding once, by a linear method or the first rung of another: that of SLIM is Tutte's map. Nothing is
+/// proved of it: [`flatten`](super::flatten) goes on until it is.
 ///
 /// # Errors
 ///
@@ -59,22 +62,29 @@ pub fn solve_once(
     pins: &Pins,
     control: Control<'_>,
 ) -> Result<Solution, SolveError> {
-    let Some(solution) = own_solution(mesh, settings.method, control) else {
+    let method = settings.method;
+    if !method.only_places_pins() {
         return Prepared::new(mesh, settings, pins, control)?.solve(mesh, pins, control);
-    };
+    }
     check_pins(mesh, pins)?;
-    let mut solution = solution?;
+    if settings.are_constraints(pins) {
+        return Err(SolveError::TooManyPins { method: method.name(), count: pins.len(), most: GAUGE_PINS });
+    }
+    let mut solution = own_solution(mesh, settings, control)?;
     complete_gauge(mesh, &mut solution.embedding, pins, settings.size);
     Ok(solution)
 }
 
-/// The solution of a method that solves for something else than positions first, so that no factors serve other pins.
-fn own_solution(mesh: &DiskMesh, method: Method, control: Control<'_>) -> Option<Result<Solution, SolveError>> {
-    match method {
-        Method::Spectral => Some(spectral(mesh, control).map(|found| found.solution)),
-        Method::Abf => Some(angle_based(mesh, AngleSystem::Full, control).map(|found| found.solution)),
-        Method::AbfPlusPlus => Some(angle_based(mesh, AngleSystem::Reduced, control).map(|found| found.solution)),
-        _ => None,
+/// The solution of a method whose shape does not depend on pins, so that it has no factors that serve them.
+fn own_solution(mesh: &DiskMesh, settings: &Settings, control: Control<'_>) -> Result<Solution, SolveError> {
+    match settings.method {
+        Method::Lee(_) => Ok(Padded::new(mesh, settings.layers).solve(settings, control)?.0),
+        Method::Slim => Ok(tutte(mesh, control)?.0),
+        Method::Schnyder => Ok(Solution { embedding: schnyder(mesh), gauge_completed: true, ..Solution::default() }),
+        Method::Spectral => Ok(spectral(mesh, control)?.solution),
+        Method::Abf => Ok(angle_based(mesh, AngleSystem::Full, control)?.solution),
+        Method::AbfPlusPlus => Ok(angle_based(mesh, AngleSystem::Reduced, control)?.solution),
+        other => Err(SolveError::NoLinearSolve { method: other.name() }),
     }
 }
 
@@ -83,10 +93,15 @@ impl Prepared {
     ///
     /// # Errors
     ///
-    /// Pins that cannot be, a family that does not go with the method, degenerate weights, a singular matrix, or the
+    /// A method that does not begin with a linear solve for positions, pins that cannot be, a family that does not go with
+    /// the method, degenerate weights, a singular matrix, or the
     /// caller's wish to stop.
     pub fn new(mesh: &DiskMesh, settings: &Settings, pins: &Pins, control: Control<'_>) -> Result<Self, SolveError> {
-        settings.family.check_for(settings.method)?;
+        settings.family().check_for(settings.method)?;
+        let method = settings.method;
+        if !method.begins_with_pins_held() && !matches!(method, Method::Convex(_) | Method::Stretch(_)) {
+            return Err(SolveError::NoLinearSolve { method: method.name() });
+        }
         let pins = if settings.method.uses_pins() { pins } else { &Pins::new() };
         check_pins(mesh, pins)?;
         control.enter(Phase::Assemble)?;
@@ -102,7 +117,7 @@ impl Prepared {
         let (system, values) = match settings.method {
             Method::Convex(_) | Method::Stretch(_) => {
                 let system = FreeSystem::new(mesh, |v| pins.contains_key(&v));
-                let family = if settings.method.uses_family() { settings.family } else { Family::MeanValue };
+                let family = if settings.method.uses_family() { settings.family() } else { Family::MeanValue };
                 let equations = convex_equations(mesh, family)?;
                 let is_symmetric = matches!(family, Family::Conformal | Family::Uniform);
                 seconds.assemble = start.elapsed().as_secs_f64();
@@ -115,7 +130,7 @@ impl Prepared {
                 (system, Values::Fixed(fixed))
             }
             method => {
-                let (equations, power) = free_equations(mesh, method, settings.family)?;
+                let (equations, power) = free_equations(mesh, method, settings.family())?;
                 let is_hermitian = method != Method::Levy && power == Family::CONFORMAL_POWER;
                 let treatment = settings.treatment_on(Method::Natural, asked.len());
                 let layout = Layout::new(&pins, treatment, |pinned| {

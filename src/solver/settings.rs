@@ -98,16 +98,17 @@ impl Choice for Start {
 pub struct Settings {
     /// The way to the embedding.
     pub method: Method,
-    /// The weights, where the method has a choice.
-    pub family: Family,
+    /// The weights, where the method has a choice; where nobody chose, [`Settings::family`] says.
+    pub family: Option<Family>,
     /// How far apart vertices lie on a convex shape, where the method lays a boundary on one.
     pub spacing: Spacing,
     /// Layers of virtual triangles that [`Method::Lee`] puts around the mesh, 1 at least.
     pub layers: usize,
     /// What becomes of pinned vertices' equations; where nobody chose, [`Settings::treatment_on`] says.
     pub treatment: Option<Treatment>,
-    /// The most iterations after a linear solve; a ladder that starts again counts anew.
-    pub max_steps: usize,
+    /// The most iterations after a linear solve; a ladder that starts again counts anew. Where nobody says,
+    /// [`Settings::max_steps`] does.
+    pub max_steps: Option<usize>,
     /// How the virtual boundary goes on.
     pub growth: Growth,
     /// How large the embedding is where the user's pins do not say.
@@ -125,11 +126,11 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             method: Method::default(),
-            family: Family::default(),
+            family: None,
             spacing: Spacing::default(),
             layers: Self::LAYERS,
             treatment: None,
-            max_steps: Self::MAX_STEPS,
+            max_steps: None,
             growth: Growth::default(),
             size: GaugeSize::default(),
             relax_rounds: None,
@@ -151,17 +152,38 @@ impl Settings {
 
     /// A method and a family, everything else as it is by default for the method.
     pub fn new(method: Method, family: Family) -> Self {
-        Self { method, family, max_steps: method.usual_steps(), ..Self::default() }
+        Self { method, family: Some(family), ..Self::default() }
     }
 
-    /// The same by another method. What is as usual for this one is as usual for that, as are weights that do not go with it.
+    /// The same by another method. What was asked for stays, but for weights that do not go with it.
     #[must_use]
     pub fn by(self, method: Method) -> Self {
-        let is_usual = self.family == self.method.usual_family() || !self.family.goes_with(method);
-        let family = if is_usual { method.usual_family() } else { self.family };
-        let has_usual_steps = self.max_steps == self.method.usual_steps();
-        let max_steps = if has_usual_steps { method.usual_steps() } else { self.max_steps };
-        Self { method, family, max_steps, ..self }
+        Self { method, family: self.family.filter(|family| family.goes_with(method)), ..self }
+    }
+
+    /// The weights that were asked for, or those that are usual for the method.
+    pub fn family(&self) -> Family {
+        self.family.unwrap_or_else(|| self.method.usual_family())
+    }
+
+    /// The most iterations that were asked for, or as many as are usual for the method.
+    pub fn max_steps(&self) -> usize {
+        self.max_steps.unwrap_or_else(|| self.method.usual_steps())
+    }
+
+    /// Whether both ask for the same, be it in words or as what is usual.
+    pub fn amounts_to(&self, other: &Self) -> bool {
+        let in_words = |settings: &Self| Self {
+            family: Some(settings.family()),
+            max_steps: Some(settings.max_steps()),
+            ..*settings
+        };
+        in_words(self) == in_words(other)
+    }
+
+    /// Whether the first step is one linear solve for positions, with the user's pins held: what can follow a pin.
+    pub fn begin_with_pins_held(&self) -> bool {
+        self.start == Start::Afresh && self.method.begins_with_pins_held()
     }
 
     /// How a rung treats the equations of the pinned vertices, with so many pins of the user's. A boundary that the solver

@@ -157,6 +157,8 @@ pub struct Slim {
     /// These units for one of the mesh's, a power of two.
     scale: f64,
     real_faces: usize,
+    /// Twice the area of the surface in these units.
+    area: f64,
 }
 
 impl Slim {
@@ -186,7 +188,7 @@ impl Slim {
         let elements = mesh.faces().zip(shapes).map(element).collect();
         let held = mesh.boundary_loop()[0].number();
         let membrane = Membrane::new(z.len(), elements, Vec::new(), |point| point == held, None)?;
-        Ok(Self { membrane, z, scale, real_faces })
+        Ok(Self { membrane, z, scale, real_faces, area: on_surface })
     }
 
     /// One iteration. Returns the share of the energy that it gained; `None` where no step lowers the energy.
@@ -204,8 +206,10 @@ impl Slim {
         self.z.iter().map(|z| *z / self.scale).collect()
     }
 
-    /// The energy per area of the surface, and the least determinant, at the size that the embedding has come to.
+    /// The energy per area of the surface, and the least determinant, at equal total areas.
     pub fn progress(&self) -> Progress {
-        self.membrane.standing(&self.z, self.real_faces)
+        let size = (self.area / self.membrane.double_area(&self.z, self.real_faces)).sqrt();
+        let z: Vec<DVec2> = self.z.iter().map(|z| size * *z).collect();
+        self.membrane.standing(&z, self.real_faces)
     }
 }

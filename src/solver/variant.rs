@@ -23,16 +23,16 @@ pub struct Variant {
 impl Variant {
     /// The method and the weights of settings.
     pub fn of(settings: &Settings) -> Self {
-        let Settings { method, family, .. } = *settings;
-        Self { method, family: method.uses_family().then_some(family) }
+        let method = settings.method;
+        Self { method, family: method.uses_family().then(|| settings.family()) }
     }
 
-    /// The settings that it is run with, everything else as in `base`: without weights of its own it takes those there, where
-    /// they are unusual there and go with the method; it goes on from a layout where that is wanted and the method can.
+    /// The settings that it is run with, everything else as in `base`: without weights of its own it takes those that were
+    /// asked for there, where they go with the method; it goes on from a layout where that is wanted and the method can.
     pub fn settings(self, base: &Settings) -> Settings {
         let settings = base.by(self.method);
         let start = if self.method.goes_on_from_layout() { base.start } else { Start::Afresh };
-        Settings { family: self.family.unwrap_or(settings.family), start, ..settings }
+        Settings { family: self.family.or(settings.family), start, ..settings }
     }
 
     /// The shape that its boundary is laid on, where that is not the usual one.

@@ -84,6 +84,8 @@ pub enum NoEquation {
     OtherWeights,
     /// The vertex has neighbours in layers that were peeled off.
     Peeled,
+    /// The vertex meets the equation of an eigenvector: its terms add up to a multiple of where it lies.
+    OfEigenvector,
     /// The weights were divided by the stretch of solve after solve.
     OfStretch,
     /// The step minimises an energy.
@@ -108,6 +110,9 @@ impl NoEquation {
             Self::OfFile => "This step is the layout of the file: nothing was solved for it.",
             Self::OnGrid => "This step is a drawing on a grid: its coordinates count vertices.",
             Self::Peeled => "It has neighbours among the virtual triangles, which were peeled off.",
+            Self::OfEigenvector => {
+                "Its terms do not add up to zero but to a multiple of its place: it is of an eigenvector."
+            }
             Self::OfStretch => "Its weights were divided by the stretch of every solve before: they are not kept.",
             Self::OfEnergy => "This step minimises an energy of whole faces: vertices have no equations of their own.",
         }
@@ -130,6 +135,7 @@ pub fn equation_of_step(
     match step.rung {
         Method::Convex(_) if mesh.boundary_place(vertex).is_some() => return Err(NoEquation::Prescribed),
         Method::Lee(_) if mesh.boundary_place(vertex).is_some() => return Err(NoEquation::Peeled),
+        Method::Spectral if mesh.boundary_place(vertex).is_some() => return Err(NoEquation::OfEigenvector),
         _ => {}
     }
     match (source, &step.virtual_boundary) {

@@ -80,10 +80,13 @@ fn a_boundary_is_a_name_or_corners() {
 #[test]
 fn what_is_not_typed_follows_from_the_method() {
     let settings = |method: &str| parsed("--method", method).expect("a method").settings();
-    assert_eq!(settings("slim").max_steps, 20);
-    assert_eq!(settings("stretch").max_steps, Settings::MAX_STEPS);
-    assert_eq!((settings("lee").family, settings("lee").layers), (Family::MeanValue, Settings::LAYERS));
-    assert_eq!((settings("convex").family, settings("convex").spacing), (Family::Conformal, Spacing::Chord));
+    assert_eq!(settings("slim").max_steps(), 20);
+    assert_eq!(settings("stretch").max_steps(), Settings::MAX_STEPS);
+    assert_eq!((settings("lee").family(), settings("lee").layers), (Family::MeanValue, Settings::LAYERS));
+    assert_eq!((settings("convex").family(), settings("convex").spacing), (Family::Conformal, Spacing::Chord));
+    let limited = parsed("--max-steps", "60").expect("a number").settings();
+    assert_eq!(limited.by(Method::Slim).max_steps(), 60, "asked for, though usual for auto");
+    assert_eq!(Settings::default().by(Method::Slim).max_steps(), 20);
     assert_eq!(parsed("--layers", "7").expect("a number").settings().layers, 7);
     assert!(parsed("--layers", "0").is_none() && parsed("--layers", "101").is_none());
 }

@@ -132,8 +132,8 @@ fn every_variant_has_a_name_that_stands_for_it() {
 
 #[test]
 fn weights_of_the_settings_are_for_methods_that_name_none_and_go_with_them() {
-    let base = Settings { family: Family::Uniform, ..Settings::default() };
-    let family = |text: &str| Variant::from_str(text).expect("a variant").settings(&base).family;
+    let base = Settings { family: Some(Family::Uniform), ..Settings::default() };
+    let family = |text: &str| Variant::from_str(text).expect("a variant").settings(&base).family();
     assert_eq!(family("convex"), Family::Uniform);
     assert_eq!(family("natural"), Family::default());
     assert_eq!(family("natural/wachspress"), Family::Wachspress);
@@ -184,6 +184,21 @@ fn the_table_of_steps_has_its_head_where_no_method_took_one() {
     let (none, some) = (steps("virtual-boundary"), steps("natural"));
     assert!(some.len() > 1);
     assert_eq!(none, some[..1]);
+}
+
+#[test]
+fn what_is_asked_for_counts_even_where_it_is_usual_for_another_method() {
+    let program = tent();
+    let compared = methods(&program, &["tent.obj", "--methods", "lee,natural", "--family", "conformal"]);
+    assert_eq!(names(&compared), ["lee/conformal", "natural"]);
+    let compared = methods(&program, &["tent.obj", "--methods", "lee,natural"]);
+    assert_eq!(names(&compared), ["lee", "natural"]);
+    let slim = |base: &Settings| Variant::from_str("slim").expect("a variant").settings(base).max_steps();
+    assert_eq!(slim(&Settings { max_steps: Some(Settings::MAX_STEPS), ..Settings::default() }), Settings::MAX_STEPS);
+    assert_eq!(slim(&Settings::default()), 20);
+    let twice = ["compare", "tent.obj", "--methods", "lee,lee/mean-value"];
+    let run = program.run(&twice).expect(2);
+    assert!(run.stderr.contains("would run twice"), "{}", run.stderr);
 }
 
 #[test]

@@ -317,7 +317,7 @@ fn a_degenerate_embedding_says_that_weights_were_bounded_and_goes_on() {
 fn the_iteration_stops_at_the_limit_and_can_be_taken_on_by_hand() {
     let mesh = disk(Example::Cube.mesh());
     let pins = hard_pins([(VertexId::new(0), DVec2::ZERO), (VertexId::new(1), DVec2::X)]);
-    let settings = Settings { max_steps: 2, ..Settings::new(Method::Iterate, Family::Wachspress) };
+    let settings = Settings { max_steps: Some(2), ..Settings::new(Method::Iterate, Family::Wachspress) };
     let mut run = Ladder::new(settings, pins);
     let mut taken = 0;
     let ending = run.finish(&mesh, Control::unattended(), |_| taken += 1).unwrap();

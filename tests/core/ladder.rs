@@ -138,7 +138,7 @@ fn constraints_are_iterated_on_and_then_met_one_to_one_but_no_boundary_is_bent_f
         let v = boundary[k * boundary.len() / 5];
         pins.insert(v, Pin::hard(DVec2::from_angle(2.0 * std::f64::consts::TAU * k as f64 / 5.0) * 10.0));
     }
-    let mut run = Ladder::new(Settings { max_steps: 4, ..Settings::default() }, pins.clone());
+    let mut run = Ladder::new(Settings { max_steps: Some(4), ..Settings::default() }, pins.clone());
     let mut steps = Vec::new();
     let ending = run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
     assert_eq!(ending, Ending::Planar);
@@ -183,7 +183,11 @@ fn a_step_that_is_cancelled_leaves_the_run_as_it_was() {
     // Runs that start again, and one that bends the boundary.
     for (file, family) in [("maze.obj", Family::MeanValue), ("cow_seamster.obj", Family::MeanValue)] {
         if let Some(entry) = corpus_disks().into_iter().find(|entry| entry.file == file) {
-            cases.push((entry.disk(), Settings { max_steps: 2, ..Settings::new(Method::Auto, family) }, Pins::new()));
+            cases.push((
+                entry.disk(),
+                Settings { max_steps: Some(2), ..Settings::new(Method::Auto, family) },
+                Pins::new(),
+            ));
         }
     }
     for (mesh, settings, pins) in cases {
@@ -224,7 +228,7 @@ fn every_ladder_ends_however_far_apart_the_numbers_are() {
     let boundary = mesh.boundary_loop();
     let far = hard_pins([(boundary[0], DVec2::ZERO), (boundary[4], DVec2::new(1e61, 0.0))]);
     for (pins, limit) in [(Pins::new(), 200), (far, 200)] {
-        let mut run = Ladder::new(Settings { max_steps: 5, ..Settings::default() }, pins);
+        let mut run = Ladder::new(Settings { max_steps: Some(5), ..Settings::default() }, pins);
         let mut taken = 0;
         while run.ending().is_none() && taken < limit {
             taken += 1;

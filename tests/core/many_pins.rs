@@ -65,7 +65,7 @@ fn assert_further_pins_change_nothing(mesh: &DiskMesh, settings: &Settings, few:
     let many: Pins = further.iter().map(at_rest).chain(few.iter().map(|(&v, &pin)| (v, pin))).collect();
     let again = solve(mesh, settings, &many);
     let error = apart(&embedding, &again.embedding);
-    assert!(error <= AGREE, "{} {} of {} pins: {error:.1e}", settings.family, many.len(), mesh.vertex_count());
+    assert!(error <= AGREE, "{} {} of {} pins: {error:.1e}", settings.family(), many.len(), mesh.vertex_count());
     for (v, pin) in many.iter().filter(|(_, pin)| pin.hold.is_exact()) {
         assert_eq!(again.embedding[v].to_array().map(f64::to_bits), pin.target.to_array().map(f64::to_bits));
     }

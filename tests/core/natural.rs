@@ -9,14 +9,15 @@ use freebound::linalg::{Analysis, Kind, LinalgError};
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::equations::{self, Equations};
 use freebound::solver::{
-    Control, Embedding, Family, FreeSystem, Method, Pins, Prepared, Settings, SolveError, fixed_pins, gauge_pins,
-    hard_pins, solve_once, verdict,
+    Choice as _, Control, Embedding, Family, FreeSystem, Ladder, Method, Pins, Prepared, Settings, SolveError,
+    fixed_pins, gauge_pins, hard_pins, solve_once, verdict,
 };
 use glam::{DVec2, DVec3};
 use num_complex::Complex;
 
 use crate::common::corpus_disks;
-use crate::makers::Random;
+use crate::makers::{Random, disk};
+use crate::reproduction::distance_up_to_similarity;
 use crate::weights::free_methods;
 
 /// The relative residual of a solve: the limit.
@@ -132,7 +133,7 @@ pub(crate) fn corner_terms(x: [DVec3; 3], settings: &Settings) -> [Complex<f64>;
         let (of1, of2) = (-Complex::from_polar(1.0, angle), Complex::from(r1 / r2));
         return [-of1 - of2, of1, of2];
     }
-    let power = settings.family.power().expect("well-formed by construction");
+    let power = settings.family().power().expect("well-formed by construction");
     let (d1, d2) = (r1.powf(power), r2.powf(power));
     let (sin, cot) = (angle.sin(), 1.0 / angle.tan());
     let of1 = Complex::new((d2 / sin - d1 * cot) / r1, -d1 / r1);
@@ -333,4 +334,26 @@ fn a_flag_raised_in_any_phase_stops_the_solve_there() {
             assert_eq!(stopped, SolveError::Cancelled, "{settings:?}, raised while {}", last.words());
         }
     }
+}
+
+#[test]
+fn a_single_solve_is_the_first_step_of_its_method_or_refused() {
+    let mesh = disk(Example::Dome.mesh());
+    for &method in Method::ALL {
+        let settings = Settings { method, ..Settings::default() };
+        let solved = solve_once(&mesh, &settings, &Pins::new(), Control::unattended());
+        if method.is_one_to_one() {
+            assert_eq!(solved, Err(SolveError::NoLinearSolve { method: method.name() }));
+            continue;
+        }
+        let first = Ladder::new(settings, Pins::new()).step(&mesh, Control::unattended()).expect("solvable");
+        let off = distance_up_to_similarity(&first.solution.embedding, &solved.expect("solvable").embedding);
+        assert!(off < 1e-9, "{method:?}: {off:.1e}");
+        let prepared = Prepared::new(&mesh, &settings, &Pins::new(), Control::unattended());
+        assert_eq!(prepared.is_err(), method.only_places_pins(), "{method:?} has factors that serve pins, or none");
+    }
+    let three = hard_pins((0..3).map(|k| (mesh.boundary_loop()[3 * k], DVec2::new(k as f64, (k * k) as f64))));
+    let settings = Settings::new(Method::Slim, Family::default());
+    let refused = solve_once(&mesh, &settings, &three, Control::unattended());
+    assert_eq!(refused, Err(SolveError::TooManyPins { method: "slim", count: 3, most: 2 }));
 }

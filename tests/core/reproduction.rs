@@ -166,7 +166,7 @@ fn real_matrix(mesh: &DiskMesh, settings: &Settings) -> DMatrix<f64> {
     let equations = match settings.method {
         Method::Levy => equations::levy(mesh),
         Method::Lscm => equations::lscm(mesh),
-        _ => equations::natural(mesh, settings.family.power().expect("well-formed by construction")),
+        _ => equations::natural(mesh, settings.family().power().expect("well-formed by construction")),
     }
     .expect("well-formed by construction");
     let n = mesh.vertex_count();

@@ -250,9 +250,10 @@ impl Walk {
             57..70 => Action::Undo,
             70..80 => Action::Redo,
             80..86 => Action::SetSettings(self.settings()),
-            86..90 => {
-                Action::SlideSettings(Settings { family: Family::Power(self.random.unit()), ..Settings::default() })
-            }
+            86..90 => Action::SlideSettings(Settings {
+                family: Some(Family::Power(self.random.unit())),
+                ..Settings::default()
+            }),
             90..93 => self.save(),
             93..96 => Action::Cancel,
             96 => Action::Dismiss(u64::from(self.random.below(50))),

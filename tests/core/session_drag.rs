@@ -6,7 +6,7 @@ use freebound::examples::Example;
 use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Session};
-use freebound::solver::{Control, Embedding, Hold, solve_once, verdict};
+use freebound::solver::{BoundaryShape, Control, Embedding, Hold, Method, Settings, solve_once, verdict};
 use glam::DVec2;
 
 use crate::session::{opened, settle, settled};
@@ -134,4 +134,24 @@ fn pins_that_were_freed_do_not_come_back_with_a_late_move() {
     session.handle(Action::UnpinAll);
     session.handle(Action::MovePin { vertex: VertexId::new(100), target: DVec2::ONE });
     assert!(session.document().targets.is_empty());
+}
+
+#[test]
+fn no_other_methods_map_follows_the_pointer() {
+    let vertex = VertexId::new(100);
+    for method in [Method::Lee(BoundaryShape::Circle), Method::Slim, Method::Spectral, Method::AbfPlusPlus] {
+        let mut session = opened(Example::Dome);
+        let settings = Settings { method, max_steps: Some(1), ..session.document().settings };
+        settled(&mut session, Action::SetSettings(settings));
+        for (vertex, uv) in [(vertex, DVec2::X), (VertexId::new(0), DVec2::ZERO)] {
+            settled(&mut session, Action::Place { vertex, target: Target::hard(uv) });
+        }
+        let target = DVec2::new(0.7, 0.6);
+        settled(&mut session, Action::MovePin { vertex, target });
+        assert!(session.preview().is_none(), "{method:?}: its first step is not the natural boundary");
+        settled(&mut session, Action::EndGesture);
+        assert!(session.is_current(), "{method:?}");
+        let step = &session.outcome().expect("solved").step;
+        assert_eq!((step.rung, step.solution.embedding[vertex]), (method, target));
+    }
 }

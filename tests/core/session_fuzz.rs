@@ -101,7 +101,7 @@ impl Fuzz {
         let treatments = [None, Some(Treatment::Eliminate), Some(Treatment::LeastSquares), Some(Treatment::Weighted)];
         Settings {
             treatment: treatments[self.random.below(4) as usize],
-            max_steps: 5,
+            max_steps: Some(5),
             ..Settings::new(methods[self.random.below(count) as usize], families[self.random.below(5) as usize])
         }
     }

@@ -143,8 +143,8 @@ fn a_slider_that_comes_back_to_where_it_was_drops_no_relaxing_and_nothing_that_c
     history.undo(&mut document);
     document.relaxed = 20;
     let before = document.clone();
-    for family in [Family::Power(0.4), Family::Power(0.2), before.settings.family] {
-        let settings = Settings { family, ..before.settings };
+    for family in [Family::Power(0.4), Family::Power(0.2), before.settings.family()] {
+        let settings = Settings { family: Some(family), ..before.settings };
         let slid = Command::Together(vec![Command::SetSettings(settings), Command::SetRelaxed(0)]);
         history.apply_in_gesture(slid, &mut document);
     }

@@ -36,9 +36,9 @@ fn with_everything() -> (TempDir, Session) {
     settled(&mut session, Action::TurnFaces);
     let settings = Settings {
         method: Method::Iterate,
-        family: Family::Power(0.1 + 0.2),
+        family: Some(Family::Power(0.1 + 0.2)),
         treatment: Some(Treatment::LeastSquares),
-        max_steps: 7,
+        max_steps: Some(7),
         spacing: Spacing::Even,
         layers: 5,
         growth: Growth::One,

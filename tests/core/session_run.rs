@@ -51,7 +51,7 @@ fn until_step(session: &mut Session, count: usize) {
 fn with_long_run(max_steps: usize) -> Session {
     let mut session = opened(Example::BumpyCap);
     settled(&mut session, Action::SetStop(ON_AND_ON));
-    let settings = Settings { max_steps, ..Settings::new(Method::Iterate, Family::Conformal) };
+    let settings = Settings { max_steps: Some(max_steps), ..Settings::new(Method::Iterate, Family::Conformal) };
     session.handle(Action::SetSettings(settings));
     session
 }

@@ -159,7 +159,7 @@ fn a_limit_of_steps_ends_it_and_is_said() {
     let mesh = disk(Example::Dome.mesh());
     let (all, _) = run(&mesh, settings(ON_CIRCLE));
     for limit in 0..3 {
-        let (steps, _) = run(&mesh, Settings { max_steps: limit, ..settings(ON_CIRCLE) });
+        let (steps, _) = run(&mesh, Settings { max_steps: Some(limit), ..settings(ON_CIRCLE) });
         assert_eq!(steps.len(), (limit + 1).min(all.len()));
         if steps.len() < all.len() {
             let note = steps.last().and_then(|step| step.note.clone()).expect("a reason");

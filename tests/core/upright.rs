@@ -103,7 +103,7 @@ fn the_face_stands_upright_as_its_landmarks_say() {
 #[test]
 fn steps_of_a_run_do_not_turn_about() {
     let mesh = DiskMesh::try_from(Example::BumpyCap.mesh()).unwrap();
-    let settings = Settings { method: Method::Iterate, max_steps: 4, ..Settings::default() };
+    let settings = Settings { method: Method::Iterate, max_steps: Some(4), ..Settings::default() };
     let mut before: Option<Embedding> = None;
     let problem = Problem { settings, ..on_picture() };
     let take = |step: Step| {

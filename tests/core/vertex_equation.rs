@@ -240,6 +240,8 @@ fn what_has_no_equation_says_why() {
     for family in [Family::MeanValue, Family::Uniform, Family::ShapePreserving] {
         assert!(reason(convex, family, inside).unwrap().0.residual < SOLVED, "{family}");
     }
+    assert_eq!(reason(Method::Spectral, Family::Conformal, boundary), Err(NoEquation::OfEigenvector));
+    assert!(reason(Method::Spectral, Family::Conformal, inside).unwrap().0.residual < SOLVED);
     let mut step = steps_of(&mesh, Settings::default()).pop().unwrap();
     step.candidate.rung = Method::Iterate;
     let missing = equation_of_step(&mesh, &step, None, inside);

@@ -203,7 +203,7 @@ fn a_weight_means_the_same_at_every_size_of_the_mesh() {
     let pins = mixed(6, |_| 0.7, &small, &mut random);
     for family in FAMILIES {
         for method in [Method::Natural, Method::Iterate] {
-            let settings = Settings { max_steps: 1, ..Settings::new(method, family) };
+            let settings = Settings { max_steps: Some(1), ..Settings::new(method, family) };
             let last = |mesh: &DiskMesh| {
                 let mut run = freebound::solver::Ladder::new(settings, pins.clone());
                 let mut found = Embedding::default();
@@ -282,7 +282,7 @@ fn exact_constraints_are_met_to_the_last_bit_beside_weighted_ones_at_every_step(
     let mut random = Random(8);
     let pins = mixed(9, |_| 1.0, &mesh, &mut random);
     let mut run = freebound::solver::Ladder::new(
-        Settings { max_steps: 5, ..Settings::new(Method::Iterate, Family::default()) },
+        Settings { max_steps: Some(5), ..Settings::new(Method::Iterate, Family::default()) },
         pins.clone(),
     );
     let mut count = 0;

@@ -170,7 +170,7 @@ fn methods_are_checked_in_a_list_two_to_six() {
     window.harness.run_steps(30);
     let wachspress = "Auto (ladder), wachspress";
     toggle(&mut window, wachspress);
-    assert_eq!(found(&window, wachspress).problem.settings.family, Family::Wachspress);
+    assert_eq!(found(&window, wachspress).problem.settings.family(), Family::Wachspress);
     // What lies farther down the list is scrolled to.
     let tutte = Variant { method: Method::Convex(BoundaryShape::Square), family: Some(Family::Uniform) };
     window.editor_mut().handle(Request::ToggleContender(tutte));

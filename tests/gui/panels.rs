@@ -55,7 +55,7 @@ fn each_family_solves_when_it_is_chosen() {
         [("Mean value", Family::MeanValue), ("Wachspress", Family::Wachspress), ("Conformal", Family::Conformal)]
     {
         window.choose("Weights", title);
-        assert_eq!(window.outcome().problem.settings.family, family);
+        assert_eq!(window.outcome().problem.settings.family(), family);
         assert_numbers_show(&window);
         assert_ne!(window.embedding(), before);
         before = window.embedding();
@@ -84,9 +84,9 @@ fn uniform_and_shape_preserving_weights_are_offered_for_a_convex_boundary_only()
     window.key(Key::Escape);
     window.choose("Method", "Convex boundary");
     window.choose("Weights", "Uniform");
-    assert_eq!(window.outcome().problem.settings.family, Family::Uniform);
+    assert_eq!(window.outcome().problem.settings.family(), Family::Uniform);
     window.choose("Weights", "Shape-preserving");
-    assert_eq!(window.outcome().problem.settings.family, Family::ShapePreserving);
+    assert_eq!(window.outcome().problem.settings.family(), Family::ShapePreserving);
     assert!(window.is_proved(), "{}", window.verdict());
     window.choose("Method", "Natural boundary");
     assert_eq!(window.outcome().problem.settings, Settings::new(Method::Natural, Family::Conformal));
@@ -133,7 +133,7 @@ fn a_polygon_s_corners_are_typed_and_refused_with_the_reason() {
 fn lee_s_layers_are_a_number_of_the_method_s_tab() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.choose("Method", "Lee's virtual boundary");
-    assert_eq!(settings(&window).family, Family::MeanValue, "positive, so that it is planar");
+    assert_eq!(settings(&window).family(), Family::MeanValue, "positive, so that it is planar");
     assert!(window.is_proved(), "{}", window.verdict());
     window.harness.get_by_label("More").click();
     window.settle();
@@ -143,9 +143,9 @@ fn lee_s_layers_are_a_number_of_the_method_s_tab() {
     assert_eq!(settings(&window).layers, 4);
     assert_ne!(window.embedding(), before);
     window.choose("Method", "SLIM");
-    assert_eq!((settings(&window).max_steps, settings(&window).family), (20, Family::Conformal));
+    assert_eq!((settings(&window).max_steps(), settings(&window).family()), (20, Family::Conformal));
     window.choose("Method", "Natural boundary");
-    assert_eq!(settings(&window).max_steps, Settings::MAX_STEPS);
+    assert_eq!(settings(&window).max_steps(), Settings::MAX_STEPS);
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn the_power_slider_solves_and_is_one_undo_step() {
     let slider = window.rect(Role::Slider, "Power of the weights");
     let at = |share: f32| slider.left_center() + egui::vec2(8.0 + share * (slider.width() - 70.0), 0.0);
     window.drag(at(0.9), at(0.2), Modifiers::NONE);
-    let Family::Power(power) = settings(&window).family else { panic!("{:?}", settings(&window)) };
+    let Family::Power(power) = settings(&window).family() else { panic!("{:?}", settings(&window)) };
     assert!((-1.0..0.0).contains(&power), "{power}");
     assert_eq!(window.outcome().problem.settings, settings(&window));
     window.press(Modifiers::COMMAND, Key::Z);
@@ -169,7 +169,7 @@ fn a_power_can_be_typed_beyond_the_slider_s_ends() {
     window.choose("Weights", "Power");
     window.fill_in(Role::SpinButton, "Power of the weights", "1.5");
     window.key(Key::Enter);
-    assert_eq!(window.outcome().problem.settings.family, Family::Power(1.5));
+    assert_eq!(window.outcome().problem.settings.family(), Family::Power(1.5));
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn one_list_chooses_the_weights_and_a_power_alone_has_a_slider() {
     }
     let before = window.embedding();
     window.choose("Weights", "Power");
-    assert_eq!(settings(&window).family, Family::Power(1.0), "a power begins as the family before it");
+    assert_eq!(settings(&window).family(), Family::Power(1.0), "a power begins as the family before it");
     assert!(has_slider(&window));
     assert_eq!(window.embedding(), before);
 }

@@ -55,7 +55,7 @@ fn a_rule_does_not_cut_in_the_middle_of_a_sliders_drag() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.8));
     let slide = |window: &mut Window, share: f64| {
         let before = window.editor().session.document().settings;
-        let settings = Settings { family: Family::Power(share), ..before };
+        let settings = Settings { family: Some(Family::Power(share)), ..before };
         window.editor_mut().handle(Action::SlideSettings(settings).into());
     };
     slide(&mut window, 0.3);

@@ -97,7 +97,7 @@ fn long_run() -> Window {
     let mut window = Window::with_mesh("sheet.obj", &sheet(8, 0.4));
     let session = &mut window.editor_mut().session;
     session.handle(Action::SetStop(StopConditions { planar: false, stalled: false, ..StopConditions::default() }));
-    let settings = Settings { max_steps: 100_000, ..Settings::new(Method::Iterate, Family::Conformal) };
+    let settings = Settings { max_steps: Some(100_000), ..Settings::new(Method::Iterate, Family::Conformal) };
     session.handle(Action::SetSettings(settings));
     window.step();
     window
@@ -172,7 +172,7 @@ fn treatment_step_limit_and_growth_are_chosen_in_the_method_panel() {
     window.fill_in(Role::SpinButton, "Step limit", "7");
     window.key(Key::Enter);
     window.choose("How the virtual boundary goes on", "One more");
-    let expected = Settings { max_steps: 7, growth: Growth::One, ..Settings::default() };
+    let expected = Settings { max_steps: Some(7), growth: Growth::One, ..Settings::default() };
     assert_eq!(window.editor().session.document().settings, expected);
     assert_eq!(window.outcome().problem.settings, expected, "and it is solved");
     window.choose("Method", "Convex boundary");

@@ -77,12 +77,14 @@ impl SolveArguments {
             treatment: self.treatment,
             spacing: self.spacing.unwrap_or_default(),
             layers: self.layers.map_or(Settings::LAYERS, usize::from),
-            max_steps: self.max_steps.unwrap_or(method.usual_steps()),
+            max_steps: self.max_steps,
             growth: self.growth.unwrap_or_default(),
             relax_rounds: self.relax,
             new_vertices: !self.no_new_vertices,
             start: if self.start.is_some() { Start::File } else { Start::Afresh },
-            ..Settings::new(method, self.family.unwrap_or(method.usual_family()))
+            method,
+            family: self.family,
+            ..Settings::default()
         }
     }
 

@@ -78,14 +78,15 @@ pub struct ProjectFile {
     spacing: Spacing,
     #[serde(default = "default_layers")]
     layers: usize,
-    #[serde(default)]
-    family: Family,
+    /// Where nobody chose, missing, as is the limit of steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    family: Option<Family>,
     #[serde(default)]
     treatment: Option<Treatment>,
     #[serde(default)]
     growth: Growth,
-    #[serde(default = "default_max_steps")]
-    max_steps: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    max_steps: Option<usize>,
     #[serde(default)]
     relax_rounds: Option<usize>,
     /// Rounds of relaxing that a person has asked for beside those of the settings.
@@ -117,10 +118,6 @@ pub struct ProjectFile {
     /// What only a copy for recovery has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recovery: Option<RecoveryNote>,
-}
-
-fn default_max_steps() -> usize {
-    Settings::default().max_steps
 }
 
 fn default_layers() -> usize {

@@ -22,11 +22,11 @@ impl Rung for Again {
         self.is_done = true;
         solution.pins = Pins::new();
         let note = "started again with conformal weights and the farthest boundary vertices as pins".to_owned();
-        Ok(Candidate { note: Some(note), ..Candidate::new(Method::Natural, settings.family, solution) })
+        Ok(Candidate { note: Some(note), ..Candidate::new(Method::Natural, settings.family(), solution) })
     }
 
     fn has_more(&self, task: &Task, latest: Option<&Latest>) -> bool {
-        let is_other = task.settings.family != Family::default() || !task.pins.is_empty();
+        let is_other = task.settings.family() != Family::default() || !task.pins.is_empty();
         is_other && !self.is_done && latest.is_none_or(|latest| !latest.has_simple_boundary)
     }
 }

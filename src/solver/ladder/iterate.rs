@@ -37,7 +37,7 @@ impl Iterate {
         if is_enough || self.stall.is_reached() {
             Some(Ending::Stalled)
         } else {
-            (self.taken >= task.settings.max_steps).then_some(Ending::Limit)
+            (self.taken >= task.settings.max_steps()).then_some(Ending::Limit)
         }
     }
 

@@ -19,7 +19,7 @@ impl Rung for Pad {
         let padded = Padded::new(from.mesh, settings.layers);
         let (solution, outside) = padded.solve(settings, control)?;
         self.is_done = true;
-        let candidate = Candidate::new(settings.method, settings.family, solution);
+        let candidate = Candidate::new(settings.method, settings.family(), solution);
         Ok(Candidate { outside: Some(Arc::new(outside)), ..candidate })
     }
 

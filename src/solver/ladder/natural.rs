@@ -26,7 +26,7 @@ impl Rung for Natural {
             Method::Auto | Method::Iterate | Method::VirtualBoundary => Method::Natural,
             other => other,
         };
-        Ok(Candidate { prepared: Some(prepared), ..Candidate::new(rung, settings.family, solution) })
+        Ok(Candidate { prepared: Some(prepared), ..Candidate::new(rung, settings.family(), solution) })
     }
 
     fn has_more(&self, _: &Task, latest: Option<&Latest>) -> bool {

@@ -216,10 +216,13 @@ impl Part {
 
     /// What takes the next step; none where the part is at its end.
     pub(super) fn next(&self, latest: Option<&Latest>) -> Option<Place> {
+        // Its next step goes on from its own, not from one that was relaxed.
+        if self.rung(self.at).improves() {
+            return Some(Place::Rung(self.at));
+        }
         let relax = || self.relax.has_more(&self.task, latest).then_some(Place::Relax);
         if latest.is_some_and(|latest| latest.is_solved) {
-            let improves = self.rung(self.at).improves().then_some(Place::Rung(self.at));
-            return improves.or_else(relax).or_else(|| self.drawing().filter(|_| self.is_too_fine()).map(Place::Rung));
+            return relax().or_else(|| self.drawing().filter(|_| self.is_too_fine()).map(Place::Rung));
         }
         // What is too fine for its place may fit there once it has relaxed.
         if latest.is_some_and(|latest| latest.is_unplaced)

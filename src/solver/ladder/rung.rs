@@ -14,7 +14,7 @@ pub(super) trait Rung: std::fmt::Debug + Send {
     /// Whether it has another step, on the way to what is asked for.
     fn has_more(&self, task: &Task, latest: Option<&Latest>) -> bool;
 
-    /// Whether another step makes better what is solved already.
+    /// Whether it is to be taken to its end before anything follows, even where it is solved already.
     fn improves(&self) -> bool {
         false
     }

@@ -73,7 +73,7 @@ impl Run {
     }
 
     fn look_at_limit(&mut self, task: &Task) {
-        if self.end.is_none() && self.taken >= task.settings.max_steps {
+        if self.end.is_none() && self.taken >= task.settings.max_steps() {
             self.end = Some(End::Limit);
         }
     }

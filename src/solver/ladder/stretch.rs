@@ -58,7 +58,7 @@ impl Run {
             let why = "a face has no area, and nothing can be said of its stretch";
             return Ok((Next::Minimum, format!("L² stretch infinite: {why}")));
         }
-        if self.taken >= from.task.settings.max_steps {
+        if self.taken >= from.task.settings.max_steps() {
             return Ok((Next::Limit, format!("{stretch}: as many solves as it may take")));
         }
         match self.minimising.after(solved, from.mesh, control) {

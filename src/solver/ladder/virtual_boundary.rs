@@ -158,7 +158,7 @@ impl Bend {
             let pinned = wanted.min(boundary);
             let is_last = pinned == boundary;
             // At last only weights that cannot fail will do.
-            let family = if is_last { Family::MeanValue } else { task.settings.family };
+            let family = if is_last { Family::MeanValue } else { task.settings.family() };
             let settings = Settings { treatment: Some(Treatment::Eliminate), ..Settings::new(Method::Natural, family) };
             let solved = solve_once(mesh, &settings, &fixed_pins(on_circle(mesh, pinned)), control);
             if solved == Err(SolveError::Cancelled) {

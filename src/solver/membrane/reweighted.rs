@@ -24,6 +24,12 @@ impl Membrane {
         Progress { energy, least_determinant, distance_left: 0.0 }
     }
 
+    /// Twice the area of the first `count` elements.
+    pub(in crate::solver) fn double_area(&self, z: &[DVec2], count: usize) -> f64 {
+        let corners = self.elements[..count].iter().map(|element| Self::corners(element, z));
+        corners.map(|[a, b, c]| (b - a).perp_dot(c - a)).sum()
+    }
+
     /// Goes towards the minimiser of the proxies at `z`, no farther than to a share of the way to the first fold, and
     /// halves that until the energy falls. Returns the energies before and after; `None` where no step lowers it, and `z`
     /// stays.

@@ -85,7 +85,7 @@ impl Trial {
     pub fn settings(&self, max_steps: usize) -> Settings {
         Settings {
             treatment: Some(self.treatment),
-            max_steps,
+            max_steps: Some(max_steps),
             relax_rounds: Some(0),
             ..Settings::new(Method::Iterate, self.family)
         }

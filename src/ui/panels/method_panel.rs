@@ -43,7 +43,7 @@ pub(in crate::ui) fn method_panel(ui: &mut egui::Ui, editor: &Editor, requests: 
         holes_row(ui, &editor.session, requests);
     });
     start_remark(ui, editor);
-    if let (true, Family::Power(power)) = (settings.method.uses_family(), settings.family) {
+    if let (true, Family::Power(power)) = (settings.method.uses_family(), settings.family()) {
         power_slider(ui, power, &mut edit);
     }
     new_vertices_box(ui, &mut edit.settings);
@@ -117,16 +117,16 @@ fn method_list(ui: &mut egui::Ui, settings: &mut Settings) {
 
 fn family_list(ui: &mut egui::Ui, settings: &mut Settings) {
     let method = settings.method;
-    list(ui, "Weights", 150.0, settings.family.words().title, |ui| {
+    list(ui, "Weights", 150.0, settings.family().words().title, |ui| {
         for &family in Family::ALL.iter().filter(|family| family.goes_with(method)) {
-            let is_chosen = settings.family.name() == family.name();
+            let is_chosen = settings.family().name() == family.name();
             let label = ui.selectable_label(is_chosen, family.words().title).on_hover_text(family.words().tip());
             if label.clicked() && !is_chosen {
-                settings.family = match family {
+                settings.family = Some(match family {
                     // A power begins as the family before it.
-                    Family::Power(usual) => Family::Power(settings.family.power().unwrap_or(usual)),
+                    Family::Power(usual) => Family::Power(settings.family().power().unwrap_or(usual)),
                     named => named,
-                };
+                });
             }
         }
     });
@@ -197,9 +197,14 @@ fn more(ui: &mut egui::Ui, edit: &mut Edit) {
 
 fn step_limit(ui: &mut egui::Ui, edit: &mut Edit) {
     let typed = Typed::new("the limit", 1.0..=10_000.0).whole();
-    let drag = egui::DragValue::new(&mut edit.settings.max_steps).range(1..=10_000).suffix(" steps");
+    let before = edit.settings.max_steps();
+    let mut limit = before;
+    let drag = egui::DragValue::new(&mut limit).range(1..=10_000).suffix(" steps");
     let field = ui.add(drag.custom_parser(|text| typed.number(text)));
     let field = typed.name(ui, field, "Step limit");
+    if limit != before {
+        edit.settings.max_steps = Some(limit);
+    }
     edit.slides |= field.changed();
     edit.ends |= field.has_ended();
     field.on_hover_text("The most iterations of a run. Drag, or click to type.");
@@ -232,7 +237,7 @@ fn power_slider(ui: &mut egui::Ui, power: f64, edit: &mut Edit) {
         }
         if (response.changed() || response.double_clicked()) && wanted.is_finite() {
             // Rounded to what the slider shows.
-            edit.settings.family = Family::Power((wanted * 100.0).round() / 100.0);
+            edit.settings.family = Some(Family::Power((wanted * 100.0).round() / 100.0));
             edit.slides = true;
         }
         // Neither a key nor a double click is the beginning of a drag: nothing else ends its gesture.
