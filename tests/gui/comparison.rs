@@ -65,9 +65,12 @@ fn click_cell(window: &mut Window, title: &str) {
 fn the_menu_shows_six_methods_side_by_side_and_escape_leads_back() {
     let mut window = with_sheet();
     assert!(window.editor().plane.comparison.is_shown());
-    let all: Vec<&str> = Method::ALL.iter().take(6).map(|method| method.words().title).collect();
     let now = titles(&window);
-    assert!(now.len() == 6 && now.iter().zip(all).all(|(title, name)| title.starts_with(name)), "{now:?}");
+    let place = |title: &String| Method::ALL.iter().position(|method| title.starts_with(method.words().title));
+    assert!(now.len() == 6 && now.is_sorted_by(|a, b| place(a) < place(b)), "{now:?}");
+    assert!(now[0].starts_with("Auto") && now[1].starts_with("Natural"), "{now:?}");
+    let maps = window.editor().session.contenders().iter().skip(1).map(|contender| contender.variant().method);
+    assert!(maps.into_iter().all(|method| !method.goes_on_from_layout()), "each has a map of its own: {now:?}");
     let cells = cells(&window);
     assert_eq!(cells.len(), 6);
     for ((name, place), title) in cells.iter().zip(&now) {

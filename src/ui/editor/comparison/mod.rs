@@ -270,17 +270,17 @@ impl Editor {
     }
 }
 
-/// The methods to begin with: the document's, and the first in the order of menus that have something to do there.
+/// The methods to begin with, in the order of menus: the document's, and those that have something to do there. Methods that go on
+/// from a map of another's come after those with a map of their own, which they often end with.
 fn usual_contenders(session: &Session) -> Vec<Variant> {
     let problem = session.document().problem();
     let own = Variant::of(&problem.settings);
-    let of = |method: Method| Variant::of(&Variant { method, family: None }.settings(&problem.settings));
     let is_own = |method: &Method| method.name() == own.method.name();
-    let suited: Vec<Method> =
-        Method::ALL.iter().copied().filter(|method| is_own(method) || problem.suits(*method)).collect();
-    // The document's own keeps its place in the order, and a seat.
-    let seats = COUNTS[1] - usize::from(!suited.iter().take(COUNTS[1]).any(is_own));
-    let others = suited.iter().skip(seats).filter(|method| is_own(method));
-    let chosen = suited.iter().take(seats).chain(others);
-    chosen.map(|&method| if is_own(&method) { own } else { of(method) }).collect()
+    let mut methods: Vec<(usize, Method)> = Method::ALL.iter().copied().enumerate().collect();
+    methods.retain(|(_, method)| is_own(method) || problem.suits(*method));
+    methods.sort_by_key(|(place, method)| (!is_own(method), method.goes_on_from_layout(), *place));
+    methods.truncate(COUNTS[1]);
+    methods.sort_by_key(|(place, _)| *place);
+    let of = |method: Method| Variant::of(&Variant { method, family: None }.settings(&problem.settings));
+    methods.into_iter().map(|(_, method)| if is_own(&method) { own } else { of(method) }).collect()
 }

@@ -126,8 +126,8 @@ pub(super) fn cell(ui: &mut egui::Ui, rect: Rect, editor: &mut Editor, number: u
     if words.over.is_some() || !failure.is_empty() {
         veil(ui, view, words.over.as_deref().unwrap_or(&failure));
     }
-    outline(ui, rect, &response, is_own);
     name_and_numbers(ui, Rect::from_min_max(egui::pos2(rect.left(), view.bottom()), rect.max), &words);
+    outline(ui, rect, &response, is_own);
     let tip = if is_own { "The method of the document" } else { "Click to take this method for the document" };
     let response = response.named(Role::Button, &words.name()).on_hover_text_at_pointer(tip);
     if !is_own {

@@ -14,9 +14,12 @@ pub(super) fn chooser(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Req
         egui::containers::menu::MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
     let button = egui::containers::menu::MenuButton::new(format!("Methods {count}")).config(config);
     let (response, _) = button.ui(ui, |ui| {
-        let height = (ui.ctx().content_rect().height() - 120.0).clamp(120.0, 460.0);
+        let height = (ui.ctx().content_rect().height() - 120.0).clamp(120.0, 560.0);
         egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.set_min_width(230.0);
+            // A long list: rows lie closer than elsewhere.
+            ui.spacing_mut().item_spacing.y = 2.0;
+            ui.spacing_mut().interact_size.y = 19.0;
             remark(ui, format!("Two to {most}, with the pins and settings of the document"));
             for variant in usual(editor) {
                 entry(ui, editor, variant, requests);
