@@ -20,6 +20,7 @@ mod conflicts;
 mod constrained;
 mod continuation;
 mod convex;
+mod convex_polygon;
 mod convex_polygons;
 mod diagnosis;
 mod disk_oracle;

@@ -146,6 +146,15 @@ fn another_mesh_has_another_hull() {
 }
 
 #[test]
+fn lee_s_padding_shows_up_to_its_outermost_ring() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
+    window.choose("Method", "Lee's virtual boundary");
+    window.key(Key::H);
+    // Two layers around 24 vertices.
+    assert!(window.shows("96 virtual triangles around the mesh"), "{:?}", window.words());
+}
+
+#[test]
 fn a_convex_boundary_says_that_all_of_it_is_pinned() {
     let mut window = Window::with_mesh("sheet.obj", &sheet(6, 0.3));
     window.choose("Method", "Convex boundary");
