@@ -74,7 +74,8 @@ const LIST_HEIGHT: f32 = 480.0;
 /// A list to choose from: its name, its width in points, what is chosen, and the entries where it is open.
 pub(in crate::ui) fn list(ui: &mut Ui, name: &str, width: f32, shown: &str, entries: impl FnOnce(&mut Ui)) -> Response {
     // All entries at once: who has to scroll does not see what there is.
-    let list = ComboBox::from_id_salt(name).selected_text(shown).width(width).height(LIST_HEIGHT);
+    let height = LIST_HEIGHT.min(ui.ctx().content_rect().height() - 60.0);
+    let list = ComboBox::from_id_salt(name).selected_text(shown).width(width).height(height);
     list.show_ui(ui, entries).response.named(Role::ComboBox, name)
 }
 

@@ -105,7 +105,7 @@ fn every_variant_has_a_name_that_stands_for_it() {
             for &family in Family::ALL.iter().filter(|family| method.uses_family() && family.goes_with(method)) {
                 let variant = Variant { method, family: Some(family) };
                 let read = Variant::from_str(&variant.to_string()).expect("its own name");
-                assert_eq!(read.settings(&base), variant.settings(&base), "{variant}");
+                assert!(read.settings(&base).amounts_to(&variant.settings(&base)), "{variant}");
                 names.insert(variant.to_string());
                 count += 1;
             }

@@ -142,6 +142,7 @@ fn a_slider_that_comes_back_to_where_it_was_drops_no_relaxing_and_nothing_that_c
     history.apply(pin(7, 0.5), &mut document);
     history.undo(&mut document);
     document.relaxed = 20;
+    document.settings.family = Some(Family::Conformal);
     let before = document.clone();
     for family in [Family::Power(0.4), Family::Power(0.2), before.settings.family()] {
         let settings = Settings { family: Some(family), ..before.settings };

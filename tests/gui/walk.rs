@@ -114,7 +114,9 @@ impl Walk {
         };
         let panes: Vec<_> =
             [crate::harness::MESH_VIEW, crate::harness::PLANE_VIEW].into_iter().filter_map(view).collect();
-        self.one_of(&panes)
+        // A comparison can stand in the place of both.
+        let whole = ("the window".to_owned(), self.window.harness.ctx.content_rect());
+        if panes.is_empty() { whole } else { self.one_of(&panes) }
     }
 
     /// A drag in a pane, as a rule of a pin.
@@ -267,8 +269,8 @@ fn session_disagreements(window: &Window, pill: Option<&str>) -> Vec<String> {
             found.push(format!("chip {name:?} of a step with {} defects", record.defect_count()));
         }
     }
-    // A pointer that rests in the middle of a drag begins a run behind the frame.
-    let is_known = editor.has_disk() && editor.tools.dragged().is_none();
+    // A pointer that rests in the middle of a drag begins a run behind the frame. A comparison stands over the timeline.
+    let is_known = editor.has_disk() && editor.tools.dragged().is_none() && !editor.plane.comparison.is_shown();
     if is_known && window.has_button("Pause") != session.is_running() {
         found.push(format!("Pause shows, and a run goes on: {}", session.is_running()));
     }

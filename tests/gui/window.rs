@@ -7,6 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use freebound::app::Start;
 use freebound::examples::Example;
 use freebound::io::Target;
+use freebound::solver::{Choice as _, Method};
 use freebound::ui::{BINDINGS, Pane, Shading, Tab};
 use glam::DVec2;
 
@@ -337,6 +338,7 @@ fn is_scrolled(role: Role, name: &str) -> bool {
     let listed = name.ends_with('/')
         || name.contains(" pin v")
         || name.contains(" of pin ")
+        || Method::ALL.iter().any(|method| method.words().title == name)
         || std::path::Path::new(&name).extension().is_some_and(|e| e == "obj");
     let in_panel =
         ["Numbers of the solve", "Solve", "Relax", "Free", "Fix", "Free all", "Frame", "Copy", "More"].contains(&name);

@@ -239,7 +239,6 @@ fn view_menu(menu: &mut Menu<'_>) {
     menu.switch(editor.look.wireframe, "Wireframe", Request::ToggleWireframe);
     menu.switch(editor.look.is_sharp(), "Sharp pixels", Request::ToggleSharp);
     menu.switch(editor.plane.hull_shown(), "Hull and pockets", Request::ToggleHull);
-    menu.switch(editor.selection.marks_outside_hull, "Vertices outside hulls", Request::ToggleOutsideHull);
     menu.switch(editor.look.magnifier, "Magnifier", Request::ToggleMagnifier);
     menu.switch(editor.look.glides, "Glide from step to step", Request::ToggleEase);
     menu.switch(editor.layout.panels_shown(), "Panels", Request::TogglePanels);
