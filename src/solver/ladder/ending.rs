@@ -11,7 +11,7 @@ pub enum Ending {
     Stalled,
     /// The iteration has taken as many steps as it may.
     Limit,
-    /// The embedding is planar, but constraints could not be met without new vertices: [`Step::unmet`] names them.
+    /// The embedding is planar, but constraints could not be met without new vertices: [`Step::unmet`](super::Step::unmet) names them.
     Unmet,
 }
 
