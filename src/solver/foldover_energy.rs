@@ -183,9 +183,14 @@ impl Element {
 
     /// The longest step, in multiples of the direction, that leaves an unfolded triangle unfolded.
     pub fn longest_step(z: [DVec2; 3], direction: [DVec2; 3]) -> f64 {
+        Self::longest_step_above(0.0, z, direction)
+    }
+
+    /// The longest step that leaves twice the area of a triangle at or above a floor, above which it is now.
+    pub fn longest_step_above(floor: f64, z: [DVec2; 3], direction: [DVec2; 3]) -> f64 {
         let (u, v) = (z[1] - z[0], z[2] - z[0]);
         let (du, dv) = (direction[1] - direction[0], direction[2] - direction[0]);
-        smallest_positive_root([u.perp_dot(v), u.perp_dot(dv) + du.perp_dot(v), du.perp_dot(dv)])
+        smallest_positive_root([u.perp_dot(v) - floor, u.perp_dot(dv) + du.perp_dot(v), du.perp_dot(dv)])
     }
 }
 

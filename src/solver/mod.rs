@@ -19,6 +19,7 @@
 //! | `schnyder` | a drawing in whole numbers, planar by theorem |
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
 //! | `slim` | an energy lowered from Tutte's map, as others ship it |
+//! | `live/` | a planar embedding under a dragged pin, proved at every frame |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
 //! | `morph/` | a way between two planar embeddings, planar throughout |
@@ -52,6 +53,7 @@ mod ladder;
 mod least_squares;
 mod lee;
 mod left_kernel;
+mod live;
 mod many_pins;
 mod matchmaker;
 mod membrane;
@@ -101,6 +103,7 @@ pub use hull_condition::{CornerKind, HullStanding, holes_turn_once, hull_standin
 pub use iterate::Iteration;
 pub use ladder::{Candidate, Ending, Kept, Ladder, PlanarStart, Progress, Step, largest_move};
 pub use lee::Padded;
+pub use live::{Aim, Live, Moved, Obstacle};
 pub use matchmaker::{Matched, matched, without_needless_vertices};
 pub use method::Method;
 pub use morph::{Morph, MorphOptions, NoMorph, Route, morph};

@@ -17,7 +17,7 @@ pub(super) const FRAME_POINTS: u32 = 8;
 const FRAME_SIZE: f64 = 2.0;
 
 /// Triangles thinner than this, height to longest side, count as so thick: their size matters, not their shape.
-const THINNEST: f64 = 0.1;
+pub(super) const THINNEST: f64 = 0.1;
 
 /// The outside of an embedding up to a frame, triangulated: what keeps the boundary simple while vertices move.
 #[derive(Clone, Debug, PartialEq)]

@@ -43,6 +43,17 @@ impl Sheet {
         Cow::Owned(coordinates)
     }
 
+    /// The same for a place alone, of a vertex where it is one.
+    pub(super) fn written_place(&self, vertex: Option<VertexId>, z: DVec2) -> DVec2 {
+        if self.is_plain() {
+            return z;
+        }
+        let target = vertex.and_then(|vertex| self.targets.get(&vertex).copied());
+        let of_pin = target.filter(|&uv| z == self.frame.plane_from_uv(uv));
+        let uv = of_pin.unwrap_or_else(|| self.frame.uv_from_plane(z));
+        if self.frame.v_axis == VAxis::Down { upright(uv) } else { uv }
+    }
+
     /// Whether the plane's numbers are those that are written.
     pub(super) fn is_plain(&self) -> bool {
         self.frame == PictureFrame::default()

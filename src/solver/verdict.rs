@@ -228,7 +228,7 @@ fn orientations<'a>(
 }
 
 /// The embedding as programs read it that keep 32 bits of every coordinate.
-fn in_f32(embedding: &Embedding) -> Embedding {
+pub(super) fn in_f32(embedding: &Embedding) -> Embedding {
     embedding.iter().map(|z| z.as_vec2().as_dvec2()).collect()
 }
 

@@ -55,6 +55,7 @@ mod linalg_faults;
 mod linalg_lanczos;
 mod linalg_matrices;
 mod linalg_mean_value;
+mod live;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
 mod many_parts;

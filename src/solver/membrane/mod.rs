@@ -118,6 +118,16 @@ impl Membrane {
         self.springs.iter().map(of).sum()
     }
 
+    /// What has energies.
+    pub(super) fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// Gives springs other targets, by their points.
+    pub(super) fn aim_springs(&mut self, target_of: impl Fn(u32) -> DVec2) {
+        self.springs.iter_mut().for_each(|spring| spring.target = target_of(spring.point));
+    }
+
     pub(super) fn least_determinant(&self, z: &[DVec2]) -> f64 {
         let of = |element: &Element| element.determinant(Self::corners(element, z));
         self.elements.par_iter().with_min_len(CHUNK).map(of).reduce(|| f64::INFINITY, f64::min)
