@@ -7,10 +7,11 @@ use nalgebra_sparse::CscMatrix;
 use nalgebra_sparse::pattern::SparsityPattern;
 
 use super::LinalgError;
+use super::fronts::{FrontAnalysis, Sides};
 use super::ldlt::{Ldlt, LdltAnalysis};
-use super::llt::{Llt, LltAnalysis};
-use super::lu::{Lu, LuAnalysis};
-use super::order::{Pattern, order};
+use super::llt::Llt;
+use super::lu::Lu;
+use super::order::{Pattern, in_order, order};
 use super::refine::{Accept, Solved, System, refined};
 use super::scalar::Scalar;
 use super::sparse::{Operation, check_finite};
@@ -45,9 +46,9 @@ struct Shared {
 
 #[derive(Debug)]
 enum Symbolic {
-    Llt(LltAnalysis),
+    Llt(FrontAnalysis),
     Ldlt(LdltAnalysis),
-    Lu(LuAnalysis),
+    Lu(FrontAnalysis),
 }
 
 /// A factored matrix. It keeps what it needs of its [`Analysis`], but not the matrix.
@@ -90,9 +91,9 @@ impl Analysis {
         let pattern = Pattern::checked(pattern)?;
         let elimination = order(&pattern)?;
         let symbolic = match kind {
-            Kind::Hermitian => Symbolic::Llt(LltAnalysis::new(&pattern, &elimination.order)?),
-            Kind::Augmented { pairs } => Symbolic::Ldlt(LdltAnalysis::new(&pattern, elimination.order, pairs)?),
-            Kind::General => Symbolic::Lu(LuAnalysis::new(&pattern, &elimination)?),
+            Kind::Hermitian => Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower)?),
+            Kind::Augmented { pairs } => Symbolic::Ldlt(LdltAnalysis::new(&pattern, elimination.order(), pairs)?),
+            Kind::General => Symbolic::Lu(FrontAnalysis::new(&pattern, &elimination, Sides::Both)?),
         };
         Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
     }
@@ -107,7 +108,8 @@ impl Analysis {
         match &self.shared.symbolic {
             Symbolic::Llt(llt) if self.shared.pattern.order() == pattern.major_dim() => {
                 let pattern = Pattern::checked(pattern)?;
-                let symbolic = Symbolic::Llt(LltAnalysis::new(&pattern, &llt.order())?);
+                let elimination = in_order(&pattern, &llt.order);
+                let symbolic = Symbolic::Llt(FrontAnalysis::new(&pattern, &elimination, Sides::Lower)?);
                 Ok(Self { shared: Arc::new(Shared { pattern, symbolic }) })
             }
             Symbolic::Llt(_) => Self::new(Kind::Hermitian, pattern),
@@ -116,8 +118,8 @@ impl Analysis {
         }
     }
 
-    /// Factors a matrix of the analysed pattern. The LU looks at `cancel` at every supernode, the Hermitian
-    /// factorizations only before and after.
+    /// Factors a matrix of the analysed pattern. LU and Cholesky look at `cancel` at every supernode, the augmented
+    /// factorization only before and after.
     ///
     /// # Errors
     ///
@@ -132,9 +134,9 @@ impl Analysis {
         let cancelled = || if cancel.load(Ordering::Relaxed) { Err(LinalgError::Cancelled) } else { Ok(()) };
         cancelled()?;
         let numeric = match symbolic {
-            Symbolic::Llt(analysis) => Numeric::Llt(analysis.factor(pattern, matrix)?),
+            Symbolic::Llt(analysis) => Numeric::Llt(Llt::new(analysis, matrix, cancel)?),
             Symbolic::Ldlt(analysis) => Numeric::Ldlt(analysis.factor(pattern, matrix)?),
-            Symbolic::Lu(analysis) => Numeric::Lu(analysis.factor(pattern, matrix, cancel)?),
+            Symbolic::Lu(analysis) => Numeric::Lu(Lu::new(analysis, pattern, matrix, cancel)?),
         };
         cancelled()?;
         let factor = Factor { shared: Arc::clone(&self.shared), numeric };
@@ -227,7 +229,7 @@ impl<T: Scalar> Factor<T> {
         match (&self.shared.symbolic, &self.numeric) {
             (Symbolic::Llt(analysis), Numeric::Llt(llt)) => {
                 // A = Aᴴ: both operations are one.
-                analysis.solve_in_place(llt, columns);
+                llt.solve_in_place(analysis, columns);
             }
             (Symbolic::Ldlt(analysis), Numeric::Ldlt(ldlt)) => analysis.solve_in_place(ldlt, columns),
             (Symbolic::Lu(analysis), Numeric::Lu(lu)) => lu.solve_in_place(analysis, operation, columns),

@@ -14,11 +14,15 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::sparse::SparseColMatRef;
-use faer::sparse::linalg::cholesky::{LdltRef, SymbolicCholesky};
-use faer::{Conj, Par, Side, Spec};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::{Conj, MatMut, Par, Side, Spec};
 use nalgebra_sparse::CscMatrix;
+use rayon::prelude::*;
 
-use super::llt::{by_groups, symbolic};
+use super::fronts::TOGETHER;
 use super::order::{Order, Pattern};
 use super::scalar::Scalar;
 use super::{FactorStats, LinalgError};
@@ -113,4 +117,33 @@ impl<T> Ldlt<T> {
             peak_bytes: self.peak_bytes,
         }
     }
+}
+
+/// Symbolic factorization in a given order.
+fn symbolic(pattern: &Pattern, order: &Order) -> Result<SymbolicCholesky<u32>, LinalgError> {
+    let params = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+        ..Default::default()
+    };
+    let ordering = SymmetricOrdering::Custom(order.as_faer());
+    factorize_symbolic_cholesky(pattern.as_faer(), Side::Lower, ordering, params)
+        .map_err(|_| LinalgError::TooLarge { order: pattern.order() })
+}
+
+/// Solves for groups of columns side by side.
+fn by_groups<T: Scalar>(
+    symbolic: &SymbolicCholesky<u32>,
+    columns: &mut [T],
+    solve: impl Fn(MatMut<'_, T>, &mut MemStack) + Sync,
+) {
+    let n = symbolic.nrows();
+    if n == 0 {
+        return;
+    }
+    let scratch = symbolic.solve_in_place_scratch::<T>(TOGETHER, Par::Seq);
+    columns.par_chunks_mut(TOGETHER * n).for_each(|columns| {
+        let mut memory = MemBuffer::new(scratch);
+        let count = columns.len() / n;
+        solve(MatMut::from_column_major_slice_mut(columns, n, count), MemStack::new(&mut memory));
+    });
 }

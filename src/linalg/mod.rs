@@ -1,4 +1,4 @@
-//! Sparse linear systems: Cholesky and `LDLᴴ` for Hermitian matrices, a multifrontal LU for unsymmetric values on a symmetric
+//! Sparse linear systems: multifrontal Cholesky and faer's `LDLᴴ` for Hermitian matrices, a multifrontal LU for unsymmetric values on a symmetric
 //! pattern, refinement and residuals. Knows no mesh.
 //!
 //! ```text
@@ -11,7 +11,8 @@
 //! |---|---|
 //! | `analysis.rs` | the interface |
 //! | `order.rs` | fill-reducing order (AMD), elimination tree, postorder |
-//! | `llt.rs` | Hermitian definite: faer's supernodal Cholesky |
+//! | `fronts/` | the tree of dense fronts that both multifrontal factorizations go up |
+//! | `llt/` | Hermitian definite: our multifrontal Cholesky |
 //! | `ldlt.rs` | Hermitian augmented, for least squares: faer's supernodal `LDLᴴ` |
 //! | `lu/` | unsymmetric: our multifrontal LU |
 //! | `lanczos.rs` | the greatest eigenvalue of an operator, such as the inverse of a factored matrix |
@@ -20,6 +21,7 @@
 
 mod analysis;
 mod error;
+mod fronts;
 mod gmres;
 mod lanczos;
 mod ldlt;

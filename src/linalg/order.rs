@@ -64,6 +64,20 @@ impl Pattern {
             && same(&self.rows, matrix.pattern().minor_indices())
     }
 
+    /// Where unknowns come in pairs 2k and 2k + 1, all of whose entries stand in blocks of 2 × 2, the pattern of the pairs.
+    pub(super) fn of_pairs(&self) -> Option<Self> {
+        let n = self.order();
+        let are_pairs =
+            |rows: &[u32]| rows.chunks(2).all(|pair| pair[0] % 2 == 0 && pair.get(1) == Some(&(pair[0] + 1)));
+        let is_pair = |k: usize| self.column(2 * k) == self.column(2 * k + 1) && are_pairs(self.column(2 * k));
+        if n == 0 || n % 2 != 0 || !(0..n / 2).all(is_pair) {
+            return None;
+        }
+        let rows = (0..n / 2).flat_map(|k| self.column(2 * k).iter().step_by(2).map(|&row| row / 2)).collect();
+        let offsets = self.offsets.iter().step_by(2).map(|&offset| offset / 4).collect();
+        Some(Self { offsets, rows })
+    }
+
     /// Walks the columns once: entry (i, j) of column j must be the next unread entry of row j in column i.
     fn check_symmetric(&self) -> Result<(), LinalgError> {
         let mut next: Vec<u32> = self.offsets[..self.order()].to_vec();
@@ -137,6 +151,11 @@ impl Order {
         Self::from_new_to_old(later.iter().map(|&middle| self.new_to_old[middle as usize]).collect())
     }
 
+    /// The order of a matrix whose unknowns stand for pairs: 2k and 2k + 1 for k.
+    pub(super) fn of_pairs(&self) -> Self {
+        Self::from_new_to_old(in_pairs(&self.new_to_old))
+    }
+
     /// The order in which 2k comes before 2k + 1 for k below `pairs`: where they have one pattern, the fill stays as it is.
     pub(super) fn with_pairs_in_turn(mut self, pairs: usize) -> Self {
         for (first, second) in (0..pairs).map(|k| (2 * k, 2 * k + 1)) {
@@ -160,27 +179,53 @@ pub(super) struct Elimination {
     pub(super) order: Order,
     pub(super) parent: Vec<u32>,
     pub(super) counts: Vec<u32>,
+    /// The pattern of pairs, where unknowns come in pairs: then all of this is about pairs.
+    pub(super) pairs: Option<Pattern>,
 }
 
 /// Orders a pattern by AMD and a postorder of the elimination tree.
 pub(super) fn order(pattern: &Pattern) -> Result<Elimination, LinalgError> {
-    let n = pattern.order();
-    let degree = minimum_degree(pattern)?;
-    let upper = pattern.permuted_upper(&degree);
-    let (parent, counts) = elimination_tree(&upper);
-    let children = children(&parent);
-    let roots = (0..).zip(&parent).filter(|&(_, &above)| above == NONE).map(|(node, _)| node).collect();
-    let post = postorder(roots, |node| children.column(node as usize));
-    let mut position = vec![0u32; n];
-    for (new, &old) in post.iter().enumerate() {
-        position[old as usize] = narrow(new);
+    let pairs = pattern.of_pairs();
+    let degree = minimum_degree(pairs.as_ref().unwrap_or(pattern))?;
+    Ok(Elimination::new(pattern, pairs, &degree))
+}
+
+/// The same in a given order, but for its postorder; where unknowns come in pairs, these must be neighbours in it.
+pub(super) fn in_order(pattern: &Pattern, given: &Order) -> Elimination {
+    let pairs = pattern.of_pairs();
+    match &pairs {
+        None => Elimination::new(pattern, None, given),
+        Some(_) => {
+            let of_pairs = given.new_to_old.iter().step_by(2).map(|&old| old / 2).collect();
+            Elimination::new(pattern, pairs, &Order::from_new_to_old(of_pairs))
+        }
     }
-    let renamed = |old: u32| if parent[old as usize] == NONE { NONE } else { position[parent[old as usize] as usize] };
-    Ok(Elimination {
-        order: degree.then(&post),
-        parent: post.iter().map(|&old| renamed(old)).collect(),
-        counts: post.iter().map(|&old| counts[old as usize]).collect(),
-    })
+}
+
+impl Elimination {
+    /// The order of the unknowns themselves.
+    pub(super) fn order(self) -> Order {
+        if self.pairs.is_some() { self.order.of_pairs() } else { self.order }
+    }
+
+    fn new(pattern: &Pattern, pairs: Option<Pattern>, degree: &Order) -> Self {
+        let (parent, counts) = elimination_tree(&pairs.as_ref().unwrap_or(pattern).permuted_upper(degree));
+        let children = children(&parent);
+        let roots = (0..).zip(&parent).filter(|&(_, &above)| above == NONE).map(|(node, _)| node).collect();
+        let post = postorder(roots, |node| children.column(node as usize));
+        let mut position = vec![0u32; parent.len()];
+        for (new, &old) in post.iter().enumerate() {
+            position[old as usize] = narrow(new);
+        }
+        let renamed =
+            |old: u32| if parent[old as usize] == NONE { NONE } else { position[parent[old as usize] as usize] };
+        Self {
+            order: degree.then(&post),
+            parent: post.iter().map(|&old| renamed(old)).collect(),
+            counts: post.iter().map(|&old| counts[old as usize]).collect(),
+            pairs,
+        }
+    }
 }
 
 fn minimum_degree(pattern: &Pattern) -> Result<Order, LinalgError> {
@@ -217,6 +262,11 @@ pub(super) fn postorder<'a>(roots: Vec<u32>, children: impl Fn(u32) -> &'a [u32]
     }
     sequence.reverse();
     sequence
+}
+
+/// 2k and 2k + 1 for every k of a list.
+pub(super) fn in_pairs(list: &[u32]) -> Vec<u32> {
+    list.iter().flat_map(|&k| [2 * k, 2 * k + 1]).collect()
 }
 
 /// Where lists of these lengths begin, and the end of the last.

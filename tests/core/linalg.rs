@@ -70,7 +70,7 @@ fn hermitian_agrees_with_dense<T: Draw>(seed: u64, n: usize, sign: f64) {
     assert!(deviation(&dense(&matrix), &adjoint.x, &rhs[..n]) < TOLERANCE);
 }
 
-fn bits<T: Scalar>(x: &[T]) -> Vec<[u64; 2]> {
+pub(crate) fn bits<T: Scalar>(x: &[T]) -> Vec<[u64; 2]> {
     x.iter().map(|x| [x.real().to_bits(), x.modulus_squared().to_bits()]).collect()
 }
 

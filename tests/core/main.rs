@@ -52,6 +52,7 @@ mod lee;
 mod linalg;
 mod linalg_augmented;
 mod linalg_faults;
+mod linalg_hermitian;
 mod linalg_lanczos;
 mod linalg_matrices;
 mod linalg_mean_value;

@@ -1,25 +1,19 @@
-//! Numeric factorization: the tree of fronts.
+//! Numeric factorization: every front of the tree.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock};
+use std::sync::atomic::AtomicBool;
 
-use faer::Par;
 use nalgebra_sparse::CscMatrix;
-use rayon::Scope;
 
 use super::front::Front;
 use super::pivot::Pivots;
-use super::symbolic::LuAnalysis;
-use crate::linalg::order::{NONE, Pattern, narrow};
+use crate::linalg::fronts::{FrontAnalysis, Kernel, Tree};
+use crate::linalg::order::{Pattern, narrow};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::power_of_two_near;
 use crate::linalg::{FactorStats, LinalgError};
 
 /// √ε: a pivot smaller than this against its row's largest entry is replaced.
 const TINY_PIVOT: f64 = 1.490_116_119_384_765_6e-8;
-
-/// Fronts with less work than this, in multiplications, are not worth more than one thread.
-const PARALLEL_WORK: f64 = 2e6;
 
 #[derive(Debug)]
 pub(crate) struct Lu<T> {
@@ -39,147 +33,61 @@ pub(super) struct UnitFactor<T> {
     replaced: Vec<u32>,
 }
 
-/// A supernode's update on its way to the parent.
-type Update<T> = (u32, Vec<T>);
-
 /// What the threads of one factorization share.
 struct Job<'a, T> {
-    analysis: &'a LuAnalysis,
+    analysis: &'a FrontAnalysis,
     pattern: &'a Pattern,
     values: &'a [T],
     row_scale: &'a [f64],
     /// Smallest pivot accepted, by the caller's rows.
     thresholds: &'a [f64],
-    cancel: &'a AtomicBool,
-    done: Vec<OnceLock<UnitFactor<T>>>,
-    inboxes: Vec<Mutex<Vec<Update<T>>>>,
-    awaited: Vec<AtomicUsize>,
-    memory: Memory,
 }
 
-#[derive(Default)]
-struct Memory {
-    now: AtomicUsize,
-    peak: AtomicUsize,
-}
-
-impl Memory {
-    fn take(&self, bytes: usize) {
-        let now = self.now.fetch_add(bytes, Ordering::Relaxed) + bytes;
-        self.peak.fetch_max(now, Ordering::Relaxed);
-    }
-    fn give_back(&self, bytes: usize) {
-        self.now.fetch_sub(bytes, Ordering::Relaxed);
-    }
-}
-
-impl LuAnalysis {
-    pub(crate) fn factor<T: Scalar>(
-        &self,
+impl<T: Scalar> Lu<T> {
+    pub(crate) fn new(
+        analysis: &FrontAnalysis,
         pattern: &Pattern,
         matrix: &CscMatrix<T>,
         cancel: &AtomicBool,
-    ) -> Result<Lu<T>, LinalgError> {
+    ) -> Result<Self, LinalgError> {
         let (row_scale, thresholds) = equilibrate(pattern, matrix.values())?;
-        let job = Job {
-            analysis: self,
-            pattern,
-            values: matrix.values(),
-            row_scale: &row_scale,
-            thresholds: &thresholds,
-            cancel,
-            done: self.units.iter().map(|_| OnceLock::new()).collect(),
-            inboxes: self.units.iter().map(|_| Mutex::default()).collect(),
-            awaited: self.units.iter().map(|unit| AtomicUsize::new(unit.awaited)).collect(),
-            memory: Memory::default(),
-        };
-        rayon::scope(|scope| {
-            // A thread takes its newest task first, so the last spawned here is the first unit in postorder.
-            for unit in (0..self.units.len()).rev().filter(|&unit| self.units[unit].awaited == 0) {
-                let job = &job;
-                scope.spawn(move |scope| job.run(unit, scope));
-            }
-        });
-        let peak_bytes = job.memory.peak.into_inner();
-        let units: Option<Vec<_>> = job.done.into_iter().map(OnceLock::into_inner).collect();
-        let units = units.ok_or(LinalgError::Cancelled)?;
+        let values = matrix.values();
+        let job = Job { analysis, pattern, values, row_scale: &row_scale, thresholds: &thresholds };
+        let (units, peak_bytes) = Tree::run(analysis, &job, cancel)?;
         let replaced = units.iter().flat_map(|unit| &unit.replaced);
-        let replaced_rows = replaced.map(|&row| self.order.new_to_old[row as usize]).collect();
-        Ok(Lu { units, row_scale, replaced_rows, peak_bytes })
+        let replaced_rows = replaced.map(|&row| analysis.order.new_to_old[row as usize]).collect();
+        Ok(Self { units, row_scale, replaced_rows, peak_bytes })
     }
 }
 
-impl<T: Scalar> Job<'_, T> {
-    fn run<'scope>(&'scope self, unit: usize, scope: &Scope<'scope>) {
-        let range = self.analysis.units[unit].range.clone();
-        let kept: usize = range.clone().map(|s| self.analysis.shape(s).kept_len()).sum();
-        let columns = self.analysis.begin[range.end] - self.analysis.begin[range.start];
-        self.memory.take(kept * size_of::<T>());
-        let mut factor = UnitFactor {
-            values: Vec::with_capacity(kept),
-            swaps: Vec::with_capacity(columns as usize),
-            replaced: Vec::new(),
-        };
-        let mut arrived = std::mem::take(&mut *self.inboxes[unit].lock().expect("no task panics while it holds this"));
-        arrived.sort_unstable_by_key(|&(child, _)| child);
-        let mut waiting: Vec<Option<Vec<T>>> = range.clone().map(|_| None).collect();
-        for supernode in range.clone() {
-            if self.cancel.load(Ordering::Relaxed) {
-                return;
-            }
-            let children = self.analysis.children.column(supernode).iter().map(|&child| {
-                let update = if (child as usize) < range.start {
-                    let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
-                    place.ok().map(|place| std::mem::take(&mut arrived[place].1))
-                } else {
-                    waiting[child as usize - range.start].take()
-                };
-                (child, update.expect("children come before their parent"))
-            });
-            let update = self.front(supernode, children, &mut factor);
-            match self.analysis.parent[supernode] {
-                NONE => {}
-                parent if (parent as usize) < range.end => waiting[supernode - range.start] = Some(update),
-                parent => self.send(supernode, parent, update, scope),
-            }
-        }
-        let fresh = self.done[unit].set(factor).is_ok();
-        debug_assert!(fresh, "a unit runs once");
+impl<T: Scalar> Kernel<T> for Job<'_, T> {
+    type Kept = UnitFactor<T>;
+
+    fn room(&self, numbers: usize, columns: usize) -> UnitFactor<T> {
+        UnitFactor { values: Vec::with_capacity(numbers), swaps: Vec::with_capacity(columns), replaced: Vec::new() }
     }
 
-    /// Hands an update to another unit, and starts that unit if this was the last it waited for.
-    fn send<'scope>(&'scope self, supernode: usize, parent: u32, update: Vec<T>, scope: &Scope<'scope>) {
-        let unit = self.analysis.unit_of[parent as usize] as usize;
-        self.inboxes[unit].lock().expect("no task panics while it holds this").push((narrow(supernode), update));
-        if self.awaited[unit].fetch_sub(1, Ordering::AcqRel) == 1 {
-            scope.spawn(move |scope| self.run(unit, scope));
-        }
-    }
-
-    /// Assembles and eliminates one front; its panels are appended to the unit's factor.
-    fn front(
+    fn eliminate(
         &self,
         supernode: usize,
-        children: impl Iterator<Item = (u32, Vec<T>)>,
+        children: &mut dyn Iterator<Item = (u32, Vec<T>)>,
         factor: &mut UnitFactor<T>,
-    ) -> Vec<T> {
+        update: &mut [T],
+    ) -> Result<(), LinalgError> {
         let analysis = self.analysis;
         let shape = analysis.shape(supernode);
         let start = factor.values.len();
-        factor.values.resize(start + shape.kept_len(), T::ZERO);
+        factor.values.resize(start + analysis.kept_len(supernode), T::ZERO);
         let block = &mut factor.values[start..];
         for entry in analysis.entries(supernode) {
             let source = entry.source as usize;
             let scale = self.row_scale[self.pattern.rows[source] as usize];
             block[entry.target as usize] = self.values[source].scale(scale);
         }
-        self.memory.take(shape.update_len() * size_of::<T>());
-        let mut update = vec![T::ZERO; shape.update_len()];
         let (left, right) = block.split_at_mut(shape.left_len());
-        let mut front = Front { shape, left, right, update: &mut update };
+        let mut front = Front { shape, left, right, update };
         for (child, childs_update) in children {
             front.extend_add(&childs_update, analysis.relative(child as usize));
-            self.memory.give_back(childs_update.len() * size_of::<T>());
         }
         let begin = analysis.begin[supernode] as usize;
         let rows = &analysis.order.new_to_old[begin..begin + shape.columns];
@@ -188,10 +96,9 @@ impl<T: Scalar> Job<'_, T> {
         factor.swaps.resize(first + shape.columns, 0);
         let swaps = &mut factor.swaps[first..];
         let mut pivots = Pivots { thresholds: &mut thresholds, swaps, replaced: Vec::new() };
-        let par = if shape.work() < PARALLEL_WORK { Par::Seq } else { Par::rayon(0) };
-        front.eliminate(&mut pivots, par);
+        front.eliminate(&mut pivots, shape.threads());
         factor.replaced.extend(pivots.replaced.iter().map(|&k| analysis.begin[supernode] + narrow(k)));
-        update
+        Ok(())
     }
 }
 

@@ -1,9 +1,9 @@
 //! One front: assembly, elimination, update.
 
-use faer::{Accum, MatMut, MatRef, Par, linalg};
+use faer::{Accum, Par, linalg};
 
 use super::pivot::{Pivots, factor_block};
-use super::symbolic::Shape;
+use crate::linalg::fronts::{Shape, mat_mut, scatter_add};
 use crate::linalg::scalar::Scalar;
 
 /// A dense front under way. The two panels are the factor's own memory.
@@ -61,18 +61,4 @@ impl<T: Scalar> Front<'_, T> {
         let update = mat_mut(self.update, below, below);
         linalg::matmul::matmul(update, Accum::Add, lower.as_ref(), right.as_ref(), -T::ONE, par);
     }
-}
-
-fn scatter_add<T: Scalar>(target: &mut [T], rows: &[u32], first: usize, source: &[T]) {
-    for (&row, &value) in rows.iter().zip(source) {
-        target[row as usize - first] += value;
-    }
-}
-
-pub(super) fn mat<T>(values: &[T], rows: usize, columns: usize) -> MatRef<'_, T> {
-    MatRef::from_column_major_slice(values, rows, columns)
-}
-
-pub(super) fn mat_mut<T>(values: &mut [T], rows: usize, columns: usize) -> MatMut<'_, T> {
-    MatMut::from_column_major_slice_mut(values, rows, columns)
 }

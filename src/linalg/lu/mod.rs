@@ -4,10 +4,7 @@
 //! Q (R⁻¹ A) Qᵀ = L U      R diagonal, powers of two near |aᵢᵢ|;  Q a fill-reducing order
 //! ```
 //!
-//! The supernodes, columns of L that share one pattern, form a tree. Each gathers its entries of A and its children's
-//! updates into a dense front, eliminates its own columns and hands the Schur complement to its parent (Duff and Reid
-//! 1983, "The multifrontal solution of indefinite sparse symmetric linear equations"). With
-//! `c` columns and `p` rows below them, a front is
+//! With `c` columns and `p` rows below them, a front (see the module `fronts`) is
 //!
 //! ```text
 //!         c        p
@@ -20,19 +17,12 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `supernodes.rs` | columns → relaxed supernodes, their order |
-//! | `symbolic.rs` | patterns of the fronts, where every entry goes |
-//! | `units.rs` | what runs one after another, what side by side |
-//! | `factor.rs`, `front.rs`, `pivot.rs` | numbers: tree, one front, its diagonal block |
+//! | `factor.rs`, `front.rs`, `pivot.rs` | numbers: all fronts, one front, its diagonal block |
 //! | `solve.rs` | forward and backward substitution |
 
 mod factor;
 mod front;
 mod pivot;
 mod solve;
-mod supernodes;
-mod symbolic;
-mod units;
 
 pub(super) use factor::Lu;
-pub(super) use symbolic::LuAnalysis;

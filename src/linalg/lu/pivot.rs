@@ -2,7 +2,7 @@
 
 use faer::{Accum, Par, linalg};
 
-use super::front::{mat, mat_mut};
+use crate::linalg::fronts::{mat, mat_mut};
 use crate::linalg::order::narrow;
 use crate::linalg::scalar::Scalar;
 

@@ -8,20 +8,13 @@ use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
     solve_upper_triangular_in_place,
 };
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{Accum, MatRef, Par};
 use rayon::prelude::*;
 
 use super::factor::Lu;
-use super::front::mat;
-use super::symbolic::{LuAnalysis, Shape};
+use crate::linalg::fronts::{FrontAnalysis, LARGE_PANEL, Shape, TOGETHER, Work, dot, mat};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::Operation;
-
-/// Right-hand sides solved together by one thread.
-const TOGETHER: usize = 4;
-
-/// A panel with at least so many entries is worth the call of a dense kernel.
-const LARGE_PANEL: usize = 256;
 
 /// One supernode's part of the factors.
 struct Block<'a, T> {
@@ -35,7 +28,7 @@ struct Block<'a, T> {
 
 impl<T: Scalar> Lu<T> {
     /// Solves op(A) x = b in place for each column of `columns` (column-major).
-    pub(crate) fn solve_in_place(&self, analysis: &LuAnalysis, operation: Operation, columns: &mut [T]) {
+    pub(crate) fn solve_in_place(&self, analysis: &FrontAnalysis, operation: Operation, columns: &mut [T]) {
         let n = self.row_scale.len();
         if n == 0 {
             return;
@@ -43,7 +36,7 @@ impl<T: Scalar> Lu<T> {
         columns.par_chunks_mut(TOGETHER * n).for_each(|columns| self.solve_group(analysis, operation, columns));
     }
 
-    fn solve_group(&self, analysis: &LuAnalysis, operation: Operation, columns: &mut [T]) {
+    fn solve_group(&self, analysis: &FrontAnalysis, operation: Operation, columns: &mut [T]) {
         let n = self.row_scale.len();
         let conjugate = |x: T| if operation == Operation::Adjoint { x.conjugate() } else { x };
         let (before, after) = match operation {
@@ -59,7 +52,7 @@ impl<T: Scalar> Lu<T> {
                 conjugate(column[row]).scale(factor(before, row))
             }));
         }
-        let mut work = Work { x, order: n, outer: Vec::new() };
+        let mut work = Work::new(x, n);
         if operation == Operation::Plain {
             self.blocks(analysis).for_each(|block| block.forward(&mut work));
             self.blocks(analysis).rev().for_each(|block| block.backward(&mut work));
@@ -67,7 +60,7 @@ impl<T: Scalar> Lu<T> {
             self.blocks(analysis).for_each(|block| block.forward_transpose(&mut work));
             self.blocks(analysis).rev().for_each(|block| block.backward_transpose(&mut work));
         }
-        for (x, column) in work.x.chunks_exact(n).zip(columns.chunks_exact_mut(n)) {
+        for (x, column) in work.columns().zip(columns.chunks_exact_mut(n)) {
             for (&x, &old) in x.iter().zip(order) {
                 let row = old as usize;
                 column[row] = conjugate(x).scale(factor(after, row));
@@ -75,72 +68,24 @@ impl<T: Scalar> Lu<T> {
         }
     }
 
-    fn blocks<'a>(&'a self, analysis: &'a LuAnalysis) -> impl DoubleEndedIterator<Item = Block<'a, T>> {
+    fn blocks<'a>(&'a self, analysis: &'a FrontAnalysis) -> impl DoubleEndedIterator<Item = Block<'a, T>> {
         self.units.iter().zip(&analysis.units).flat_map(move |(factor, unit)| {
             let first_column = analysis.begin[unit.range.start] as usize;
             let mut starts = Vec::with_capacity(unit.range.len());
             let mut start = 0;
             for supernode in unit.range.clone() {
                 starts.push(start);
-                start += analysis.shape(supernode).kept_len();
+                start += analysis.kept_len(supernode);
             }
             unit.range.clone().zip(starts).map(move |(supernode, start)| {
                 let shape = analysis.shape(supernode);
                 let begin = analysis.begin[supernode] as usize;
-                let (left, right) = factor.values[start..start + shape.kept_len()].split_at(shape.left_len());
+                let (left, right) =
+                    factor.values[start..start + analysis.kept_len(supernode)].split_at(shape.left_len());
                 let swaps = &factor.swaps[begin - first_column..][..shape.columns];
                 Block { shape, begin, rows: analysis.rows.column(supernode), left, right, swaps }
             })
         })
-    }
-}
-
-/// Right-hand sides on their way to solutions, in the order of elimination.
-struct Work<T> {
-    /// Column-major.
-    x: Vec<T>,
-    /// Length of a column.
-    order: usize,
-    /// A block's rows below its own, gathered; column-major.
-    outer: Vec<T>,
-}
-
-impl<T: Scalar> Work<T> {
-    fn count(&self) -> usize {
-        self.x.len() / self.order
-    }
-
-    fn gather(&mut self, rows: &[u32]) {
-        self.outer.clear();
-        for column in self.x.chunks_exact(self.order) {
-            self.outer.extend(rows.iter().map(|&row| column[row as usize]));
-        }
-    }
-
-    fn scatter_subtract(&mut self, rows: &[u32]) {
-        if rows.is_empty() {
-            return;
-        }
-        for (column, outer) in self.x.chunks_exact_mut(self.order).zip(self.outer.chunks_exact(rows.len())) {
-            for (&row, &value) in rows.iter().zip(outer) {
-                column[row as usize] -= value;
-            }
-        }
-    }
-
-    /// The block's own rows and its outer ones.
-    fn views(&mut self, block: &Block<'_, T>) -> (MatMut<'_, T>, MatMut<'_, T>) {
-        let (count, Shape { columns, below }) = (self.count(), block.shape);
-        self.outer.resize(below * count, T::ZERO);
-        let own = MatMut::from_column_major_slice_mut(&mut self.x, self.order, count);
-        let outer = MatMut::from_column_major_slice_mut(&mut self.outer, below, count);
-        (own.subrows_mut(block.begin, columns), outer)
-    }
-
-    /// The block's own rows and all that follow, for each right-hand side.
-    fn split(&mut self, block: &Block<'_, T>) -> impl Iterator<Item = (&mut [T], &mut [T])> {
-        let (begin, columns) = (block.begin, block.shape.columns);
-        self.x.chunks_exact_mut(self.order).map(move |column| column[begin..].split_at_mut(columns))
     }
 }
 
@@ -163,20 +108,20 @@ impl<'a, T: Scalar> Block<'a, T> {
 
     /// L y = P b.
     fn forward(&self, work: &mut Work<T>) {
-        for (own, _) in work.split(self) {
+        for (own, _) in work.split(self.begin, self.shape) {
             for (k, &row) in self.swaps.iter().enumerate() {
                 own.swap(k, row as usize);
             }
         }
         if self.is_large() {
             let (diagonal, lower, _) = self.parts();
-            let (mut own, outer) = work.views(self);
+            let (mut own, outer) = work.views(self.begin, self.shape);
             solve_unit_lower_triangular_in_place(diagonal, own.as_mut(), Par::Seq);
             matmul(outer, Accum::Replace, lower, own.as_ref(), T::ONE, Par::Seq);
             work.scatter_subtract(self.rows);
             return;
         }
-        for (own, later) in work.split(self) {
+        for (own, later) in work.split(self.begin, self.shape) {
             for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
                 let value = own[k];
                 let (diagonal, below) = column.split_at(self.shape.columns);
@@ -191,12 +136,12 @@ impl<'a, T: Scalar> Block<'a, T> {
         if self.is_large() {
             let (diagonal, _, right) = self.parts();
             work.gather(self.rows);
-            let (mut own, outer) = work.views(self);
+            let (mut own, outer) = work.views(self.begin, self.shape);
             matmul(own.as_mut(), Accum::Add, right, outer.as_ref(), -T::ONE, Par::Seq);
             solve_upper_triangular_in_place(diagonal, own, Par::Seq);
             return;
         }
-        for (own, later) in work.split(self) {
+        for (own, later) in work.split(self.begin, self.shape) {
             for (column, &row) in self.right.chunks_exact(self.shape.columns).zip(self.rows) {
                 let value = later[self.place(row)];
                 own.iter_mut().zip(column).for_each(|(x, &u)| *x -= u * value);
@@ -213,13 +158,13 @@ impl<'a, T: Scalar> Block<'a, T> {
     fn forward_transpose(&self, work: &mut Work<T>) {
         if self.is_large() {
             let (diagonal, _, right) = self.parts();
-            let (mut own, outer) = work.views(self);
+            let (mut own, outer) = work.views(self.begin, self.shape);
             solve_lower_triangular_in_place(diagonal.transpose(), own.as_mut(), Par::Seq);
             matmul(outer, Accum::Replace, right.transpose(), own.as_ref(), T::ONE, Par::Seq);
             work.scatter_subtract(self.rows);
             return;
         }
-        for (own, later) in work.split(self) {
+        for (own, later) in work.split(self.begin, self.shape) {
             for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate() {
                 let sum = dot(&own[..k], column);
                 own[k] = (own[k] - sum) / column[k];
@@ -235,11 +180,11 @@ impl<'a, T: Scalar> Block<'a, T> {
         if self.is_large() {
             let (diagonal, lower, _) = self.parts();
             work.gather(self.rows);
-            let (mut own, outer) = work.views(self);
+            let (mut own, outer) = work.views(self.begin, self.shape);
             matmul(own.as_mut(), Accum::Add, lower.transpose(), outer.as_ref(), -T::ONE, Par::Seq);
             solve_unit_upper_triangular_in_place(diagonal.transpose(), own, Par::Seq);
         } else {
-            for (own, later) in work.split(self) {
+            for (own, later) in work.split(self.begin, self.shape) {
                 for (k, column) in self.left.chunks_exact(self.shape.height()).enumerate().rev() {
                     let (diagonal, below) = column.split_at(self.shape.columns);
                     let inside = dot(&own[k + 1..], &diagonal[k + 1..]);
@@ -248,15 +193,10 @@ impl<'a, T: Scalar> Block<'a, T> {
                 }
             }
         }
-        for (own, _) in work.split(self) {
+        for (own, _) in work.split(self.begin, self.shape) {
             for (k, &row) in self.swaps.iter().enumerate().rev() {
                 own.swap(k, row as usize);
             }
         }
     }
-}
-
-/// Σ xᵢ yᵢ over the shorter of both, without conjugation.
-fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
-    x.iter().zip(y).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }

@@ -7,7 +7,14 @@
 //! Some points are held; the others move. While a triangle is folded, ε follows the smallest determinant, as in "Foldover-free
 //! maps in 50 lines of code" (see the module `foldover_energy`); once all are unfolded ε is 0, and no step leaves that state.
 //! On request it is so for each triangle by itself: those that are unfolded have a barrier while others unfold.
+//!
+//! | file | what |
+//! |---|---|
+//! | `assembly.rs` | gradient and Hessian of all elements |
+//! | `descent.rs` | Newton steps with a line search |
+//! | `reweighted.rs` | a step of SLIM |
 
+mod assembly;
 mod descent;
 mod reweighted;
 
@@ -17,7 +24,7 @@ use nalgebra_sparse::pattern::SparsityPattern;
 use rayon::prelude::*;
 
 use super::block_pattern::{HELD, Neighbours, number};
-use super::foldover_energy::{Element, Energy, Model};
+use super::foldover_energy::{Element, Energy};
 use super::{Control, SolveError};
 use crate::linalg::{Analysis, Factor, Kind, LinalgError};
 use descent::Energies;
@@ -25,9 +32,6 @@ pub(super) use descent::{Limits, Unfolding};
 
 /// Elements whose energies are summed by one task: the sum is the same however many threads share it.
 const CHUNK: usize = 2048;
-
-/// Elements whose models are held at one time.
-const MODELS: usize = 8 * CHUNK;
 
 /// The first multiple of the diagonal that is added where the Hessian cannot be factored; then ten times as much.
 const REGULARISATION: f64 = 1e-10;
@@ -143,70 +147,6 @@ impl Membrane {
     /// Gradient by unknown, and Hessian. Where points are moved by `shift`, the gradient is that of the model there.
     fn linearise(&self, z: &[DVec2], energies: &Energies, shift: Option<&[DVec2]>) -> (Vec<f64>, CscMatrix<f64>) {
         self.assembled(z, |at, element| element.model(Self::corners(element, z), energies.of(at)), shift)
-    }
-
-    /// The same of these models of the elements, which are numbered.
-    fn assembled(
-        &self,
-        z: &[DVec2],
-        model_of: impl Fn(usize, &Element) -> Model + Sync,
-        shift: Option<&[DVec2]>,
-    ) -> (Vec<f64>, CscMatrix<f64>) {
-        let mut gradient = vec![0.0; 2 * self.unknowns.len()];
-        let mut values = vec![0.0; self.pattern.nnz()];
-        let blocks = self.elements.chunks(MODELS).zip(self.slots.chunks(MODELS));
-        for (first, (block, slots)) in (0..).step_by(MODELS).zip(blocks) {
-            let model = |(at, element): (usize, &Element)| model_of(first + at, element);
-            let models: Vec<Model> = block.par_iter().enumerate().with_min_len(CHUNK / 8).map(model).collect();
-            for ((element, slots), mut model) in block.iter().zip(slots).zip(models) {
-                if let Some(shift) = shift {
-                    let [a, b, c] = Self::corners(element, shift);
-                    let by = [a.x, a.y, b.x, b.y, c.x, c.y];
-                    for (g, row) in model.gradient.iter_mut().zip(&model.hessian) {
-                        *g += row.iter().zip(by).map(|(h, by)| h * by).sum::<f64>();
-                    }
-                }
-                self.add(element, slots, &model, (&mut gradient, &mut values));
-            }
-        }
-        for Spring { point, target, stiffness } in &self.springs {
-            let unknown = self.unknown_of[*point as usize] as usize;
-            let pull = *stiffness * (z[*point as usize] - *target);
-            gradient[2 * unknown] += pull.x;
-            gradient[2 * unknown + 1] += pull.y;
-            let at = self.diagonal[unknown] as usize;
-            values[at] += stiffness;
-            values[at + self.column_length[unknown] as usize + 1] += stiffness;
-        }
-        let hessian = CscMatrix::try_from_pattern_and_values(self.pattern.clone(), values).expect("one value an entry");
-        (gradient, hessian)
-    }
-
-    fn add(
-        &self,
-        element: &Element,
-        slots: &[[u32; 3]; 3],
-        Model { gradient: of_element, hessian }: &Model,
-        (gradient, values): (&mut [f64], &mut [f64]),
-    ) {
-        let unknowns = element.corners.map(|corner| self.unknown_of[corner as usize]);
-        for (k, (&unknown, slots)) in unknowns.iter().zip(slots).enumerate() {
-            if unknown == HELD {
-                continue;
-            }
-            gradient[2 * unknown as usize] += of_element[2 * k];
-            gradient[2 * unknown as usize + 1] += of_element[2 * k + 1];
-            for (l, (&column, &slot)) in unknowns.iter().zip(slots).enumerate() {
-                if slot == HELD {
-                    continue;
-                }
-                let (first, second) = (slot as usize, (slot + self.column_length[column as usize]) as usize);
-                values[first] += hessian[2 * k][2 * l];
-                values[first + 1] += hessian[2 * k + 1][2 * l];
-                values[second] += hessian[2 * k][2 * l + 1];
-                values[second + 1] += hessian[2 * k + 1][2 * l + 1];
-            }
-        }
     }
 
     /// Factors a Hessian; where rounding has made it indefinite, with a growing multiple of its diagonal added.

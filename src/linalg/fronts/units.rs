@@ -13,9 +13,9 @@ const LARGEST_SHARE: f64 = 1.0 / 64.0;
 
 /// A run of supernodes and the number of updates it awaits from other units.
 #[derive(Clone, Debug)]
-pub(super) struct Unit {
-    pub(super) range: Range<usize>,
-    pub(super) awaited: usize,
+pub(in crate::linalg) struct Unit {
+    pub(in crate::linalg) range: Range<usize>,
+    pub(in crate::linalg) awaited: usize,
 }
 
 /// Cuts the supernodes into units. Also returns the unit of every supernode.

@@ -4,76 +4,98 @@
 //! nor sorts: `relative` says where the rows of an update lie in the parent's front, `entries` where the entries of A
 //! lie in theirs.
 
+use faer::Par;
+
 use super::supernodes::{Supernodes, supernodes};
 use super::units::{Unit, units};
 use crate::linalg::LinalgError;
-use crate::linalg::order::{Elimination, NONE, Order, Pattern, children, narrow, running_sum};
+use crate::linalg::order::{Elimination, NONE, Order, Pattern, children, in_pairs, narrow, running_sum};
+
+/// Fronts with less work than this, in multiplications, are not worth more than one thread.
+const PARALLEL_WORK: f64 = 2e6;
 
 /// An entry of the caller's matrix and its place in the kept part of a front.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Entry {
+pub(in crate::linalg) struct Entry {
     /// Position among the matrix's values.
-    pub(super) source: u32,
-    /// Position in the supernode's block: L panel first, then U panel.
-    pub(super) target: u32,
+    pub(in crate::linalg) source: u32,
+    /// Position in the supernode's block: L panel first, then U panel where it is kept.
+    pub(in crate::linalg) target: u32,
 }
 
 /// Sizes of one front.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
+pub(in crate::linalg) struct Shape {
     /// Columns that the supernode eliminates.
-    pub(super) columns: usize,
+    pub(in crate::linalg) columns: usize,
     /// Rows, and columns, that it passes to its parent.
-    pub(super) below: usize,
+    pub(in crate::linalg) below: usize,
 }
 
 impl Shape {
-    pub(super) fn height(self) -> usize {
+    pub(in crate::linalg) fn height(self) -> usize {
         self.columns + self.below
     }
     /// Entries of the L panel, diagonal block included.
-    pub(super) fn left_len(self) -> usize {
+    pub(in crate::linalg) fn left_len(self) -> usize {
         self.height() * self.columns
     }
-    /// Entries that are kept: both panels.
-    pub(super) fn kept_len(self) -> usize {
-        self.left_len() + self.columns * self.below
-    }
-    pub(super) fn update_len(self) -> usize {
+    pub(in crate::linalg) fn update_len(self) -> usize {
         self.below * self.below
     }
-    /// Multiplications, to leading order.
-    pub(super) fn work(self) -> f64 {
+    /// The threads that its dense operations are worth.
+    pub(in crate::linalg) fn threads(self) -> Par {
+        if self.work() < PARALLEL_WORK { Par::Seq } else { Par::rayon(0) }
+    }
+    /// Multiplications of an LU, to leading order.
+    pub(in crate::linalg) fn work(self) -> f64 {
         let (c, p) = (self.columns as f64, self.below as f64);
         c * (c * c / 3.0 + c * p + p * p)
     }
 }
 
+/// Which panels of a front are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::linalg) enum Sides {
+    /// L alone, lower triangles of diagonal blocks and updates: the matrix is Hermitian.
+    Lower,
+    /// L and U.
+    Both,
+}
+
 /// The pattern of L and U, supernode by supernode, in a postorder of the supernode tree.
 #[derive(Debug)]
-pub(crate) struct LuAnalysis {
-    pub(super) order: Order,
+pub(in crate::linalg) struct FrontAnalysis {
+    sides: Sides,
+    pub(in crate::linalg) order: Order,
     /// First column of each supernode, and the order of the matrix last.
-    pub(super) begin: Vec<u32>,
-    pub(super) parent: Vec<u32>,
+    pub(in crate::linalg) begin: Vec<u32>,
+    pub(in crate::linalg) parent: Vec<u32>,
     /// For each supernode the rows below its diagonal block, ascending, in the order of elimination.
-    pub(super) rows: Pattern,
+    pub(in crate::linalg) rows: Pattern,
     /// The same rows as positions in the parent's front.
     relative: Vec<u32>,
     entry_offsets: Vec<u32>,
     entries: Vec<Entry>,
-    pub(super) children: Pattern,
-    pub(super) units: Vec<Unit>,
-    pub(super) unit_of: Vec<u32>,
+    pub(in crate::linalg) children: Pattern,
+    pub(in crate::linalg) units: Vec<Unit>,
+    pub(in crate::linalg) unit_of: Vec<u32>,
 }
 
-impl LuAnalysis {
-    pub(crate) fn new(pattern: &Pattern, elimination: &Elimination) -> Result<Self, LinalgError> {
-        let Supernodes { begin, parent, below, columns } = supernodes(elimination);
-        let order = elimination.order.then(&columns);
-        let rows = front_rows(&pattern.permuted_upper(&order), &begin, &parent, running_sum(&below));
+impl FrontAnalysis {
+    /// Analyses a pattern in an order of elimination, which may be one of pairs (see [`Pattern::of_pairs`]).
+    pub(in crate::linalg) fn new(
+        pattern: &Pattern,
+        elimination: &Elimination,
+        sides: Sides,
+    ) -> Result<Self, LinalgError> {
+        let Plan { order, begin, parent, rows } = match &elimination.pairs {
+            Some(pairs) => Plan::new(pairs, elimination).of_pairs(),
+            None => Plan::new(pattern, elimination),
+        };
         let children = children(&parent);
         let mut this = Self {
+            sides,
             order,
             begin,
             parent,
@@ -97,21 +119,30 @@ impl LuAnalysis {
         Ok(this)
     }
 
-    pub(super) fn count(&self) -> usize {
+    pub(in crate::linalg) fn count(&self) -> usize {
         self.parent.len()
     }
 
-    pub(super) fn shape(&self, supernode: usize) -> Shape {
+    pub(in crate::linalg) fn shape(&self, supernode: usize) -> Shape {
         let columns = (self.begin[supernode + 1] - self.begin[supernode]) as usize;
         Shape { columns, below: self.rows.column(supernode).len() }
     }
 
+    /// Numbers that are kept of a front.
+    pub(in crate::linalg) fn kept_len(&self, supernode: usize) -> usize {
+        let shape = self.shape(supernode);
+        match self.sides {
+            Sides::Lower => shape.left_len(),
+            Sides::Both => shape.left_len() + shape.columns * shape.below,
+        }
+    }
+
     /// The same rows as positions in the parent's front.
-    pub(super) fn relative(&self, supernode: usize) -> &[u32] {
+    pub(in crate::linalg) fn relative(&self, supernode: usize) -> &[u32] {
         &self.relative[self.rows.offsets[supernode] as usize..self.rows.offsets[supernode + 1] as usize]
     }
 
-    pub(super) fn entries(&self, supernode: usize) -> &[Entry] {
+    pub(in crate::linalg) fn entries(&self, supernode: usize) -> &[Entry] {
         &self.entries[self.entry_offsets[supernode] as usize..self.entry_offsets[supernode + 1] as usize]
     }
 
@@ -135,7 +166,7 @@ impl LuAnalysis {
     }
 
     fn place_entries(&mut self, pattern: &Pattern) {
-        let mirror = mirrored_positions(pattern);
+        let mirror = if self.sides == Sides::Both { mirrored_positions(pattern) } else { Vec::new() };
         let mut local = vec![0u32; pattern.order()];
         let mut entries = Vec::with_capacity(pattern.rows.len());
         let mut offsets = vec![0u32];
@@ -155,9 +186,11 @@ impl LuAnalysis {
                         let below = local[row as usize];
                         let target = height * place + narrow(columns) + below;
                         entries.push(Entry { source, target });
-                        let target = height * narrow(columns) + narrow(columns) * below + place;
-                        entries.push(Entry { source: mirror[source as usize], target });
-                    } else if row >= begin {
+                        if self.sides == Sides::Both {
+                            let target = height * narrow(columns) + narrow(columns) * below + place;
+                            entries.push(Entry { source: mirror[source as usize], target });
+                        }
+                    } else if row >= if self.sides == Sides::Both { begin } else { column } {
                         entries.push(Entry { source, target: height * place + row - begin });
                     }
                 }
@@ -165,6 +198,34 @@ impl LuAnalysis {
             offsets.push(narrow(entries.len()));
         }
         (self.entry_offsets, self.entries) = (offsets, entries);
+    }
+}
+
+/// The supernodes with the rows of their fronts.
+struct Plan {
+    order: Order,
+    begin: Vec<u32>,
+    parent: Vec<u32>,
+    rows: Pattern,
+}
+
+impl Plan {
+    fn new(pattern: &Pattern, elimination: &Elimination) -> Self {
+        let Supernodes { begin, parent, below, columns } = supernodes(elimination);
+        let order = elimination.order.then(&columns);
+        let rows = front_rows(&pattern.permuted_upper(&order), &begin, &parent, running_sum(&below));
+        Self { order, begin, parent, rows }
+    }
+
+    /// The same of a matrix whose unknowns stand for pairs: 2k and 2k + 1 for k.
+    fn of_pairs(self) -> Self {
+        let doubled = |list: &[u32]| list.iter().map(|&k| 2 * k).collect();
+        Self {
+            order: self.order.of_pairs(),
+            begin: doubled(&self.begin),
+            parent: self.parent,
+            rows: Pattern { offsets: doubled(&self.rows.offsets), rows: in_pairs(&self.rows.rows) },
+        }
     }
 }
 

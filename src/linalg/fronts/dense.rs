@@ -1,0 +1,22 @@
+//! Slices as column-major matrices, and the additions of a child's rows to its parent's.
+
+use faer::{MatMut, MatRef};
+
+use crate::linalg::scalar::Scalar;
+
+/// Adds numbers to the rows `rows` of a column whose first row is `first`.
+pub(in crate::linalg) fn scatter_add<T: Scalar>(target: &mut [T], rows: &[u32], first: usize, source: &[T]) {
+    for (&row, &value) in rows.iter().zip(source) {
+        target[row as usize - first] += value;
+    }
+}
+
+/// A column-major matrix.
+pub(in crate::linalg) fn mat<T>(values: &[T], rows: usize, columns: usize) -> MatRef<'_, T> {
+    MatRef::from_column_major_slice(values, rows, columns)
+}
+
+/// A column-major matrix that can be written.
+pub(in crate::linalg) fn mat_mut<T>(values: &mut [T], rows: usize, columns: usize) -> MatMut<'_, T> {
+    MatMut::from_column_major_slice_mut(values, rows, columns)
+}

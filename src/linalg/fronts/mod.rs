@@ -1,0 +1,27 @@
+//! The tree of fronts that every multifrontal factorization of this layer goes up.
+//!
+//! The supernodes, columns of L that share one pattern, form a tree. Each gathers its entries of A and its children's
+//! updates into a dense front, eliminates its own columns and hands the Schur complement to its parent (Duff and Reid
+//! 1983, "The multifrontal solution of indefinite sparse symmetric linear equations"). Subtrees are independent of each
+//! other, so that threads share them out.
+//!
+//! | file | what |
+//! |---|---|
+//! | `supernodes.rs` | columns → relaxed supernodes, their order |
+//! | `symbolic.rs` | patterns of the fronts, where every entry goes |
+//! | `units.rs` | what runs one after another, what side by side |
+//! | `tree.rs` | the way up the tree, on all threads |
+//! | `work.rs` | right-hand sides while they are substituted into |
+//! | `dense.rs` | slices as matrices, and adding rows of one front to another's |
+
+mod dense;
+mod supernodes;
+mod symbolic;
+mod tree;
+mod units;
+mod work;
+
+pub(super) use dense::{mat, mat_mut, scatter_add};
+pub(super) use symbolic::{FrontAnalysis, Shape, Sides};
+pub(super) use tree::{Kernel, Tree};
+pub(super) use work::{LARGE_PANEL, TOGETHER, Work, dot};

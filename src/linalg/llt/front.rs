@@ -1,0 +1,106 @@
+//! One front: assembly, elimination, update; lower triangles alone.
+
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Accum, Par};
+
+use crate::linalg::fronts::{Shape, mat, mat_mut, scatter_add};
+use crate::linalg::scalar::Scalar;
+
+/// Columns eliminated one by one before the rest of the block is updated by a matrix product.
+const BLOCK: usize = 32;
+
+/// A dense front under way. The panel is the factor's own memory.
+pub(super) struct Front<'a, T> {
+    pub(super) shape: Shape,
+    /// `height` × `columns`, of which the upper triangle is not used.
+    pub(super) left: &'a mut [T],
+    /// `below` × `below`, of which the upper triangle is not used.
+    pub(super) update: &'a mut [T],
+}
+
+impl<T: Scalar> Front<'_, T> {
+    /// Adds a child's update; `relative` are its rows in this front, ascending.
+    pub(super) fn extend_add(&mut self, update: &[T], relative: &[u32]) {
+        let Shape { columns, below } = self.shape;
+        let height = self.shape.height();
+        if relative.is_empty() {
+            return;
+        }
+        for (k, (source, &column)) in update.chunks_exact(relative.len()).zip(relative).enumerate() {
+            let (column, source, rows) = (column as usize, &source[k..], &relative[k..]);
+            if column < columns {
+                scatter_add(&mut self.left[column * height..][..height], rows, 0, source);
+            } else {
+                scatter_add(&mut self.update[(column - columns) * below..][..below], rows, columns, source);
+            }
+        }
+    }
+
+    /// Eliminates the front's columns and leaves the Schur complement in `update`. The error is the first column without
+    /// a positive pivot.
+    pub(super) fn eliminate(&mut self, par: Par) -> Result<(), usize> {
+        let Shape { columns, below } = self.shape;
+        let height = self.shape.height();
+        factor_block(self.left, height, columns)?;
+        if below == 0 {
+            return Ok(());
+        }
+        let (block, mut lower) = mat_mut(self.left, height, columns).split_at_row_mut(columns);
+        // L₂₁ L₁₁ᴴ = A₂₁ as conj(L₁₁) L₂₁ᵀ = A₂₁ᵀ.
+        solve_lower_triangular_in_place(block.as_ref().conjugate(), lower.as_mut().transpose_mut(), par);
+        subtract_product(mat_mut(self.update, below, below), lower.as_ref(), par);
+        Ok(())
+    }
+}
+
+/// Subtracts L Lᴴ from the lower triangle of a square.
+fn subtract_product<T: Scalar>(square: faer::MatMut<'_, T>, lower: faer::MatRef<'_, T>, par: Par) {
+    let (whole, triangle) = (BlockStructure::Rectangular, BlockStructure::TriangularLower);
+    matmul(square, triangle, Accum::Add, lower, whole, lower.adjoint(), whole, -T::ONE, par);
+}
+
+/// Factors the lower triangle of the top `columns` × `columns` block of a panel (leading dimension `height`).
+fn factor_block<T: Scalar>(panel: &mut [T], height: usize, columns: usize) -> Result<(), usize> {
+    for first in (0..columns).step_by(BLOCK) {
+        let last = (first + BLOCK).min(columns);
+        for k in first..last {
+            eliminate_column(panel, height, k, last..columns)?;
+        }
+        if last < columns {
+            let (done, rest) = panel.split_at_mut(last * height);
+            let lower = mat(done, height, last).submatrix(last, first, columns - last, last - first);
+            let rest = mat_mut(&mut rest[..height * (columns - last)], height, columns - last);
+            subtract_product(rest.subrows_mut(last, columns - last), lower, Par::Seq);
+        }
+    }
+    Ok(())
+}
+
+/// Divides column `k` by the root of its pivot and updates the columns before `rest`, within the block's rows.
+fn eliminate_column<T: Scalar>(
+    panel: &mut [T],
+    height: usize,
+    k: usize,
+    rest: std::ops::Range<usize>,
+) -> Result<(), usize> {
+    let (done, later) = panel.split_at_mut((k + 1) * height);
+    let column = &mut done[k * height..][k..rest.end];
+    let pivot = column[0].real();
+    if !(pivot > 0.0 && pivot.is_finite()) {
+        return Err(k);
+    }
+    let root = pivot.sqrt();
+    column[0] = T::from_real(root);
+    let multipliers = &mut column[1..];
+    for value in &mut *multipliers {
+        *value = value.unscale(root);
+    }
+    for (j, target) in (0..).zip(later.chunks_exact_mut(height).take(rest.start - k - 1)) {
+        let factor = multipliers[j].conjugate();
+        for (value, &multiplier) in target[k + 1 + j..rest.end].iter_mut().zip(&multipliers[j..]) {
+            *value -= multiplier * factor;
+        }
+    }
+    Ok(())
+}
