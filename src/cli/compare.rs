@@ -9,6 +9,7 @@ use std::time::Instant;
 use super::args::{CompareArguments, ComparisonFile};
 use super::failed::await_report;
 use super::flatten::{disk_of, failure_of_layout, go_on, set_threads};
+use super::morph::tour_of;
 use super::parts::with_parts;
 use super::pins::targets_on;
 use super::places::Places;
@@ -18,14 +19,13 @@ use super::seams::formed;
 use super::standard::{Sizes, is_standard, read_model};
 use super::summary::{comparison_summary, put_report};
 use super::{Failure, Status};
-use crate::io::figure::Page;
 use crate::io::{
     ComparisonReport, ComparisonSeconds, PictureFile, Targets, TimedStep, WriteError, write_atomically,
     write_to_standard_output,
 };
-use crate::session::{Compared, Document, Model, Problem, comparison_report};
+use crate::session::{Compared, Document, Model, MorphTour, Problem, comparison_report};
 use crate::solver::{Choice as _, Control, Family, Method, Phase, Start, Variant};
-use crate::view::ComparisonPicture;
+use crate::view::{ComparisonPicture, MorphPicture};
 
 /// Pixels per point of the picture.
 const PIXELS: f64 = 2.0;
@@ -38,8 +38,9 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<Status, Failure> {
     if let Some(picture) = &arguments.picture {
         places.spare(picture, "the picture")?;
     }
-    if arguments.shading.is_some() && arguments.png.is_none() && arguments.svg.is_none() {
-        return Err(Failure::Usage("--shading is of the picture: give --png or --svg, too".into()));
+    let is_drawn = [&arguments.png, &arguments.svg, &arguments.morph].iter().any(|path| path.is_some());
+    if arguments.shading.is_some() && !is_drawn {
+        return Err(Failure::Usage("--shading is of the picture: give --png, --svg or --morph, too".into()));
     }
     await_report(arguments.report.as_deref());
     set_threads(solve.threads)?;
@@ -69,10 +70,12 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<Status, Failure> {
         let read = start.elapsed().as_secs_f64();
         let methods = run_all(&model, problems, &progress)?;
         let methods: Vec<&Compared> = methods.iter().collect();
+        let tour = tour_of(arguments, &model, &methods, &progress)?;
         let mut report = comparison_report(&model, &methods);
+        report.morph = tour.as_ref().map(MorphTour::report);
         report.seconds = ComparisonSeconds { read, total: start.elapsed().as_secs_f64() };
         progress.enter("writing");
-        write(arguments, &report, || picture_of(arguments, &model, &methods))?;
+        write(arguments, &report, &Found { model: &model, methods: &methods, tour: tour.as_ref() })?;
         conclude(arguments, &report)
     })
 }
@@ -113,6 +116,9 @@ fn problems(arguments: &CompareArguments, problem: &Problem) -> Result<Vec<Probl
         variants = suited().map(|&method| Variant { method, family: None }).collect();
     }
     let methods: Vec<Method> = variants.iter().map(|variant| variant.method).collect();
+    if arguments.morph.is_some() && methods.len() < 2 {
+        return Err(Failure::Usage("--morph goes from one method's map to another's: name two or more".into()));
+    }
     if let Some((option, why)) = arguments.solve.idle_option(&methods) {
         return Err(Failure::Usage(format!("no method that is compared takes {option}: {}: {why}", methods[0].name())));
     }
@@ -174,22 +180,29 @@ fn run_all(model: &Model, problems: Vec<Problem>, progress: &Progress) -> Result
     Ok(methods)
 }
 
-fn picture_of(arguments: &CompareArguments, model: &Model, methods: &[&Compared]) -> Page {
-    ComparisonPicture { model, methods, shading: arguments.shading.unwrap_or_default() }.page()
+/// What is drawn.
+struct Found<'a> {
+    model: &'a Model,
+    methods: &'a [&'a Compared],
+    tour: Option<&'a MorphTour>,
 }
 
 /// Writes all files but the report. The picture is drawn once, where it is asked for.
-fn write(arguments: &CompareArguments, report: &ComparisonReport, draw: impl Fn() -> Page) -> Result<(), Failure> {
+fn write(arguments: &CompareArguments, report: &ComparisonReport, found: &Found<'_>) -> Result<(), Failure> {
+    let Found { model, methods, tour } = *found;
+    let shading = arguments.shading.unwrap_or_default();
     let is_drawn = arguments.png.is_some() || arguments.svg.is_some();
-    let page = is_drawn.then(draw);
+    let page = is_drawn.then(|| ComparisonPicture { model, methods, shading }.page());
+    let morph = model.disk().zip(tour).map(|(mesh, tour)| MorphPicture::new(mesh, tour, shading));
     for (file, _, path) in arguments.outputs() {
         go_on()?;
-        put(path, |mut out| match (file, &page) {
-            (ComparisonFile::Table, _) => report.write_csv(arguments.sort, out),
-            (ComparisonFile::Steps, _) => report.write_steps(out),
-            (ComparisonFile::Png, Some(page)) => page.picture(PIXELS).write_png(out),
-            (ComparisonFile::Svg, Some(page)) => page.write_svg(&mut out),
-            (ComparisonFile::Png | ComparisonFile::Svg, None) => Ok(()),
+        put(path, |mut out| match (file, &page, &morph) {
+            (ComparisonFile::Table, ..) => report.write_csv(arguments.sort, out),
+            (ComparisonFile::Steps, ..) => report.write_steps(out),
+            (ComparisonFile::Png, Some(page), _) => page.picture(PIXELS).write_png(out),
+            (ComparisonFile::Svg, Some(page), _) => page.write_svg(&mut out),
+            (ComparisonFile::Morph, _, Some(morph)) => morph.write(out),
+            (ComparisonFile::Png | ComparisonFile::Svg | ComparisonFile::Morph, ..) => Ok(()),
         })?;
     }
     Ok(())

@@ -32,6 +32,10 @@ pub(super) const MEMORY_REMEDY: &str = "--large reads it all the same";
 /// What to do where a single method gives no embedding.
 pub(super) const METHOD_REMEDY: &str = "try --method auto";
 
+/// What to do where there is no morph through the maps of the methods.
+pub(super) const MORPH_REMEDY: &str =
+    "choose with --methods those with planar maps that lie alike, such as convex,schnyder,auto";
+
 /// Ended by Ctrl-C.
 pub(super) const INTERRUPTED: u8 = 130;
 
@@ -102,6 +106,14 @@ pub enum Failure {
         /// Why it gave none.
         error: SolveError,
     },
+    /// There is no planar morph through the maps of the methods.
+    #[error("{path}: {what}; {MORPH_REMEDY}")]
+    NoMorph {
+        /// The file.
+        path: String,
+        /// Why there is none.
+        what: String,
+    },
     /// A result could not be written, or a file that is copied with it could not be read.
     #[error("{0}")]
     Write(#[from] WriteError),
@@ -152,7 +164,7 @@ impl Failure {
         Self::Solve(error)
     }
 
-    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 4 no embedding by this method, 130 interrupted. Every
+    /// The exit status: 1 internal, 2 wrong use, 3 unusable input, 4 no embedding by this method or no morph, 130 interrupted. Every
     /// error is named, so that a new one has to choose.
     pub fn code(&self) -> u8 {
         match self {
@@ -164,6 +176,7 @@ impl Failure {
             | Self::Picture(_)
             | Self::Texture { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,
+            Self::NoMorph { .. } => FALLS_SHORT,
             Self::Write(error) if error.is_not_finite() => FALLS_SHORT,
             Self::Write(error) if error.is_of_input() => UNUSABLE_INPUT,
             Self::Write(_) | Self::StandardOutput(_) => INTERNAL,

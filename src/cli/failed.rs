@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use super::Failure;
-use super::exit::{FALLS_SHORT, MEMORY_REMEDY, METHOD_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of};
+use super::exit::{
+    FALLS_SHORT, MEMORY_REMEDY, METHOD_REMEDY, MORPH_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of,
+};
 use super::say::warn;
 use super::standard::name_of_input;
 use super::summary::put_report;
@@ -89,6 +91,7 @@ fn remedy_and_faults(failure: &Failure) -> (Option<&'static str>, Vec<FaultRepor
         Failure::NotADisk { diagnosis, .. } => (None, FaultReport::of_diagnosis(diagnosis)),
         Failure::Memory { .. } => (Some(MEMORY_REMEDY), Vec::new()),
         Failure::Method { .. } => (Some(METHOD_REMEDY), Vec::new()),
+        Failure::NoMorph { .. } => (Some(MORPH_REMEDY), Vec::new()),
         _ => (None, Vec::new()),
     }
 }
@@ -110,6 +113,7 @@ fn kind_of(failure: &Failure) -> &'static str {
         Failure::Texture { .. } => "texture-coordinates",
         Failure::NotADisk { .. } => "not-a-disk",
         Failure::Solve(error) | Failure::Method { error, .. } => error.name(),
+        Failure::NoMorph { .. } => "no-morph",
         Failure::Write(error) if error.is_of_input() => "unreadable",
         Failure::Write(_) | Failure::StandardOutput(_) => "not-written",
         Failure::Usage(_) => "wrong-use",

@@ -9,6 +9,7 @@
 //! | `job`         | a flattening of one chart or several, written and summed up            |
 //! | `check`       | diagnosis of a mesh, verdict on its texture coordinates                |
 //! | `compare`     | several methods on one mesh, side by side                              |
+//! | `morph`       | the planar morph through maps that were compared                       |
 //! | `figures`     | the paper's figures, computed again                                    |
 //! | `study`       | the iteration on many random trials                                    |
 //! | `progress`    | the line that follows the work, and Ctrl-C                             |
@@ -30,6 +31,7 @@ mod failed;
 mod figures;
 mod flatten;
 mod job;
+mod morph;
 mod parts;
 mod pins;
 mod places;

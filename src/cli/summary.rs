@@ -9,8 +9,9 @@ use super::job::Solved;
 use super::say::{say, warn};
 use super::standard::is_standard;
 use crate::io::{
-    ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, Output, PackingReport,
-    PinsReport, Placement, Report, Seconds, WriteError, write_atomically, write_report, write_to_standard_output,
+    ChartNumber, ChartReport, Column, ComparisonReport, ComparisonSeconds, MeshReport, MorphReport, Output,
+    PackingReport, PinsReport, Placement, Report, Seconds, WriteError, write_atomically, write_report,
+    write_to_standard_output,
 };
 use crate::mesh::VertexId;
 use crate::solver::{Choice as _, Conflict, Ending, Method, SolveError, Step, Verdict};
@@ -180,6 +181,7 @@ pub(super) fn comparison_summary(report: &ComparisonReport, by: Option<Column>) 
     lines.push(report.table(by));
     let failed = report.sorted(by).into_iter().filter_map(|method| Some((&method.name, method.error.as_ref()?)));
     lines.extend(failed.map(|(name, error)| format!("{name}: {}", error.message)));
+    lines.extend(report.morph.iter().flat_map(MorphReport::lines));
     let ComparisonSeconds { read, total } = report.seconds;
     lines.push(format!("{total:.3} s: read {read:.3}"));
     lines.join("\n")

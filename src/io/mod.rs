@@ -2,6 +2,7 @@
 //!
 //! | file          | what it holds                                                              |
 //! |---------------|----------------------------------------------------------------------------|
+//! | `animation`   | animated pictures (APNG)                                                   |
 //! | `mesh_file`   | meshes of any format: what is kept of a file, and the way in               |
 //! | `obj`         | OBJ files with their materials, in and out                                 |
 //! | `ply`         | PLY files                                                                  |
@@ -31,6 +32,7 @@
 //! | `paths`       | which paths lead to one file, and the way from a folder to a file          |
 //! | `stamp`       | what tells one state of a file from another                                |
 
+mod animation;
 mod atomic;
 mod charts;
 mod comparison;
@@ -60,11 +62,12 @@ mod svg;
 mod targets;
 mod unfinished;
 
+pub use animation::{AnimationForm, AnimationFrame, write_animation};
 pub use atomic::{WriteError, try_place, write_atomically, write_durably, write_to_standard_output};
 pub use charts::{OutputChart, Together, proved_together, together};
 pub use comparison::{
-    Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, MethodError, MethodReport,
-    MethodSeconds, ResultReport, TimedStep, VerdictCounts,
+    Cell, ChartNumber, Column, ComparisonReport, ComparisonSeconds, Direction, LeftOutReport, LegReport, MethodError,
+    MethodReport, MethodSeconds, MorphReport, ResultReport, TimedStep, VerdictCounts,
 };
 pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_constraints};
 pub use edges::{EdgeFault, EdgesError, parse_edges, read_edges, write_edges};

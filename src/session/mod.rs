@@ -27,6 +27,7 @@
 //! | `outcome`       | a step with its proof, ready to be written; the problem that it solves     |
 //! | `comparing`     | part: methods that are compared in the background                          |
 //! | `comparison`    | methods run beside each other on one mesh                                  |
+//! | `morphs`        | planar morphs through what methods have come to                            |
 //! | `atlas_view`    | part: that layout for files, and for the screen                            |
 //! | `chart_targets` | pins of a mesh with several charts, in files and in the document           |
 //! | `charts`        | part: charts that are not on the screen, solved in the background          |
@@ -69,6 +70,7 @@ mod in_use;
 mod large;
 mod messages;
 mod model;
+mod morphs;
 mod open_mesh;
 mod opened;
 mod outcome;
@@ -103,6 +105,7 @@ pub use large::LargeFile;
 pub use messages::{Message, Place, Severity, named};
 use messages::{Messages, Written};
 pub use model::{ChartOf, Model, Surface};
+pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphStop, MorphStops, MorphTour, morph_end};
 pub use outcome::{Outcome, Problem};
 pub use preferences::Preferences;
 pub use recent::RecentFiles;

@@ -6,10 +6,10 @@ use glam::DVec2;
 use super::{CellFrame, CellFrames, Quantity, Range};
 use crate::geom::{Bounds, Picture};
 use crate::io::figure::{CellContent, ColourBar, Curve, Curves, Grid, GridCell, Page, TintedDrawing, Window};
-use crate::io::raster::{Canvas, Paint, View, mesh_picture};
+use crate::io::raster::{Canvas, Colour, Paint, View, mesh_picture};
 use crate::mesh::{DiskMesh, FaceId, VertexId};
 use crate::session::{Compared, Model, Outcome};
-use crate::solver::{Choice, Words};
+use crate::solver::{Choice, Distortion, Embedding, Words};
 
 /// Colours that values are rounded to, so that few paths are drawn.
 const LEVELS: u32 = 64;
@@ -90,7 +90,10 @@ impl ComparisonPicture<'_> {
                         let window = window.expect("every embedding has its frame");
                         CellContent::Plane(tinted(mesh, outcome, quantity, range, window))
                     }
-                    (Some(outcome), ..) => CellContent::Photo(checkered(mesh, outcome)),
+                    (Some(outcome), ..) => {
+                        let step = &outcome.step;
+                        CellContent::Photo(checkered(step.mesh(mesh), &step.solution.embedding))
+                    }
                     (None, ..) => CellContent::Words(method.report.error_words()),
                 };
                 let lines = std::iter::once(method.report.verdict_line()).chain(method.report.number_lines());
@@ -139,17 +142,20 @@ fn window(frame: CellFrame, bounds: Bounds) -> Window {
 }
 
 fn tinted(mesh: &DiskMesh, outcome: &Outcome, quantity: Quantity, range: Range, window: Window) -> TintedDrawing {
+    TintedDrawing::of_step(mesh, &outcome.step, colours_of(&outcome.distortion, quantity, range), window)
+}
+
+/// A colour for each face.
+pub(super) fn colours_of(distortion: &Distortion, quantity: Quantity, range: Range) -> Vec<Colour> {
     let levels = f64::from(LEVELS - 1);
     let colour = |value: f64| quantity.scale().colour_at((range.share(value) * levels).round() / levels);
-    let colours = quantity.values(&outcome.distortion).into_iter().map(colour).collect();
-    TintedDrawing::of_step(mesh, &outcome.step, colours, window)
+    quantity.values(distortion).into_iter().map(colour).collect()
 }
 
 /// The mesh in space under a checker of the plane, seen from the side that most of it looks to; from the front where it is a
 /// closed surface that was cut open.
-fn checkered(given: &DiskMesh, outcome: &Outcome) -> Picture {
-    let mesh = outcome.step.mesh(given).mesh();
-    let embedding = &outcome.step.solution.embedding;
+pub(super) fn checkered(disk: &DiskMesh, embedding: &Embedding) -> Picture {
+    let mesh = disk.mesh();
     let triangles = mesh.real_triangles();
     let view = View::facing((0..triangles.len()).map(|face| mesh.double_area_vector(FaceId::from_index(face))));
     let double_area = |corners: &[VertexId; 3]| {
@@ -162,7 +168,7 @@ fn checkered(given: &DiskMesh, outcome: &Outcome) -> Picture {
     mesh_picture(&mesh.positions, triangles, &view, &Canvas::clay(PICTURE_SIZE, PICTURE_SIZE), paint)
 }
 
-fn bar(quantity: Quantity, range: Range) -> ColourBar {
+pub(super) fn bar(quantity: Quantity, range: Range) -> ColourBar {
     let levels = f64::from(LEVELS - 1);
     ColourBar {
         title: quantity.title().to_owned(),

@@ -11,6 +11,7 @@
 //! | `colour.rs` | scales of colours with their legends; the colours of the panes |
 //! | `beside.rs` | embeddings beside each other, under one camera |
 //! | `comparison.rs` | the picture of several methods side by side |
+//! | `morph.rs` | a morph through the maps of several methods, as an animated picture |
 //! | `quantity.rs` | numbers that faces are coloured by, on one scale for several embeddings |
 //!
 //! Spaces, as they appear in names:
@@ -29,6 +30,7 @@ mod colour;
 mod comparison;
 mod draw;
 mod kdtree;
+mod morph;
 mod orbit;
 mod pick;
 mod picture;
@@ -41,6 +43,7 @@ pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
 pub use comparison::{CellShading, ComparisonPicture};
 pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, PlaneArrays, Revision, crease_normals};
 pub use kdtree::PlanePicker;
+pub use morph::{MorphPicture, MorphPlace};
 pub use orbit::{OrbitCamera, Ray, UpAxis};
 pub use pick::{PICK_RADIUS, SurfaceHit, SurfacePicker, VertexPick, Visibility, snapped};
 pub use picture::Picture;

@@ -381,7 +381,7 @@ fn wrong_use_of_compare_ends_with_2_and_writes_nothing() {
         (&["--methods", "natural,natural/conformal"], "would run twice"),
         (&["--methods", "natural,lscm", "--max-steps", "3"], "takes --max-steps"),
         (&["--methods", "convex", "--pin", "0:0,0"], "takes --pin"),
-        (&["--methods", "natural,convex", "--shading", "area"], "--png or --svg"),
+        (&["--methods", "natural,convex", "--shading", "area"], "give --png, --svg or --morph"),
         (&["--csv", "a", "--svg", "a"], "both write"),
         (&["--csv", "-", "--report", "-"], "cannot both go there"),
         (&["--png", "tent.obj"], "would write over the mesh"),

@@ -66,6 +66,7 @@ mod materials;
 mod memory;
 mod mesh;
 mod morph;
+mod morph_cli;
 mod natural;
 mod needless;
 mod numbers;

@@ -182,7 +182,7 @@ const FILES: [(&str, &str); 13] = [
 ];
 
 /// Runs with their exit status: all kinds of fields of a report occur in them.
-const RUNS: [(&[&str], i32); 27] = [
+const RUNS: [(&[&str], i32); 28] = [
     (&["flatten", "parts.obj", "--pin", "0:0,0", "--pin", "1:1,0"], 0),
     (&["check", "charts.obj"], 4),
     (&["flatten", "tent.obj"], 0),
@@ -215,6 +215,25 @@ const RUNS: [(&[&str], i32); 27] = [
     (&["flatten", "tent.obj", "--constraints", "pins.txt"], 3),
     (&["compare", "tent.obj"], 0),
     (&["compare", "parts.obj", "--methods", "natural,convex/uniform@square"], 0),
+    (
+        &[
+            "compare",
+            "tent.obj",
+            "--methods",
+            "iterate,virtual-boundary,auto",
+            "--pin",
+            "0:0,0",
+            "--pin",
+            "1:1,0.2",
+            "--pin",
+            "2:0.9,1",
+            "--morph",
+            "morph.png",
+            "--frames",
+            "2",
+        ],
+        0,
+    ),
     (
         &[
             "compare",

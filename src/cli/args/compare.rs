@@ -48,7 +48,14 @@ pub struct CompareArguments {
     /// The same as a drawing (SVG).
     #[arg(long, value_name = "FILE|-")]
     pub svg: Option<PathBuf>,
-    /// What the faces are coloured by there.
+    /// Glide from each planar map to the next here, between two there and back, every frame proved one-to-one (animated PNG), or to standard output with
+    /// `-`. Methods without a planar map are left out.
+    #[arg(long, value_name = "FILE|-")]
+    pub morph: Option<PathBuf>,
+    /// Frames from one map to the next, both included; 48 without it.
+    #[arg(long, value_name = "N", requires = "morph", value_parser = clap::value_parser!(u16).range(2..=1000))]
+    pub frames: Option<u16>,
+    /// What the faces are coloured by in pictures.
     #[arg(long, value_parser = choice::<CellShading>())]
     pub shading: Option<CellShading>,
 }
@@ -64,6 +71,8 @@ pub enum ComparisonFile {
     Png,
     /// The same as a drawing.
     Svg,
+    /// The animated picture of the morph.
+    Morph,
 }
 
 impl CompareArguments {
@@ -74,6 +83,7 @@ impl CompareArguments {
             (ComparisonFile::Steps, "--steps-csv", &self.steps_csv),
             (ComparisonFile::Png, "--png", &self.png),
             (ComparisonFile::Svg, "--svg", &self.svg),
+            (ComparisonFile::Morph, "--morph", &self.morph),
         ];
         asked.into_iter().filter_map(|(file, option, path)| Some((file, option, path.as_deref()?))).collect()
     }

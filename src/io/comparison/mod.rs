@@ -5,10 +5,12 @@
 //! | `mod`    | the report (JSON)                                                          |
 //! | `column` | the columns of the table: their heads, their cells, and the order by them  |
 //! | `lines`  | the numbers of a method in a few short lines                               |
+//! | `morph`  | planar morphs between what the methods have come to                        |
 //! | `table`  | the table for a person and as a file; every step of every method as a file |
 
 mod column;
 mod lines;
+mod morph;
 mod table;
 
 use serde::Serialize;
@@ -18,6 +20,7 @@ use super::{MeshReport, PinsReport, StepReport, peak_memory_bytes};
 use crate::solver::{BoundaryShape, DistortionSummary, Family, Method, SolveError, Verdict};
 
 pub use column::{Cell, Column, Direction};
+pub use morph::{LeftOutReport, LegReport, MorphReport};
 
 /// Everything that is reported of a comparison. Field names are part of the interface.
 #[derive(Debug, Serialize)]
@@ -35,6 +38,9 @@ pub struct ComparisonReport {
     pub aspect: f64,
     /// The methods.
     pub methods: Vec<MethodReport>,
+    /// Planar morphs through their maps; absent where none were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub morph: Option<MorphReport>,
     /// Where the time went, that of the methods aside.
     pub seconds: ComparisonSeconds,
     /// Most memory that the process held, where the system tells.
@@ -207,6 +213,7 @@ impl ComparisonReport {
             chart,
             aspect,
             methods: Vec::new(),
+            morph: None,
             seconds: ComparisonSeconds::default(),
             peak_memory_bytes: peak_memory_bytes(),
         }

@@ -42,6 +42,23 @@ pub enum CellContent {
     Words(String),
 }
 
+impl CellContent {
+    /// Draws into a square area, with a line around it.
+    pub(super) fn draw(&self, page: &mut Page, area: Bounds) {
+        match self {
+            Self::Plane(drawing) => drawing.draw(page, area),
+            Self::Photo(picture) => page.items.push(Item::Picture(area, picture.clone())),
+            Self::Curves(curves) => curves.draw(page, area),
+            Self::Words(words) => {
+                for (k, line) in wrapped(words, WORDS, area.size().x - 2.0 * MARGIN).iter().enumerate() {
+                    page.words(area.middle() + DVec2::new(0.0, LINE * k as f64), Anchor::Middle, WORDS, line);
+                }
+            }
+        }
+        page.outlines(vec![area.corners().to_vec()], Ink::stroke(colours::EDGE, 0.5), None);
+    }
+}
+
 /// One cell of a grid.
 #[derive(Clone, Debug)]
 pub struct GridCell {
@@ -111,17 +128,7 @@ impl Grid {
 impl GridCell {
     fn draw(&self, page: &mut Page, cell: Bounds) {
         let area = Bounds::at(cell.low, DVec2::splat(SIDE));
-        match &self.content {
-            CellContent::Plane(drawing) => drawing.draw(page, area),
-            CellContent::Photo(picture) => page.items.push(Item::Picture(area, picture.clone())),
-            CellContent::Curves(curves) => curves.draw(page, area),
-            CellContent::Words(words) => {
-                for (k, line) in wrapped(words, WORDS, SIDE - 2.0 * MARGIN).iter().enumerate() {
-                    page.words(area.middle() + DVec2::new(0.0, LINE * k as f64), Anchor::Middle, WORDS, line);
-                }
-            }
-        }
-        page.outlines(vec![area.corners().to_vec()], Ink::stroke(colours::EDGE, 0.5), None);
+        self.content.draw(page, area);
         let below = area.high.y + 0.75 * TITLE_LINE;
         page.words(DVec2::new(cell.low.x, below), Anchor::Start, TITLE, &self.title);
         for (k, line) in self.lines.iter().enumerate() {
@@ -132,7 +139,11 @@ impl GridCell {
 }
 
 impl ColourBar {
-    fn draw(&self, page: &mut Page, at: DVec2) {
+    /// The height that it takes, with its numbers.
+    pub(super) const ROOM: f64 = BAR_ROOM;
+
+    /// Draws it from a place on, which is its upper left corner.
+    pub(super) fn draw(&self, page: &mut Page, at: DVec2) {
         page.words(at + DVec2::new(0.0, 0.7 * LINE), Anchor::Start, WORDS, &self.title);
         let bar = Bounds::at(at + DVec2::new(0.0, LINE), BAR);
         let share = BAR.x / self.colours.len().max(1) as f64;

@@ -8,6 +8,7 @@
 //! | `mod`   | the page and what is drawn on it                                       |
 //! | `sheet` | panels with their words, in rows, and the caption                      |
 //! | `grid`  | cells with lines of numbers, in rows, and one bar of colours           |
+//! | `still` | one large drawing with lines of words: a frame of an animation           |
 //! | `panel` | an embedding in a panel: faces, hull and pockets, pins, insets         |
 //! | `tinted`| an embedding with a colour on each face                                |
 //! | `curves`| a quantity over time                                                   |
@@ -27,6 +28,7 @@ mod photo;
 mod plot;
 mod sheet;
 mod space;
+mod still;
 mod svg;
 mod tinted;
 
@@ -44,6 +46,7 @@ pub use photo::PhotoDrawing;
 pub use plot::{Bar, Marks, Plot, Shares, plots};
 pub use sheet::{Drawing, Panel, Sheet};
 pub use space::SpaceDrawing;
+pub use still::Still;
 pub use tinted::TintedDrawing;
 
 /// Colours of figures on white paper.

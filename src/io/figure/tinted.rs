@@ -57,17 +57,33 @@ impl TintedDrawing {
         let (mesh, embedding) = (step.mesh(given), &step.solution.embedding);
         let triangles = mesh.mesh().real_triangles();
         assert_eq!(colours.len(), triangles.len(), "every face has a colour");
-        let places = |vertices: &[VertexId]| vertices.iter().map(|&v| embedding[v]).collect::<Vec<_>>();
-        let holes = mesh.mesh().holes();
-        let loops = std::iter::once(mesh.boundary_loop()).chain(holes.iter().map(|hole| &hole.rim[..]));
         let pins = step.solution.pins.keys().copied().filter(|_| !step.solution.gauge_completed);
         Self {
             faces: triangles.iter().map(|corners| corners.map(|v| embedding[v])).collect(),
             colours,
             flipped: step.verdict.flipped_faces.clone(),
-            boundary: loops.map(places).collect(),
+            boundary: loops_of(mesh, embedding),
             crossings: crossings(mesh, embedding, step),
             pins: pins.map(|vertex| embedding[vertex]).collect(),
+            window,
+        }
+    }
+
+    /// A planar embedding of a mesh, with a colour for each real face. Seen through a window.
+    ///
+    /// # Panics
+    ///
+    /// If there is not one colour for each real face.
+    pub fn of_planar(mesh: &DiskMesh, embedding: &Embedding, colours: Vec<Colour>, window: Window) -> Self {
+        let triangles = mesh.mesh().real_triangles();
+        assert_eq!(colours.len(), triangles.len(), "every face has a colour");
+        Self {
+            faces: triangles.iter().map(|corners| corners.map(|v| embedding[v])).collect(),
+            colours,
+            flipped: Vec::new(),
+            boundary: loops_of(mesh, embedding),
+            crossings: Vec::new(),
+            pins: Vec::new(),
             window,
         }
     }
@@ -107,6 +123,13 @@ impl TintedDrawing {
         let sum: f64 = self.faces.iter().map(around).filter(|length| length.is_finite()).sum();
         sum / (3 * self.faces.len()).max(1) as f64
     }
+}
+
+/// The boundary, and the loops around holes.
+fn loops_of(mesh: &DiskMesh, embedding: &Embedding) -> Vec<Vec<DVec2>> {
+    let places = |vertices: &[VertexId]| vertices.iter().map(|&v| embedding[v]).collect();
+    let holes = mesh.mesh().holes();
+    std::iter::once(mesh.boundary_loop()).chain(holes.iter().map(|hole| &hole.rim[..])).map(places).collect()
 }
 
 /// Where the boundary crosses itself: in the middle between the middles of the two edges.

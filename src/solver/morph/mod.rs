@@ -69,6 +69,17 @@ impl Route {
     /// All ways, in the order in which they are tried.
     pub const ALL: [Self; 5] = [Self::Straight, Self::Turned, Self::Boundary, Self::Outside, Self::Circle];
 
+    /// A fixed name of it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Straight => "straight",
+            Self::Turned => "turned",
+            Self::Boundary => "boundary",
+            Self::Outside => "outside",
+            Self::Circle => "circle",
+        }
+    }
+
     /// How it goes, in a few lower-case words.
     pub const fn words(self) -> &'static str {
         match self {

@@ -1,0 +1,50 @@
+//! The planar morph through the maps that methods have come to.
+
+use super::Failure;
+use super::args::CompareArguments;
+use super::progress::{INTERRUPTED, Progress};
+use crate::io::LeftOutReport;
+use crate::session::{Compared, MORPH_FRAMES, MissingLeg, Model, MorphStops, MorphTour};
+use crate::solver::{Control, NoMorph, Phase, SolveError};
+
+/// Finds the morphs that are asked for, from each planar map to the next; none where none are asked for.
+///
+/// # Errors
+///
+/// Fewer than two planar maps; two without a morph between them; the user asked to stop.
+///
+/// # Panics
+///
+/// If the model is no disk.
+pub(super) fn tour_of(
+    arguments: &CompareArguments,
+    model: &Model,
+    methods: &[&Compared],
+    progress: &Progress,
+) -> Result<Option<MorphTour>, Failure> {
+    if arguments.morph.is_none() {
+        return Ok(None);
+    }
+    let mesh = model.disk().expect("methods run on disks only");
+    let stops = MorphStops::of(methods);
+    let failure = |what: String| Failure::NoMorph { path: model.path_words(), what };
+    if stops.stops.len() < 2 {
+        return Err(failure(too_few(&stops)));
+    }
+    let report_phase = |phase: Phase| progress.enter(phase.words());
+    progress.reach("morph".to_owned());
+    let frames = arguments.frames.map_or(MORPH_FRAMES, usize::from);
+    let found = MorphTour::through(mesh, stops, frames, Control::new(&INTERRUPTED, &report_phase));
+    found.map(Some).map_err(|missing| match missing {
+        MissingLeg { reason: NoMorph::Cancelled, .. } => SolveError::Cancelled.into(),
+        missing => failure(format!("no morph {missing}")),
+    })
+}
+
+/// That there are too few maps, with the reason for each that is left out.
+fn too_few(stops: &MorphStops) -> String {
+    let has = if stops.stops.is_empty() { "no method has one that can take part" } else { "one method alone has it" };
+    let reasons: Vec<String> =
+        stops.left_out.iter().map(|LeftOutReport { name, why }| format!("{name}: {why}")).collect();
+    format!("a morph goes from one planar map to another, and {has} ({})", reasons.join("; "))
+}

@@ -1,0 +1,172 @@
+//! A morph through the maps of several methods as pictures one after the other; between two maps there, and back by the same frames.
+
+use std::io::{self, Write};
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::comparison::{bar, checkered, colours_of};
+use super::{CellShading, Range};
+use crate::geom::Bounds;
+use crate::io::figure::{CellContent, Page, Still, TintedDrawing, Window};
+use crate::io::{AnimationForm, AnimationFrame, write_animation};
+use crate::mesh::DiskMesh;
+use crate::session::{MorphLeg, MorphTour};
+use crate::solver::{Embedding, distortion};
+
+/// Pixels per point of a frame.
+const PIXELS: f64 = 1.25;
+
+/// How long a map of a method is seen, and each frame on the way, milliseconds.
+const STAY: u16 = 1000;
+const FRAME: u16 = 40;
+
+/// Frames that are drawn at a time.
+const DRAWN_TOGETHER: usize = 16;
+
+/// Free space around an embedding, relative to its extent.
+const MARGIN: f64 = 0.04;
+
+/// All frames are seen at one scale where the largest is at most so many times as large as the smallest.
+const SIZES: f64 = 2.5;
+
+/// A tour to be drawn.
+#[derive(Debug)]
+pub struct MorphPicture<'a> {
+    mesh: &'a DiskMesh,
+    tour: &'a MorphTour,
+    shading: CellShading,
+    /// The range of colours, one for all frames: that of the maps.
+    range: Option<Range>,
+    /// What is seen of each frame, where pins do not hold all of them.
+    sight: Sight,
+}
+
+/// What is seen of the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sight {
+    /// The same of every frame: pins hold all maps.
+    Fixed(Window),
+    /// Every frame from its middle, at one scale: half a side.
+    Along(f64),
+    /// Every frame by itself.
+    Whole,
+}
+
+/// A place on a tour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MorphPlace {
+    /// The number of the leg.
+    pub leg: usize,
+    /// The number of its frame.
+    pub frame: usize,
+}
+
+impl<'a> MorphPicture<'a> {
+    /// Of a tour on a mesh.
+    pub fn new(mesh: &'a DiskMesh, tour: &'a MorphTour, shading: CellShading) -> Self {
+        let stops = || tour.stops.stops.iter().map(|stop| &*stop.outcome);
+        let range = match shading {
+            CellShading::By(quantity) => quantity.common_range(stops().map(|outcome| &outcome.distortion)),
+            CellShading::Checker => None,
+        };
+        let boxes: Vec<Bounds> = tour.legs.iter().flat_map(|leg| &leg.frames).map(Embedding::bounds).collect();
+        let sight = Sight::of(&boxes, stops().all(|outcome| outcome.is_held()));
+        Self { mesh, tour, shading, range, sight }
+    }
+
+    /// All places in the order in which they are seen, each map once: from the first to the last; and back by the same frames, where
+    /// there are two.
+    pub fn places(&self) -> Vec<MorphPlace> {
+        let of_leg = |(leg, of): (usize, &MorphLeg)| {
+            // A map that ends one leg begins the next.
+            let first = usize::from(leg > 0);
+            (first..of.frames.len()).map(move |frame| MorphPlace { leg, frame })
+        };
+        let mut places: Vec<MorphPlace> = self.tour.legs.iter().enumerate().flat_map(of_leg).collect();
+        if self.tour.legs.len() == 1 {
+            let back: Vec<MorphPlace> = places.iter().rev().skip(1).copied().collect();
+            places.extend(&back[..back.len().saturating_sub(1)]);
+        }
+        places
+    }
+
+    /// Lays out the frame at a place.
+    fn page(&self, place: MorphPlace) -> Page {
+        let leg = &self.tour.legs[place.leg];
+        let embedding = &leg.frames[place.frame];
+        let (content, bar) = match (self.shading, self.range) {
+            (CellShading::By(quantity), Some(range)) => {
+                let colours = colours_of(&distortion(self.mesh, embedding), quantity, range);
+                let drawing = TintedDrawing::of_planar(self.mesh, embedding, colours, self.sight.window(embedding));
+                (CellContent::Plane(drawing), Some(bar(quantity, range)))
+            }
+            _ => (CellContent::Photo(checkered(self.mesh, embedding)), None),
+        };
+        let number = format!("frame {} of {}", place.frame + 1, leg.frames.len());
+        let lines = vec![format!("{number} · {}", leg.verdicts[place.frame].summary()), leg.route.words().to_owned()];
+        Still { content, title: self.title(place), lines, bar }.page()
+    }
+
+    fn title(&self, place: MorphPlace) -> String {
+        let [from, to] = [0, 1].map(|next| self.tour.stops.stops[place.leg + next].name.as_str());
+        match place.frame {
+            0 => from.to_owned(),
+            frame if self.is_last(MorphPlace { frame, ..place }) => to.to_owned(),
+            _ => format!("{from} to {to}"),
+        }
+    }
+
+    fn is_last(&self, place: MorphPlace) -> bool {
+        place.frame + 1 == self.tour.legs[place.leg].frames.len()
+    }
+
+    /// The frame at a place, drawn. A map is seen longer than what lies between two.
+    ///
+    /// # Panics
+    ///
+    /// If the tour has no such place.
+    pub fn frame(&self, place: MorphPlace) -> AnimationFrame {
+        let is_map = place.frame == 0 || self.is_last(place);
+        AnimationFrame { picture: self.page(place).picture(PIXELS), milliseconds: if is_map { STAY } else { FRAME } }
+    }
+
+    /// Writes all frames as an animated picture (APNG).
+    ///
+    /// # Errors
+    ///
+    /// What the writer reports; a tour without a leg.
+    pub fn write(&self, out: impl Write) -> io::Result<()> {
+        let places = self.places();
+        let Some(&first) = places.first() else { return Err(io::Error::other("a morph needs two maps")) };
+        let picture = self.frame(first).picture;
+        let frame_count = u32::try_from(places.len()).map_err(io::Error::other)?;
+        let form = AnimationForm { size: [picture.width, picture.height], frame_count };
+        let frame = |&place: &MorphPlace| self.frame(place);
+        let drawn = places.chunks(DRAWN_TOGETHER).flat_map(|some| some.par_iter().map(frame).collect::<Vec<_>>());
+        write_animation(out, form, drawn)
+    }
+}
+
+impl Sight {
+    fn of(boxes: &[Bounds], are_held: bool) -> Self {
+        let half = |extent: f64| (0.5 + MARGIN) * extent.max(f64::MIN_POSITIVE);
+        let extents = || boxes.iter().map(|bounds| bounds.size().max_element());
+        let (least, greatest) = (extents().fold(f64::INFINITY, f64::min), extents().fold(0.0, f64::max));
+        match boxes.iter().copied().reduce(Bounds::union).filter(|_| are_held) {
+            Some(all) => Self::Fixed(Window { centre: all.middle(), half: half(all.size().max_element()) }),
+            None if greatest <= SIZES * least => Self::Along(half(greatest)),
+            None => Self::Whole,
+        }
+    }
+
+    fn window(self, embedding: &Embedding) -> Window {
+        let bounds = embedding.bounds();
+        let centre: DVec2 = bounds.middle();
+        match self {
+            Self::Fixed(window) => window,
+            Self::Along(half) => Window { centre, half },
+            Self::Whole => Window { centre, half: (0.5 + MARGIN) * bounds.size().max_element().max(f64::MIN_POSITIVE) },
+        }
+    }
+}
