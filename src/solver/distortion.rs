@@ -88,6 +88,17 @@ pub struct DistortionSummary {
     pub symmetric_dirichlet: Mean,
 }
 
+/// Areas that differ by so much call for relaxing: a picture's pixel becomes a patch of ten by ten.
+const BADLY: f64 = 100.0;
+
+impl DistortionSummary {
+    /// The greatest ratio of a face's area in the plane to that on the surface, or the other way round, where it is so
+    /// great that the map wants relaxing.
+    pub fn bad_ratio_of_areas(&self) -> Option<f64> {
+        Some(self.area.max).filter(|&ratio| ratio >= BADLY)
+    }
+}
+
 /// The mean of a quantity over the surface; an infinite one is shown as `null` in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Mean {

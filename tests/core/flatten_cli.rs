@@ -5,10 +5,12 @@ use std::fs;
 
 use freebound::examples::Example;
 use freebound::io::read_mesh;
+use freebound::mesh::PolygonMesh;
 use serde_json::Value;
 
 use crate::common::{corpus_disks, manifest};
-use crate::program::{Program, argument, coordinates_by_vertex, example_file};
+use crate::makers::grid;
+use crate::program::{Program, argument, coordinates_by_vertex, example_file, obj_text};
 
 /// Exit status of `flatten` and of `check` for each file of `corpus/bad`, and a word of the message of each.
 const BAD: [(&str, i32, i32, &str, &str); 14] = [
@@ -53,6 +55,26 @@ fn every_bad_file_ends_as_the_table_says_and_leaves_its_report_alone() {
             assert_eq!(run.stdout, "", "{name}: nothing to say but the fault");
         }
     }
+}
+
+#[test]
+fn where_areas_of_a_planar_map_differ_a_hundred_times_the_summary_offers_to_relax() {
+    let program = Program::new();
+    // A sheet with a tall hill: its natural map crowds the top together.
+    let mut hill = grid(24, 24);
+    for x in &mut hill.positions {
+        x.z = 24.0 * (-0.03 * ((x.x - 12.0).powi(2) + (x.y - 12.0).powi(2))).exp();
+    }
+    program.write("hill.obj", &obj_text(&PolygonMesh::from(&hill)));
+    let offered = "--relax 20 lowers the distortion";
+    let natural = program.run(&["flatten", "hill.obj", "--relax", "0", "-o", "out.obj"]).expect(0);
+    assert!(
+        natural.stdout.contains(": 1 between mesh and map") && natural.stdout.contains(offered),
+        "{}",
+        natural.stdout
+    );
+    let relaxed = program.run(&["flatten", "hill.obj", "--relax", "20", "-o", "relaxed.obj"]).expect(0);
+    assert!(!relaxed.stdout.contains(offered), "{}", relaxed.stdout);
 }
 
 #[test]

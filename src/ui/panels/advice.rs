@@ -8,9 +8,6 @@ use crate::session::{Action, Session, Status, Stop};
 use crate::solver::{Method, Settings};
 use crate::ui::{Control, Editor, Request, Tab, Theme, theme_of, tip_with_keys};
 
-/// Areas that differ by so much call for relaxing: a picture's pixel becomes a patch of ten by ten.
-const BADLY: f64 = 100.0;
-
 /// Width of the bar below which the advice is one word, points.
 const ROOMY: f32 = 1000.0;
 
@@ -29,13 +26,11 @@ impl Advice {
         let session = &editor.session;
         let is_at_rest = matches!(session.status(), Status::Held | Status::Current) && !editor.plane.is_moving(session);
         let step = editor.step_on_screen().filter(|_| is_at_rest && editor.tools.dragged().is_none())?;
-        let greatest = step.distortion.summary.area.max;
         if !step.step.verdict.planar {
             if session.can_repair() { Some(Self::Repair) } else { Change::of(session).map(Self::Change) }
-        } else if session.can_relax() && greatest >= BADLY {
-            Some(Self::Relax(greatest))
         } else {
-            None
+            let ratio = step.distortion.summary.bad_ratio_of_areas().filter(|_| session.can_relax());
+            ratio.map(Self::Relax)
         }
     }
 
