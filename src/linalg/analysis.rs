@@ -126,6 +126,21 @@ impl Analysis {
     /// [`LinalgError::OtherPattern`], [`LinalgError::NotFinite`], [`LinalgError::NotPositiveDefinite`] for a Hermitian
     /// matrix, [`LinalgError::Singular`] for others, [`LinalgError::TooLarge`], [`LinalgError::Cancelled`].
     pub fn factor<T: Scalar>(&self, matrix: &CscMatrix<T>, cancel: &AtomicBool) -> Result<Factor<T>, LinalgError> {
+        self.factor_in(None, matrix, cancel)
+    }
+
+    /// The same in the memory of a factor that is no longer needed, where that is a Cholesky factor: new memory costs a
+    /// good part of the time of a factorization.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Analysis::factor`].
+    pub fn factor_in<T: Scalar>(
+        &self,
+        earlier: Option<Factor<T>>,
+        matrix: &CscMatrix<T>,
+        cancel: &AtomicBool,
+    ) -> Result<Factor<T>, LinalgError> {
         let Shared { pattern, symbolic } = &*self.shared;
         if !pattern.is_that_of(matrix) {
             return Err(LinalgError::OtherPattern);
@@ -134,7 +149,13 @@ impl Analysis {
         let cancelled = || if cancel.load(Ordering::Relaxed) { Err(LinalgError::Cancelled) } else { Ok(()) };
         cancelled()?;
         let numeric = match symbolic {
-            Symbolic::Llt(analysis) => Numeric::Llt(Llt::new(analysis, matrix, cancel)?),
+            Symbolic::Llt(analysis) => {
+                let earlier = earlier.and_then(|factor| match factor.numeric {
+                    Numeric::Llt(llt) => Some(llt),
+                    Numeric::Ldlt(_) | Numeric::Lu(_) => None,
+                });
+                Numeric::Llt(Llt::new(analysis, matrix, earlier, cancel)?)
+            }
             Symbolic::Ldlt(analysis) => Numeric::Ldlt(analysis.factor(pattern, matrix)?),
             Symbolic::Lu(analysis) => Numeric::Lu(Lu::new(analysis, pattern, matrix, cancel)?),
         };

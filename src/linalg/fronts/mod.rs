@@ -23,5 +23,5 @@ mod work;
 
 pub(super) use dense::{mat, mat_mut, scatter_add};
 pub(super) use symbolic::{FrontAnalysis, Shape, Sides};
-pub(super) use tree::{Kernel, Tree};
+pub(super) use tree::{Kernel, Tree, Update};
 pub(super) use work::{LARGE_PANEL, TOGETHER, Work, dot};

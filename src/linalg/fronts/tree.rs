@@ -15,22 +15,22 @@ pub(in crate::linalg) trait Kernel<T>: Sync {
     /// What is kept of a unit's fronts.
     type Kept: Send + Sync;
 
-    /// Makes room for what is kept of so many numbers and columns.
-    fn room(&self, numbers: usize, columns: usize) -> Self::Kept;
+    /// Makes room for what is kept of a unit: so many numbers and columns.
+    fn room(&self, unit: usize, numbers: usize, columns: usize) -> Self::Kept;
 
     /// Assembles a front from its entries and its children's updates, eliminates its columns, and leaves the Schur
     /// complement in `update`, which is all zero.
     fn eliminate(
         &self,
         supernode: usize,
-        children: &mut dyn Iterator<Item = (u32, Vec<T>)>,
+        children: &[Update<T>],
         kept: &mut Self::Kept,
         update: &mut [T],
     ) -> Result<(), LinalgError>;
 }
 
 /// A supernode's update on its way to the parent.
-type Update<T> = (u32, Vec<T>);
+pub(in crate::linalg) type Update<T> = (u32, Vec<T>);
 
 /// What the threads of one factorization share.
 pub(in crate::linalg) struct Tree<'a, T, K: Kernel<T>> {
@@ -43,6 +43,43 @@ pub(in crate::linalg) struct Tree<'a, T, K: Kernel<T>> {
     /// The first front in the order of elimination that could not be eliminated.
     failed: Mutex<Option<(usize, LinalgError)>>,
     memory: Memory,
+    spare: Spare<T>,
+}
+
+/// Memory of updates that have arrived, for others: asking the system for large pieces again and again costs more than to
+/// fill them.
+struct Spare<T>(Mutex<Vec<Vec<T>>>);
+
+/// Updates of fewer numbers are left to the allocator, which keeps such pieces itself.
+const LARGE_UPDATE: usize = 4096;
+
+/// Updates grow on the way up the tree: of those that have arrived only the largest are of use.
+const MOST_SPARE: usize = 8;
+
+impl<T: Scalar> Spare<T> {
+    /// So many zeros.
+    fn zeros(&self, length: usize) -> Vec<T> {
+        let mut found = if length < LARGE_UPDATE { None } else { self.take(length) }.unwrap_or_default();
+        found.clear();
+        found.resize(length, T::ZERO);
+        found
+    }
+
+    /// The smallest piece that is large enough.
+    fn take(&self, length: usize) -> Option<Vec<T>> {
+        let mut pieces = self.0.lock().expect("no task panics while it holds this");
+        let large = pieces.iter().enumerate().filter(|(_, piece)| piece.capacity() >= length);
+        let (at, _) = large.min_by_key(|(_, piece)| piece.capacity())?;
+        Some(pieces.swap_remove(at))
+    }
+
+    fn give(&self, pieces: Vec<Update<T>>) {
+        let large = pieces.into_iter().map(|(_, piece)| piece).filter(|piece| piece.capacity() >= LARGE_UPDATE);
+        let mut spare = self.0.lock().expect("no task panics while it holds this");
+        spare.extend(large);
+        spare.sort_unstable_by_key(|piece| std::cmp::Reverse(piece.capacity()));
+        spare.truncate(MOST_SPARE);
+    }
 }
 
 #[derive(Default)]
@@ -82,6 +119,7 @@ impl<'a, T: Scalar, K: Kernel<T>> Tree<'a, T, K> {
             awaited: analysis.units.iter().map(|unit| AtomicUsize::new(unit.awaited)).collect(),
             failed: Mutex::default(),
             memory: Memory::default(),
+            spare: Spare(Mutex::default()),
         };
         rayon::scope(|scope| {
             // A thread takes its newest task first, so the last spawned here is the first unit in postorder.
@@ -104,7 +142,7 @@ impl<'a, T: Scalar, K: Kernel<T>> Tree<'a, T, K> {
         let numbers: usize = range.clone().map(|s| analysis.kept_len(s)).sum();
         let columns = analysis.begin[range.end] - analysis.begin[range.start];
         self.memory.take(numbers * size_of::<T>());
-        let mut kept = self.kernel.room(numbers, columns as usize);
+        let mut kept = self.kernel.room(unit, numbers, columns as usize);
         let mut arrived = std::mem::take(&mut *self.inboxes[unit].lock().expect("no task panics while it holds this"));
         arrived.sort_unstable_by_key(|&(child, _)| child);
         let mut waiting: Vec<Option<Vec<T>>> = range.clone().map(|_| None).collect();
@@ -112,25 +150,24 @@ impl<'a, T: Scalar, K: Kernel<T>> Tree<'a, T, K> {
             if self.cancel.load(Ordering::Relaxed) {
                 return;
             }
-            let mut childrens_bytes = 0;
-            let mut children = analysis.children.column(supernode).iter().map(|&child| {
+            let children = analysis.children.column(supernode).iter().map(|&child| {
                 let update = if (child as usize) < range.start {
                     let place = arrived.binary_search_by_key(&child, |&(child, _)| child);
                     place.ok().map(|place| std::mem::take(&mut arrived[place].1))
                 } else {
                     waiting[child as usize - range.start].take()
                 };
-                let update = update.expect("children come before their parent");
-                childrens_bytes += size_of_val(update.as_slice());
-                (child, update)
+                (child, update.expect("children come before their parent"))
             });
-            let mut update = vec![T::ZERO; analysis.shape(supernode).update_len()];
+            let children: Vec<Update<T>> = children.collect();
+            let mut update = self.spare.zeros(analysis.shape(supernode).update_len());
             self.memory.take(size_of_val(update.as_slice()));
-            if let Err(error) = self.kernel.eliminate(supernode, &mut children, &mut kept, &mut update) {
+            if let Err(error) = self.kernel.eliminate(supernode, &children, &mut kept, &mut update) {
                 self.fail(supernode, error);
                 return;
             }
-            self.memory.give_back(childrens_bytes);
+            self.memory.give_back(children.iter().map(|(_, update)| size_of_val(update.as_slice())).sum());
+            self.spare.give(children);
             match analysis.parent[supernode] {
                 NONE => {}
                 parent if (parent as usize) < range.end => waiting[supernode - range.start] = Some(update),

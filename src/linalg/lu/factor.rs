@@ -6,7 +6,7 @@ use nalgebra_sparse::CscMatrix;
 
 use super::front::Front;
 use super::pivot::Pivots;
-use crate::linalg::fronts::{FrontAnalysis, Kernel, Tree};
+use crate::linalg::fronts::{FrontAnalysis, Kernel, Tree, Update};
 use crate::linalg::order::{Pattern, narrow};
 use crate::linalg::scalar::Scalar;
 use crate::linalg::sparse::power_of_two_near;
@@ -63,14 +63,14 @@ impl<T: Scalar> Lu<T> {
 impl<T: Scalar> Kernel<T> for Job<'_, T> {
     type Kept = UnitFactor<T>;
 
-    fn room(&self, numbers: usize, columns: usize) -> UnitFactor<T> {
+    fn room(&self, _: usize, numbers: usize, columns: usize) -> UnitFactor<T> {
         UnitFactor { values: Vec::with_capacity(numbers), swaps: Vec::with_capacity(columns), replaced: Vec::new() }
     }
 
     fn eliminate(
         &self,
         supernode: usize,
-        children: &mut dyn Iterator<Item = (u32, Vec<T>)>,
+        children: &[Update<T>],
         factor: &mut UnitFactor<T>,
         update: &mut [T],
     ) -> Result<(), LinalgError> {
@@ -87,7 +87,7 @@ impl<T: Scalar> Kernel<T> for Job<'_, T> {
         let (left, right) = block.split_at_mut(shape.left_len());
         let mut front = Front { shape, left, right, update };
         for (child, childs_update) in children {
-            front.extend_add(&childs_update, analysis.relative(child as usize));
+            front.extend_add(childs_update, analysis.relative(*child as usize));
         }
         let begin = analysis.begin[supernode] as usize;
         let rows = &analysis.order.new_to_old[begin..begin + shape.columns];

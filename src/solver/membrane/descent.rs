@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::super::foldover_energy::{Element, Energy};
 use super::super::{Control, Phase, SolveError};
 use super::{CHUNK, Membrane};
+use crate::linalg::Factor;
 
 /// ε² where a triangle is folded: a little, and a share of the worst determinant's square.
 const EPSILON_SQUARED: [f64; 2] = [1e-12, 0.04];
@@ -52,6 +53,13 @@ pub(in crate::solver) struct Descent {
     pub(in crate::solver) gain: f64,
 }
 
+/// Memory that every step of a descent uses.
+struct Place {
+    /// Points that are tried.
+    trial: Vec<DVec2>,
+    memory: Option<Factor<f64>>,
+}
+
 /// Which energy each element has.
 pub(super) struct Energies {
     unfolded: Energy,
@@ -82,7 +90,7 @@ impl Membrane {
         limits: Limits,
         control: Control<'_>,
     ) -> Result<Descent, SolveError> {
-        let mut trial = z.to_vec();
+        let mut place = Place { trial: z.to_vec(), memory: None };
         let mut unfolded_energies: Option<[f64; 2]> = None;
         for _ in 0..limits.steps {
             control.enter(Phase::Solve)?;
@@ -91,7 +99,7 @@ impl Membrane {
                 break;
             }
             let energies = self.energies(z, least, limits);
-            let Some([before, after]) = self.newton_step(z, &mut trial, &energies, control)? else { break };
+            let Some([before, after]) = self.newton_step(z, &mut place, &energies, control)? else { break };
             if least > 0.0 {
                 let [first, _] = unfolded_energies.unwrap_or([before, before]);
                 unfolded_energies = Some([first, after]);
@@ -136,13 +144,13 @@ impl Membrane {
     fn newton_step(
         &self,
         z: &mut [DVec2],
-        trial: &mut [DVec2],
+        Place { trial, memory }: &mut Place,
         energies: &Energies,
         control: Control<'_>,
     ) -> Result<Option<[f64; 2]>, SolveError> {
         let before = self.energy(z, energies);
         let (gradient, hessian) = self.linearise(z, energies, None);
-        let direction = self.direction(&gradient, hessian, control)?;
+        let direction = self.direction(&gradient, hessian, memory, control)?;
         let along = |(&point, g): (&u32, &[f64])| DVec2::new(g[0], g[1]).dot(direction[point as usize]);
         let slope: f64 = self.unknowns.iter().zip(gradient.chunks_exact(2)).map(along).sum();
         let mut step = (STEP_SHARE * self.longest_within_barriers(z, &direction, energies)).min(1.0);

@@ -150,10 +150,15 @@ impl Membrane {
     }
 
     /// Factors a Hessian; where rounding has made it indefinite, with a growing multiple of its diagonal added.
-    fn factor(&self, hessian: &mut CscMatrix<f64>, control: Control<'_>) -> Result<Factor<f64>, SolveError> {
+    fn factor(
+        &self,
+        hessian: &mut CscMatrix<f64>,
+        mut earlier: Option<Factor<f64>>,
+        control: Control<'_>,
+    ) -> Result<Factor<f64>, SolveError> {
         let mut share = REGULARISATION;
         loop {
-            match self.analysis.factor(hessian, control.cancel()) {
+            match self.analysis.factor_in(earlier.take(), hessian, control.cancel()) {
                 Err(LinalgError::NotPositiveDefinite { .. }) if share < 1e3 => {
                     let values = hessian.values_mut();
                     for (&first, &length) in self.diagonal.iter().zip(&self.column_length) {
@@ -169,16 +174,18 @@ impl Membrane {
         }
     }
 
-    /// Newton's direction: how far each point goes.
+    /// Newton's direction: how far each point goes. `memory` is that of the factor of the step before.
     fn direction(
         &self,
         gradient: &[f64],
         mut hessian: CscMatrix<f64>,
+        memory: &mut Option<Factor<f64>>,
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
-        let factor = self.factor(&mut hessian, control)?;
+        let factor = self.factor(&mut hessian, memory.take(), control)?;
         let rhs: Vec<f64> = gradient.iter().map(|g| -g).collect();
         let x = factor.substitute(&rhs);
+        *memory = Some(factor);
         let mut direction = vec![DVec2::ZERO; self.unknown_of.len()];
         for (&point, move_) in self.unknowns.iter().zip(x.chunks_exact(2)) {
             direction[point as usize] = DVec2::new(move_[0], move_[1]);
@@ -194,7 +201,7 @@ impl Membrane {
         control: Control<'_>,
     ) -> Result<Vec<DVec2>, SolveError> {
         let (gradient, hessian) = self.linearise(z, &Energies::all(Energy::Foldover(0.0)), Some(shift));
-        let mut moves = self.direction(&gradient, hessian, control)?;
+        let mut moves = self.direction(&gradient, hessian, &mut None, control)?;
         for (move_, shift) in moves.iter_mut().zip(shift) {
             *move_ += *shift;
         }
