@@ -253,7 +253,7 @@ impl Other {
         let is_solved = self.solving.newest().is_some_and(|newest| newest.problem.has_steps_of(&problem));
         let is_under_way = self.solving.running_problem().is_some_and(|of| of.has_steps_of(&problem));
         let is_idle = !is_under_way && !is_solved && !self.solving.has_failed(&problem);
-        let task = Task { model: Arc::clone(&self.model), mesh, problem };
+        let task = Task { model: Arc::clone(&self.model), mesh, problem, from: None };
         match (news.next, news.rest, begin) {
             (Some(Next::On(goal)), ..) => self.solving.go_on(task, goal),
             (None, Some(Rest::ByItself), _) if rounds > 0 && is_solved && self.solving.has_ended() => {

@@ -1,12 +1,16 @@
 //! A pin that follows the pointer.
 //!
+//! Where the screen shows a planar embedding and the method goes on from one, that embedding follows and stays planar: see
+//! the module `live`. Elsewhere what follows is linear.
+//!
 //! The first solve is complex-linear in the targets: z = Φ t. Moving pins by δ adds δ times their columns of Φ, one
-//! multiply-add a vertex, at any size. So when a drag begins, the embedding and the column of what is dragged are solved
-//! for once, in the background; from then on every move shows at once. The exact verdict on it lags behind, and says so.
-//! Where the method does not begin with that solve, nothing follows the pointer until it rests.
+//! multiply-add a vertex, at any size. So when a drag begins, the column of what is dragged is solved for once, in the
+//! background; from then on every move shows at once, as what was on the screen plus that change, so that nothing jumps. The
+//! exact verdict on it lags behind, and says so. Where the method does not begin with that solve, nothing follows the
+//! pointer until it rests.
 //!
 //! ```text
-//! first move ──▶ job: base, column ──▶ Follow
+//! first move ──▶ job: column ──▶ Follow
 //! every move ──▶ base + δ · column ──▶ Preview ──▶ job: verdict
 //! rest, end  ──▶ run of the document; its first step takes the preview's place
 //! ```
@@ -16,23 +20,59 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::live::{Frame, LiveDrag};
 use super::solving::Task;
 use super::{Background, Problem, Session, Wake};
 use crate::mesh::{DiskMesh, VertexId};
-use crate::solver::{Control, Embedding, Prepared, SolveError, Verdict, verdict};
+use crate::solver::{Control, Embedding, Obstacle, Prepared, SolveError, Verdict, verdict};
 
 /// Pins moved together may differ in their way by this share of it: rounding of the pointer's place.
 const SAME_WAY: f64 = 1e-9;
 
-/// The embedding of the first solve while pins are dragged.
+/// What follows pins while they are dragged.
 #[derive(Clone, Debug)]
 pub struct Preview {
     /// Where vertices lie, in the plane.
     pub embedding: Arc<Embedding>,
     /// Counts the moves of this session, so that a screen can tell when to draw anew.
     pub revision: u64,
+    /// Where it is a planar embedding that stays so: how far it has followed.
+    pub live: Option<LivePreview>,
+    /// The problem that it follows to.
+    problem: Problem,
     /// The newest verdict that there is, with the revision that it is on.
     checked: Option<(u64, Arc<Verdict>)>,
+}
+
+/// How far a planar embedding has followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LivePreview {
+    /// What is in the way of a pin that cannot follow.
+    pub obstacle: Option<Obstacle>,
+}
+
+/// What the screen shows when pins begin to move, and the problem that it was made for.
+#[derive(Clone, Debug)]
+pub(super) struct Screen {
+    pub(super) embedding: Arc<Embedding>,
+    pub(super) problem: Problem,
+    /// Whether it is proved planar as it lies.
+    pub(super) is_planar: bool,
+}
+
+/// Pins on their way: the task with their targets, what is dragged, ascending, and what the screen shows.
+pub(super) struct Pull {
+    pub(super) task: Task,
+    pub(super) dragged: Vec<VertexId>,
+    pub(super) screen: Option<Screen>,
+}
+
+impl Pull {
+    /// What is on the screen, where it differs from what is wanted in the dragged pins' targets alone.
+    pub(super) fn base(&self) -> Option<&Screen> {
+        let problem = &self.task.problem;
+        self.screen.as_ref().filter(|screen| screen.problem.differs_in_targets_of(problem, &self.dragged))
+    }
 }
 
 impl Preview {
@@ -44,26 +84,27 @@ impl Preview {
 
 /// What is solved for once, for all moves of a drag.
 struct Follow {
-    /// The problem when it was solved.
+    /// The problem that the base is of.
     problem: Problem,
     /// The pins that are dragged, ascending.
     dragged: Vec<VertexId>,
     prepared: Arc<Prepared>,
-    base: Embedding,
+    base: Arc<Embedding>,
     column: Vec<DVec2>,
 }
 
 impl Follow {
     /// Whether it serves a drag of these pins in this problem: only their targets differ.
     fn serves(&self, problem: &Problem, dragged: &[VertexId]) -> bool {
-        let others_stay = problem.targets.iter().all(|(vertex, target)| {
-            dragged.binary_search(vertex).is_ok()
-                || self.problem.targets.get(vertex).is_some_and(|before| before.uv == target.uv)
-        });
-        self.dragged == dragged && others_stay && self.problem.differs_in_targets_alone(problem)
+        self.dragged == dragged && self.problem.differs_in_targets_of(problem, dragged)
     }
 
-    /// The embedding of the problem's first solve; none where the dragged pins did not all go the same way.
+    /// Goes on from what is on the screen.
+    fn go_on_from(&mut self, screen: &Screen) {
+        (self.base, self.problem) = (Arc::clone(&screen.embedding), screen.problem.clone());
+    }
+
+    /// The base with the change of the first solve; none where the dragged pins did not all go the same way.
     fn embedding(&self, problem: &Problem) -> Option<Embedding> {
         let (from, to) = (self.problem.pins(), problem.pins());
         let way = |vertex: &VertexId| Some(to.get(vertex)?.target - from.get(vertex)?.target);
@@ -75,7 +116,10 @@ impl Follow {
         let moved = |(base, column): (&DVec2, &DVec2)| *base + by.rotate(*column);
         let mut embedding: Embedding = self.base.par_iter().zip(&self.column).map(moved).collect::<Vec<_>>().into();
         for (vertex, pin) in to.iter().filter(|(_, pin)| problem.settings.is_exact(pin.hold)) {
-            embedding[*vertex] = pin.target;
+            // What was met stays met, to the last bit.
+            if from.get(vertex).is_some_and(|before| before.target == self.base[vertex]) {
+                embedding[*vertex] = pin.target;
+            }
         }
         Some(embedding)
     }
@@ -92,6 +136,7 @@ pub(super) struct Drag {
     preview: Option<Preview>,
     /// Counts previews.
     revision: u64,
+    pub(super) live: LiveDrag,
     follow: Option<Follow>,
     following: Background<Wanted, Result<Follow, SolveError>>,
     /// Proves previews, by their revisions, one at a time.
@@ -103,34 +148,42 @@ impl Drag {
         Self {
             preview: None,
             revision: 0,
+            live: LiveDrag::new(wake),
             follow: None,
             following: Background::new("follow", wake),
             proving: Background::new("verdict", wake),
         }
     }
 
-    /// Whether a column, or the verdict on a preview, is being computed.
+    /// Whether a column, a frame, or the verdict on a preview, is being computed.
     pub(super) fn is_busy(&self) -> bool {
-        self.following.is_busy() || self.proving.is_busy()
+        self.following.is_busy() || self.proving.is_busy() || self.live.is_busy()
     }
 
     /// Lets the embedding follow pins that were moved, at once where their column is known; otherwise that is solved
     /// for first, unless it is under way.
-    pub(super) fn follow(&mut self, task: Task, dragged: Vec<VertexId>, prepared: Option<&Arc<Prepared>>) {
-        let is_served = self.follow.as_ref().is_some_and(|follow| follow.serves(&task.problem, &dragged));
-        if is_served && self.show_preview(&task) {
+    pub(super) fn follow(&mut self, pull: Pull, prepared: Option<&Arc<Prepared>>) {
+        if self.preview.is_none()
+            && let (Some(follow), Some(screen)) = (&mut self.follow, pull.base())
+        {
+            follow.go_on_from(screen);
+        }
+        let (task, dragged) = (&pull.task, &pull.dragged);
+        let is_served = self.follow.as_ref().is_some_and(|follow| follow.serves(&task.problem, dragged));
+        if is_served && self.show_linear(task) {
             return;
         }
         let is_under_way =
-            |wanted: &Wanted| wanted.dragged == dragged && wanted.problem.differs_in_targets_alone(&task.problem);
+            |wanted: &Wanted| wanted.dragged == *dragged && wanted.problem.differs_in_targets_alone(&task.problem);
         if !self.following.key().is_some_and(is_under_way) {
-            self.solve_column(task, dragged, prepared.cloned());
+            self.solve_column(pull, prepared.cloned());
         }
     }
 
-    /// Solves for base and column in the background.
-    fn solve_column(&mut self, task: Task, dragged: Vec<VertexId>, prepared: Option<Arc<Prepared>>) {
-        let Task { mesh, problem, .. } = task;
+    /// Solves for the column in the background, and for a base where there is none on the screen.
+    fn solve_column(&mut self, pull: Pull, prepared: Option<Arc<Prepared>>) {
+        let base = pull.base().cloned();
+        let Pull { task: Task { mesh, problem, .. }, dragged, .. } = pull;
         let wanted = Wanted { problem: problem.clone(), dragged: dragged.clone() };
         self.following.start(wanted, move |cancel| {
             let control = Control::new(cancel, &|_| {});
@@ -139,21 +192,38 @@ impl Drag {
                 Some(prepared) => prepared,
                 None => Arc::new(Prepared::new(&mesh, &problem.settings, &pins, control)?),
             };
-            let base = prepared.solve(&mesh, &pins, control)?.embedding;
+            let (base, problem) = match base {
+                Some(screen) => (screen.embedding, screen.problem),
+                None => (Arc::new(prepared.solve(&mesh, &pins, control)?.embedding), problem),
+            };
             let column = prepared.column(&mesh, &dragged)?;
             Ok(Follow { problem, dragged, prepared, base, column })
         });
     }
 
-    /// Shows the embedding of the problem's first solve. Returns whether the column gives it.
-    fn show_preview(&mut self, task: &Task) -> bool {
+    /// Shows the base with the change of the first solve. Returns whether the column gives it.
+    fn show_linear(&mut self, task: &Task) -> bool {
         let embedding = self.follow.as_ref().and_then(|follow| follow.embedding(&task.problem));
         let Some(embedding) = embedding else { return false };
-        self.revision += 1;
-        let checked = self.preview.take().and_then(|before| before.checked);
-        self.preview = Some(Preview { embedding: Arc::new(embedding), revision: self.revision, checked });
+        self.show(Arc::new(embedding), task.problem.clone(), None);
         self.prove(&task.mesh);
         true
+    }
+
+    /// Shows an embedding.
+    fn show(&mut self, embedding: Arc<Embedding>, problem: Problem, live: Option<LivePreview>) {
+        self.revision += 1;
+        let checked = self.preview.take().and_then(|before| before.checked);
+        self.preview = Some(Preview { embedding, revision: self.revision, live, problem, checked });
+    }
+
+    /// Shows a frame of a planar embedding, with its verdict.
+    pub(super) fn show_live(&mut self, frame: Frame) {
+        let live = LivePreview { obstacle: frame.moved.obstacle };
+        self.show(frame.embedding, frame.problem, Some(live));
+        if let Some(preview) = &mut self.preview {
+            preview.checked = Some((self.revision, Arc::new(frame.moved.verdict)));
+        }
     }
 
     /// Proves the newest preview in the background, one at a time.
@@ -165,15 +235,17 @@ impl Drag {
         }
     }
 
-    /// No column is wanted any more; what is on the screen stays.
+    /// Nothing follows the pointer any more; what is on the screen stays.
     pub(super) fn stop_following(&mut self) {
         self.following.cancel();
+        self.live.end();
     }
 
     /// A step has taken the preview's place; the column still serves.
     pub(super) fn end_preview(&mut self) {
         self.preview = None;
         self.proving.cancel();
+        self.live.end();
     }
 
     /// The drag is over.
@@ -192,16 +264,41 @@ impl Session {
 
     /// Lets the embedding follow pins that were moved.
     pub(super) fn follow(&mut self, dragged: Vec<VertexId>) {
+        let Some(task) = self.task() else { return };
+        let pull = Pull { task, dragged, screen: self.screen() };
+        let Some(pull) = self.drag.live.follow(pull) else { return };
         // Where the method begins with something else than the solve that follows pins, the screen keeps what is proved. Where
         // the mesh is to be turned around, a solve follows by itself.
-        let task = self.task().filter(|_| self.document.settings.begin_with_pins_held());
-        if let Some(task) = task {
-            self.drag.follow(task, dragged, self.solving.prepared());
+        if pull.task.problem.settings.begin_with_pins_held() {
+            self.drag.follow(pull, self.solving.prepared());
         }
+    }
+
+    /// The embedding on the screen where it is planar, and made by the document's method: an edit of pins goes on from it.
+    pub(super) fn planar_on_screen(&self) -> Option<Arc<Embedding>> {
+        let wanted = self.document.problem();
+        let is_alike = |screen: &Screen| {
+            let Problem { settings, frame, .. } = &screen.problem;
+            screen.is_planar && settings.amounts_to(&wanted.settings) && *frame == wanted.frame
+        };
+        self.screen().filter(is_alike).map(|screen| screen.embedding)
+    }
+
+    /// What the screen shows, of the mesh as given.
+    fn screen(&self) -> Option<Screen> {
+        if let Some(preview) = self.preview() {
+            let (embedding, problem) = (Arc::clone(&preview.embedding), preview.problem.clone());
+            return Some(Screen { embedding, problem, is_planar: preview.live.is_some() });
+        }
+        let outcome = self.outcome().filter(|outcome| outcome.step.refinement.is_none())?;
+        let (step, problem) = (&outcome.step, outcome.problem.clone());
+        let is_planar = step.verdict.planar && !step.verdict.mirrored;
+        Some(Screen { embedding: Arc::new(step.solution.embedding.clone()), problem, is_planar })
     }
 
     /// Takes in what a drag has waited for.
     pub(super) fn poll_drag(&mut self) {
+        self.poll_live();
         // Where the solve for a column failed, the run at the end of the drag says why.
         if let Some((_, Ok(Ok(follow)))) = self.drag.following.poll() {
             self.take_column(follow);

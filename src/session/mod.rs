@@ -32,6 +32,7 @@
 //! | `chart_targets` | pins of a mesh with several charts, in files and in the document           |
 //! | `charts`        | part: charts that are not on the screen, solved in the background          |
 //! | `drag`          | part: what follows the pointer                                             |
+//! | `live`          | part: a planar embedding that follows the pointer, proved at every frame   |
 //! | `errands`       | part: small work for the document that takes time                          |
 //! | `target_checks` | part: conflicts among targets, and whether they look mirrored              |
 //! | `files`         | part: what is open and saved, read and written                             |
@@ -68,6 +69,7 @@ mod forming;
 mod history;
 mod in_use;
 mod large;
+mod live;
 mod messages;
 mod model;
 mod morphs;
@@ -99,7 +101,7 @@ pub use charts::ChartState;
 pub use comparing::{Contender, ContenderState};
 pub use comparison::{Compared, comparison_report};
 pub use document::{ChartEdits, Command, Document, Shape};
-pub use drag::Preview;
+pub use drag::{LivePreview, Preview};
 pub use history::History;
 pub use large::LargeFile;
 pub use messages::{Message, Place, Severity, named};

@@ -54,10 +54,14 @@ impl Problem {
 
     /// The steps that solve it, each proved in the numbers that are written of it.
     pub fn ladder(&self) -> Ladder {
+        Ladder::new(self.settings, self.pins()).written_on(self.sheet())
+    }
+
+    /// How embeddings are written.
+    pub(super) fn sheet(&self) -> Sheet {
         let is_exact = |target: &Target| self.settings.is_exact(target.hold);
         let exact = self.targets.iter().filter(|(_, target)| is_exact(target));
-        let sheet = Sheet::new(self.frame, exact.map(|(&vertex, target)| (vertex, target.uv)).collect());
-        Ladder::new(self.settings, self.pins()).written_on(sheet)
+        Sheet::new(self.frame, exact.map(|(&vertex, target)| (vertex, target.uv)).collect())
     }
 
     /// Whether another problem differs in its targets alone: the same vertices, held in the same way.

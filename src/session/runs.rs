@@ -13,7 +13,7 @@ impl Session {
     pub(super) fn task(&mut self) -> Option<Task> {
         let has_form = self.bring_form();
         let mesh = self.disk().filter(|_| has_form)?.clone();
-        Some(Task { model: self.model()?.clone(), mesh, problem: self.document.problem() })
+        Some(Task { model: self.model()?.clone(), mesh, problem: self.document.problem(), from: None })
     }
 
     /// Begins a run of the document as it is now. While a gesture goes on it takes only its first step, which is
@@ -24,10 +24,14 @@ impl Session {
         self.begin(goal);
     }
 
-    /// Begins a run of the document as it is now. What a drag shows stays until its first step is there.
+    /// Begins a run of the document as it is now. What a drag shows stays until its first step is there. Where what is on the
+    /// screen is planar, the run goes on from it.
     fn run_document(&mut self) {
         self.solving.follow_newest();
-        self.begin(Goal::Until(self.stop_conditions()));
+        let (goal, from) = (Goal::Until(self.stop_conditions()), self.planar_on_screen());
+        if let Some(task) = self.task() {
+            self.solving.begin(Task { from, ..task }, goal);
+        }
     }
 
     /// Begins a run, or lets the first step that is under way finish where only targets differ.
@@ -184,6 +188,7 @@ impl Session {
     /// The pointer rests in the middle of a drag: the whole run is worth taking.
     pub(super) fn rest(&mut self) {
         if self.history.is_in_gesture() && self.preview().is_some() && !self.is_running() {
+            self.drag.stop_following();
             self.run_document();
         }
     }

@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::solver::{Control, Ending, Family, Kept, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step};
+use freebound::solver::{
+    Control, Embedding, Ending, Family, Kept, Ladder, Method, Phase, Pin, Pins, Settings, SolveError, Step,
+};
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -169,6 +171,40 @@ fn the_planar_start_is_among_the_steps_and_serves_other_targets_on_the_mesh() {
     assert_eq!(shorter.len(), steps.len() - fitted);
     let is_same = |(a, b): (&Step, &Step)| a.solution.embedding == b.solution.embedding;
     assert!(shorter.iter().zip(&steps[fitted..]).all(is_same));
+}
+
+#[test]
+fn a_ladder_goes_on_from_an_embedding_that_is_one_to_one_and_begins_afresh_where_it_is_not() {
+    let (mesh, mut pins) = swirl();
+    let (steps, _) = steps_of(&mesh, Settings::default(), &pins).unwrap();
+    let before = &steps.last().unwrap().solution.embedding;
+    let inner = *pins.keys().find(|v| mesh.boundary_place(**v).is_none()).unwrap();
+    let way = 0.1 * before.bounds().extent() * DVec2::X;
+    pins.insert(inner, Pin::hard(before[inner] + way));
+    let run = |from: &Embedding| {
+        let mut steps: Vec<Step> = Vec::new();
+        let mut run = Ladder::new(Settings::default(), pins.clone()).going_on_from(from);
+        let ending = run.finish(&mesh, Control::unattended(), |step| steps.push(step)).unwrap();
+        assert_eq!((ending, steps.last().unwrap().unmet()), (Ending::Planar, Vec::new()));
+        steps
+    };
+    let on = run(before);
+    assert!(on.iter().all(|step| step.verdict.planar && !step.is_of_planar_start()));
+    assert_eq!(on[0].rung, Method::Continuation);
+    assert!(on[0].max_move.unwrap() < 3.0 * way.length(), "{:?}", on[0].max_move);
+    let mut folded = before.clone();
+    folded[inner] += 10.0 * way;
+    for bad in [folded, Embedding::default()] {
+        let afresh = run(&bad);
+        assert_ne!(afresh[0].rung, Method::Continuation);
+        assert!(afresh[0].note.as_ref().is_some_and(|note| note.contains("afresh")), "{:?}", afresh[0].note);
+    }
+    // Two pins only say where it is to lie, and other methods do not continue.
+    let two: Pins = pins.iter().take(2).map(|(&v, pin)| (v, *pin)).collect();
+    for (settings, pins) in [(Settings::default(), two), (one_to_one(Method::Natural), pins.clone())] {
+        let step = Ladder::new(settings, pins).going_on_from(before).step(&mesh, Control::unattended()).unwrap();
+        assert_eq!(step.rung, Method::Natural);
+    }
 }
 
 #[test]

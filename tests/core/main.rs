@@ -109,6 +109,7 @@ mod session_files;
 mod session_forms;
 mod session_fuzz;
 mod session_history;
+mod session_live;
 mod session_mend;
 mod session_projects;
 mod session_recovery;

@@ -6,7 +6,7 @@ use freebound::examples::Example;
 use freebound::io::Target;
 use freebound::mesh::VertexId;
 use freebound::session::{Action, Session};
-use freebound::solver::{BoundaryShape, Control, Embedding, Hold, Method, Settings, solve_once, verdict};
+use freebound::solver::{BoundaryShape, Control, Embedding, Family, Hold, Method, Settings, solve_once, verdict};
 use glam::DVec2;
 
 use crate::session::{opened, settle, settled};
@@ -25,6 +25,13 @@ fn with_constraints() -> Session {
     session
 }
 
+/// The same with the method whose only step is the linear solve.
+fn with_linear_method() -> Session {
+    let mut session = with_constraints();
+    settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::default())));
+    session
+}
+
 /// The embedding that the document's first solve gives.
 fn first_solve(session: &Session) -> Embedding {
     let document = session.document();
@@ -34,7 +41,7 @@ fn first_solve(session: &Session) -> Embedding {
 
 #[test]
 fn what_follows_the_pointer_is_the_first_solve_and_is_proved_in_its_own_time() {
-    let mut session = with_constraints();
+    let mut session = with_linear_method();
     let disk = Arc::clone(session.model().expect("open").disk().expect("a disk"));
     for (i, number) in (0..).zip([100, 100, 60, 60, 0]) {
         let vertex = VertexId::new(number);
@@ -55,7 +62,7 @@ fn what_follows_the_pointer_is_the_first_solve_and_is_proved_in_its_own_time() {
 
 #[test]
 fn pins_that_are_dragged_together_keep_their_distance_and_are_one_undo_step() {
-    let mut session = with_constraints();
+    let mut session = with_linear_method();
     let before = session.document().clone();
     for i in 1..=10 {
         let by = DVec2::new(0.01, -0.02) * f64::from(i);
@@ -90,7 +97,7 @@ fn a_pointer_that_rests_has_the_embedding_repaired_and_the_drag_goes_on() {
 
 #[test]
 fn a_slower_column_catches_up_with_the_pointer() {
-    let mut session = with_constraints();
+    let mut session = with_linear_method();
     let vertex = VertexId::new(200);
     // No poll between the moves: the column is still being solved for.
     for i in 0..20 {

@@ -174,7 +174,7 @@ fn the_embedding_follows_while_a_pin_is_dragged() {
     assert_eq!(window.editor().tools.dragged(), Some(VertexId::new(40)));
     let drawn = window.editor().plane.drawn().expect("solved").positions()[40];
     assert!(drawn.distance(in_embedding(&window, to)) < 1e-9, "{drawn}");
-    assert!(window.verdict().starts_with("preview, not repaired"), "{}", window.verdict());
+    assert!(window.verdict().starts_with("Planar: proved"), "{}", window.verdict());
     assert!(window.shows("Move the pin"), "the status bar says so");
     window.end_drag(to);
     assert_eq!(window.editor().tools.dragged(), None);

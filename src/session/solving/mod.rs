@@ -178,6 +178,10 @@ impl Solving {
             return;
         }
         let run = task.problem.ladder_on(&task.model).unwrap_or_else(|_| task.problem.ladder()).with_kept(&self.kept);
+        let run = match &task.from {
+            Some(embedding) => run.going_on_from(embedding),
+            None => run,
+        };
         self.rounds = Rounds::default();
         self.spawn(task, run, goal);
     }

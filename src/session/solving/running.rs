@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use crate::mesh::DiskMesh;
 use crate::session::stop::Goal;
 use crate::session::{Background, Model, Outcome, Problem, Wake};
-use crate::solver::{Control, Ending, Ladder, Phase, SolveError};
+use crate::solver::{Control, Embedding, Ending, Ladder, Phase, SolveError};
 
 /// What is to be solved, and on which mesh.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub(in crate::session) struct Task {
     pub(in crate::session) model: Arc<Model>,
     pub(in crate::session) mesh: Arc<DiskMesh>,
     pub(in crate::session) problem: Problem,
+    /// A planar embedding to go on from.
+    pub(in crate::session) from: Option<Arc<Embedding>>,
 }
 
 /// What a poll found that concerns others.

@@ -40,6 +40,8 @@ pub(super) const CONTINUED: Flights = &[&[Fit, Continuation]];
 pub(super) const MATCHED: Flights = &[&[Fit, Matchmaker]];
 /// From a planar start until the constraints are met, with new vertices where it cannot be otherwise.
 pub(super) const CONTINUED_OR_MATCHED: Flights = &[&[Fit, Continuation], &[Matchmaker]];
+/// From a one-to-one embedding, as it lies, until the constraints are met, or stuck.
+pub(super) const GOING_ON: Flights = &[&[Continuation]];
 
 /// The layout that it starts from, as it is.
 pub(super) const GIVEN: Flights = &[&[Given]];

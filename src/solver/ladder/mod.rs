@@ -11,6 +11,7 @@
 //! | `ending.rs` | why a ladder has come to its end |
 //! | `step.rs` | [`Candidate`]: what a rung gives, before it is proved; [`Step`]: a candidate with its verdict |
 //! | `given.rs` | before all rungs: the layout that it is to start from |
+//! | `going_on.rs` | before all rungs: a one-to-one embedding to go on from |
 //! | `natural.rs` | rung 1: one linear solve |
 //! | `iterate.rs` | rung 2: mean-value iterations, and when they get no better |
 //! | `again.rs` | rung 1 once more, with the default weights and pins |
@@ -36,6 +37,7 @@ mod cut;
 mod ending;
 mod flights;
 mod given;
+mod going_on;
 mod iterate;
 mod lee;
 mod matchmaker;
@@ -177,6 +179,7 @@ impl Ladder {
     pub fn step(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Step, SolveError> {
         if self.step_count == 0 {
             self.task.check(mesh)?;
+            self.check_beginning(mesh);
         }
         let candidate = match self.ending {
             None => self.climb(mesh, control),

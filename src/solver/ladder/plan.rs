@@ -8,10 +8,10 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
 use super::cut::Cut;
-use super::flights::Kind::{self, Fit, Iterate, Schnyder};
+use super::flights::Kind::{self, Continuation, Fit, Iterate, Schnyder};
 use super::flights::{
-    ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, ITERATED, LADDER,
-    LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED, SPECTRAL,
+    ANGLES, BENT, CONTINUED, CONTINUED_OR_MATCHED, DRAWN, Flights, GIVEN, GIVEN_BENT, GIVEN_ITERATED, GOING_ON,
+    ITERATED, LADDER, LESS_ENERGETIC, LESS_STRETCHED, LINEAR, MATCHED, PADDED, SPECTRAL,
 };
 use super::relax::{Relax, Rounds};
 use super::rung::{Latest, Rung};
@@ -116,6 +116,13 @@ impl Plan {
             Method::Natural | Method::Convex(_) | Method::Lscm | Method::Levy => [part(LINEAR)].into(),
         };
         Self { parts }
+    }
+
+    /// From a one-to-one embedding to the constraints, as it lies; where it gets stuck, from the planar start.
+    pub(super) fn going_on(task: &Arc<Task>, kept: &Kept) -> Self {
+        let afresh_after = Self::afresh(task, kept).parts.into_iter().skip_while(|part| part.flights == ITERATED);
+        let going_on = Part::new(task, Aim::Constraints, GOING_ON, kept);
+        Self { parts: std::iter::once(going_on).chain(afresh_after).collect() }
     }
 
     /// For `auto`.
@@ -277,7 +284,7 @@ impl Part {
 
     /// What goes on from the latest step, whether or not the part is at its end.
     pub(super) fn by_hand(&mut self) -> &mut dyn Rung {
-        if self.kind(At::default()) == Fit { &mut self.relax } else { self.rung_of(Iterate) }
+        if matches!(self.kind(At::default()), Fit | Continuation) { &mut self.relax } else { self.rung_of(Iterate) }
     }
 
     fn rung_of(&mut self, kind: Kind) -> &mut dyn Rung {

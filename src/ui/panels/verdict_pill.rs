@@ -2,8 +2,8 @@
 
 use eframe::egui::{self, RichText, Role};
 
-use crate::session::{Action, Busy, Preview, Status, Surface};
-use crate::solver::{Phase, Step, Verdict};
+use crate::session::{Action, Busy, LivePreview, Preview, Status, Surface};
+use crate::solver::{Obstacle, Phase, Step, Verdict};
 use crate::ui::icons::{self, Sign};
 use crate::ui::{Control, Editor, Offer, Request, Tab, counted, theme_of};
 
@@ -70,6 +70,7 @@ fn pill(editor: &Editor) -> Option<Pill> {
         return Some(Pill::new(Sign::Bad, words, "The bars over the mesh and the tab Defects say what is wrong"));
     }
     Some(match session.status() {
+        Status::Preview(Some(Preview { live: Some(live), .. })) => of_live(*live),
         Status::Preview(preview) => {
             let tip = "The first, linear step. What repairs it follows when the pointer rests or lets go";
             Pill::new(Sign::Warning, preview_words(preview), tip)
@@ -118,6 +119,24 @@ fn of_step(step: &Step) -> Pill {
     };
     let tip = format!("Exact arithmetic shows that no two faces overlap. {in_f32}{note}");
     Pill::new(Sign::Good, format!("Planar: proved · {rung}"), tip)
+}
+
+/// A planar embedding that follows a pin: proved at every frame.
+fn of_live(LivePreview { obstacle }: LivePreview) -> Pill {
+    let tip = "Exact arithmetic shows of every frame that no two faces overlap. What is beside the pins settles when the \
+               pointer rests or lets go";
+    let words =
+        obstacle.map_or_else(|| "Planar: proved".to_owned(), |by| format!("Planar: proved · {}", in_the_way(by)));
+    Pill::new(Sign::Good, words, tip)
+}
+
+/// What keeps a pin from following, in a few words.
+fn in_the_way(obstacle: Obstacle) -> String {
+    match obstacle {
+        Obstacle::Pin(vertex) => format!("{vertex} is in the way"),
+        Obstacle::Boundary(vertex) => format!("the boundary at {vertex} is in the way"),
+        Obstacle::Surroundings => "the rest follows when it rests".to_owned(),
+    }
 }
 
 /// What follows a drag, and what is known of it.
@@ -176,6 +195,7 @@ mod tests {
     use crate::examples::Example;
     use crate::mesh::VertexId;
     use crate::session::RecentFiles;
+    use crate::solver::{Family, Method, Settings};
 
     /// Takes in what the background has done until a condition holds.
     fn wait(editor: &mut Editor, is_there: impl Fn(&Editor) -> bool) {
@@ -192,9 +212,11 @@ mod tests {
     }
 
     /// A window in the middle of a drag, with a preview.
-    fn dragging() -> Editor {
+    fn dragging(method: Method) -> Editor {
         let mut editor = Editor::new(&egui::Context::default(), RecentFiles::default());
         editor.session.handle(Action::OpenExample(Example::Dome));
+        wait(&mut editor, is_solved);
+        editor.session.handle(Action::SetSettings(Settings::new(method, Family::default())));
         wait(&mut editor, is_solved);
         editor.session.handle(Action::Fix([0, 10, 20].map(VertexId::new).to_vec()));
         wait(&mut editor, is_solved);
@@ -211,7 +233,7 @@ mod tests {
 
     #[test]
     fn a_preview_says_so_while_its_run_is_solved_for_long() {
-        let mut editor = dragging();
+        let mut editor = dragging(Method::Natural);
         editor.session.handle(Action::Rest);
         // As if it had begun a while ago. Nothing is taken in meanwhile, so that no step has replaced the preview.
         editor.host.note_work(true, a_while_ago());
@@ -222,8 +244,20 @@ mod tests {
     }
 
     #[test]
+    fn a_planar_sheet_under_a_pin_is_proved_and_says_what_is_in_the_way() {
+        let mut editor = dragging(Method::Auto);
+        let words = pill(&editor).expect("there is one").words;
+        assert_eq!(words, "Planar: proved");
+        let over = editor.session.document().targets[&VertexId::new(20)].uv;
+        editor.session.handle(Action::MovePin { vertex: VertexId::new(10), target: over });
+        wait(&mut editor, |editor| !editor.session.is_following());
+        let words = pill(&editor).expect("there is one").words;
+        assert_eq!(words, "Planar: proved · v20 is in the way");
+    }
+
+    #[test]
     fn work_takes_the_place_of_any_other_verdict() {
-        let mut editor = dragging();
+        let mut editor = dragging(Method::Natural);
         editor.session.handle(Action::EndGesture);
         wait(&mut editor, is_solved);
         editor.session.handle(Action::Solve);

@@ -1,13 +1,17 @@
 //! What a move of a dragged pin costs: `cargo bench --bench drag`.
 //!
-//! `cargo bench --bench drag -- VERTICES…` takes other sizes. The constraints are hard but for every sixth, which pulls;
+//! First a planar embedding that stays so, proved at every frame (see `live.rs`); then what follows where a method is linear, or
+//! the screen shows no planar embedding. `cargo bench --bench drag -- live` and `-- linear` print one of the two;
+//! further numbers are other sizes, in faces there and in vertices here. The constraints are hard but for every sixth, which pulls;
 //! all are dragged once. "first move" is what passes until the embedding follows: base and column are solved for with
 //! the factors of the run before. "move" is all that the session does for one further move, "arrays" what the window
 //! makes of it for the graphics card, "bytes" what it uploads; the verdict comes in its own time. A frame at 60 a second
 //! has 16.7 ms.
 
+#[path = "../common/mod.rs"]
 mod common;
-#[path = "../examples/makers/mod.rs"]
+mod live;
+#[path = "../../examples/makers/mod.rs"]
 mod makers;
 
 use std::sync::Arc;
@@ -37,11 +41,25 @@ const MOVES: u32 = 3;
 fn main() {
     print_machine();
     let wanted: Vec<usize> = arguments().iter().filter_map(|text| text.parse().ok()).collect();
-    let sizes = if wanted.is_empty() { SIZES.to_vec() } else { wanted };
+    let is_wanted = |part: &str| {
+        let mut named =
+            arguments().into_iter().filter(|argument| ["live", "linear"].contains(&argument.as_str())).peekable();
+        named.peek().is_none() || named.any(|argument| argument == part)
+    };
+    if is_wanted("live") {
+        live::print(&wanted);
+    }
+    if is_wanted("linear") {
+        print_linear(&wanted);
+    }
+}
+
+fn print_linear(wanted: &[usize]) {
+    let sizes = if wanted.is_empty() { &SIZES } else { wanted };
     let heads = ["vertices", "first move", "move", "arrays", "bytes", "verdict", "moves a second"];
     let title = format!("dragging one of {CONSTRAINTS} constraints, seconds");
     let mut table = Table::new(&title, &heads);
-    for vertices in sizes {
+    for &vertices in sizes {
         table.row(drag(vertices));
     }
     table.print();
