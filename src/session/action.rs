@@ -172,6 +172,8 @@ pub enum Action {
     Compare(Option<usize>),
     /// Compares these methods in the background, on the document as it is and as it will be; none ends that.
     CompareMethods(Vec<Variant>),
+    /// Finds the planar morph between the maps of two methods that are compared, as they are and as they will be; none ends that.
+    Morph(Option<[Variant; 2]>),
     /// Chooses where a run comes to rest.
     SetStop(StopConditions),
     /// Writes a file.

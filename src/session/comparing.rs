@@ -4,6 +4,7 @@
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::morphing::Morphing;
 use super::{Background, Compared, Model, Problem, Session, Wake};
 use crate::solver::{Control, Phase, SolveError, Variant};
 
@@ -16,6 +17,8 @@ pub(super) struct Comparing {
     running: Option<Running>,
     /// Counts what has come in.
     revision: u64,
+    /// The morph between two of them.
+    pub(super) morphing: Morphing,
 }
 
 /// A method in a comparison.
@@ -81,7 +84,8 @@ struct RunProgress {
 
 impl Comparing {
     pub(super) fn new(wake: &Wake) -> Self {
-        Self { wake: Arc::clone(wake), contenders: Vec::new(), model: None, running: None, revision: 0 }
+        let (wake, morphing) = (Arc::clone(wake), Morphing::new(wake));
+        Self { wake, contenders: Vec::new(), model: None, running: None, revision: 0, morphing }
     }
 
     /// Compares these methods, in this order; none ends the comparison. What is known of them stays.
@@ -151,7 +155,7 @@ impl Comparing {
 
     /// Begins with the next method, where none runs.
     fn begin_next(&mut self, model: &Arc<Model>, problem: &Problem) {
-        if self.running.is_some() {
+        if self.running.is_some() || self.morphing.is_running() {
             return;
         }
         let is_waiting = |contender: &&mut Contender| matches!(contender.state, State::Waiting);

@@ -27,6 +27,7 @@
 //! | `outcome`       | a step with its proof, ready to be written; the problem that it solves     |
 //! | `comparing`     | part: methods that are compared in the background                          |
 //! | `comparison`    | methods run beside each other on one mesh                                  |
+//! | `morphing`      | the morph between two methods that are compared, in the background         |
 //! | `morphs`        | planar morphs through what methods have come to                            |
 //! | `atlas_view`    | part: that layout for files, and for the screen                            |
 //! | `chart_targets` | pins of a mesh with several charts, in files and in the document           |
@@ -72,6 +73,7 @@ mod large;
 mod live;
 mod messages;
 mod model;
+mod morphing;
 mod morphs;
 mod open_mesh;
 mod opened;
@@ -107,6 +109,7 @@ pub use large::LargeFile;
 pub use messages::{Message, Place, Severity, named};
 use messages::{Messages, Written};
 pub use model::{ChartOf, Model, Surface};
+pub use morphing::MorphState;
 pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphStop, MorphStops, MorphTour, morph_end};
 pub use outcome::{Outcome, Problem};
 pub use preferences::Preferences;

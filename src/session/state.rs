@@ -94,6 +94,7 @@ impl Session {
             Action::ShowStep(index) => self.solving.show(index),
             Action::Compare(index) => self.solving.compare(index),
             Action::CompareMethods(variants) => self.compare_methods(&variants),
+            Action::Morph(between) => self.want_morph(between),
             Action::SetStop(stop) => self.solving.set_stop(stop),
             Action::GiveUpGesture => self.travel(History::give_up_gesture),
             Action::Undo => self.undo(),
@@ -146,6 +147,7 @@ impl Session {
         self.poll_charts();
         self.poll_atlas();
         self.poll_comparing();
+        self.poll_morph();
         self.poll_drag();
         self.refresh_target_checks();
         self.files.poll_saving(&mut self.messages);

@@ -31,7 +31,8 @@ use controls::{
     Control, Offer, close_button, counted, figures, five_digits, heads, list, number, pairs, remark, tip_with_keys,
 };
 pub use editor::{
-    ComparisonExport, Defect, Editor, Pane, Request, SeamClick, SeamRule, Shading, Stage, StepTarget, Tab, Tool,
+    ComparisonExport, Defect, Editor, MorphRequest, MorphView, Pane, Request, SeamClick, SeamRule, Shading, Stage,
+    StepTarget, Tab, Tool,
 };
 use editor::{Element, HullScene, Purpose};
 use keys::keys_of;

@@ -43,7 +43,7 @@ pub use colour::{Palette, Range, Scale, Srgb, Tick, nice_step_at_least};
 pub use comparison::{CellShading, ComparisonPicture};
 pub use draw::{EdgeList, FaceList, FacePaint, MeshArrays, PlaneArrays, Revision, crease_normals};
 pub use kdtree::PlanePicker;
-pub use morph::{MorphPicture, MorphPlace};
+pub use morph::{MorphPicture, MorphPlace, MorphSight};
 pub use orbit::{OrbitCamera, Ray, UpAxis};
 pub use pick::{PICK_RADIUS, SurfaceHit, SurfacePicker, VertexPick, Visibility, snapped};
 pub use picture::Picture;

@@ -39,12 +39,12 @@ pub struct MorphPicture<'a> {
     /// The range of colours, one for all frames: that of the maps.
     range: Option<Range>,
     /// What is seen of each frame, where pins do not hold all of them.
-    sight: Sight,
+    sight: MorphSight,
 }
 
 /// What is seen of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Sight {
+pub enum MorphSight {
     /// The same of every frame: pins hold all maps.
     Fixed(Window),
     /// Every frame from its middle, at one scale: half a side.
@@ -70,9 +70,7 @@ impl<'a> MorphPicture<'a> {
             CellShading::By(quantity) => quantity.common_range(stops().map(|outcome| &outcome.distortion)),
             CellShading::Checker => None,
         };
-        let boxes: Vec<Bounds> = tour.legs.iter().flat_map(|leg| &leg.frames).map(Embedding::bounds).collect();
-        let sight = Sight::of(&boxes, stops().all(|outcome| outcome.is_held()));
-        Self { mesh, tour, shading, range, sight }
+        Self { mesh, tour, shading, range, sight: MorphSight::new(tour) }
     }
 
     /// All places in the order in which they are seen, each map once: from the first to the last; and back by the same frames, where
@@ -148,8 +146,11 @@ impl<'a> MorphPicture<'a> {
     }
 }
 
-impl Sight {
-    fn of(boxes: &[Bounds], are_held: bool) -> Self {
+impl MorphSight {
+    /// So that all of a tour can be seen.
+    pub fn new(tour: &MorphTour) -> Self {
+        let boxes: Vec<Bounds> = tour.legs.iter().flat_map(|leg| &leg.frames).map(Embedding::bounds).collect();
+        let are_held = tour.stops.stops.iter().all(|stop| stop.outcome.is_held());
         let half = |extent: f64| (0.5 + MARGIN) * extent.max(f64::MIN_POSITIVE);
         let extents = || boxes.iter().map(|bounds| bounds.size().max_element());
         let (least, greatest) = (extents().fold(f64::INFINITY, f64::min), extents().fold(0.0, f64::max));
@@ -160,7 +161,8 @@ impl Sight {
         }
     }
 
-    fn window(self, embedding: &Embedding) -> Window {
+    /// What is seen where vertices lie so.
+    pub fn window(self, embedding: &Embedding) -> Window {
         let bounds = embedding.bounds();
         let centre: DVec2 = bounds.middle();
         match self {

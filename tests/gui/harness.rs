@@ -152,6 +152,7 @@ impl Window {
             && !editor.look.is_making_picture()
             && !editor.tools.seam.is_busy()
             && !session.is_comparing()
+            && !session.is_morphing()
             && editor.plane.comparison.is_drawn(session)
             && !editor.host.has_presses_waiting();
         session.busy().is_none() && !session.is_following() && scenes_drawn

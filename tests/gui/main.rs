@@ -28,6 +28,7 @@ mod magnifier;
 mod makers;
 mod mend;
 mod messages;
+mod morph;
 mod pane_shading;
 mod panels;
 mod picture_filter;

@@ -142,7 +142,11 @@ impl Mask {
         let range = |low: f64, high: f64, limit: usize| low.max(0.0) as usize..(high.max(0.0) as usize + 1).min(limit);
         let (along, length_squared) = (b - a, (b - a).length_squared().max(f64::MIN_POSITIVE));
         for y in range(low.y, high.y, self.height) {
-            for x in range(low.x, high.x, self.width) {
+            // The part of the line that this row is near to: no pixel beyond it is covered.
+            let near = [-1.5 - half, 2.5 + half].map(|off| ((y as f64 + off - a.y) / along.y).clamp(0.0, 1.0));
+            let ends = if along.y == 0.0 { [a.x, b.x] } else { near.map(|share| a.x + share * along.x) };
+            let (from, to) = (ends[0].min(ends[1]) - half - 1.5, ends[0].max(ends[1]) + half + 1.5);
+            for x in range(low.x.max(from), high.x.min(to), self.width) {
                 let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
                 let share = ((p - a).dot(along) / length_squared).clamp(0.0, 1.0);
                 let cover = (half + 0.5 - p.distance(a + share * along)).clamp(0.0, 1.0) as f32 * opacity;
@@ -157,7 +161,7 @@ impl Mask {
         for row in 0..self.height {
             let at = 4 * ((self.top + row) * picture.width as usize + self.left);
             let pixels = picture.pixels[at..at + 4 * self.width].chunks_exact_mut(4);
-            for (pixel, &cover) in pixels.zip(&self.cover[row * self.width..]) {
+            for (pixel, &cover) in pixels.zip(&self.cover[row * self.width..]).filter(|(_, cover)| **cover > 0.0) {
                 for (channel, wanted) in pixel.iter_mut().zip(colour) {
                     let mixed = f32::from(*channel) + (f32::from(wanted) - f32::from(*channel)) * cover;
                     *channel = mixed.round() as u8;

@@ -23,7 +23,7 @@ impl MeshView {
     }
 
     /// The mesh as given.
-    pub(super) fn scene(&self) -> Option<&Arc<MeshScene>> {
+    pub(in crate::ui) fn scene(&self) -> Option<&Arc<MeshScene>> {
         self.scene.as_ref()
     }
 

@@ -54,6 +54,7 @@ mod selection;
 mod sides;
 pub(super) mod views;
 
+pub use comparison::{MorphRequest, MorphView};
 pub(super) use element::Element;
 pub(super) use plane::HullScene;
 pub use plane::Stage;
@@ -180,6 +181,7 @@ impl Editor {
         self.let_go_of_vertices();
         self.go_on_after_saving();
         self.go_on_playing();
+        self.go_on_with_morph();
         self.go_on_with_seam();
         self.take_seams_by_rule();
         self.foresee_seam();

@@ -47,11 +47,13 @@ pub enum ComparisonExport {
     Table,
     /// Every step of every method.
     Steps,
+    /// The morph that shows.
+    Morph,
 }
 
 impl ComparisonExport {
     /// All of them, in the order of menus.
-    pub const ALL: [Self; 3] = [Self::Picture, Self::Table, Self::Steps];
+    pub const ALL: [Self; 4] = [Self::Picture, Self::Table, Self::Steps, Self::Morph];
 
     /// Its entry in menus, and what it is.
     pub(in crate::ui) const fn words(self) -> [&'static str; 2] {
@@ -59,6 +61,7 @@ impl ComparisonExport {
             Self::Picture => ["Picture…", "PNG, drawn anew: the embeddings at one scale, with their numbers"],
             Self::Table => ["Table…", "CSV, a line for each method"],
             Self::Steps => ["Steps…", "CSV, every step of every method with its seconds, energy and stretch"],
+            Self::Morph => ["Animated picture…", "APNG, drawn anew: the morph that shows, there and back"],
         }
     }
 }
@@ -112,6 +115,9 @@ impl Purpose {
             }
             Self::Comparison(ComparisonExport::Steps) => {
                 ("Export the steps of the comparison", "CSV table", &["csv"], "-comparison-steps.csv")
+            }
+            Self::Comparison(ComparisonExport::Morph) => {
+                ("Export the morph as an animated picture", "Animated PNG", &["png", "apng"], "-morph.png")
             }
         };
         DialogForm { title, files, extensions, ending }

@@ -10,7 +10,7 @@ use crate::solver::{Hold, Variant};
 use crate::ui::editor::seam_rules::SeamRule;
 use crate::ui::editor::seam_tool::SeamClick;
 use crate::ui::panes::inset::InsetPan;
-use crate::ui::{Answer, Purpose, Stage};
+use crate::ui::{Answer, MorphRequest, Purpose, Stage};
 use crate::view::Quantity;
 
 /// What the left mouse button does.
@@ -279,6 +279,8 @@ pub enum Request {
     SortComparison(Column),
     /// Shows or hides the table of the comparison.
     ToggleComparisonTable,
+    /// Does something with the morph between two methods of the comparison.
+    Morph(MorphRequest),
     /// Asks for a file.
     Ask(Purpose),
     /// Saves the project where it was saved before, or asks where.

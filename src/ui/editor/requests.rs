@@ -76,6 +76,7 @@ impl Editor {
             Request::ColourComparison(quantity) => self.plane.comparison.colour_by(quantity),
             Request::SortComparison(column) => self.plane.comparison.sort_by(column),
             Request::ToggleComparisonTable => self.plane.comparison.toggle_table(),
+            Request::Morph(request) => self.morph(request),
             Request::Ask(purpose) => self.ask(purpose),
             Request::SaveProject => self.save_project(),
             Request::ToggleExports => self.layout.exports_shown = !self.layout.exports_shown,
@@ -211,7 +212,7 @@ impl Editor {
         } else if self.pointer.end_box() {
         } else if self.tools.pair().is_some() {
             self.tools.set_pair(None);
-        } else if self.tools.seam.end() || self.leave_comparison() {
+        } else if self.tools.seam.end() || self.leave_morph() || self.leave_comparison() {
         } else if self.tools.tool() != Tool::Select {
             self.tools.take_up(Tool::Select);
         } else {

@@ -4,10 +4,13 @@
 //! | file | what |
 //! |---|---|
 //! | `mod.rs` | what is chosen, and what a request does to it |
+//! | `morph.rs` | the morph between two of them: which frame shows, and how |
 //! | `drawn.rs` | scenes, faces coloured on one scale, one camera |
 
 mod drawn;
+mod morph;
 
+use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -18,11 +21,13 @@ use super::paint::Legend;
 use super::scene::MeshScene;
 use super::{Editor, Pane, Shading};
 use crate::io::{Column, Direction};
-use crate::session::{Action, Compared, Contender, Failure, Outcome, Session, Wake, comparison_report};
+use crate::session::{Action, Compared, Contender, Failure, MorphState, Outcome, Session, Wake, comparison_report};
 use crate::solver::{Choice as _, Method, Variant};
 use crate::ui::ComparisonExport;
-use crate::view::{CellShading, ComparisonPicture, PlaneCamera, Quantity};
+use crate::view::{CellShading, ComparisonPicture, MorphPicture, PlaneCamera, Quantity};
 pub(in crate::ui) use drawn::CellScene;
+pub(in crate::ui) use morph::MorphFrame;
+pub use morph::{MorphRequest, MorphView};
 
 /// The least and the most methods that are compared.
 pub(in crate::ui) const COUNTS: [usize; 2] = [2, 6];
@@ -48,6 +53,8 @@ pub struct ComparisonView {
     was_beside: bool,
     drawn: Drawn,
     sight: Sight,
+    /// The morph between two methods, in the place of the cells.
+    pub morph: MorphView,
 }
 
 impl ComparisonView {
@@ -62,6 +69,7 @@ impl ComparisonView {
             was_beside: false,
             drawn: Drawn::new(wake),
             sight: Sight::default(),
+            morph: MorphView::default(),
         }
     }
 
@@ -162,6 +170,7 @@ impl ComparisonView {
 
     /// Shows all embeddings whole.
     pub(in crate::ui::editor) fn frame(&mut self) {
+        self.morph.frame();
         self.sight.set_camera(None);
     }
 }
@@ -183,6 +192,7 @@ impl Editor {
             if view.was_beside && self.layout.full() == Some(Pane::Plane) {
                 self.layout.show_full(None);
             }
+            self.close_morph();
             self.session.handle(Action::CompareMethods(Vec::new()));
         }
     }
@@ -244,6 +254,7 @@ impl Editor {
         let Some(model) = self.session.model().cloned() else { return };
         let methods = self.compared();
         let shading = CellShading::By(self.plane.comparison.quantity.unwrap_or_default());
+        let morph = self.session.morph();
         self.session.write_file(path, move |mut out| {
             let methods: Vec<&Compared> = methods.iter().map(AsRef::as_ref).collect();
             match what {
@@ -253,6 +264,10 @@ impl Editor {
                 }
                 ComparisonExport::Table => comparison_report(&model, &methods).write_csv(None, &mut out),
                 ComparisonExport::Steps => comparison_report(&model, &methods).write_steps(&mut out),
+                ComparisonExport::Morph => match (model.disk(), &morph) {
+                    (Some(mesh), MorphState::Done(tour)) => MorphPicture::new(mesh, tour, shading).write(out),
+                    _ => Err(io::Error::other("the morph has gone: the maps have changed")),
+                },
             }
         });
     }

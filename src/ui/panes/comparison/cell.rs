@@ -167,7 +167,7 @@ fn frame_of(editor: &Editor, scene: &CellScene, camera: PlaneCamera, theme: &The
 }
 
 /// Without the grid, which lies elsewhere in each cell; and without the picture's outline, where nothing is held on it.
-fn quiet(palette: Palette, is_on_picture: bool) -> Palette {
+pub(super) fn quiet(palette: Palette, is_on_picture: bool) -> Palette {
     let unit_square = if is_on_picture { palette.unit_square } else { palette.background };
     Palette { grid: palette.background, unit_square, ..palette }
 }

@@ -5,17 +5,19 @@
 //! | `mod.rs` | the bar over it, and how cells and table share the room |
 //! | `chooser.rs` | which methods take part |
 //! | `cell.rs` | one method: its embedding, and the numbers below it |
+//! | `morph.rs` | the morph between two methods, in the place of the cells |
 //! | `table.rs` | the numbers of all, sorted by any column |
 
 mod cell;
 mod chooser;
+mod morph;
 mod table;
 
 use eframe::egui::{self, Rect, Role, Vec2};
 
 use super::{bars, legend, pane};
-use crate::session::Surface;
-use crate::ui::{ComparisonExport, Control, Editor, Pane, Purpose, Request, theme_of, tip_with_keys};
+use crate::session::{MorphState, Surface};
+use crate::ui::{ComparisonExport, Control, Editor, MorphRequest, Pane, Purpose, Request, theme_of, tip_with_keys};
 use crate::view::Quantity;
 
 /// Free space between cells, points.
@@ -43,6 +45,9 @@ pub(in crate::ui) fn comparison_ui(ui: &mut egui::Ui, editor: &mut Editor, reque
     bars::over(ui, room, editor, Pane::Plane, requests);
     if let Some(words) = nothing_to_compare(editor) {
         return pane::empty_state(ui, room, &words);
+    }
+    if editor.plane.comparison.morph.is_shown() {
+        return morph::morph_ui(ui, room, editor, requests);
     }
     let has_table = editor.plane.comparison.has_table();
     let has_cells = is_roomy || !has_table;
@@ -98,6 +103,7 @@ fn bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             let full = full.named(Role::Button, &format!("{words}: Comparison"));
             full.asks(Request::ToggleFull(Pane::Plane), requests);
             exports(ui, editor, requests);
+            morph_switch(ui, editor, requests);
             numbers_switch(ui, editor, requests);
         });
     });
@@ -110,11 +116,19 @@ fn numbers_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request
     switch.asks(Request::ToggleComparisonTable, requests);
 }
 
+/// Whether the morph shows.
+fn morph_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let switch = ui.selectable_label(editor.plane.comparison.morph.is_shown(), "Morph");
+    let switch =
+        switch.on_hover_text("Glide from one method's map to another's, planar throughout, or show all methods again");
+    switch.asks(Request::Morph(MorphRequest::Toggle), requests);
+}
+
 /// What faces are coloured by.
 fn colours(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let now = editor.plane.comparison.quantity();
     let title = |quantity: Option<Quantity>| quantity.map_or("Plain", Quantity::title);
-    let width = ui.spacing().combo_width.min((ui.available_width() - 170.0).max(60.0));
+    let width = ui.spacing().combo_width.min((ui.available_width() - 220.0).max(60.0));
     let menu = crate::ui::list(ui, "Colours of the comparison", width, title(now), |ui| {
         for quantity in std::iter::once(None).chain(Quantity::ALL.map(Some)) {
             let entry = ui.selectable_label(now == quantity, title(quantity));
@@ -129,9 +143,12 @@ fn exports(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let is_there = editor.session.contenders().iter().any(|contender| contender.found().is_some());
     ui.add_enabled_ui(is_there, |ui| {
         let menu = ui.menu_button("Export", |ui| {
+            let has_morph = matches!(editor.session.morph(), MorphState::Done(_));
             for what in ComparisonExport::ALL {
                 let [words, about] = what.words();
-                if ui.button(words).on_hover_text(about).asks(Request::Ask(Purpose::Comparison(what)), requests) {
+                let entry = ui.add_enabled(has_morph || what != ComparisonExport::Morph, egui::Button::new(words));
+                let entry = entry.on_hover_text(about).on_disabled_hover_text("Show a morph first");
+                if entry.asks(Request::Ask(Purpose::Comparison(what)), requests) {
                     ui.close();
                 }
             }

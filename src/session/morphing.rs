@@ -1,0 +1,171 @@
+//! The planar morph between the maps of two methods that are compared: found and proved in the background, once both have run
+//! and nothing else does. It belongs to these very maps: where one of them is solved again, the morph goes, and is found anew.
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::{
+    Background, Compared, ContenderState, MORPH_FRAMES, MissingLeg, MorphStops, MorphTour, Session, Wake, morph_end,
+};
+use crate::solver::{Control, Phase, Variant};
+
+/// The maps of a morph.
+type Ends = [Arc<Compared>; 2];
+
+/// What is known of the morph that is wanted.
+#[derive(Clone, Debug, Default)]
+pub enum MorphState {
+    /// None is wanted, or its methods have yet to run.
+    #[default]
+    Waiting,
+    /// It is being found: what is done, and how many frames were looked at so far, on whatever way.
+    Running(Option<Phase>, usize),
+    /// It is there: a tour from the one map to the other.
+    Done(Arc<MorphTour>),
+    /// There is none, for this reason.
+    Failed(String),
+}
+
+/// The morph that is wanted.
+pub(super) struct Morphing {
+    wake: Wake,
+    between: Option<[Variant; 2]>,
+    /// The maps that the state is of.
+    ends: Option<Ends>,
+    job: Background<(), Result<MorphTour, MissingLeg>>,
+    progress: Arc<Mutex<Progress>>,
+    state: MorphState,
+}
+
+/// What the background does.
+#[derive(Clone, Copy, Debug, Default)]
+struct Progress {
+    phase: Option<Phase>,
+    frames: usize,
+}
+
+impl Morphing {
+    pub(super) fn new(wake: &Wake) -> Self {
+        Self {
+            wake: Arc::clone(wake),
+            between: None,
+            ends: None,
+            job: Background::new("morph", wake),
+            progress: Arc::default(),
+            state: MorphState::Waiting,
+        }
+    }
+
+    pub(super) fn is_running(&self) -> bool {
+        self.job.is_busy()
+    }
+
+    /// Drops what was found, or is being found.
+    fn forget(&mut self) {
+        self.job.cancel();
+        (self.ends, self.state) = (None, MorphState::Waiting);
+    }
+
+    /// Takes in what the background has found.
+    fn poll(&mut self) {
+        let Some(((), outcome)) = self.job.poll() else { return };
+        self.state = match outcome {
+            Ok(Ok(tour)) => MorphState::Done(Arc::new(tour)),
+            Ok(Err(missing)) => MorphState::Failed(missing.reason.to_string()),
+            Err(failure) => MorphState::Failed(failure.words("the morph")),
+        };
+    }
+
+    /// Finds the morph between two maps of a model's disk.
+    fn begin(&mut self, model: Arc<super::Model>, ends: Ends) {
+        let progress = Arc::new(Mutex::new(Progress::default()));
+        let (of_job, wake) = (Arc::clone(&progress), Arc::clone(&self.wake));
+        let maps = ends.clone();
+        self.job.start((), move |cancel: &AtomicBool| {
+            let report = |phase: Phase| {
+                let mut progress = of_job.lock().unwrap_or_else(PoisonError::into_inner);
+                progress.phase = Some(phase);
+                progress.frames += usize::from(phase == Phase::Verify);
+                drop(progress);
+                wake();
+            };
+            let mesh = model.disk().expect("methods run on disks only");
+            let stops = MorphStops::of(&[&maps[0], &maps[1]]);
+            MorphTour::through(mesh, stops, MORPH_FRAMES, Control::new(cancel, &report))
+        });
+        (self.progress, self.ends) = (progress, Some(ends));
+    }
+}
+
+impl Session {
+    /// What is known of the morph that is wanted.
+    pub fn morph(&self) -> MorphState {
+        let morphing = &self.comparing.morphing;
+        if morphing.is_running() {
+            let Progress { phase, frames } = *morphing.progress.lock().unwrap_or_else(PoisonError::into_inner);
+            return MorphState::Running(phase, frames);
+        }
+        morphing.state.clone()
+    }
+
+    /// The methods whose maps are wanted as ends of a morph.
+    pub fn morph_between(&self) -> Option<[Variant; 2]> {
+        self.comparing.morphing.between
+    }
+
+    /// Whether a morph is yet to be found, and can be.
+    pub fn is_morphing(&self) -> bool {
+        let is_open = matches!(self.morph(), MorphState::Waiting | MorphState::Running(..));
+        is_open && self.ends_of_morph().is_some()
+    }
+
+    /// The methods that have a map, in their order, that a morph can begin or end with.
+    pub fn morph_ends(&self) -> Vec<(Variant, Arc<Compared>)> {
+        let of = |contender: &super::Contender| {
+            let found = contender.found().filter(|_| self.contender_state(contender) == ContenderState::Done)?;
+            morph_end(found).is_ok().then(|| (contender.variant(), Arc::clone(found)))
+        };
+        self.contenders().iter().filter_map(of).collect()
+    }
+
+    /// Wants the morph between two methods, or none any more.
+    pub(super) fn want_morph(&mut self, between: Option<[Variant; 2]>) {
+        if self.comparing.morphing.between != between {
+            self.comparing.morphing.between = between;
+            self.comparing.morphing.forget();
+        }
+        self.poll_morph();
+    }
+
+    /// What both methods have come to, once they have.
+    fn ends_of_morph(&self) -> Option<Ends> {
+        let [first, second] = self.comparing.morphing.between?;
+        let found = |variant: Variant| {
+            let contender = self.contenders().iter().find(|contender| contender.variant() == variant)?;
+            contender.found().filter(|_| self.contender_state(contender) == ContenderState::Done).cloned()
+        };
+        Some([found(first)?, found(second)?])
+    }
+
+    /// Takes in what was found, drops what belongs to other maps, and begins where all is there and the machine is free.
+    pub(super) fn poll_morph(&mut self) {
+        let now = self.ends_of_morph();
+        let morphing = &mut self.comparing.morphing;
+        let is_of = |[a, b]: &Ends, [c, d]: &Ends| Arc::ptr_eq(a, c) && Arc::ptr_eq(b, d);
+        if morphing.ends.as_ref().is_some_and(|of| now.as_ref().is_none_or(|now| !is_of(of, now))) {
+            morphing.forget();
+        }
+        morphing.poll();
+        let Some(ends) = now.filter(|_| morphing.ends.is_none()) else { return };
+        let stops = MorphStops::of(&[&ends[0], &ends[1]]);
+        if let Some(left_out) = stops.left_out.first() {
+            morphing.state = MorphState::Failed(format!("{}: {}", left_out.name, left_out.why));
+            morphing.ends = Some(ends);
+            return;
+        }
+        let is_free = !self.is_comparing() && !self.is_running() && self.busy().is_none();
+        if let Some(model) = self.model().filter(|_| is_free).cloned() {
+            self.comparing.morphing.begin(model, ends);
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! The morph between two methods that are compared: which frame shows, from which camera, and how it is played. Only frames that
+//! are proved are shown, none between two of them.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::geom::Bounds;
+use crate::mesh::DiskMesh;
+use crate::session::{Action, Compared, MorphState, MorphTour};
+use crate::solver::{Variant, distortion};
+use crate::ui::Editor;
+use crate::ui::editor::paint::Legend;
+use crate::ui::editor::scene::MeshScene;
+use crate::view::{FacePaint, MorphSight, PlaneArrays, PlaneCamera, Quantity, UnitPlane};
+
+/// How long it is played, seconds.
+const SECONDS: f64 = 3.0;
+
+/// What is asked of the morph.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MorphRequest {
+    /// Shows it in the place of the cells, or the cells again.
+    Toggle,
+    /// Begins it with the map of a method.
+    From(Variant),
+    /// Ends it with the map of a method.
+    To(Variant),
+    /// Shows it at a share of its time, 0 to 1.
+    Seek(f64),
+    /// Plays it from where it stands, or from the beginning where it stands at its end; or stops playing.
+    Play,
+}
+
+/// The morph as the window has it.
+#[derive(Debug, Default)]
+pub struct MorphView {
+    is_shown: bool,
+    /// Of its time, 0 to 1.
+    share: f64,
+    /// When it would have been at its beginning, while it is played; seconds of the window's clock.
+    playing_since: Option<f64>,
+    drawn: Option<DrawnFrame>,
+    camera: Option<PlaneCamera>,
+    /// The camera as the window chose it, and for what size of the view.
+    framed: Option<(PlaneCamera, DVec2)>,
+}
+
+/// A frame, ready to be drawn.
+#[derive(Debug)]
+struct DrawnFrame {
+    tour: Arc<MorphTour>,
+    key: (usize, Option<Quantity>),
+    frame: MorphFrame,
+}
+
+/// What is drawn of a frame.
+#[derive(Clone, Debug)]
+pub(in crate::ui) struct MorphFrame {
+    pub(in crate::ui) mesh: Arc<MeshScene>,
+    pub(in crate::ui) arrays: Arc<PlaneArrays>,
+    pub(in crate::ui) faces: Arc<FacePaint>,
+    pub(in crate::ui) legend: Option<Legend>,
+    /// What of the plane is seen where the common camera sees the square from −1 to 1.
+    middle: DVec2,
+    half: f64,
+}
+
+impl MorphFrame {
+    fn new(mesh: &Arc<MeshScene>, tour: &MorphTour, number: usize, quantity: Option<Quantity>) -> Option<Self> {
+        let disk: &DiskMesh = mesh.model.disk()?;
+        let leg = tour.legs.first()?;
+        let embedding = leg.frames.get(number)?;
+        let window = MorphSight::new(tour).window(embedding);
+        let unit = UnitPlane::of(Bounds::at(window.centre - window.half, DVec2::splat(2.0 * window.half)));
+        let ends = tour.stops.stops.iter().map(|stop| &stop.outcome.distortion);
+        let range = quantity.and_then(|quantity| quantity.common_range(ends));
+        let (faces, legend) = match quantity.zip(range) {
+            Some((by, range)) => {
+                let values = by.values(&distortion(disk, embedding));
+                (FacePaint::by_value(&values, by.scale(), range, &[]), Some(Legend::new(by.scale(), range, &values)))
+            }
+            None => (FacePaint::plain(disk.mesh().real_face_count(), &[]), None),
+        };
+        Some(Self {
+            mesh: Arc::clone(mesh),
+            arrays: Arc::new(PlaneArrays::in_frame(embedding, disk.mesh().real_triangles(), unit)),
+            faces: Arc::new(faces),
+            legend,
+            middle: window.centre,
+            half: window.half,
+        })
+    }
+
+    /// The camera that shows of this frame what `common` shows of the square.
+    pub(in crate::ui) fn camera(&self, common: &PlaneCamera) -> PlaneCamera {
+        common.over_similar(self.middle, self.half)
+    }
+}
+
+impl MorphView {
+    /// Whether it stands in the place of the cells.
+    pub fn is_shown(&self) -> bool {
+        self.is_shown
+    }
+
+    /// Where it stands, of its time, 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.share
+    }
+
+    /// The box around the frame that was drawn last, in its plane.
+    pub fn bounds_drawn(&self) -> Option<Bounds> {
+        self.drawn.as_ref().map(|drawn| drawn.frame.arrays.bounds)
+    }
+
+    /// Whether it is being played.
+    pub fn is_playing(&self) -> bool {
+        self.playing_since.is_some()
+    }
+
+    /// The number of the frame that shows, of so many: the nearest.
+    pub fn frame_of(&self, count: usize) -> usize {
+        let last = count.saturating_sub(1);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a small count")]
+        let nearest = (self.share.clamp(0.0, 1.0) * last as f64).round() as usize;
+        nearest.min(last)
+    }
+
+    /// What is drawn of the frame that shows, made where it is not yet.
+    pub(in crate::ui) fn drawn(
+        &mut self,
+        mesh: Option<&Arc<MeshScene>>,
+        tour: &Arc<MorphTour>,
+        quantity: Option<Quantity>,
+    ) -> Option<MorphFrame> {
+        let key = (self.frame_of(tour.legs.first()?.frames.len()), quantity);
+        let is_right = |drawn: &DrawnFrame| Arc::ptr_eq(&drawn.tour, tour) && drawn.key == key;
+        if !self.drawn.as_ref().is_some_and(is_right) {
+            let frame = MorphFrame::new(mesh?, tour, key.0, quantity)?;
+            self.drawn = Some(DrawnFrame { tour: Arc::clone(tour), key, frame });
+        }
+        self.drawn.as_ref().map(|drawn| drawn.frame.clone())
+    }
+
+    /// The camera of all frames, in a view of a size; it goes along with the size where nobody has moved it.
+    pub(in crate::ui) fn camera_in(&mut self, size: DVec2) -> PlaneCamera {
+        let is_framed = self.framed.is_some_and(|(camera, of)| self.camera == Some(camera) && of != size);
+        if let Some(camera) = self.camera.filter(|_| !is_framed) {
+            return camera;
+        }
+        let square = Bounds { low: DVec2::NEG_ONE, high: DVec2::ONE };
+        let camera = PlaneCamera::framing(square, size);
+        (self.camera, self.framed) = (Some(camera), Some((camera, size)));
+        camera
+    }
+
+    pub(in crate::ui) fn set_camera(&mut self, camera: PlaneCamera) {
+        self.camera = Some(camera);
+    }
+
+    /// Shows all of it.
+    pub(super) fn frame(&mut self) {
+        self.camera = None;
+    }
+}
+
+impl Editor {
+    /// Carries out what is asked of the morph.
+    pub(in crate::ui::editor) fn morph(&mut self, request: MorphRequest) {
+        let now = self.host.now();
+        let between = self.session.morph_between();
+        let view = &mut self.plane.comparison.morph;
+        match request {
+            MorphRequest::Toggle if view.is_shown => self.close_morph(),
+            MorphRequest::Toggle => {
+                *view = MorphView { is_shown: true, ..MorphView::default() };
+                self.go_on_with_morph();
+            }
+            MorphRequest::Seek(share) => (view.share, view.playing_since) = (share.clamp(0.0, 1.0), None),
+            MorphRequest::Play if view.is_playing() => view.playing_since = None,
+            MorphRequest::Play => {
+                let from = if view.share >= 1.0 { 0.0 } else { view.share };
+                (view.share, view.playing_since) = (from, Some(now - from * SECONDS));
+            }
+            MorphRequest::From(variant) => self.morph_between(between, [Some(variant), None]),
+            MorphRequest::To(variant) => self.morph_between(between, [None, Some(variant)]),
+        }
+    }
+
+    /// Takes another method for one end. One that is the other end already changes places with it.
+    fn morph_between(&mut self, before: Option<[Variant; 2]>, chosen: [Option<Variant>; 2]) {
+        let Some([from, to]) = before else { return };
+        let between = match chosen {
+            [Some(new), _] => [new, if new == to { from } else { to }],
+            [None, Some(new)] => [if new == from { to } else { from }, new],
+            [None, None] => return,
+        };
+        let view = &mut self.plane.comparison.morph;
+        (view.share, view.playing_since) = (0.0, None);
+        self.session.handle(Action::Morph(Some(between)));
+    }
+
+    /// Shows the cells again, and wants no morph any more.
+    pub(super) fn close_morph(&mut self) {
+        self.plane.comparison.morph = MorphView::default();
+        self.session.handle(Action::Morph(None));
+    }
+
+    /// Leaves the morph. Returns whether it showed.
+    pub(in crate::ui::editor) fn leave_morph(&mut self) -> bool {
+        let is_shown = self.plane.comparison.morph.is_shown;
+        if is_shown {
+            self.close_morph();
+        }
+        is_shown
+    }
+
+    /// Chooses its ends where none are chosen or one takes no part any more, and plays it on. Call once per frame.
+    pub(in crate::ui::editor) fn go_on_with_morph(&mut self) {
+        if !self.plane.comparison.morph.is_shown {
+            return;
+        }
+        let takes_part = |variant: &Variant| self.session.contenders().iter().any(|of| of.variant() == *variant);
+        let is_chosen = self.session.morph_between().is_some_and(|between| between.iter().all(takes_part));
+        if !is_chosen && !self.session.is_comparing() {
+            let between = self.usual_morph();
+            if self.session.morph_between() != between {
+                self.session.handle(Action::Morph(between));
+            }
+        }
+        let is_there = matches!(self.session.morph(), MorphState::Done(_));
+        let now = self.host.now();
+        let view = &mut self.plane.comparison.morph;
+        view.playing_since = view.playing_since.filter(|_| is_there);
+        if let Some(since) = view.playing_since {
+            view.share = ((now - since) / SECONDS).clamp(0.0, 1.0);
+            view.playing_since = view.playing_since.filter(|_| view.share < 1.0);
+            self.host.context().request_repaint();
+        }
+    }
+
+    /// From the map of the document's method, where it is planar, to the first other one.
+    fn usual_morph(&self) -> Option<[Variant; 2]> {
+        let ends = self.session.morph_ends();
+        let own = Variant::of(&self.session.document().settings);
+        let (first, of_first) = ends.iter().find(|(variant, _)| *variant == own).or(ends.first())?;
+        let others = || ends.iter().filter(|(variant, _)| variant != first);
+        // Methods often end with one and the same map: nothing would move.
+        let is_other = |end: &Compared| match (&end.outcome, &of_first.outcome) {
+            (Some(end), Some(first)) => end.step.solution.embedding != first.step.solution.embedding,
+            _ => false,
+        };
+        let (second, _) = others().find(|(_, end)| is_other(end)).or_else(|| others().next())?;
+        Some([*first, *second])
+    }
+}

@@ -1,0 +1,165 @@
+//! The morph between two methods, in the place of the cells: its ends, one large view, a slider over its time, and the verdict on
+//! the frame that shows.
+
+use std::sync::Arc;
+
+use eframe::egui::{self, Rect, Role, Vec2, WidgetInfo};
+
+use super::LEGEND;
+use super::cell::quiet;
+use crate::render::{self, PaneId, PlaneFrame, Shading, Style};
+use crate::session::{Compared, MorphState, MorphTour};
+use crate::solver::{Phase, Variant};
+use crate::ui::editor::comparison::MorphFrame;
+use crate::ui::editor::views::picture_box;
+use crate::ui::panes::mesh_pane::boundary_line;
+use crate::ui::panes::plane_pane::navigate;
+use crate::ui::panes::{legend, pane};
+use crate::ui::{Control, Editor, MorphRequest, Request, list, theme_of};
+use crate::view::PlaneCamera;
+
+/// Height of the row with its ends, and of the row with the slider, points.
+const ROW: f32 = 30.0;
+
+/// Height of the line with the verdict, points.
+const LINE: f32 = 20.0;
+
+pub(super) fn morph_ui(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, requests: &mut Vec<Request>) {
+    ui.painter().rect_filled(room, 0.0, theme_of(ui).background);
+    let ends = editor.session.morph_ends();
+    let [above, below] = room.split_top_bottom_at_y((room.top() + ROW).min(room.bottom())).into();
+    row(ui, above, |ui| ends_row(ui, editor, &ends, requests));
+    match editor.session.morph() {
+        MorphState::Done(tour) => found(ui, below, editor, &tour, requests),
+        state => nothing_yet(ui, below, editor, &state),
+    }
+}
+
+/// Controls side by side in a part of the pane.
+fn row(ui: &mut egui::Ui, part: Rect, add: impl FnOnce(&mut egui::Ui)) {
+    let layout = egui::Layout::left_to_right(egui::Align::Center);
+    let part = part.shrink2(Vec2::new(8.0, 0.0));
+    ui.scope_builder(egui::UiBuilder::new().max_rect(part).layout(layout), |ui| {
+        ui.set_clip_rect(part.intersect(ui.clip_rect()));
+        add(ui);
+    });
+}
+
+/// From which method to which: those with planar maps.
+fn ends_row(ui: &mut egui::Ui, editor: &Editor, ends: &[(Variant, Arc<Compared>)], requests: &mut Vec<Request>) {
+    let Some(between) = editor.session.morph_between() else { return };
+    let width = ((ui.available_width() - 130.0) / 2.0).clamp(60.0, 240.0);
+    let both: [(&str, &str, fn(Variant) -> MorphRequest); 2] = [
+        ("From", "Method that the morph begins with", MorphRequest::From),
+        ("to", "Method that the morph ends with", MorphRequest::To),
+    ];
+    for ((words, name, request), now) in both.into_iter().zip(between) {
+        ui.label(words);
+        let menu = list(ui, name, width, &now.title(), |ui| {
+            for (variant, _) in ends {
+                let entry = ui.selectable_label(*variant == now, variant.title());
+                entry.asks(Request::Morph(request(*variant)), requests);
+            }
+        });
+        menu.on_hover_text("Methods with planar maps; the other one is chosen by itself where both would be the same");
+    }
+}
+
+/// What there is to say where there is no morph, or not yet.
+fn nothing_yet(ui: &mut egui::Ui, room: Rect, editor: &Editor, state: &MorphState) {
+    let (first, second) = match state {
+        MorphState::Running(phase, frames) => {
+            let phase = phase.map_or("preparing", Phase::words);
+            (format!("Finding the morph: {phase}, {frames} frames looked at"), "Esc stops it".to_owned())
+        }
+        MorphState::Failed(why) => (format!("No morph: {why}"), "Choose other methods above".to_owned()),
+        _ if editor.session.is_comparing() => {
+            ("The methods are still running".to_owned(), "The morph is found once they have".to_owned())
+        }
+        _ if editor.session.is_morphing() => ("The morph waits until the document is solved".to_owned(), String::new()),
+        _ => (
+            "A morph needs two planar maps".to_owned(),
+            "Take part methods that give one, such as Convex boundary or Auto: under Methods".to_owned(),
+        ),
+    };
+    pane::empty_state(ui, room, &[&first, &second]);
+    ui.interact(room, ui.scope_id().with("no morph"), egui::Sense::hover()).named(Role::Label, &first);
+}
+
+/// The frame that shows, the slider, and the verdict on that frame.
+fn found(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, tour: &Arc<MorphTour>, requests: &mut Vec<Request>) {
+    let Some(leg) = tour.legs.first() else { return };
+    let quantity = editor.plane.comparison.quantity();
+    let mesh = editor.mesh.scene().filter(|mesh| mesh.model_revision == editor.session.model_revision()).cloned();
+    let frame = editor.plane.comparison.morph.drawn(mesh.as_ref(), tour, quantity);
+    let strip = if quantity.is_some() { LEGEND } else { 0.0 };
+    let low = room.bottom() - ROW - LINE;
+    let view = Rect::from_min_max(room.min, egui::pos2(room.right(), (low - strip).max(room.top() + 1.0)));
+    let number = editor.plane.comparison.morph.frame_of(leg.frames.len());
+    let verdict = leg.verdicts[number].summary();
+    let words = format!("Frame {} of {} · {verdict} · {}", number + 1, leg.frames.len(), leg.route.words());
+    large_view(ui, view, editor, frame.as_ref(), &words);
+    if let Some((quantity, legend)) = quantity.zip(frame.as_ref().and_then(|frame| frame.legend.as_ref())) {
+        let strip = Rect::from_min_max(view.left_bottom(), egui::pos2(room.right(), low));
+        legend::strip(ui, strip, quantity.title(), legend);
+    }
+    let line = Rect::from_min_size(egui::pos2(room.left(), low), Vec2::new(room.width(), LINE));
+    row(ui, line, |ui| {
+        ui.add(egui::Label::new(&words).truncate());
+    });
+    let controls = Rect::from_min_max(line.left_bottom(), room.max);
+    row(ui, controls, |ui| controls_row(ui, editor, requests));
+}
+
+/// The embedding of a frame.
+fn large_view(ui: &egui::Ui, view: Rect, editor: &mut Editor, frame: Option<&MorphFrame>, words: &str) {
+    let response = ui.interact(view, ui.scope_id().with("morph"), egui::Sense::click_and_drag());
+    let before = editor.plane.comparison.morph.camera_in(pane::size_of(view));
+    let mut camera = before;
+    navigate(ui, &response, &mut camera);
+    if camera != before {
+        editor.plane.comparison.morph.set_camera(camera);
+        ui.ctx().request_repaint();
+    }
+    if let Some(frame) = frame.filter(|_| editor.host.has_gpu()) {
+        ui.painter().add(render::plane_pane(PaneId("morph"), view, drawing(ui, editor, frame, frame.camera(&camera))));
+    }
+    response.named(Role::Image, &format!("Morph: {words}"));
+}
+
+fn drawing(ui: &egui::Ui, editor: &Editor, frame: &MorphFrame, camera: PlaneCamera) -> PlaneFrame {
+    let theme = theme_of(ui);
+    let shading = if frame.legend.is_some() { Shading::Paint } else { Shading::Plain };
+    PlaneFrame {
+        mesh: Arc::clone(&frame.mesh.arrays),
+        plane: Some(Arc::clone(&frame.arrays)),
+        paint: Some(Arc::clone(&frame.faces)),
+        fills: Vec::new(),
+        lines: vec![boundary_line(&frame.mesh, theme)],
+        ghost: None,
+        picture: None,
+        outlined: picture_box(editor.session.document()),
+        style: Style { shading, wire_in_points: if editor.look.wireframe { 1.0 } else { 0.0 }, ..Style::default() },
+        palette: quiet(theme.palette, false),
+        camera,
+    }
+}
+
+/// Plays it, and the slider over its time.
+fn controls_row(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+    let morph = &editor.plane.comparison.morph;
+    let (words, name) = if morph.is_playing() { ("Pause", "Pause the morph") } else { ("Play", "Play the morph") };
+    let play = ui.add(egui::Button::new(words).min_size(Vec2::new(56.0, 0.0)));
+    let play = play.on_hover_text("Play it from where it stands to its end, or stop there");
+    play.named(Role::Button, name).asks(Request::Morph(MorphRequest::Play), requests);
+    let mut share = morph.share();
+    ui.spacing_mut().slider_width = (ui.available_width() - 70.0).max(40.0);
+    // Not by decimals: these round the time itself, in every frame.
+    let slider = egui::Slider::new(&mut share, 0.0..=1.0).custom_formatter(|value, _| format!("{value:.2}"));
+    let slider =
+        ui.add(slider).on_hover_text("From the one map, at 0, to the other, at 1: the nearest frame that is proved");
+    if slider.changed() {
+        requests.push(Request::Morph(MorphRequest::Seek(share)));
+    }
+    slider.widget_info(|| WidgetInfo::slider(true, share, "Time of the morph"));
+}

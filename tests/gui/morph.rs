@@ -1,0 +1,228 @@
+//! The morph between two methods in the window: chosen, found, moved by its slider, played, and written.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::sync::Arc;
+
+use eframe::egui;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use freebound::mesh::VertexId;
+use freebound::session::{Action, Compared, MorphState, MorphTour};
+use freebound::solver::{Embedding, Variant, verdict};
+use freebound::ui::{MorphRequest, MorphView, Request};
+use glam::DVec2;
+
+use crate::harness::{Window, sheet};
+
+/// The methods that are compared.
+const METHODS: [&str; 4] = ["natural", "convex/uniform", "schnyder", "natural/mean-value"];
+
+fn variants(names: &[&str]) -> Vec<Variant> {
+    names.iter().map(|name| name.parse().expect("a method")).collect()
+}
+
+/// These methods side by side on a small sheet.
+fn comparing(names: &[&str]) -> Window {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.4));
+    window.menu(&["Solve", "Compare methods…"]);
+    window.editor_mut().session.handle(Action::CompareMethods(variants(names)));
+    window.settle();
+    window
+}
+
+/// The same with the morph that the window chooses by itself.
+fn morphing() -> Window {
+    let mut window = comparing(&METHODS);
+    window.click("Morph");
+    window
+}
+
+fn view(window: &Window) -> &MorphView {
+    &window.editor().plane.comparison.morph
+}
+
+fn tour(window: &Window) -> Arc<MorphTour> {
+    match window.editor().session.morph() {
+        MorphState::Done(tour) => tour,
+        state => panic!("no morph: {state:?}"),
+    }
+}
+
+fn names(window: &Window) -> Vec<String> {
+    tour(window).stops.stops.iter().map(|stop| stop.name.clone()).collect()
+}
+
+/// The map that a method has come to.
+fn map_of(window: &Window, name: &str) -> Embedding {
+    let variant = variants(&[name])[0];
+    let contenders = window.editor().session.contenders();
+    let contender = contenders.iter().find(|contender| {
+        let found: Option<&Arc<Compared>> = contender.found();
+        found.is_some_and(|found| found.report.name == variant.to_string())
+    });
+    let found = contender.and_then(|contender| contender.found().cloned()).expect("it has run");
+    found.outcome.as_ref().expect("a map").step.solution.embedding.clone()
+}
+
+/// What the large view says of itself.
+fn says(window: &Window, words: &str) -> bool {
+    window.harness.query_all_by_role(Role::Image).any(|node| {
+        use egui_kittest::kittest::NodeT as _;
+        node.accesskit_node().label().is_some_and(|label| label.starts_with("Morph: ") && label.contains(words))
+    })
+}
+
+#[test]
+fn a_click_finds_the_morph_between_two_maps_and_the_slider_goes_through_its_proved_frames() {
+    let mut window = morphing();
+    assert!(view(&window).is_shown());
+    assert_eq!(names(&window), METHODS[..2], "the document's method has no part: the first two");
+    let tour = tour(&window);
+    let mesh = window.editor().session.model().and_then(|model| model.disk()).expect("a disk").clone();
+    let frames = &tour.legs[0].frames;
+    assert_eq!(frames.len(), 48);
+    assert!(frames.iter().all(|frame| verdict(&mesh, frame).planar));
+    assert_eq!([&frames[0], &frames[47]], [&map_of(&window, METHODS[0]), &map_of(&window, METHODS[1])]);
+    assert!(says(&window, "Frame 1 of 48 · planar: proved one-to-one"), "{:?}", window.words());
+    assert!(window.shows("Frame 1 of 48 · planar: proved one-to-one") && window.shows("Angle distortion"));
+    for (share, number) in [(0.5, 25), (1.0, 48), (0.013, 2), (0.0, 1)] {
+        window.editor_mut().handle(Request::Morph(MorphRequest::Seek(share)));
+        window.settle();
+        assert!(says(&window, &format!("Frame {number} of 48")), "{share}: {:?}", window.words());
+        assert_eq!(view(&window).bounds_drawn(), Some(frames[number - 1].bounds()));
+    }
+    // By hand.
+    let slider = window.rect(Role::Slider, "Time of the morph");
+    let at = |share: f32| slider.left_center() + egui::vec2(8.0 + share * (slider.width() - 70.0), 0.0);
+    window.drag(at(0.1), at(0.7), Modifiers::NONE);
+    assert!((0.3..1.0).contains(&view(&window).share()), "{}", view(&window).share());
+    // By the keyboard.
+    window.editor_mut().handle(Request::Morph(MorphRequest::Seek(0.0)));
+    window.settle();
+    window.harness.get_by_role_and_label(Role::Slider, "Time of the morph").focus();
+    window.step();
+    window.key(Key::ArrowRight);
+    assert!(view(&window).share() > 0.0);
+}
+
+#[test]
+fn both_ends_are_chosen_from_the_planar_maps_and_change_places() {
+    let mut window = morphing();
+    window.choose("Method that the morph ends with", &variants(&["schnyder"])[0].title());
+    assert_eq!(names(&window), ["natural", "schnyder"]);
+    window.choose("Method that the morph begins with", &variants(&["natural/mean-value"])[0].title());
+    assert_eq!(names(&window), ["natural/mean-value", "schnyder"]);
+    let there = tour(&window);
+    window.editor_mut().handle(Request::Morph(MorphRequest::From(variants(&["schnyder"])[0])));
+    window.settle();
+    assert_eq!(names(&window), ["schnyder", "natural/mean-value"], "no method is both");
+    let back = tour(&window);
+    assert_eq!(
+        (&there.legs[0].frames[0], &there.legs[0].frames[47]),
+        (&back.legs[0].frames[47], &back.legs[0].frames[0])
+    );
+}
+
+#[test]
+fn it_plays_to_its_end_and_again_from_its_beginning() {
+    let mut window = morphing();
+    window.harness.get_by_role_and_label(Role::Button, "Play the morph").click();
+    window.step();
+    let mut before = view(&window).share();
+    for _ in 0..5 {
+        window.frame_after(0.3, []);
+        let now = view(&window).share();
+        assert!(view(&window).is_playing() && now > before, "{now} after {before}");
+        before = now;
+    }
+    window.click("Pause the morph");
+    let paused = view(&window).share();
+    window.frame_after(0.5, []);
+    assert!(!view(&window).is_playing() && (view(&window).share() - paused).abs() < f64::EPSILON);
+    window.harness.get_by_role_and_label(Role::Button, "Play the morph").click();
+    window.step();
+    window.frame_after(5.0, []);
+    window.frame_after(0.1, []);
+    assert!(!view(&window).is_playing() && says(&window, "Frame 48 of 48"), "{}", view(&window).share());
+    window.harness.get_by_role_and_label(Role::Button, "Play the morph").click();
+    window.step();
+    window.frame_after(0.1, []);
+    assert!(view(&window).is_playing() && view(&window).share() < 0.5);
+}
+
+#[test]
+fn where_the_document_changes_the_morph_goes_and_comes_again_between_the_new_maps() {
+    let mut window = morphing();
+    let before = tour(&window);
+    let corners = [0, 4].map(VertexId::new);
+    window.editor_mut().session.handle(Action::Fix(corners.to_vec()));
+    let target = DVec2::new(-0.4, 0.1);
+    window.editor_mut().session.handle(Action::MovePin { vertex: corners[0], target });
+    assert!(matches!(window.editor().session.morph(), MorphState::Waiting | MorphState::Done(_)));
+    window.step();
+    assert!(!matches!(window.editor().session.morph(), MorphState::Done(_)), "maps of other pins are none of these");
+    assert!(!says(&window, "Frame"), "and nothing old shows: {:?}", window.words());
+    window.editor_mut().session.handle(Action::EndGesture);
+    window.settle();
+    let after = tour(&window);
+    assert!(!Arc::ptr_eq(&before, &after));
+    let frames = &after.legs[0].frames;
+    assert_ne!(frames[0], before.legs[0].frames[0]);
+    assert_eq!([&frames[0], &frames[47]], [&map_of(&window, METHODS[0]), &map_of(&window, METHODS[1])]);
+    // A method that takes no part any more is none of its ends.
+    window.editor_mut().session.handle(Action::CompareMethods(variants(&METHODS[1..])));
+    window.settle();
+    assert_eq!(names(&window), METHODS[1..3]);
+}
+
+#[test]
+fn escape_and_the_switch_lead_back_to_the_cells() {
+    let mut window = morphing();
+    window.key(Key::Escape);
+    assert!(!view(&window).is_shown() && window.editor().plane.comparison.is_shown());
+    assert_eq!(window.editor().session.morph_between(), None);
+    window.click("Morph");
+    assert!(says(&window, "Frame 1 of 48"));
+    window.click("Morph");
+    assert!(!view(&window).is_shown() && !says(&window, "Frame"));
+    window.click("Morph");
+    window.click("Leave the comparison");
+    assert!(!window.editor().plane.comparison.is_shown() && window.editor().session.morph_between().is_none());
+    window.menu(&["Solve", "Compare methods…"]);
+    assert!(!view(&window).is_shown(), "it begins with the cells");
+}
+
+#[test]
+fn without_two_planar_maps_it_says_what_there_is_to_do() {
+    let mut window = Window::with_mesh("sheet.obj", &sheet(4, 0.4));
+    // One corner is drawn through the sheet.
+    window.editor_mut().session.handle(Action::Fix([0, 4, 24].map(VertexId::new).to_vec()));
+    window.settle();
+    let far = window.embedding()[24];
+    let target = far + (far - window.embedding()[0]);
+    window.editor_mut().session.handle(Action::MovePin { vertex: VertexId::new(0), target });
+    window.editor_mut().session.handle(Action::EndGesture);
+    window.settle();
+    window.menu(&["Solve", "Compare methods…"]);
+    window.editor_mut().session.handle(Action::CompareMethods(variants(&["natural", "levy", "lscm"])));
+    window.settle();
+    window.click("Morph");
+    assert!(window.shows("A morph needs two planar maps"), "{:?}", window.words());
+    window.click("Export the comparison");
+    assert!(!window.is_enabled("Animated picture…"));
+}
+
+#[test]
+fn the_morph_that_shows_is_written_as_an_animated_picture() {
+    let mut window = morphing();
+    window.menu(&["Export the comparison", "Animated picture…"]);
+    assert!(window.shows("Export the morph as an animated picture"));
+    window.click("Export");
+    let path = window.path("sheet-morph.png");
+    let file = BufReader::new(File::open(path).expect("it was written"));
+    let reader = png::Decoder::new(file).read_info().expect("a PNG");
+    let control = reader.info().animation_control.expect("it is animated");
+    assert_eq!((control.num_frames, control.num_plays), (94, 0), "48 there and 46 back");
+}
