@@ -220,6 +220,18 @@ impl<T: Scalar> Factor<T> {
         x
     }
 
+    /// Solves Aᴴ X = B in place by substitution alone, without refinement: good enough to know sizes. Columns are stored one
+    /// after another.
+    ///
+    /// # Panics
+    ///
+    /// If the columns do not have the length of the system.
+    pub fn substitute_adjoint(&self, columns: &mut [T]) {
+        let order = self.shared.pattern.order();
+        assert_eq!(columns.len().checked_rem(order).unwrap_or(columns.len()), 0, "one number per row of each column");
+        self.solve_in_place(Operation::Adjoint, columns);
+    }
+
     fn run(
         &self,
         matrix: &CscMatrix<T>,

@@ -13,7 +13,7 @@ use crate::io::{
 };
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{
-    Candidate, Distortion, Embedding, GaugeSize, Hold, Ladder, Pins, Settings, Sheet, Start, Step, Verdict,
+    Candidate, Distortion, Embedding, GaugeSize, Hold, Ladder, Pins, Settings, Sheet, Start, Step, Treatment, Verdict,
     are_held_alike, distortion, to_unit_box, to_unit_square, to_unit_square_by_power_of_two, true_area_factor, verdict,
 };
 
@@ -321,8 +321,14 @@ pub(super) fn pins_report(outcome: &Outcome, coordinates: &Embedding) -> PinsRep
         };
         *largest = Some(largest.unwrap_or(0.0).max(error));
     }
+    let treatment = match settings.treatment_on(outcome.step.rung, targets.len()) {
+        Treatment::Eliminate if outcome.step.solution.linear.is_some_and(|solved| solved.keeps_equations) => {
+            Treatment::LeastSquares
+        }
+        usual => usual,
+    };
     PinsReport {
-        treatment: settings.treatment_on(outcome.step.rung, targets.len()),
+        treatment,
         count: targets.len(),
         max_error: max_hard_error.unwrap_or(0.0).max(max_weighted_error.unwrap_or(0.0)),
         max_hard_error,

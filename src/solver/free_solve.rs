@@ -10,14 +10,22 @@ use rayon::prelude::*;
 
 use super::equations::Equations;
 use super::least_squares::{Factored, LeastSquares, Rest, Spring};
+use super::left_kernel::better_gauge;
 use super::many_pins::ManyPins;
 use super::system::{FreeSystem, Site};
 use super::{Control, Embedding, Hold, LinearSolve, Phase, PhaseSeconds, PinPositions, Pins, SolveError, Treatment};
+use crate::geom::Bounds;
 use crate::linalg::{Analysis, Answer, Factor, Kind};
 use crate::mesh::{DiskMesh, VertexId};
 
 /// A least-squares answer whose conditions for a minimum are off by more, relative to their terms, is wrong.
 const GRADIENT_LIMIT: f64 = 1e-10;
+
+/// Where more than this of the extent is left to move, the embedding is solved for once more.
+const MOST_REST: f64 = 1e-11;
+
+/// The square of the number of boundary vertices, in numbers of faces, from which a mesh counts as a corridor.
+const CORRIDOR: usize = 64;
 
 /// With more pins than this that least squares has to treat, their rows go sparse. An estimate: at a thousand the dense
 /// way takes many times as long.
@@ -32,6 +40,7 @@ pub(super) struct FreeSolve {
     least_squares: Option<Ways>,
     /// Pins whose equations are not kept.
     eliminated: Vec<VertexId>,
+    is_hermitian: bool,
 }
 
 /// The two ways of least squares.
@@ -56,6 +65,8 @@ pub(super) struct Setup<'a> {
     pub(super) unit: f64,
     pub(super) analysis: &'a Analysis,
     pub(super) layout: &'a Layout,
+    /// What is known of the matrix.
+    pub(super) kind: Kind,
 }
 
 /// An embedding that a solve moves from.
@@ -136,7 +147,7 @@ impl FreeSolve {
         seconds: &mut PhaseSeconds,
         control: Control<'_>,
     ) -> Result<Self, SolveError> {
-        let Setup { equations, unit, analysis, layout } = setup;
+        let Setup { equations, unit, analysis, layout, kind } = setup;
         let start = Instant::now();
         let mut rest = layout.rest(unit);
         let many = rest.take_if(|_| layout.has_many).map(|rest| ManyPins::new(site, rest));
@@ -157,7 +168,16 @@ impl FreeSolve {
         let least_squares = few.map(Ways::Few).or(many.map(Ways::Many));
         seconds.factor += start.elapsed().as_secs_f64();
         let eliminated = if layout.keeps_equations { Vec::new() } else { layout.left_out.clone() };
-        Ok(Self { equations, matrix, factor, least_squares, eliminated })
+        let is_hermitian = kind == Kind::Hermitian;
+        Ok(Self { equations, matrix, factor, least_squares, eliminated, is_hermitian })
+    }
+
+    /// Two vertices whose equations are better left out than those of the two pins that are; none where these will do, or
+    /// where all equations are kept.
+    pub(super) fn better_gauge(&self, site: Site<'_>) -> Option<[VertexId; 2]> {
+        let &[a, b] = self.eliminated.as_slice() else { return None };
+        let factored = Factored { matrix: &self.matrix, factor: &self.factor, cancel: Control::unattended().cancel() };
+        better_gauge(site, &self.equations, &factored, [a, b]).filter(|_| self.least_squares.is_none())
     }
 
     /// The embedding with the pins on their targets, or as near as weights bring them, linear in these; and its residual.
@@ -168,10 +188,39 @@ impl FreeSolve {
         }
         let start = Start { embedding: &start, residuals: &self.residuals(site.mesh, &start) };
         let (embedding, residual) = self.move_from(site, start, targets, Factor::solve)?;
+        let (embedding, residual) = self.with_rest(site, targets, (embedding, residual))?;
         if self.least_squares.is_some() && residual > GRADIENT_LIMIT {
             return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
         }
         Ok((embedding, residual))
+    }
+
+    /// A solution with the move that its equations still ask for, where that is worth it. Differences of neighbours have all
+    /// their digits, so it is known where a solve for positions is at an end: in corridors, where equations tell little
+    /// of long moves. A Hermitian matrix tells enough of them unless the mesh is a corridor.
+    fn with_rest(
+        &self,
+        site: Site<'_>,
+        targets: &PinPositions,
+        solved: (Embedding, f64),
+    ) -> Result<(Embedding, f64), SolveError> {
+        if self.is_hermitian && !is_corridor(site.mesh) {
+            return Ok(solved);
+        }
+        let (embedding, _) = &solved;
+        let residuals = self.residuals(site.mesh, embedding);
+        let extent = Bounds::of(site.mesh.vertices().filter(|&v| site.mesh.is_used(v)).map(|v| embedding[v])).size();
+        let is_little = |largest: f64| largest <= MOST_REST * extent.max_element();
+        if self.least_squares.is_none() {
+            let terms: Vec<_> = site.system.free().iter().map(|v| residuals[v.index()]).collect();
+            let moves = self.factor.substitute(&terms);
+            if is_little(moves.iter().map(|z| z.norm()).fold(0.0, f64::max)) {
+                return Ok(solved);
+            }
+        }
+        let again = self.solve_from(site, Start { embedding, residuals: &residuals }, targets)?;
+        let moved = embedding.iter().zip(&again.0).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        Ok(if is_little(moved) { solved } else { again })
     }
 
     /// The same, found as a move from an embedding that has the exact pins on their targets. Where that nearly solves the
@@ -279,6 +328,13 @@ impl FreeSolve {
     pub(super) fn numbers(&self, mesh: &DiskMesh, embedding: &Embedding, residual: f64) -> LinearSolve {
         let Equations { bounded_corners, .. } = self.equations;
         let equation_residual = self.equations.residual(mesh, embedding, |_| true);
-        LinearSolve { residual, equation_residual, bounded_corners, ..self.factor.stats().into() }
+        let keeps_equations = self.least_squares.is_some() && self.eliminated.is_empty();
+        LinearSolve { residual, equation_residual, bounded_corners, keeps_equations, ..self.factor.stats().into() }
     }
+}
+
+/// Whether the mesh has many boundary vertices for its faces: their number's square is 8 times that of the faces of a regular
+/// grid of squares. In corridors the smallest numbers that tell one map from another fall with the fourth power of that ratio.
+fn is_corridor(mesh: &DiskMesh) -> bool {
+    mesh.boundary_loop().len().pow(2) > CORRIDOR * mesh.face_count()
 }

@@ -84,7 +84,7 @@ impl Iteration {
         let unit = mean_edge_length_in_plane(mesh, embedding);
         let mut seconds = PhaseSeconds { assemble: start.elapsed().as_secs_f64(), ..PhaseSeconds::default() };
         let site = Site { mesh, system: &self.system };
-        let setup = Setup { equations, unit, analysis: &self.analysis, layout: &self.layout };
+        let setup = Setup { equations, unit, analysis: &self.analysis, layout: &self.layout, kind: Kind::General };
         let solve = FreeSolve::new(site, setup, &mut seconds, control)?;
         control.enter(Phase::Solve)?;
         let start = Instant::now();

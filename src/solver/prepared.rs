@@ -5,18 +5,14 @@
 use std::time::Instant;
 
 use glam::DVec2;
-use num_complex::Complex;
 
 use super::angles::{AngleSystem, angle_based};
 use super::convex::convex_boundary;
-use super::equations::mean_edge_length;
 use super::equations::{self, Equations};
 use super::fixed_solve::FixedSolve;
-use super::free_solve::{FreeSolve, Layout, Setup};
-use super::left_kernel::gauge_or_farthest;
-use super::pins::{
-    GAUGE_PINS, PinPositions, Pins, are_held_alike, check_pins, farthest_pair, fixed_pins, gauge_pins, targets_of,
-};
+use super::free_gauge::FreeProblem;
+use super::free_solve::FreeSolve;
+use super::pins::{GAUGE_PINS, PinPositions, Pins, are_held_alike, check_pins, fixed_pins, gauge_pins, targets_of};
 use super::placing::complete_gauge;
 use super::shape_preserving::shape_preserving;
 use super::slim::tutte;
@@ -106,7 +102,7 @@ impl Prepared {
         check_pins(mesh, pins)?;
         control.enter(Phase::Assemble)?;
         let start = Instant::now();
-        let own_places = match settings.method {
+        let mut own_places = match settings.method {
             Method::Convex(shape) | Method::Stretch(shape) => Some(convex_boundary(mesh, shape, settings.spacing)?),
             _ if pins.len() < GAUGE_PINS => Some(gauge_pins(mesh)),
             _ => None,
@@ -129,26 +125,12 @@ impl Prepared {
                 seconds.factor = start.elapsed().as_secs_f64();
                 (system, Values::Fixed(fixed))
             }
-            method => {
-                let (equations, power) = free_equations(mesh, method, settings.family())?;
-                let is_hermitian = method != Method::Levy && power == Family::CONFORMAL_POWER;
-                let treatment = settings.treatment_on(Method::Natural, asked.len());
-                let layout = Layout::new(&pins, treatment, |pinned| {
-                    if !is_hermitian {
-                        return gauge_or_farthest(mesh, &equations, control);
-                    }
-                    // Conformal equations depend on each other all over the mesh: those of any pins will do.
-                    Ok(if pinned.len() < GAUGE_PINS { farthest_pair(mesh).to_vec() } else { Vec::new() })
-                })?;
-                let system = layout.system(mesh);
+            _ => {
                 seconds.assemble = start.elapsed().as_secs_f64();
-                let kind = if is_hermitian { Kind::Hermitian } else { Kind::General };
-                let site = Site { mesh, system: &system };
-                let analysis = analyze(|| layout.analysis(site, kind), &mut seconds, control)?;
-                let unit = mean_edge_length(mesh).powf(1.0 - power);
-                let setup = Setup { equations, unit, analysis: &analysis, layout: &layout };
-                let free = FreeSolve::new(site, setup, &mut seconds, control)?;
-                (system, Values::Free(Box::new(free)))
+                let problem = FreeProblem { mesh, settings, asked: &asked };
+                let ready = problem.prepare(own_places.take(), &mut seconds, control)?;
+                own_places = ready.own_places;
+                (ready.system, Values::Free(Box::new(ready.solve)))
             }
         };
         Ok(Self { settings: *settings, asked, own_places, system, values, seconds })
@@ -253,22 +235,8 @@ fn convex_equations(mesh: &DiskMesh, family: Family) -> Result<Equations<f64>, S
     }
 }
 
-/// The equations of a free boundary, and the power p of their offsets d = rᵖ.
-fn free_equations(
-    mesh: &DiskMesh,
-    method: Method,
-    family: Family,
-) -> Result<(Equations<Complex<f64>>, f64), SolveError> {
-    let power = family.power().unwrap_or(Family::CONFORMAL_POWER);
-    Ok(match method {
-        // Both are free of scale, as conformal weights are.
-        Method::Levy => (equations::levy(mesh)?, Family::CONFORMAL_POWER),
-        Method::Lscm => (equations::lscm(mesh)?, Family::CONFORMAL_POWER),
-        _ => (equations::natural(mesh, power)?, power),
-    })
-}
-
-fn analyze(
+/// Analyses a pattern; adds the time that took to `seconds`.
+pub(super) fn analyze(
     analysis: impl FnOnce() -> Result<Analysis, SolveError>,
     seconds: &mut PhaseSeconds,
     control: Control<'_>,
@@ -276,6 +244,6 @@ fn analyze(
     control.enter(Phase::Analyze)?;
     let start = Instant::now();
     let analysis = analysis()?;
-    seconds.analyze = start.elapsed().as_secs_f64();
+    seconds.analyze += start.elapsed().as_secs_f64();
     Ok(analysis)
 }

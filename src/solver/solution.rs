@@ -36,6 +36,8 @@ pub struct LinearSolve {
     pub bounded_corners: usize,
     /// Bytes of the matrix's factors.
     pub factor_bytes: usize,
+    /// Whether all equations were kept and met as well as can be; otherwise those of pinned vertices were dropped.
+    pub keeps_equations: bool,
 }
 
 impl From<FactorStats> for LinearSolve {

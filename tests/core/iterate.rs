@@ -122,7 +122,7 @@ fn a_planar_embedding_is_a_fixed_point() {
     let mut random = Random(10);
     let mut tried = 0;
     for (name, mesh) in examples.into_iter().chain(read) {
-        // The corridors of the maze are singular in 64 bits for any pins: see `natural`.
+        // The corridors of the maze are singular in 64 bits for nearly any pins: see `natural`.
         if mesh.face_count() > 25_000 || name.starts_with("maze") {
             continue;
         }

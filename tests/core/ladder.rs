@@ -105,13 +105,13 @@ fn a_free_boundary_is_looked_for_before_one_is_bent() {
 fn a_singular_first_rung_is_noted_and_stepped_over() {
     let Some(entry) = corpus_disks().into_iter().find(|entry| entry.file == "maze.obj") else { return };
     let mesh = entry.disk();
-    let alone = Ladder::new(Settings::new(Method::Natural, Family::MeanValue), Pins::new()).finish(
+    let alone = Ladder::new(Settings::new(Method::Natural, Family::Wachspress), Pins::new()).finish(
         &mesh,
         Control::unattended(),
         |_| (),
     );
     assert!(matches!(alone, Err(SolveError::Singular { .. })), "{alone:?}");
-    let steps = steps_of(&mesh, Settings::new(Method::Auto, Family::MeanValue), &Pins::new());
+    let steps = steps_of(&mesh, Settings::new(Method::Auto, Family::Wachspress), &Pins::new());
     let note = steps[0].note.clone().unwrap_or_default();
     assert!(note.contains("singular") && note.contains("started again"), "{note}");
     assert!(steps.last().unwrap().verdict.planar);

@@ -35,6 +35,7 @@ mod flatten_cli;
 mod flatten_files;
 mod foldover_energy;
 mod formats;
+mod gauge;
 mod geom;
 mod glb_maker;
 mod gltf_hostile;

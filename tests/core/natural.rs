@@ -37,7 +37,7 @@ const LU_RESIDUAL_OF_FLATTENING: f64 = 5e-12;
 const MANUFACTURED: f64 = 1e-9;
 
 /// Corridors two triangles wide, all told thousands of times longer than wide. There the unsymmetric systems are singular
-/// in 64 bits for any two pins: see `reproduction`, on long thin strips. An error has to say so.
+/// in 64 bits for nearly any two pins, the usual ones too, and an error has to say so: see `gauge`.
 const CORRIDORS: &str = "maze.obj";
 
 /// The largest mesh that is solved with a dense matrix, vertices.
@@ -233,7 +233,8 @@ fn the_free_unsymmetric_methods_solve_the_disks_of_the_corpus() {
         let mesh = entry.disk();
         for settings in families.into_iter().chain([levy]) {
             let solved = solve_once(&mesh, &settings, &Pins::new(), Control::unattended());
-            if entry.file == CORRIDORS {
+            // Its squares leave Wachspress equations a further solution, as on a chess board: see `gauge`.
+            if entry.file == CORRIDORS && settings.family() == Family::Wachspress {
                 assert!(matches!(solved, Err(SolveError::Singular { .. })), "{settings:?}");
                 continue;
             }

@@ -48,7 +48,7 @@ pub(super) fn laid_out(mesh: &DiskMesh, angles: &[[f64; 3]], control: Control<'_
     let start = Instant::now();
     let analysis = layout.analysis(site, Kind::Hermitian)?;
     seconds.analyze = start.elapsed().as_secs_f64();
-    let setup = Setup { equations, unit: 1.0, analysis: &analysis, layout: &layout };
+    let setup = Setup { equations, unit: 1.0, analysis: &analysis, layout: &layout, kind: Kind::Hermitian };
     let solve = FreeSolve::new(site, setup, &mut seconds, control)?;
     control.enter(Phase::Solve)?;
     let start = Instant::now();
