@@ -187,27 +187,26 @@ impl FreeSolve {
             start[vertex] = *target;
         }
         let start = Start { embedding: &start, residuals: &self.residuals(site.mesh, &start) };
-        let (embedding, residual) = self.move_from(site, start, targets, Factor::solve)?;
-        let (embedding, residual) = self.with_rest(site, targets, (embedding, residual))?;
+        let solved = self.move_from(site, start, targets, Factor::solve)?;
+        let (embedding, residual) = self.rest_of(site, &solved.0, targets)?.unwrap_or(solved);
         if self.least_squares.is_some() && residual > GRADIENT_LIMIT {
             return Err(SolveError::ResidualTooLarge { residual, limit: GRADIENT_LIMIT });
         }
         Ok((embedding, residual))
     }
 
-    /// A solution with the move that its equations still ask for, where that is worth it. Differences of neighbours have all
+    /// A solution with the move that its equations still ask for; none where that is not worth it. Differences of neighbours have all
     /// their digits, so it is known where a solve for positions is at an end: in corridors, where equations tell little
     /// of long moves. A Hermitian matrix tells enough of them unless the mesh is a corridor.
-    fn with_rest(
+    fn rest_of(
         &self,
         site: Site<'_>,
+        embedding: &Embedding,
         targets: &PinPositions,
-        solved: (Embedding, f64),
-    ) -> Result<(Embedding, f64), SolveError> {
+    ) -> Result<Option<(Embedding, f64)>, SolveError> {
         if self.is_hermitian && !is_corridor(site.mesh) {
-            return Ok(solved);
+            return Ok(None);
         }
-        let (embedding, _) = &solved;
         let residuals = self.residuals(site.mesh, embedding);
         let extent = Bounds::of(site.mesh.vertices().filter(|&v| site.mesh.is_used(v)).map(|v| embedding[v])).size();
         let is_little = |largest: f64| largest <= MOST_REST * extent.max_element();
@@ -215,12 +214,12 @@ impl FreeSolve {
             let terms: Vec<_> = site.system.free().iter().map(|v| residuals[v.index()]).collect();
             let moves = self.factor.substitute(&terms);
             if is_little(moves.iter().map(|z| z.norm()).fold(0.0, f64::max)) {
-                return Ok(solved);
+                return Ok(None);
             }
         }
         let again = self.solve_from(site, Start { embedding, residuals: &residuals }, targets)?;
         let moved = embedding.iter().zip(&again.0).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
-        Ok(if is_little(moved) { solved } else { again })
+        Ok((!is_little(moved)).then_some(again))
     }
 
     /// The same, found as a move from an embedding that has the exact pins on their targets. Where that nearly solves the
