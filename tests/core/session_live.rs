@@ -149,3 +149,13 @@ fn what_is_not_planar_follows_from_where_it_is() {
         assert!(jump < 50.0 * way * size, "{jump} for {way}");
     }
 }
+
+#[test]
+fn a_pin_dragged_along_the_boundary_onto_the_next_names_that() {
+    let mut session = opened(Example::Dome);
+    settled(&mut session, Action::Fix([0, 10, 20].map(VertexId::new).to_vec()));
+    let target = session.document().targets[&VertexId::new(20)].uv;
+    settled(&mut session, Action::MovePin { vertex: VertexId::new(10), target });
+    let live = session.preview().expect("it follows as far as it can").live.expect("live");
+    assert_eq!(live.obstacle, Some(Obstacle::Pin(VertexId::new(20))));
+}

@@ -173,7 +173,7 @@ impl Live {
     pub fn drag(&mut self, mesh: &DiskMesh, aim: &Aim, control: Control<'_>) -> Result<Moved, SolveError> {
         let before = self.distance_left(&aim.pins);
         if !self.prepare(mesh, aim) {
-            return Ok(self.moved(aim, before, Advance::default()));
+            return Ok(self.moved(mesh, aim, before, Advance::default()));
         }
         let (mut last, mut largest) = (Advance::default(), 0.0_f64);
         let mut may_triangulate = true;
@@ -192,16 +192,16 @@ impl Live {
                 break;
             }
         }
-        Ok(self.moved(aim, before, Advance { largest, ..last }))
+        Ok(self.moved(mesh, aim, before, Advance { largest, ..last }))
     }
 
     /// What a frame has come to, before which pins had so far to go. The neighbourhood of the next one is larger where
     /// the sheet is deformed at the rim of this one.
-    fn moved(&mut self, aim: &Aim, before: f64, last: Advance) -> Moved {
+    fn moved(&mut self, mesh: &DiskMesh, aim: &Aim, before: f64, last: Advance) -> Moved {
         let left = self.distance_left(&aim.pins);
         let reached = if before > 0.0 { (1.0 - left / before).max(0.0) } else { 1.0 };
         let is_stopped = left > 0.0 && reached < LITTLE;
-        let obstacle = last.end.filter(|_| is_stopped).and_then(|end| self.obstacle(end));
+        let obstacle = last.end.filter(|_| is_stopped).and_then(|end| self.obstacle(mesh, end));
         let is_rim = |v: VertexId| v.index() < self.begin.len() && !self.is_exact(v);
         let strain = self.patch.as_ref().map_or(0.0, |patch| patch.strain_at_rim(is_rim));
         let grows = strain > STRAIN && self.wanted < MOST_VERTICES;
