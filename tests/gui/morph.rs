@@ -226,3 +226,28 @@ fn the_morph_that_shows_is_written_as_an_animated_picture() {
     let control = reader.info().animation_control.expect("it is animated");
     assert_eq!((control.num_frames, control.num_plays), (94, 0), "48 there and 46 back");
 }
+
+#[test]
+fn controls_of_the_bar_lie_beside_each_other_at_every_width() {
+    let mut window = comparing(&METHODS);
+    for width in [640.0, 820.0, 900.0, 960.0, 1040.0, 1280.0] {
+        window.harness.set_size(egui::vec2(width, 600.0));
+        window.settle();
+        let names = ["Table", "Morph", "Export the comparison", "Leave the comparison"];
+        let buttons = names.map(|name| window.rect(Role::Button, name));
+        let colours = window.rect(Role::ComboBox, "Colours of the comparison");
+        for (k, rect) in buttons.iter().enumerate() {
+            assert!(colours.right() <= rect.left(), "{}: {rect:?} over {colours:?} at {width}", names[k]);
+            let mut others = buttons[k + 1..].iter();
+            assert!(others.all(|other| rect.right() <= other.left()), "{} at {width}", names[k]);
+        }
+    }
+}
+
+#[test]
+fn the_table_cannot_be_asked_for_while_the_morph_shows() {
+    let mut window = morphing();
+    assert!(!window.has_button("Table"));
+    window.click("Morph");
+    assert!(window.has_button("Table"));
+}

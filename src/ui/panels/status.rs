@@ -30,6 +30,9 @@ fn hint(editor: &Editor, has_shift: bool) -> Cow<'static, str> {
     let words = match editor.tools.tool() {
         _ if editor.tools.dragged().is_some() => "Move the pin; the embedding follows. Esc gives up.",
         _ if editor.session.model().is_none() => "Open a mesh: drop its file on the window, or press Ctrl+O.",
+        _ if editor.shows_comparison_alone() && editor.plane.comparison.morph.is_shown() => {
+            "Drag the slider, or press Play: every frame is proved planar. A drag pans, the wheel zooms. Esc leads back."
+        }
         _ if editor.shows_comparison_alone() => {
             "Click a method to take it for the document. A drag pans all of them, the wheel zooms. Esc leads back."
         }

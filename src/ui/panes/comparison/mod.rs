@@ -33,7 +33,7 @@ const LEGEND: f32 = 30.0;
 const ROOM_FOR_BOTH: f32 = 480.0;
 
 /// A pane narrower than this has short words in its bar, points.
-const ROOM_FOR_WORDS: f32 = 560.0;
+const ROOM_FOR_WORDS: f32 = 640.0;
 
 pub(in crate::ui) fn comparison_ui(ui: &mut egui::Ui, editor: &mut Editor, requests: &mut Vec<Request>) {
     let is_roomy = ui.available_height() - BAR >= ROOM_FOR_BOTH;
@@ -104,7 +104,9 @@ fn bar(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
             full.asks(Request::ToggleFull(Pane::Plane), requests);
             exports(ui, editor, requests);
             morph_switch(ui, editor, requests);
-            numbers_switch(ui, editor, requests);
+            if !editor.plane.comparison.morph.is_shown() {
+                numbers_switch(ui, editor, requests);
+            }
         });
     });
 }
