@@ -33,8 +33,9 @@
 //!
 //! # What it promises
 //!
-//! No face folds that was not folded at the start, Tutte's map on a circle. Its boundary is free and may cross itself:
-//! nothing here looks at that. `relaxing` does, by a triangulated outside.
+//! No face folds. The start is Tutte's map on a circle; where rounding folds that, whatever its weights, it is the ladder's
+//! first planar map. The boundary is free and may cross itself: nothing here looks at that. `relaxing` does, by a
+//! triangulated outside.
 //!
 //! Source: M. Rabinovich, R. Poranne, D. Panozzo, O. Sorkine-Hornung, "Scalable Locally Injective Mappings", 2017; the line
 //! search is that of J. Smith, S. Schaefer, "Bijective parameterization with free boundaries", 2015.

@@ -16,7 +16,7 @@
 //! | `iterate.rs` | rung 2: mean-value iterations, and when they get no better |
 //! | `again.rs` | rung 1 once more, with the default weights and pins |
 //! | `lee.rs` | Lee's virtual boundary: layers around the mesh, peeled |
-//! | `slim.rs` | Tutte's map, iteration after iteration with less energy |
+//! | `slim.rs` | Tutte's map, or a planar one of the ladder, iteration after iteration with less energy |
 //! | `stretch.rs` | a convex boundary, solve after solve with less stretch |
 //! | `virtual_boundary.rs` | rung 3: the boundary made simple, and the outside embedded with the mesh |
 //! | `angles.rs` | angles, then the plane |

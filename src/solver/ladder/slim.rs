@@ -1,12 +1,14 @@
-//! SLIM: Tutte's map on a circle, then one iteration a step.
+//! SLIM: Tutte's map on a circle, then one iteration a step. Where rounding folds that map, the ladder's way to a planar one
+//! follows, and the iterations begin there.
 
 use std::time::Instant;
 
-use super::rung::{Failure, Footing, Latest, Rung};
+use super::rung::{Failure, Footing, Latest, Notes, Rung};
 use super::task::Task;
-use super::{Candidate, Ending};
+use super::{Candidate, Ending, Ladder};
+use crate::mesh::DiskMesh;
 use crate::solver::slim::{Slim, tutte};
-use crate::solver::{BoundaryShape, Control, Method, Pins, SolveError};
+use crate::solver::{BoundaryShape, Control, Embedding, Method, Pins, Settings, SolveError};
 
 /// An iteration that gains a smaller share of the energy is the last.
 const TOLERANCE: f64 = 1e-6;
@@ -18,10 +20,18 @@ pub(super) struct Iterations {
 
 #[derive(Debug)]
 struct Run {
-    /// None where the start is folded.
-    slim: Option<Slim>,
+    stage: Stage,
     taken: usize,
     end: Option<End>,
+    /// Notes on the next candidate.
+    notes: Notes,
+}
+
+#[derive(Debug)]
+enum Stage {
+    /// On the ladder's way to a planar map.
+    Start(Box<Ladder>),
+    Iterations(Box<Slim>),
 }
 
 /// Why no iteration follows.
@@ -29,67 +39,111 @@ struct Run {
 enum End {
     /// As many as allowed.
     Limit,
-    /// There is no sense in going on, for this reason.
-    Reason(String),
+    /// There is no sense in going on.
+    Done,
 }
 
 impl Run {
     /// The first step, and the run that goes on from it.
     fn begin(from: Footing<'_>, control: Control<'_>) -> Result<(Self, Candidate), SolveError> {
-        let (solution, family) = tutte(from.mesh, control)?;
-        let mut run = match Slim::new(from.mesh, &solution.embedding) {
-            Ok(slim) => Self { slim: Some(slim), taken: 0, end: None },
-            Err(SolveError::NotPlanar) => {
-                let reason = "SLIM cannot begin: rounding leaves faces of Tutte's map without area, or folded";
-                Self { slim: None, taken: 0, end: Some(End::Reason(reason.to_owned())) }
-            }
-            Err(error) => return Err(error),
+        let start = Stage::Start(Box::new(to_planar_map(from.task)));
+        let mut run = Self { stage: start, taken: 0, end: None, notes: Notes::default() };
+        let tutte = match tutte(from.mesh, control) {
+            Err(error) if error.is_failure_of_method() => Err(format!("Tutte's map gave nothing ({error})")),
+            other => Ok(other?),
         };
-        run.look_at_limit(from.task);
-        let progress = run.slim.as_ref().map(Slim::progress);
-        let candidate = Candidate::new(Method::Convex(BoundaryShape::Circle), family, solution);
-        let candidate = Candidate { progress, note: run.note(), ..candidate };
+        let why = match tutte {
+            Err(why) => why,
+            Ok((solution, family)) => {
+                run.look_for_start(from.mesh, &solution.embedding)?;
+                if matches!(run.stage, Stage::Start(_)) {
+                    run.notes.say("rounding leaves faces of Tutte's map without area, or folded".to_owned());
+                }
+                let candidate = Candidate::new(Method::Convex(BoundaryShape::Circle), family, solution);
+                let candidate = run.described(candidate, from.task);
+                return Ok((run, candidate));
+            }
+        };
+        run.notes.say(why);
+        let candidate = run.step(from, control)?;
         Ok((run, candidate))
     }
 
-    fn iterate(&mut self, task: &Task, control: Control<'_>) -> Result<Candidate, SolveError> {
-        let began = Instant::now();
-        let slim = self.slim.as_mut().ok_or(SolveError::NotPlanar)?;
-        let reason = match slim.step(control) {
-            Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
-            Err(error) => Some(format!("the last iteration, for the next direction cannot be computed: {error}")),
-            Ok(None) => Some("the last iteration: no step lowers the energy any more".to_owned()),
-            Ok(Some(gain)) if gain < TOLERANCE => {
-                Some(format!("the last iteration: it gained less than {TOLERANCE:.0e} of the energy"))
+    /// Begins with the iterations where an embedding can be their start.
+    fn look_for_start(&mut self, mesh: &DiskMesh, embedding: &Embedding) -> Result<(), SolveError> {
+        match Slim::new(mesh, embedding) {
+            Ok(slim) => self.stage = Stage::Iterations(Box::new(slim)),
+            Err(SolveError::NotPlanar) => {}
+            Err(error) => return Err(error),
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, SolveError> {
+        let candidate = match &mut self.stage {
+            Stage::Start(ladder) => {
+                let step = ladder.step(from.mesh, control)?;
+                let is_end = ladder.ending().is_some();
+                if step.verdict.is_one_to_one() {
+                    self.look_for_start(from.mesh, &step.solution.embedding)?;
+                }
+                if is_end && matches!(self.stage, Stage::Start(_)) {
+                    self.end = Some(End::Done);
+                    self.notes.say("SLIM cannot begin: no planar map was found".to_owned());
+                }
+                // Factors are of no use to later solves by SLIM.
+                Candidate { prepared: None, ..step.candidate }
             }
-            Ok(Some(_)) => None,
+            Stage::Iterations(slim) => {
+                let began = Instant::now();
+                if let Some(reason) = why_last(slim.step(control))? {
+                    self.end = Some(End::Done);
+                    self.notes.say(format!("the last iteration{reason}"));
+                }
+                self.taken += 1;
+                Candidate::one_to_one(Method::Slim, slim.embedding(), &Pins::new()).since(began)
+            }
         };
-        let progress = Some(slim.progress());
-        let candidate = Candidate::one_to_one(Method::Slim, slim.embedding(), &Pins::new()).since(began);
-        self.taken += 1;
-        self.end = reason.map(End::Reason);
-        self.look_at_limit(task);
-        Ok(Candidate { progress, note: self.note(), ..candidate })
+        Ok(self.described(candidate, from.task))
     }
 
-    fn look_at_limit(&mut self, task: &Task) {
-        if self.end.is_none() && self.taken >= task.settings.max_steps() {
-            self.end = Some(End::Limit);
+    /// A candidate with what there is to say of it.
+    fn described(&mut self, candidate: Candidate, task: &Task) -> Candidate {
+        self.notes.say(candidate.note);
+        let mut progress = candidate.progress;
+        if let Stage::Iterations(slim) = &self.stage {
+            progress = Some(slim.progress());
+            if self.end.is_none() && self.taken >= task.settings.max_steps() {
+                self.end = Some(End::Limit);
+                self.notes.say(format!("the last of {} iterations, as many as it may take", self.taken));
+            }
         }
+        Candidate { progress, note: self.notes.take(), ..candidate }
     }
+}
 
-    fn note(&self) -> Option<String> {
-        match self.end.as_ref()? {
-            End::Limit => Some(format!("the last of {} iterations, as many as it may take", self.taken)),
-            End::Reason(reason) => Some(reason.clone()),
-        }
-    }
+/// The ladder, without pins and only as far as its first planar map: SLIM lowers the distortion itself.
+fn to_planar_map(task: &Task) -> Ladder {
+    let settings =
+        Settings { size: task.settings.size, relax_rounds: Some(0), new_vertices: false, ..Settings::default() };
+    Ladder::new(settings, Pins::new())
+}
+
+/// Why an iteration is the last, if it is.
+fn why_last(gain: Result<Option<f64>, SolveError>) -> Result<Option<String>, SolveError> {
+    Ok(match gain {
+        Err(SolveError::Cancelled) => return Err(SolveError::Cancelled),
+        Err(error) => Some(format!(", for the next direction cannot be computed: {error}")),
+        Ok(None) => Some(": no step lowers the energy any more".to_owned()),
+        Ok(Some(gain)) if gain < TOLERANCE => Some(format!(": it gained less than {TOLERANCE:.0e} of the energy")),
+        Ok(Some(_)) => None,
+    })
 }
 
 impl Rung for Iterations {
     fn step(&mut self, from: Footing<'_>, control: Control<'_>) -> Result<Candidate, Failure> {
         if let Some(run) = &mut self.run {
-            return Ok(run.iterate(from.task, control)?);
+            return Ok(run.step(from, control)?);
         }
         let (run, candidate) = Run::begin(from, control)?;
         self.run = Some(run);
