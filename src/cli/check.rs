@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use super::args::CheckArguments;
 use super::failed::await_report;
-use super::flatten::{disk_of, go_on};
+use super::flatten::go_on;
+use super::opened::disk_of;
 use super::places::Places;
 use super::standard::{Sizes, read_model};
 use super::summary::deliver;

@@ -8,20 +8,17 @@ use std::time::Instant;
 
 use super::args::{CompareArguments, ComparisonFile};
 use super::failed::await_report;
-use super::flatten::{disk_of, failure_of_layout, go_on, set_threads};
+use super::flatten::{go_on, set_threads};
 use super::morph::tour_of;
-use super::parts::with_parts;
-use super::pins::targets_on;
+use super::opened::{Opened, Wanted, failure_of_layout};
 use super::places::Places;
 use super::progress::{INTERRUPTED, Progress};
 use super::say::say;
-use super::seams::formed;
-use super::standard::{Sizes, is_standard, read_model};
+use super::standard::is_standard;
 use super::summary::{comparison_summary, put_report};
 use super::{Failure, Status};
 use crate::io::{
-    ComparisonReport, ComparisonSeconds, PictureFile, Targets, TimedStep, WriteError, write_atomically,
-    write_to_standard_output,
+    ComparisonReport, ComparisonSeconds, Targets, TimedStep, WriteError, write_atomically, write_to_standard_output,
 };
 use crate::session::{Compared, Document, Model, MorphTour, Problem, comparison_report};
 use crate::solver::{Choice as _, Control, Family, Method, Phase, Start, Variant};
@@ -47,13 +44,8 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<Status, Failure> {
     let progress = Progress::default();
     progress.follow(|| {
         let start = Instant::now();
-        progress.enter("reading");
-        let read = read_model(&input.mesh, Sizes::typed(input.large))?;
-        let whole = with_parts(formed(&read, input)?, input.parts.as_ref())?;
-        places.spare_materials(&whole.source, &input.mesh)?;
-        let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
-        disk_of(&whole)?;
-        let targets = targets_on(&whole, &input.mesh, solve)?;
+        let wanted = Wanted { input, solve, picture: arguments.picture.as_deref() };
+        let Opened { model: whole, picture, targets } = wanted.open(&places, &progress)?;
         let model = chart_of(&whole, arguments.chart)?;
         let document = Document {
             targets: targets_of_chart(&model, targets)?,

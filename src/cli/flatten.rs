@@ -7,26 +7,22 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::args::FlattenArguments;
-use super::exit::{Remedy, conclude};
+use super::args::{FlattenArguments, ThreadArguments};
+use super::exit::conclude;
 use super::failed::await_report;
 use super::job::HeadlessJob;
-use super::parts::with_parts;
-use super::pins::targets_on;
+use super::opened::{Opened, Wanted};
 use super::places::Places;
 use super::progress::{Progress, is_interrupted, stop_on_interrupt};
 use super::say::say;
-use super::seams::formed;
-use super::standard::{Sizes, is_standard, read_model};
+use super::standard::is_standard;
 use super::typed::ChartSize;
 use super::{Failure, Status};
 use crate::examples::Example;
 use crate::geom::PackingOptions;
-use crate::io::{
-    LayoutError, Materials, OutputFit, OutputKind, PictureFile, Precision, Targets, TextureError, WriteError,
-};
-use crate::mesh::{DiskMesh, FaceId, Fault, WeldDistance};
-use crate::session::{Arrangement, Document, Model, Surface};
+use crate::io::{Materials, OutputFit, OutputKind, Precision, Targets, WriteError};
+use crate::mesh::FaceId;
+use crate::session::{Arrangement, Document, Model};
 use crate::solver::{Choice as _, SolveError};
 
 /// Folder that the example is written into, in the current one.
@@ -54,14 +50,9 @@ pub(super) fn run(arguments: &FlattenArguments) -> Result<Status, Failure> {
     let progress = Progress::default();
     progress.follow(|| {
         let start = Instant::now();
-        progress.enter("reading");
-        let read = read_model(&input.mesh, Sizes::typed(input.large))?;
-        let model = with_parts(formed(&read, input)?, input.parts.as_ref())?;
-        places.spare_materials(&model.source, &input.mesh)?;
-        let picture = arguments.picture.as_deref().map(PictureFile::read).transpose()?;
+        let wanted = Wanted { input, solve, picture: arguments.picture.as_deref() };
+        let Opened { model, picture, targets } = wanted.open(&places, &progress)?;
         places.spare_copies(arguments, &model.source, picture.as_ref())?;
-        disk_of(&model)?;
-        let targets = targets_on(&model, &input.mesh, solve)?;
         let packing = arguments.packing(picture.as_ref());
         let document = Document {
             sizes: sizes(&arguments.chart_size, &model, &targets)?,
@@ -181,40 +172,9 @@ pub(super) fn go_on() -> Result<(), SolveError> {
     if is_interrupted() { Err(SolveError::Cancelled) } else { Ok(()) }
 }
 
-/// Why a mesh or chart cannot be started from its file's layout, and what to do.
-pub(super) fn failure_of_layout(model: &Model, error: LayoutError) -> Failure {
-    let path = model.path_words();
-    match error {
-        LayoutError::Texture(error @ TextureError::Missing(_)) => Failure::Texture { path, error },
-        LayoutError::Texture(error) => Failure::Usage(format!("{path}: {error}: leave out --start uv")),
-        LayoutError::Torn { .. } => {
-            let remedy =
-                "cut the surface along the seams of its texture coordinates with --charts uv, or leave out --start uv";
-            Failure::Usage(format!("{path}: {error}: {remedy}"))
-        }
-    }
-}
-
-/// The disk, or everything that keeps the mesh from being one.
-pub(super) fn disk_of(model: &Model) -> Result<&DiskMesh, Failure> {
-    match &model.surface {
-        Surface::Disk(disk) => Ok(disk),
-        Surface::Faulty(_, diagnosis) => {
-            let distance = model.form.repair.weld_distance().map(WeldDistance::get);
-            if let Some(distance) = distance.filter(|_| diagnosis.faults.contains(&Fault::NoFaces)) {
-                let text =
-                    format!("no face is left after joining vertices within {distance}: choose a smaller distance");
-                return Err(Failure::Usage(format!("{}: {text}", model.path_words())));
-            }
-            let (diagnosis, remedy) = (Box::new(diagnosis.as_ref().clone()), Remedy::of(model));
-            Err(Failure::NotADisk { path: model.path_words(), diagnosis, remedy })
-        }
-    }
-}
-
 /// Has all work done by so many threads.
-pub(super) fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(count) = threads else { return Ok(()) };
+pub(super) fn set_threads(threads: ThreadArguments) -> Result<(), Failure> {
+    let Some(count) = threads.count else { return Ok(()) };
     rayon::ThreadPoolBuilder::new()
         .num_threads(count.into())
         .build_global()

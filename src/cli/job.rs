@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::flatten::{disk_of, failure_of_layout, go_on};
+use super::flatten::go_on;
+use super::opened::{disk_of, failure_of_layout};
 use super::progress::{INTERRUPTED, Progress};
 use super::standard::is_standard;
 use super::summary::{atlas_summary, deliver, ending_words, put_report, step_words, summary, warn_of};

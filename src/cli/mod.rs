@@ -15,6 +15,7 @@
 //! | `progress`    | the line that follows the work, and Ctrl-C                             |
 //! | `summary`     | the lines that sum a run up, and where its report goes                 |
 //! | `failed`      | the report of a run that came to nothing                               |
+//! | `opened`      | the mesh of a run in its form, with its pins and its picture           |
 //! | `parts`       | the parts of a mesh that are flattened                                 |
 //! | `pins`        | the pins that are asked for                                            |
 //! | `places`      | files of a run that must not be one another                            |
@@ -32,6 +33,7 @@ mod figures;
 mod flatten;
 mod job;
 mod morph;
+mod opened;
 mod parts;
 mod pins;
 mod places;
@@ -50,7 +52,7 @@ use crate::solver::{Choice, Family, Method, Words};
 
 pub use args::{
     Arguments, Command, CompareArguments, ComparisonFile, Cut, FlattenArguments, MeshArguments, SeamKind,
-    SolveArguments, StudyArguments, TypedShape,
+    SolveArguments, StudyArguments, ThreadArguments, TypedShape,
 };
 pub use exit::{Failure, Remedy, Status};
 pub use figures::pairs;

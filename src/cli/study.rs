@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::args::StudyArguments;
-use super::flatten::{disk_of, go_on, set_threads};
+use super::flatten::{go_on, set_threads};
+use super::opened::disk_of;
 use super::places::Places;
 use super::progress::{INTERRUPTED, Progress};
 use super::say::say;

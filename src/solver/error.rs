@@ -9,7 +9,8 @@ use crate::mesh::{FaceId, VertexId};
 pub enum SolveError {
     /// A corner's weight is infinite or not a number.
     #[error(
-        "face {face} has a corner whose weight is not finite: its edges are too long or too short for 64-bit numbers"
+        "face {face} has a corner whose weight is not finite, its edges being too long or too short for 64-bit numbers: choose \
+         another family or method"
     )]
     NotFinite {
         /// The face that owns the corner.
@@ -137,7 +138,7 @@ pub enum SolveError {
     NotPlanar,
 
     /// The virtual boundary has no further vertex to bend.
-    #[error("the whole boundary is on a circle, and no weights give a planar embedding")]
+    #[error("the whole boundary is on a circle, and no weights give a planar embedding: choose auto or schnyder")]
     AllBent,
 
     /// No rung of a ladder has a further step.
@@ -148,7 +149,7 @@ pub enum SolveError {
     },
 
     /// A position that 64-bit numbers cannot hold.
-    #[error("vertex {vertex} comes to lie beyond the range of 64-bit numbers")]
+    #[error("vertex {vertex} comes to lie beyond the range of 64-bit numbers: choose another family or method")]
     OutOfRange {
         /// The first such vertex.
         vertex: VertexId,
@@ -163,7 +164,8 @@ pub enum SolveError {
 
     /// The linear solver returned, but its answer does not satisfy the system.
     #[error(
-        "relative residual {residual:.1e} is above the limit {limit:.1e}: the answer would be wrong, so there is none"
+        "relative residual {residual:.1e} is above the limit {limit:.1e}, the answer would be wrong: choose another family or \
+         method"
     )]
     ResidualTooLarge {
         /// ‖Ax − b‖ / ‖b‖.
@@ -173,7 +175,7 @@ pub enum SolveError {
     },
 
     /// The linear solver could not take the system.
-    #[error("the linear solver failed: {reason}")]
+    #[error("the linear solver failed, {reason}: choose another family or method")]
     Linear {
         /// What it said.
         reason: String,

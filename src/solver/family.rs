@@ -58,7 +58,7 @@ impl Family {
         Err(SolveError::FamilyNotApplicable {
             method: method.name(),
             family: self.to_string(),
-            remedy: "it needs a convex boundary (method convex)",
+            remedy: "choose convex or lee, which lay a boundary on a convex shape",
         })
     }
 }

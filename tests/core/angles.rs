@@ -5,13 +5,13 @@ use std::f64::consts::{PI, TAU};
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, FaceId, VertexId};
 use freebound::solver::{
-    AngleMap, AngleSystem, Choice as _, Control, Family, Ladder, Method, Pins, Settings, SolveError, Step, Stop,
-    angle_based, hard_pins, verdict,
+    AngleMap, AngleSystem, Choice as _, Control, Family, Method, Pins, Settings, SolveError, Stop, angle_based,
+    hard_pins, verdict,
 };
 use glam::{DVec2, DVec3};
 use nalgebra::{DMatrix, DVector};
 
-use crate::common::corpus_disks;
+use crate::common::{corpus_disks, steps};
 use crate::flat::Flat;
 use crate::makers::{Random, disk, fan, grid, shaped, sheet, stacked, tube};
 use crate::reproduction::distance_up_to_similarity;
@@ -224,14 +224,6 @@ fn disks_without_an_inner_vertex_keep_every_angle() {
             assert!(largest(&off) < 1e-7 && found.energy < 1e-14, "{name}, {system:?}: {:e}", largest(&off));
         }
     }
-}
-
-/// The steps that a method takes.
-fn steps(mesh: &DiskMesh, method: Method, pins: Pins) -> Result<Vec<Step>, SolveError> {
-    let mut steps = Vec::new();
-    let mut ladder = Ladder::new(Settings::new(method, Family::default()), pins);
-    ladder.finish(mesh, Control::unattended(), |step| steps.push(step))?;
-    Ok(steps)
 }
 
 #[test]

@@ -1,10 +1,11 @@
-//! The corpus by its manifest.
+//! The corpus by its manifest; the steps of a method.
 
 use std::fs;
 use std::path::PathBuf;
 
 use freebound::io::{MeshFile, read_mesh};
 use freebound::mesh::{DiskMesh, TriMesh};
+use freebound::solver::{Control, Family, Ladder, Method, Pins, Settings, SolveError, Step};
 
 use crate::makers::corpus;
 
@@ -68,4 +69,12 @@ pub(crate) fn corpus_disks() -> Vec<Entry> {
 pub(crate) fn csv_rows(text: &str) -> Vec<Vec<String>> {
     let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
     reader.records().map(|row| row.expect("a row of text").iter().map(str::to_owned).collect()).collect()
+}
+
+/// The steps that a method takes.
+pub(crate) fn steps(mesh: &DiskMesh, method: Method, pins: Pins) -> Result<Vec<Step>, SolveError> {
+    let mut steps = Vec::new();
+    let mut ladder = Ladder::new(Settings::new(method, Family::default()), pins);
+    ladder.finish(mesh, Control::unattended(), |step| steps.push(step))?;
+    Ok(steps)
 }

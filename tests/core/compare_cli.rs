@@ -2,12 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::str::FromStr;
 
 use freebound::examples::Example;
 use freebound::io::Column;
-use freebound::io::figure::has_glyph;
-use freebound::solver::{BoundaryShape, Choice, Family, Method, Settings, Variant};
+use freebound::solver::{Choice, Method};
 use serde_json::Value;
 
 use crate::common::csv_rows;
@@ -18,21 +16,21 @@ use crate::report_schema::TENT;
 const PINS: [&str; 6] = ["--pin", "0:0,0", "--pin", "1:1,0.2", "--pin", "2:0.9,1"];
 
 /// The mesh that an example is written to.
-const IN: &str = "in.obj";
+pub(crate) const IN: &str = "in.obj";
 
-fn tent() -> Program {
+pub(crate) fn tent() -> Program {
     let program = Program::new();
     program.write("tent.obj", TENT);
     program
 }
 
 /// The methods of a comparison, as its report has them.
-fn methods(program: &Program, arguments: &[&str]) -> Vec<Value> {
+pub(crate) fn methods(program: &Program, arguments: &[&str]) -> Vec<Value> {
     let report = program.run(&[&["compare"], arguments, &["--report", "-"]].concat()).expect(0).json();
     report["methods"].as_array().expect("a list").clone()
 }
 
-fn names(methods: &[Value]) -> Vec<&str> {
+pub(crate) fn names(methods: &[Value]) -> Vec<&str> {
     methods.iter().map(|method| method["name"].as_str().expect("a name")).collect()
 }
 
@@ -95,86 +93,6 @@ fn without_a_list_all_methods_run_that_have_something_to_do() {
 }
 
 #[test]
-fn every_variant_has_a_name_that_stands_for_it() {
-    let base = Settings::default();
-    let mut names = BTreeSet::new();
-    let mut count = 0;
-    for &method in Method::ALL {
-        let shapes = if method.boundary_shape().is_some() { BoundaryShape::ALL } else { &BoundaryShape::ALL[..1] };
-        for method in shapes.iter().map(|&shape| method.on_shape(shape)) {
-            for &family in Family::ALL.iter().filter(|family| method.uses_family() && family.goes_with(method)) {
-                let variant = Variant { method, family: Some(family) };
-                let read = Variant::from_str(&variant.to_string()).expect("its own name");
-                assert!(read.settings(&base).amounts_to(&variant.settings(&base)), "{variant}");
-                names.insert(variant.to_string());
-                count += 1;
-            }
-            let plain = Variant { method, family: None };
-            assert_eq!(Variant::from_str(&plain.to_string()), Ok(plain));
-        }
-    }
-    assert_eq!(names.len(), count);
-    for (wrong, word) in [
-        ("best", "choose of auto"),
-        ("natural/uniform", "convex boundaries only"),
-        ("natural/odd", "choose one of conformal"),
-        ("lscm/mean-value", "no choice of weights"),
-        ("natural@square", "on no shape"),
-        ("convex@ring", "choose of circle"),
-        ("convex@polygon:0", "\"0\" is no point"),
-        ("lee@polygon:0 0; 0 1; 1 0", "clockwise"),
-        ("", "no method"),
-    ] {
-        let error = Variant::from_str(wrong).expect_err(wrong);
-        assert!(error.contains(word), "{wrong}: {error}");
-    }
-}
-
-#[test]
-fn weights_of_the_settings_are_for_methods_that_name_none_and_go_with_them() {
-    let base = Settings { family: Some(Family::Uniform), ..Settings::default() };
-    let family = |text: &str| Variant::from_str(text).expect("a variant").settings(&base).family();
-    assert_eq!(family("convex"), Family::Uniform);
-    assert_eq!(family("natural"), Family::default());
-    assert_eq!(family("natural/wachspress"), Family::Wachspress);
-    let program = tent();
-    let compared = methods(&program, &["tent.obj", "--methods", "natural,convex,lscm", "--family", "mean-value"]);
-    assert_eq!(names(&compared), ["natural/mean-value", "convex/mean-value", "lscm"]);
-    let compared = methods(&program, &["tent.obj", "--methods", "convex@circle,convex@square"]);
-    assert_eq!(names(&compared), ["convex", "convex@square"]);
-    assert_eq!((compared[0]["shape"].as_str(), compared[1]["shape"].as_str()), (Some("circle"), Some("square")));
-    let compared = methods(&program, &["tent.obj", "--methods", "natural,lee", "--family", "conformal"]);
-    assert_eq!(
-        names(&compared),
-        ["natural", "lee/conformal"],
-        "what is asked for is taken, also where it is usual for others"
-    );
-}
-
-#[test]
-fn weights_that_no_method_takes_are_refused_and_the_table_says_which_are_used() {
-    let program = tent();
-    let with =
-        |list: &'static str, family: &'static str| ["compare", "tent.obj", "--methods", list, "--family", family];
-    for family in ["uniform", "shape-preserving"] {
-        let run = program.run(&with("natural,lscm", family)).expect(2);
-        assert!(run.stderr.contains(&format!("natural does not go with the family {family}")), "{}", run.stderr);
-    }
-    let run = program.run(&with("natural/mean-value,lscm", "wachspress")).expect(2);
-    assert!(run.stderr.contains("all name their own weights"), "{}", run.stderr);
-    let arguments = with("natural,convex,lscm", "uniform");
-    let run = program.run(&arguments).expect(0);
-    let begin = |row: &str| row.split_whitespace().take(2).map(str::to_owned).collect::<Vec<_>>();
-    let rows: Vec<Vec<String>> = run.stdout.lines().map(begin).collect();
-    for row in [["Method", "Weights"], ["natural", "conformal"], ["convex/uniform", "uniform"], ["lscm", "–"]] {
-        assert!(rows.iter().any(|other| *other == row), "{row:?} is not in\n{}", run.stdout);
-    }
-    let csv = csv_rows(&program.run(&[&arguments[..], &["--csv", "-"]].concat()).expect(0).stdout);
-    let at = csv[0].iter().position(|head| head == "family").expect("a column");
-    assert_eq!(csv[1..].iter().map(|row| row[at].as_str()).collect::<Vec<_>>(), ["conformal", "uniform", ""]);
-}
-
-#[test]
 fn the_table_of_steps_has_its_head_where_no_method_took_one() {
     let program = tent();
     let steps = |list: &str| {
@@ -184,21 +102,6 @@ fn the_table_of_steps_has_its_head_where_no_method_took_one() {
     let (none, some) = (steps("virtual-boundary"), steps("natural"));
     assert!(some.len() > 1);
     assert_eq!(none, some[..1]);
-}
-
-#[test]
-fn what_is_asked_for_counts_even_where_it_is_usual_for_another_method() {
-    let program = tent();
-    let compared = methods(&program, &["tent.obj", "--methods", "lee,natural", "--family", "conformal"]);
-    assert_eq!(names(&compared), ["lee/conformal", "natural"]);
-    let compared = methods(&program, &["tent.obj", "--methods", "lee,natural"]);
-    assert_eq!(names(&compared), ["lee", "natural"]);
-    let slim = |base: &Settings| Variant::from_str("slim").expect("a variant").settings(base).max_steps();
-    assert_eq!(slim(&Settings { max_steps: Some(Settings::MAX_STEPS), ..Settings::default() }), Settings::MAX_STEPS);
-    assert_eq!(slim(&Settings::default()), 20);
-    let twice = ["compare", "tent.obj", "--methods", "lee,lee/mean-value"];
-    let run = program.run(&twice).expect(2);
-    assert!(run.stderr.contains("would run twice"), "{}", run.stderr);
 }
 
 #[test]
@@ -280,75 +183,6 @@ fn a_method_that_fails_is_named_and_the_others_go_on() {
     assert_eq!(compared[0]["error"]["kind"], "too-many-pins");
     assert!(compared[0].get("result").is_none() && compared[1].get("error").is_none());
     assert_ne!(compared[1]["ending"], "failed");
-}
-
-/// The fills and strokes of an SVG file.
-fn paths(svg: &str) -> impl Iterator<Item = &str> {
-    svg.lines().filter(|line| line.starts_with("<path "))
-}
-
-#[test]
-fn the_picture_has_every_method_with_its_numbers_at_one_scale() {
-    let program = Program::new();
-    example_file(&program, Example::Cube);
-    let list = "natural,lscm,convex/uniform,auto";
-    let files = ["--svg", "all.svg", "--png", "all.png", "--report", "all.json"];
-    program.run(&[&["compare", IN, "--methods", list, "--shading", "area"], &files[..]].concat()).expect(0);
-    let svg = fs::read_to_string(program.path("all.svg")).unwrap();
-    let words: Vec<&str> = svg.split("<text ").skip(1).filter_map(|rest| rest.split(['>', '<']).nth(1)).collect();
-    for name in list.split(',') {
-        assert!(words.contains(&name), "{name} in {words:?}");
-    }
-    assert!(words.contains(&"Area distortion") && words.iter().any(|line| line.starts_with("angle ")), "{words:?}");
-    assert!(words.iter().flat_map(|line| line.chars()).all(has_glyph), "{words:?}");
-    assert!(!svg.contains("NaN") && !svg.contains("inf"));
-    let [r, g, b] = freebound::io::figure::colours::FLIPPED;
-    let report: Value = serde_json::from_str(&fs::read_to_string(program.path("all.json")).unwrap()).unwrap();
-    let has_flips =
-        report["methods"].as_array().unwrap().iter().any(|of| of["result"]["verdict"]["flipped_faces"] != 0);
-    assert_eq!(svg.contains(&format!("fill=\"#{r:02x}{g:02x}{b:02x}\"")), has_flips);
-
-    // One embedding twice: natural and least squares agree to rounding, and their boundaries are drawn alike.
-    let boundaries: Vec<Vec<f64>> = paths(&svg)
-        .filter(|line| line.contains("stroke-width=\"0.900\""))
-        .map(|line| {
-            line.split("d=\"").nth(1).unwrap().split(['M', 'L', 'Z', ' ', '"']).filter_map(|n| n.parse().ok()).collect()
-        })
-        .collect();
-    assert_eq!(boundaries.len(), 4, "one for each method");
-    let size = |of: &[f64], axis: usize| {
-        let (low, high) = of.iter().skip(axis).step_by(2).fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
-        high - low
-    };
-    for axis in 0..2 {
-        assert!((size(&boundaries[0], axis) - size(&boundaries[1], axis)).abs() < 0.05, "{boundaries:?}");
-    }
-    let picture = image::open(program.path("all.png")).unwrap().to_rgba8();
-    assert!(picture.width() >= 900 && picture.height() >= 500, "{:?}", picture.dimensions());
-    let colours: BTreeSet<[u8; 4]> = picture.pixels().map(|pixel| pixel.0).collect();
-    assert!(colours.len() > 100, "faces are coloured: {}", colours.len());
-}
-
-#[test]
-fn the_same_drawing_comes_out_with_any_number_of_threads() {
-    let program = Program::new();
-    example_file(&program, Example::Dome);
-    let draw = |threads: &str, name: &str| {
-        // Times differ from run to run: the picture's paths, not its words, are the same.
-        program.run(&["compare", IN, "--methods", "natural,convex", "--threads", threads, "--svg", name]).expect(0);
-        let svg = fs::read_to_string(program.path(name)).unwrap();
-        paths(&svg).map(str::to_owned).collect::<Vec<_>>()
-    };
-    assert!(draw("1", "one.svg") == draw("3", "three.svg"));
-}
-
-#[test]
-fn a_checker_is_shown_on_the_mesh() {
-    let program = Program::new();
-    example_file(&program, Example::Dome);
-    program.run(&["compare", IN, "--methods", "natural,convex", "--shading", "checker", "--svg", "all.svg"]).expect(0);
-    let svg = fs::read_to_string(program.path("all.svg")).unwrap();
-    assert_eq!(svg.lines().filter(|line| line.starts_with("<image ")).count(), 2);
 }
 
 #[test]

@@ -1,25 +1,23 @@
 //! OBJ files come back as they went: nothing differs but `vt` lines and the middle indices of faces.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 use freebound::io::{MeshFile, NO_TEXTURE, Texture, read_mesh, read_stream, write_obj};
 use freebound::mesh::{DiskMesh, NewVertex, Refinement, VertexId};
 use glam::{DVec2, DVec3};
-use proptest::prelude::*;
 
 use crate::common::manifest;
 use crate::obj::read;
 use crate::program::Program;
 
-fn written(mesh: &MeshFile, texture: &Texture) -> String {
+pub(crate) fn written(mesh: &MeshFile, texture: &Texture) -> String {
     let mut bytes = Vec::new();
     write_obj(&mut bytes, mesh, texture).expect("memory takes all");
     String::from_utf8(bytes).expect("the texts of these tests are UTF-8")
 }
 
 /// Coordinates of their own for all corners, none of them alike, in an order that is not that of the corners.
-fn by_corner(mesh: &MeshFile) -> Texture {
+pub(crate) fn by_corner(mesh: &MeshFile) -> Texture {
     let count = u32::try_from(mesh.polygons.corners.len()).expect("few");
     let coordinates = (0..count).map(|k| DVec2::new(f64::from(k) / 7.0, -f64::from(k).powi(2))).collect();
     Texture { coordinates, corners: (0..count).rev().collect() }
@@ -27,7 +25,7 @@ fn by_corner(mesh: &MeshFile) -> Texture {
 
 /// What does not change in a text: each line but those of texture coordinates, the middle indices of faces left out.
 /// Knows nothing of the writer's ways: a line is taken apart byte by byte.
-fn unchanged(text: &str) -> String {
+pub(crate) fn unchanged(text: &str) -> String {
     let mut rest = text;
     let mut kept = String::new();
     while !rest.is_empty() {
@@ -253,127 +251,6 @@ fn faces_that_a_mesh_has_no_more_are_left_out_with_their_line_only() {
     let out = written(&mesh, &by_corner(&mesh));
     assert!(!out.contains("f 3/") && out.ends_with("\np 1\n"), "{out}");
     assert_eq!(read(&out).polygons.corners, mesh.polygons.corners);
-}
-
-/// How the lines of a generated file look.
-#[derive(Clone, Debug)]
-struct Looks {
-    end: &'static str,
-    blank: &'static str,
-    has_mark: bool,
-    is_negative: bool,
-    ends_open: bool,
-}
-
-fn looks() -> impl Strategy<Value = Looks> {
-    let end = prop::sample::select(vec!["\n", "\r\n", "\r"]);
-    let blank = prop::sample::select(vec![" ", "\t", "  ", " \\\n "]);
-    (end, blank, any::<bool>(), any::<bool>(), any::<bool>()).prop_map(
-        |(end, blank, has_mark, is_negative, ends_open)| Looks { end, blank, has_mark, is_negative, ends_open },
-    )
-}
-
-/// A polygon's corners: places among the vertices so far, and whether each has a texture coordinate and a normal.
-type Corners = Vec<(prop::sample::Index, bool, bool)>;
-
-/// What a file may hold, piece by piece.
-#[derive(Clone, Debug)]
-enum Piece {
-    Vertex([f64; 3], String),
-    Coordinate(f64),
-    Normal,
-    Face(Corners),
-    Line(&'static str),
-}
-
-fn pieces() -> impl Strategy<Value = Vec<Piece>> {
-    let extra = prop::sample::select(vec!["", " 1", " 0.1 0.2 0.3", " # here"]);
-    let face = prop::collection::vec((any::<prop::sample::Index>(), any::<bool>(), any::<bool>()), 3..7);
-    let lines = prop::sample::select(vec![
-        "# comment # twice",
-        "",
-        "  ",
-        "o a b",
-        "g",
-        "s 3",
-        "s off",
-        "usemtl x",
-        "mtllib y.mtl",
-        "l 1 2",
-        "p 1",
-        "vp 1 2",
-        "unknown f 1 2 3",
-        "#f 1 2 3",
-        "call this.obj",
-        "maplib z",
-    ]);
-    let piece = prop_oneof![
-        4 => (prop::array::uniform3(-9.0..9.0_f64), extra).prop_map(|(at, extra)| Piece::Vertex(at, extra.to_owned())),
-        2 => (0.0..1.0).prop_map(Piece::Coordinate),
-        1 => Just(Piece::Normal),
-        4 => face.prop_map(Piece::Face),
-        3 => lines.prop_map(Piece::Line),
-    ];
-    prop::collection::vec(piece, 1..40)
-}
-
-/// A file of these pieces, with three vertices, a texture coordinate and a normal before them and a face behind.
-fn text_of(pieces: &[Piece], looks: &Looks) -> String {
-    let mut text = String::from(if looks.has_mark { "\u{feff}" } else { "" });
-    let [mut vertices, mut coordinates, mut normals] = [3_i64, 1, 1];
-    let head = ["v 0 0 0", "v 1 0 0", "v 0 1 0", "vn 0 0 1", "vt 0.5 0.5"];
-    for line in &head {
-        write!(text, "{line}{}", looks.end).expect("memory");
-    }
-    let index = |number: i64, count: i64| if looks.is_negative { number - count } else { number + 1 };
-    for piece in pieces {
-        let line = match piece {
-            Piece::Vertex([x, y, z], extra) => {
-                vertices += 1;
-                format!("v {x:.3} {y:e} {z}{extra}")
-            }
-            Piece::Coordinate(u) => {
-                coordinates += 1;
-                format!("vt {u}")
-            }
-            Piece::Normal => {
-                normals += 1;
-                "vn 1 0 0".to_owned()
-            }
-            Piece::Face(corners) => corners.iter().fold("f".to_owned(), |line, (place, has_texture, has_normal)| {
-                let vertex = i64::try_from(place.index(usize::try_from(vertices).unwrap())).unwrap();
-                let word = match (has_texture, has_normal) {
-                    (false, false) => format!("{}", index(vertex, vertices)),
-                    (true, false) => format!("{}/{}", index(vertex, vertices), index(coordinates - 1, coordinates)),
-                    (false, true) => format!("{}//{}", index(vertex, vertices), index(0, normals)),
-                    (true, true) => {
-                        format!("{}/{}/{}", index(vertex, vertices), index(0, coordinates), index(normals - 1, normals))
-                    }
-                };
-                line + looks.blank + &word
-            }),
-            Piece::Line(line) => (*line).to_owned(),
-        };
-        text += &line;
-        text += looks.end;
-    }
-    text + "f 1 2 3" + if looks.ends_open { "" } else { looks.end }
-}
-
-proptest! {
-    #[test]
-    fn any_file_comes_back_as_it_went(pieces in pieces(), looks in looks()) {
-        let text = text_of(&pieces, &looks);
-        // A reader of lines that CR alone ends sees the same as one of lines that LF ends.
-        let as_lines = |text: &str| if looks.end == "\r" { text.replace('\r', "\n") } else { text.to_owned() };
-        let mesh = read(&text);
-        let texture = by_corner(&mesh);
-        let out = written(&mesh, &texture);
-        prop_assert_eq!(unchanged(&as_lines(&out)), unchanged(&as_lines(&text)));
-        let again = read_stream(out.as_bytes()).expect("it reads back");
-        prop_assert_eq!(again.polygons, mesh.polygons);
-        prop_assert_eq!(again.texture, Some(texture));
-    }
 }
 
 #[test]

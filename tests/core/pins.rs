@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, TriMesh, VertexId};
 use freebound::solver::{
-    BoundaryShape, Control, Embedding, Family, Method, Pins, Settings, SolveError, farthest_pair, gauge_pins,
-    hard_pins, solve_once, to_true_area, to_unit_square,
+    BoundaryShape, Choice as _, Control, Embedding, Family, Method, Pins, Settings, SolveError, farthest_pair,
+    gauge_pins, hard_pins, solve_once, to_true_area, to_unit_square,
 };
 use glam::{DVec2, DVec3};
 
@@ -168,7 +168,11 @@ fn choices_that_do_not_go_together_are_named() {
     assert!(solve(&triangle, &circle, &Pins::new()).is_ok(), "a circle takes a single triangle");
     for family in [Family::Uniform, Family::ShapePreserving] {
         let error = solve(&dome(), &Settings::new(Method::Natural, family), &Pins::new()).unwrap_err();
-        assert!(matches!(error, SolveError::FamilyNotApplicable { method: "natural", .. }), "{error}");
+        let SolveError::FamilyNotApplicable { method: "natural", remedy, .. } = error else { panic!("{error}") };
+        let is_named = |other: &&Method| remedy.split([' ', ',']).any(|word| word == other.name());
+        let named: Vec<Method> = Method::ALL.iter().filter(is_named).copied().collect();
+        let wanted: Vec<Method> = Method::ALL.iter().filter(|other| other.takes_any_family()).copied().collect();
+        assert_eq!(named, wanted, "{remedy}");
     }
 }
 

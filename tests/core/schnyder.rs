@@ -2,12 +2,10 @@
 
 use freebound::mesh::DiskMesh;
 use freebound::mesh::VertexId;
-use freebound::solver::{
-    Control, Family, Ladder, Method, Pins, Settings, SolveError, Step, hard_pins, schnyder, verdict,
-};
+use freebound::solver::{Method, Pins, SolveError, hard_pins, schnyder, verdict};
 use glam::DVec2;
 
-use super::common::manifest;
+use super::common::{manifest, steps};
 use super::makers::{Random, disk, fan, grid, hand, stacked, tube};
 
 /// Every face positive and the boundary simple, on the grid that the theorem promises.
@@ -60,14 +58,6 @@ fn every_disk_of_the_corpus_lies_on_the_grid() {
     for entry in manifest().iter().filter(|entry| entry.text("role") == "disk") {
         assert_drawn(&entry.file, &entry.disk());
     }
-}
-
-/// The steps that a method takes.
-fn steps(mesh: &DiskMesh, method: Method, pins: Pins) -> Result<Vec<Step>, SolveError> {
-    let mut steps = Vec::new();
-    let mut ladder = Ladder::new(Settings::new(method, Family::default()), pins);
-    ladder.finish(mesh, Control::unattended(), |step| steps.push(step))?;
-    Ok(steps)
 }
 
 #[test]

@@ -3,14 +3,13 @@
 use freebound::examples::Example;
 use freebound::mesh::{DiskMesh, VertexId};
 use freebound::solver::{
-    Control, Embedding, Family, Ladder, Method, Pins, Settings, SolveError, Step, Stop, equations, hard_pins,
-    solve_once, spectral,
+    Control, Embedding, Family, Method, Pins, Settings, SolveError, Stop, equations, hard_pins, solve_once, spectral,
 };
 use glam::DVec2;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use num_complex::Complex;
 
-use crate::common::corpus_disks;
+use crate::common::{corpus_disks, steps};
 use crate::flat::Flat;
 use crate::makers::{Random, disk, fan, sheet, stacked, tube};
 use crate::reproduction::distance_up_to_similarity;
@@ -191,17 +190,9 @@ fn the_order_of_vertices_is_no_matter() {
     assert!(error < 1e-9, "{error:e}");
 }
 
-/// The steps that the method takes.
-fn steps(mesh: &DiskMesh, pins: Pins) -> Result<Vec<Step>, SolveError> {
-    let mut steps = Vec::new();
-    let mut ladder = Ladder::new(Settings::new(Method::Spectral, Family::default()), pins);
-    ladder.finish(mesh, Control::unattended(), |step| steps.push(step))?;
-    Ok(steps)
-}
-
 #[test]
 fn as_a_method_it_is_one_step_with_a_note_and_a_verdict() {
-    let steps = steps(&disk(sheet(8, 0.5)), Pins::new()).unwrap();
+    let steps = steps(&disk(sheet(8, 0.5)), Method::Spectral, Pins::new()).unwrap();
     assert_eq!(steps.len(), 1);
     assert!(steps[0].verdict.planar && !steps[0].verdict.mirrored, "{}", steps[0].verdict.summary());
     let note = steps[0].note.as_deref().unwrap_or_default();
@@ -213,18 +204,21 @@ fn two_pins_only_place_it_and_three_are_refused() {
     let mesh = disk(sheet(8, 0.5));
     let targets = [(0, [0.25, 0.5]), (44, [-3.0, 0.125]), (80, [1.0, 1.0])];
     let pins = |count: usize| hard_pins(targets[..count].iter().map(|&(v, at)| (VertexId::new(v), DVec2::from(at))));
-    let free = &steps(&mesh, Pins::new()).unwrap()[0];
+    let free = &steps(&mesh, Method::Spectral, Pins::new()).unwrap()[0];
     for count in [1, 2] {
-        let placed = &steps(&mesh, pins(count)).unwrap()[0];
+        let placed = &steps(&mesh, Method::Spectral, pins(count)).unwrap()[0];
         for (vertex, target) in &targets[..count] {
             assert_eq!(placed.solution.embedding[*vertex as usize], DVec2::from(*target));
         }
         let error = distance_up_to_similarity(&free.solution.embedding, &placed.solution.embedding);
         assert!(error < 1e-12, "{count} pins changed the shape by {error:e}");
     }
-    assert_eq!(steps(&mesh, pins(3)).err(), Some(SolveError::TooManyPins { method: "spectral", count: 3, most: 2 }));
+    assert_eq!(
+        steps(&mesh, Method::Spectral, pins(3)).err(),
+        Some(SolveError::TooManyPins { method: "spectral", count: 3, most: 2 })
+    );
     let beyond = hard_pins([(VertexId::new(999), DVec2::ZERO)]);
-    assert_eq!(steps(&mesh, beyond).err().map(|error| error.name()), Some("no-such-vertex"));
+    assert_eq!(steps(&mesh, Method::Spectral, beyond).err().map(|error| error.name()), Some("no-such-vertex"));
 }
 
 #[test]

@@ -9,6 +9,7 @@
 //! | `compare` | arguments of `compare`                                 |
 //! | `shape`   | the shape of a boundary                                |
 //! | `study`   | arguments of `study`                                   |
+//! | `threads` | how many threads do the work                           |
 
 mod compare;
 mod flatten;
@@ -16,6 +17,7 @@ mod mesh;
 mod shape;
 mod solve;
 mod study;
+mod threads;
 
 use std::path::PathBuf;
 
@@ -27,6 +29,7 @@ pub use mesh::{Cut, MeshArguments, SeamKind};
 pub use shape::TypedShape;
 pub use solve::SolveArguments;
 pub use study::StudyArguments;
+pub use threads::ThreadArguments;
 
 /// Flattens 3D triangle meshes into the plane and proves what it made.
 #[derive(Debug, Parser)]

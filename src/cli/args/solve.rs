@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 
+use super::ThreadArguments;
 use crate::cli::typed::{choice, parse_aspect, parse_pin};
 use crate::io::Target;
 use crate::mesh::VertexId;
@@ -58,9 +59,9 @@ pub struct SolveArguments {
     /// How the virtual boundary pins more of the boundary while it crosses itself, for `auto` and `virtual-boundary`.
     #[arg(long, value_parser = choice::<Growth>())]
     pub growth: Option<Growth>,
-    /// Threads to use; all cores without it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    /// How many threads do the work.
+    #[command(flatten)]
+    pub threads: ThreadArguments,
 }
 
 /// Where the first step comes from, as it is typed.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::ThreadArguments;
 use crate::solver::Settings;
 use crate::solver::study::{Limits, Patience, Study};
 
@@ -46,9 +47,9 @@ pub struct StudyArguments {
     /// Read meshes even if that may take more than half of the machine's memory.
     #[arg(long)]
     pub large: bool,
-    /// Threads to use; all cores without it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    /// How many threads do the work.
+    #[command(flatten)]
+    pub threads: ThreadArguments,
 }
 
 impl StudyArguments {
