@@ -30,11 +30,21 @@ fn field(path: &str, name: &str) -> Option<String> {
 
 /// Seconds of processor time that this process has used; beside other programs it says more than the wall clock.
 pub(crate) fn processor_seconds() -> f64 {
+    seconds_of_stat([13, 14])
+}
+
+/// The same of all child processes that have ended and been waited for.
+pub(crate) fn processor_seconds_of_children() -> f64 {
+    seconds_of_stat([15, 16])
+}
+
+/// Two of the kernel's times of this process, added: that of the program and that of the system on its behalf.
+fn seconds_of_stat(fields: [usize; 2]) -> f64 {
     /// The kernel's unit of time for programs.
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let field = |index: usize| stat.split(' ').nth(index).and_then(|text| text.parse::<f64>().ok()).unwrap_or(0.0);
-    (field(13) + field(14)) / TICKS_PER_SECOND
+    fields.map(field).iter().sum::<f64>() / TICKS_PER_SECOND
 }
 
 /// Follows the peak memory of a child process until it ends: the kernel's own high-water mark, read every few

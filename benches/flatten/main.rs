@@ -8,6 +8,7 @@
 //! | `proof` | verdict and distortion |
 //! | `reader` | reading and writing OBJ and PLY |
 //! | `end` | the program itself as a child process: time and peak memory |
+//! | `methods` | every method on one mesh: time, memory, and what it came to |
 //!
 //! Without words all of them. Meshes are made by code (`common/sheet.rs`); files go into a temporary folder.
 
@@ -16,6 +17,7 @@ mod common;
 mod end;
 #[path = "../../examples/makers/mod.rs"]
 mod makers;
+mod methods;
 mod phases;
 mod solve;
 
@@ -33,13 +35,14 @@ const LARGE_FACES: usize = 1_000_000;
 
 fn main() {
     type Section = (&'static str, fn());
-    let sections: [Section; 6] = [
+    let sections: [Section; 7] = [
         ("solve", solve::against_laplacian),
         ("phases", phases::growth),
         ("again", solve::again),
         ("proof", phases::proof),
         ("reader", phases::reader),
         ("end", end::end_to_end),
+        ("methods", methods::side_by_side),
     ];
     let wanted = arguments();
     print_machine();

@@ -123,17 +123,18 @@ fn extreme() -> Vec<Odd> {
     ]
 }
 
-/// All that can be run, each by its name.
+/// All that can be run: each method with all its weights, and on all its shapes with the usual ones.
 fn variants() -> Vec<Variant> {
     let mut variants = Vec::new();
     for &method in Method::ALL {
-        let shapes = if method.boundary_shape().is_some() { BoundaryShape::ALL } else { &BoundaryShape::ALL[..1] };
-        for method in shapes.iter().map(|&shape| method.on_shape(shape)) {
-            let families = Family::ALL.iter().filter(|family| method.uses_family() && family.goes_with(method));
-            let own = families.map(|&family| Variant { method, family: Some(family) });
-            let plain = (!method.uses_family()).then_some(Variant { method, family: None });
-            variants.extend(own.chain(plain));
+        let families = Family::ALL.iter().filter(|family| method.uses_family() && family.goes_with(method));
+        variants.extend(families.map(|&family| Variant { method, family: Some(family) }));
+        if !method.uses_family() {
+            variants.push(Variant { method, family: None });
         }
+        let others =
+            BoundaryShape::ALL.iter().filter(|&&shape| method.boundary_shape().is_some_and(|own| own != shape));
+        variants.extend(others.map(|&shape| Variant { method: method.on_shape(shape), family: None }));
     }
     variants
 }

@@ -50,3 +50,4 @@ mod toast;
 mod unsaved;
 mod walk;
 mod window;
+mod without_pins;
