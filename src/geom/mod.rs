@@ -6,6 +6,7 @@
 //! | `bounds.rs`, `clip.rs`, `box_tree.rs` | boxes; segments and polygons cut to one; which of many boxes meet |
 //! | `polygon.rs`, `crossings.rs` | turning and winding numbers of a closed polygon; where it meets itself |
 //! | `convex_polygon.rs` | a convex polygon that a person gives |
+//! | `kernel.rs` | the points that see all of a polygon |
 //! | `hull.rs`, `rectangle.rs` | the convex hull, and whether a point lies inside; the rectangle of the least area around points |
 //! | `packing.rs` | boxes packed into a picture |
 //! | `triangulation.rs` | triangulations of points, and of what lies outside a polygon |
@@ -20,6 +21,7 @@ mod clip;
 mod convex_polygon;
 mod crossings;
 mod hull;
+mod kernel;
 mod orient;
 mod packing;
 mod picture;
@@ -37,6 +39,7 @@ pub use clip::{clip_polygon, clip_segment};
 pub use convex_polygon::{ConvexPolygon, PolygonFault};
 pub use crossings::{CROSSINGS_LISTED, Crossings, crossings, folds_back, is_simple, segments_meet};
 pub use hull::{convex_hull, is_inside_hull};
+pub use kernel::{centre_of_gravity, kernel};
 pub use orient::{Orientation, orientation};
 pub use packing::{Packed, Packing, PackingOptions, pack};
 pub use picture::Picture;

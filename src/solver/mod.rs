@@ -20,6 +20,7 @@
 //! | `outside`, `rest`, `foldover_energy`, `membrane`, `block_pattern` | energies of mesh and outside, and Newton's method on them |
 //! | `slim` | an energy lowered from Tutte's map, as others ship it |
 //! | `live/` | a planar embedding under a dragged pin, proved at every frame |
+//! | `coarse/` | a surface with fewer vertices, and the way back from it, one-to-one throughout |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
 //! | `morph/` | a way between two planar embeddings, planar throughout |
@@ -33,6 +34,7 @@ mod atlas;
 mod block_pattern;
 mod boundary_shape;
 mod choice;
+pub mod coarse;
 mod conflicts;
 mod continuation;
 mod control;

@@ -29,7 +29,7 @@ pub struct Outside {
 }
 
 /// The frame around points: a square with so many points on each side, one corner of it among them, counter-clockwise.
-fn frame_around(points: impl Iterator<Item = DVec2>, per_side: u32) -> Vec<DVec2> {
+pub(super) fn frame_around(points: impl Iterator<Item = DVec2>, per_side: u32) -> Vec<DVec2> {
     let bounds = Bounds::of(points);
     let (centre, half) = (bounds.middle(), 0.5 * FRAME_SIZE * bounds.size().max_element());
     let corners = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::ONE, DVec2::new(-1.0, 1.0)];

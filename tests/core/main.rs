@@ -14,6 +14,7 @@ mod charts_refined;
 mod charts_uv;
 mod check_cli;
 mod closed_polygon;
+mod coarse;
 mod common;
 mod compare_cli;
 mod compare_picture;

@@ -101,7 +101,12 @@ impl Rung for Continue {
         if let Stage::Begin = self.stage {
             let start = latest.ok_or(SolveError::NotPlanar)?.embedding.clone();
             let sheet = Arc::clone(&task.sheet);
-            self.stage = Stage::UnderWay(Box::new(Continuation::new(mesh, start, &held).written_on(sheet)));
+            let mut continuation = Box::new(Continuation::new(mesh, start, &held).written_on(sheet));
+            let met = continuation.by_way_of_coarse(mesh, control)?;
+            self.stage = Stage::UnderWay(continuation);
+            if let Some(candidate) = met {
+                return Ok(candidate.since(began));
+            }
         }
         let Stage::UnderWay(continuation) = &mut self.stage else { return Err(SolveError::Unmet.into()) };
         // Where it has arrived and the ladder still asks, other numbers than these fold: those that are written.

@@ -15,7 +15,17 @@
 //! Jumps that are halved until they unfold, with Newton's method, stall on three of the nine constrained sets of real
 //! meshes and take over 40 s on three more: where triangles are thin, a soft barrier unfolds one by folding others. The
 //! response behind the exact barrier arrives on all nine.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod.rs` | [`Continuation`]: step by step along the response |
+//! | `loose.rs` | springs instead of pins, where the response is narrow |
+//! | `coarse.rs` | the way of a disk with fewer vertices, which the others follow |
 
+mod coarse;
+mod loose;
+
+use std::iter::successors;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -24,9 +34,7 @@ use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane, Unfolding};
 use super::outside::{FRAME_POINTS, outside_of};
 use super::rest::{Rest, Surrounded};
-use super::{
-    Candidate, Control, Embedding, Hold, Method, Outside, Pin, PinPositions, Pins, Progress, Sheet, SolveError,
-};
+use super::{Candidate, Control, Embedding, Method, Outside, PinPositions, Pins, Progress, Sheet, SolveError};
 use crate::mesh::DiskMesh;
 
 /// Weight of the whole outside, that of the mesh being 1.
@@ -51,15 +59,6 @@ const PATIENCE: usize = 10;
 const SHORTER: f64 = 0.9;
 const MOST_STEPS: usize = 200;
 const HARDLY_ANY: f64 = 1e-6;
-
-/// Where less of the response than this folds no face, pins are let loose: springs draw them to their
-/// targets, by a greater weight each time, and they pass around each other.
-const NARROW: f64 = 0.25;
-const LOOSE_WEIGHTS: [f64; 5] = [30.0, 100.0, 300.0, 1000.0, 3000.0];
-const LOOSE_STEPS: usize = 10;
-
-/// Weights of the springs, one after another, by which a second try begins.
-const TIGHTENING: [f64; 6] = [3.0, 10.0, 30.0, 100.0, 300.0, 1000.0];
 
 /// An embedding whose energy is more than so many times the lowest is crushed: no step continues from it.
 const CRUSHED: f64 = 10.0;
@@ -160,26 +159,6 @@ impl Continuation {
         }
     }
 
-    fn begin_again(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
-        let start = self.start.take().ok_or(SolveError::Unmet)?;
-        let stopped_at = std::mem::replace(&mut self.embedding, start);
-        let outside = self.outside_of(mesh, &self.embedding).ok_or(SolveError::Unmet)?;
-        for weight in TIGHTENING {
-            if let Err(error) = self.loosen(mesh, weight, control) {
-                let start = std::mem::replace(&mut self.embedding, stopped_at);
-                if error == SolveError::Cancelled {
-                    // As if nothing had been tried: the steps before are forgotten only when it has begun.
-                    self.start = Some(start);
-                }
-                return Err(error);
-            }
-        }
-        (self.settled, self.is_loose) = (None, true);
-        self.distances.clear();
-        let progress = self.progress(mesh);
-        Ok(self.candidate(progress, Arc::new(outside)))
-    }
-
     fn go_on(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
         let settled = match self.settled.take() {
             Some(settled) => settled,
@@ -228,44 +207,6 @@ impl Continuation {
         !has_arrived && (count >= MOST_STEPS || is_almost_there() || is_slow())
     }
 
-    /// Goes on along the response, or lets the pins loose where it is narrow.
-    fn loosen_or_advance(
-        &mut self,
-        mesh: &DiskMesh,
-        settled: &Settled,
-        moves: &[DVec2],
-        control: Control<'_>,
-    ) -> Result<bool, SolveError> {
-        let longest = settled.membrane.longest_step(&settled.points, moves, mesh.face_count());
-        let weight = LOOSE_WEIGHTS.get(self.loosened).filter(|_| longest < NARROW && !self.is_loose);
-        self.is_loose = match weight {
-            Some(&weight) => self.loosen(mesh, weight, control)?,
-            None => false,
-        };
-        self.loosened += usize::from(weight.is_some());
-        Ok(self.is_loose || self.advance(mesh, settled, moves, control)?)
-    }
-
-    /// Lowers the energy with springs in the place of exact pins. Returns whether that is planar.
-    fn loosen(&mut self, mesh: &DiskMesh, weight: f64, control: Control<'_>) -> Result<bool, SolveError> {
-        let loose = self.pins.iter().map(|(&v, pin)| match pin.hold {
-            Hold::Weighted(_) => (v, *pin),
-            _ => (v, Pin::weighted(pin.target, weight)),
-        });
-        let Some(Settled { membrane, mut points, .. }) =
-            self.surround(mesh, &self.embedding, &loose.collect(), None)?
-        else {
-            return Ok(false);
-        };
-        membrane.descend(&mut points, downhill(LOOSE_STEPS), control)?;
-        let z = Embedding::of_mesh(mesh, &points);
-        let is_taken = self.sheet.is_one_to_one(mesh, &z);
-        if is_taken {
-            (self.embedding, self.settled) = (z, None);
-        }
-        Ok(is_taken)
-    }
-
     /// An embedding with its outside, and the energy of both with these pins; `None` where its boundary is not simple.
     fn surround(
         &self,
@@ -304,13 +245,15 @@ impl Continuation {
         control: Control<'_>,
     ) -> Result<bool, SolveError> {
         let longest = membrane.longest_step(points, moves, mesh.face_count());
-        let mut share = (ADVANCE_SHARE * longest).min(1.0);
-        while share > SMALLEST_ADVANCE {
+        let first = (ADVANCE_SHARE * longest).min(1.0);
+        // Where the whole way is free it is taken at once.
+        let whole = (longest > 1.0 && first < 1.0).then_some(1.0);
+        let halved = successors(Some(first), |share| Some(0.5 * share)).take_while(|share| *share > SMALLEST_ADVANCE);
+        for share in whole.into_iter().chain(halved) {
             let z = Embedding::of_mesh(mesh, &self.moved(points, moves, share));
             if self.sheet.is_one_to_one(mesh, &z) {
                 return self.settle(mesh, z, membrane, control);
             }
-            share *= 0.5;
         }
         Ok(false)
     }

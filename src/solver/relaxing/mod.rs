@@ -6,8 +6,17 @@
 //!
 //! Where the mesh has polygons, the triangles at their corners have energies too: a polygon that is convex stays so, and
 //! one that is not is unfolded like any folded triangle, by the same energy with ε > 0.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `mod.rs` | [`Relaxing`]: round by round down the energy |
+//! | `coarse.rs` | by way of a disk with fewer vertices, where the energy is huge |
+
+mod coarse;
 
 use std::sync::Arc;
+
+pub(super) use coarse::Relaxed;
 
 use super::foldover_energy::Energy;
 use super::membrane::{Limits, Membrane, Unfolding};
@@ -51,6 +60,8 @@ pub(super) struct Relaxing {
     pub(super) has_converged: bool,
     /// How embeddings are written: what is proved.
     sheet: Arc<Sheet>,
+    /// Whether the next round may begin by way of a disk with fewer vertices.
+    may_go_by_coarse: bool,
 }
 
 impl Relaxing {
@@ -71,6 +82,7 @@ impl Relaxing {
             stall: Stall::default(),
             has_converged: false,
             sheet: Arc::default(),
+            may_go_by_coarse: true,
         }
     }
 
@@ -81,6 +93,10 @@ impl Relaxing {
 
     /// One round. The embedding stays as it is where rounding keeps a better one from being planar.
     pub(super) fn round(&mut self, mesh: &DiskMesh, control: Control<'_>) -> Result<Candidate, SolveError> {
+        if self.may_go_by_coarse {
+            self.go_by_way_of_coarse(mesh, control)?;
+            self.may_go_by_coarse = false;
+        }
         let outside =
             outside_of(mesh, &self.embedding, std::iter::empty(), FRAME_POINTS).ok_or(SolveError::NotPlanar)?;
         match self.descend(mesh, &outside, control) {
