@@ -299,6 +299,7 @@ fn a_drag_shows_first_steps_only_and_its_end_the_whole_run() {
         let target = from + DVec2::new(1e-4, 2e-4) * f64::from(i);
         settled(&mut session, Action::MovePin { vertex, target });
         assert!(matches!(session.status(), Status::Preview(_)) && !session.is_current(), "steps follow at the end");
+        assert!(session.preview().is_some_and(|preview| preview.live.is_some()), "planar, and it stays so");
     }
     settled(&mut session, Action::EndGesture);
     assert!(!matches!(session.status(), Status::Preview(_)) && session.outcome().expect("solved").step.verdict.planar);
