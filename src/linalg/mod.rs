@@ -1,5 +1,5 @@
-//! Sparse linear systems: multifrontal Cholesky and faer's `LDLᴴ` for Hermitian matrices, a multifrontal LU for unsymmetric values on a symmetric
-//! pattern, refinement and residuals. Knows no mesh.
+//! Sparse linear systems: multifrontal Cholesky and faer's `LDLᴴ` for Hermitian matrices, a multifrontal LU for
+//! unsymmetric values on a symmetric pattern, refinement and residuals. Knows no mesh.
 //!
 //! ```text
 //! Analysis::new(kind, pattern)     ordering and symbolic factorization, once a pattern

@@ -190,9 +190,10 @@ pub(super) fn order(pattern: &Pattern) -> Result<Elimination, LinalgError> {
     Ok(Elimination::new(pattern, pairs, &degree))
 }
 
-/// The same in a given order, but for its postorder; where unknowns come in pairs, these must be neighbours in it.
+/// The same in a given order, but for its postorder. Pairs of unknowns are taken as such where they are neighbours in it.
 pub(super) fn in_order(pattern: &Pattern, given: &Order) -> Elimination {
-    let pairs = pattern.of_pairs();
+    let has_pairs = given.new_to_old.chunks(2).all(|pair| pair.iter().all(|&old| old / 2 == pair[0] / 2));
+    let pairs = if has_pairs { pattern.of_pairs() } else { None };
     match &pairs {
         None => Elimination::new(pattern, None, given),
         Some(_) => {

@@ -220,9 +220,15 @@ impl Drag {
     /// Shows a frame of a planar embedding, with its verdict.
     pub(super) fn show_live(&mut self, frame: Frame) {
         let live = LivePreview { obstacle: frame.moved.obstacle };
+        let before = self.preview.as_ref().and_then(|preview| preview.checked.as_ref()).map(|(_, verdict)| verdict);
+        // The same verdict stays the same to a screen that looks at it: nothing is coloured anew.
+        let verdict = match before {
+            Some(before) if **before == frame.moved.verdict => Arc::clone(before),
+            _ => Arc::new(frame.moved.verdict),
+        };
         self.show(frame.embedding, frame.problem, Some(live));
         if let Some(preview) = &mut self.preview {
-            preview.checked = Some((self.revision, Arc::new(frame.moved.verdict)));
+            preview.checked = Some((self.revision, verdict));
         }
     }
 
@@ -274,7 +280,7 @@ impl Session {
         }
     }
 
-    /// The embedding on the screen where it is planar, and made by the document's method: an edit of pins goes on from it.
+    /// The embedding on the screen where it is planar, and made by the document's method: the end of a drag goes on from it.
     pub(super) fn planar_on_screen(&self) -> Option<Arc<Embedding>> {
         let wanted = self.document.problem();
         let is_alike = |screen: &Screen| {
@@ -292,7 +298,8 @@ impl Session {
         }
         let outcome = self.outcome().filter(|outcome| outcome.step.refinement.is_none())?;
         let (step, problem) = (&outcome.step, outcome.problem.clone());
-        let is_planar = step.verdict.planar && !step.verdict.mirrored;
+        // A planar start sets constraints aside: it is nothing to hold them where they are.
+        let is_planar = step.verdict.planar && !step.verdict.mirrored && !step.is_of_planar_start();
         Some(Screen { embedding: Arc::new(step.solution.embedding.clone()), problem, is_planar })
     }
 

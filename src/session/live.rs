@@ -12,7 +12,7 @@
 use std::sync::Arc;
 
 use super::drag::{Pull, Screen};
-use super::{Background, Problem, Session, Wake};
+use super::{Background, Place, Problem, Session, Wake};
 use crate::io::Target;
 use crate::mesh::{DiskMesh, VertexId};
 use crate::solver::{Aim, Control, Embedding, Live, Method, Moved};
@@ -146,7 +146,11 @@ impl Session {
                 self.drag.live.has_no_beginning = true;
                 self.follow(dragged);
             }
-            _ => {}
+            Ok(Some(_)) => {}
+            Err(failure) => {
+                self.drag.live.has_no_beginning = true;
+                self.messages.fail_background(Place::Embedding, "moving the pins", &failure);
+            }
         }
     }
 }

@@ -185,6 +185,16 @@ impl Session {
         }
     }
 
+    /// A gesture was given up and the document is as it was before: so are the steps, where they are its own still.
+    pub(super) fn give_up_drag(&mut self) {
+        if self.is_current() && !self.solving.is_outdated() {
+            self.drag.end();
+            self.run_further();
+        } else {
+            self.solve();
+        }
+    }
+
     /// The pointer rests in the middle of a drag: the whole run is worth taking.
     pub(super) fn rest(&mut self) {
         if self.history.is_in_gesture() && self.preview().is_some() && !self.is_running() {

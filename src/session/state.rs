@@ -184,7 +184,9 @@ impl Session {
         }
         if self.document.chart != chart {
             self.follow_chart();
-        } else if was_in_gesture || self.document.form != form || wish(self) != before {
+        } else if was_in_gesture && self.document.form == form {
+            self.give_up_drag();
+        } else if self.document.form != form || wish(self) != before {
             self.solve();
         }
     }

@@ -21,7 +21,8 @@ pub enum Busy {
 /// How what the screen shows stands to the document.
 #[derive(Clone, Copy, Debug)]
 pub enum Status<'a> {
-    /// A gesture goes on: the screen shows the first, linear solve alone, as a preview where there is one.
+    /// A gesture goes on, or the run after it has no step yet: the screen shows what follows the pointer, as a preview where
+    /// there is one.
     Preview(Option<&'a Preview>),
     /// A run is under way, and has given one step at most.
     Solving,
@@ -41,7 +42,9 @@ impl Session {
         let is_first = self.timeline().records().len() <= 1;
         let is_current = self.is_current();
         let is_at_work = self.busy().is_some() || self.is_following();
-        if self.preview().is_some() || (self.history.is_in_gesture() && self.solving.is_at_first_step()) {
+        let is_in_gesture = self.history.is_in_gesture();
+        let is_preview = self.preview().is_some() && (is_in_gesture || is_at_work);
+        if is_preview || (is_in_gesture && self.solving.is_at_first_step()) {
             Status::Preview(self.preview())
         } else if self.is_running() && is_first {
             Status::Solving
@@ -83,8 +86,8 @@ impl Session {
         self.has_form_as_wanted() && self.outcome().is_some_and(is_solved)
     }
 
-    /// Whether what a drag needs is being computed: its column, or the verdict on its preview. That is no work to wait
-    /// for: it goes on as long as the drag.
+    /// Whether what a drag needs is being computed: its next frame, its column, or the verdict on its preview. That is no
+    /// work to wait for: it goes on as long as the drag.
     pub fn is_following(&self) -> bool {
         self.drag.is_busy()
     }

@@ -94,8 +94,9 @@ fn settings_stay_when_another_mesh_opens_and_pins_go() {
 }
 
 #[test]
-fn a_drag_ends_where_a_fresh_solve_would() {
+fn a_drag_by_a_linear_method_ends_where_a_fresh_solve_would() {
     let mut session = opened(Example::Dome);
+    settled(&mut session, Action::SetSettings(Settings::new(Method::Natural, Family::Conformal)));
     settled(&mut session, Action::Fix(vec![id(3), id(100), id(200)]));
     let from = session.document().targets[&id(100)].uv;
     for i in 1..=40 {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use freebound::examples::Example;
 use freebound::io::Target;
 use freebound::mesh::{DiskMesh, VertexId};
-use freebound::session::{Action, Session};
+use freebound::session::{Action, Session, Status};
 use freebound::solver::{Embedding, Ending, Family, Hold, Method, Obstacle, Settings, largest_move, verdict};
 use glam::DVec2;
 
@@ -158,4 +158,28 @@ fn a_pin_dragged_along_the_boundary_onto_the_next_names_that() {
     settled(&mut session, Action::MovePin { vertex: VertexId::new(10), target });
     let live = session.preview().expect("it follows as far as it can").live.expect("live");
     assert_eq!(live.obstacle, Some(Obstacle::Pin(VertexId::new(20))));
+}
+
+#[test]
+fn a_drag_that_is_given_up_leaves_the_step_that_was_there() {
+    let (mut session, _, [vertex, _]) = planar();
+    let before = Arc::clone(session.outcome().expect("solved"));
+    let target = session.document().targets[&vertex].uv + 0.05 * embedding(&session).bounds().extent() * DVec2::Y;
+    settled(&mut session, Action::MovePin { vertex, target });
+    assert!(session.preview().is_some());
+    settled(&mut session, Action::GiveUpGesture);
+    assert!(session.preview().is_none() && session.is_current());
+    assert!(Arc::ptr_eq(session.outcome().expect("kept"), &before), "nothing is solved again");
+}
+
+#[test]
+fn what_a_drag_left_without_a_run_is_not_called_proved() {
+    let (mut session, _, [vertex, _]) = planar();
+    let target = session.document().targets[&vertex].uv + 0.05 * embedding(&session).bounds().extent() * DVec2::Y;
+    settled(&mut session, Action::MovePin { vertex, target });
+    session.handle(Action::EndGesture);
+    settled(&mut session, Action::Cancel);
+    if !session.is_current() {
+        assert!(matches!(session.status(), Status::Stale), "{:?}", session.status());
+    }
 }

@@ -147,7 +147,7 @@ impl<'a, T: Scalar, K: Kernel<T>> Tree<'a, T, K> {
         arrived.sort_unstable_by_key(|&(child, _)| child);
         let mut waiting: Vec<Option<Vec<T>>> = range.clone().map(|_| None).collect();
         for supernode in range.clone() {
-            if self.cancel.load(Ordering::Relaxed) {
+            if self.cancel.load(Ordering::Relaxed) || self.has_failed_before(supernode) {
                 return;
             }
             let children = analysis.children.column(supernode).iter().map(|&child| {
@@ -178,8 +178,14 @@ impl<'a, T: Scalar, K: Kernel<T>> Tree<'a, T, K> {
         debug_assert!(fresh, "a unit runs once");
     }
 
-    /// Notes a front that cannot be eliminated. The other units go on, so that the first of all such fronts is the same
-    /// for any number of threads.
+    /// Whether a front before this one could not be eliminated: then this one is of no use.
+    fn has_failed_before(&self, supernode: usize) -> bool {
+        let failed = self.failed.lock().expect("no task panics while it holds this");
+        failed.as_ref().is_some_and(|&(before, _)| before < supernode)
+    }
+
+    /// Notes a front that cannot be eliminated. Those before it go on, so that the first of all such fronts is the same for
+    /// any number of threads.
     fn fail(&self, supernode: usize, error: LinalgError) {
         let mut failed = self.failed.lock().expect("no task panics while it holds this");
         if failed.as_ref().is_none_or(|&(before, _)| supernode < before) {

@@ -108,7 +108,10 @@ impl Rung for Continue {
                 return Ok(candidate.since(began));
             }
         }
-        let Stage::UnderWay(continuation) = &mut self.stage else { return Err(SolveError::Unmet.into()) };
+        let Stage::UnderWay(continuation) = &mut self.stage else {
+            // What comes after it may still meet them.
+            return Err(Failure { error: SolveError::Unmet, handover: Some(Handover::default()) });
+        };
         // Where it has arrived and the ladder still asks, other numbers than these fold: those that are written.
         let next = if continuation.is_at_its_end() { Err(SolveError::Unmet) } else { continuation.step(mesh, control) };
         match next {

@@ -43,7 +43,7 @@ pub use self::obstacle::Obstacle;
 use self::around::Around;
 use self::grow::Scale;
 use self::patch::Patch;
-use self::proof::{Boundary, holds_in_f32, verdict_of_planar, whole_proof};
+use self::proof::{Boundary, InF32, verdict_of_planar, whole_proof};
 use self::reach::Reach;
 use super::foldover_energy::Energy;
 use super::membrane::{Limits, Unfolding};
@@ -92,7 +92,7 @@ pub struct Live {
     embedding: Embedding,
     /// How the embedding is written.
     sheet: Arc<Sheet>,
-    holds_in_f32: bool,
+    in_f32: InF32,
     scale: Scale,
     reach: Reach,
     /// How many vertices the neighbourhood is to have.
@@ -121,8 +121,9 @@ struct Advance {
     share: f64,
     /// The largest move of a point.
     largest: f64,
-    /// The triangle that ended it.
+    /// The triangle that ended it, and what lies next to that.
     end: Option<usize>,
+    obstacle: Option<Obstacle>,
 }
 
 impl Live {
@@ -133,7 +134,7 @@ impl Live {
             return None;
         }
         let Aim { pins, sheet } = aim;
-        let holds_in_f32 = whole_proof(mesh, &embedding, &sheet)?;
+        let in_f32 = whole_proof(mesh, &embedding, &sheet)?;
         let scale = Scale::of(mesh, &embedding, &pins)?;
         let mut dragged = dragged.to_vec();
         dragged.sort_unstable();
@@ -141,7 +142,7 @@ impl Live {
         let reach = Reach::new(mesh, &dragged, scale.mean_edge);
         let begin = embedding.clone();
         let (wanted, around, patch) = (FIRST_VERTICES, None, None);
-        Some(Self { pins, dragged, begin, embedding, sheet, holds_in_f32, scale, reach, wanted, around, patch })
+        Some(Self { pins, dragged, begin, embedding, sheet, in_f32, scale, reach, wanted, around, patch })
     }
 
     /// The embedding of the latest frame.
@@ -173,12 +174,14 @@ impl Live {
     pub fn drag(&mut self, mesh: &DiskMesh, aim: &Aim, control: Control<'_>) -> Result<Moved, SolveError> {
         let before = self.distance_left(&aim.pins);
         if !self.prepare(mesh, aim) {
-            return Ok(self.moved(mesh, aim, before, Advance::default()));
+            return Ok(self.moved(aim, before, Advance::default()));
         }
         let (mut last, mut largest) = (Advance::default(), 0.0_f64);
         let mut may_triangulate = true;
         for _ in 0..ADVANCES {
             last = self.advance(mesh, aim, control)?;
+            // Triangles are numbered anew where the outside is triangulated anew.
+            last.obstacle = last.end.and_then(|end| self.obstacle(mesh, end));
             let is_before_outside = |end| self.patch.as_ref().is_some_and(|patch| patch.is_outside(end));
             if last.share < 1.0 && may_triangulate && last.end.is_some_and(is_before_outside) {
                 may_triangulate = false;
@@ -192,16 +195,16 @@ impl Live {
                 break;
             }
         }
-        Ok(self.moved(mesh, aim, before, Advance { largest, ..last }))
+        Ok(self.moved(aim, before, Advance { largest, ..last }))
     }
 
     /// What a frame has come to, before which pins had so far to go. The neighbourhood of the next one is larger where
     /// the sheet is deformed at the rim of this one.
-    fn moved(&mut self, mesh: &DiskMesh, aim: &Aim, before: f64, last: Advance) -> Moved {
+    fn moved(&mut self, aim: &Aim, before: f64, last: Advance) -> Moved {
         let left = self.distance_left(&aim.pins);
         let reached = if before > 0.0 { (1.0 - left / before).max(0.0) } else { 1.0 };
         let is_stopped = left > 0.0 && reached < LITTLE;
-        let obstacle = last.end.filter(|_| is_stopped).and_then(|end| self.obstacle(mesh, end));
+        let obstacle = last.obstacle.filter(|_| is_stopped);
         let is_rim = |v: VertexId| v.index() < self.begin.len() && !self.is_exact(v);
         let strain = self.patch.as_ref().map_or(0.0, |patch| patch.strain_at_rim(is_rim));
         let grows = strain > STRAIN && self.wanted < MOST_VERTICES;
@@ -209,7 +212,7 @@ impl Live {
             self.wanted = (GROWTH * self.wanted).min(MOST_VERTICES);
         }
         let is_at_rest = !grows && last.largest <= REST * self.scale.mean_edge;
-        Moved { reached, obstacle, is_at_rest, verdict: verdict_of_planar(self.holds_in_f32) }
+        Moved { reached, obstacle, is_at_rest, verdict: verdict_of_planar(self.in_f32 != InF32::Folded) }
     }
 
     /// The largest distance of a dragged exact pin from its target.
@@ -246,7 +249,7 @@ impl Live {
                 patch.put_on(&mut z, target);
             }
             if self.take(mesh, z, &aim.sheet) {
-                return Ok(Advance { share, largest: share * largest, end: Some(room.end) });
+                return Ok(Advance { share, largest: share * largest, end: Some(room.end), obstacle: None });
             }
             share *= 0.5;
         }
@@ -287,9 +290,11 @@ impl Live {
         };
         let in_f32 = moved.in_f32(is_positive(|around| around.is_positive_in_f32));
         let boundary_in_f32 = || written_boundary(&self.embedding).iter().map(|z| z.as_vec2().as_dvec2()).collect();
-        let by_parts = if self.holds_in_f32 { in_f32.proof(boundary_in_f32) } else { None };
-        let on_the_whole = || in_f32.has_upright_faces() && holds_in_f32(mesh, &sheet.written(&self.embedding));
-        self.holds_in_f32 = by_parts.is_some() || on_the_whole();
+        let by_parts = if self.in_f32 == InF32::Positive { in_f32.proof(boundary_in_f32) } else { None };
+        if by_parts.is_none() {
+            let is_upright = in_f32.has_upright_faces();
+            self.in_f32 = if is_upright { InF32::of(mesh, &sheet.written(&self.embedding)) } else { InF32::Folded };
+        }
         if let Some(around) = &mut self.around {
             around.is_positive &= boundary != Boundary::Whole;
             around.is_positive_in_f32 &= by_parts.is_some_and(|boundary| boundary != Boundary::Whole);

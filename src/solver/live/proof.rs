@@ -102,15 +102,35 @@ impl Moved<'_> {
 
 /// Whether an embedding is planar as it lies, what fills holes positive, in the numbers that are written; and if so, whether
 /// in 32 bits, too.
-pub(super) fn whole_proof(mesh: &DiskMesh, embedding: &Embedding, sheet: &Sheet) -> Option<bool> {
+pub(super) fn whole_proof(mesh: &DiskMesh, embedding: &Embedding, sheet: &Sheet) -> Option<InF32> {
     let written = sheet.written(embedding);
     let is_planar = planar_sense(mesh, &written) == Some(Orientation::CounterClockwise);
-    is_planar.then(|| holds_in_f32(mesh, &written))
+    is_planar.then(|| InF32::of(mesh, &written))
 }
 
-/// Whether what is written is planar in 32 bits.
-pub(super) fn holds_in_f32(mesh: &DiskMesh, written: &Embedding) -> bool {
-    sense_of_surface(mesh, &in_f32(written)) == Some(Orientation::CounterClockwise)
+/// What is written, in 32 bits of every number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum InF32 {
+    /// Planar, and what fills holes positive: the theorem goes on from it.
+    Positive,
+    /// Planar, but for what fills holes.
+    Planar,
+    Folded,
+}
+
+impl InF32 {
+    /// Looks at all of what is written.
+    pub(super) fn of(mesh: &DiskMesh, written: &Embedding) -> Self {
+        let rounded = in_f32(written);
+        let upright = Some(Orientation::CounterClockwise);
+        if planar_sense(mesh, &rounded) == upright {
+            Self::Positive
+        } else if sense_of_surface(mesh, &rounded) == upright {
+            Self::Planar
+        } else {
+            Self::Folded
+        }
+    }
 }
 
 /// The verdict on an embedding that is proved planar as it lies.
