@@ -246,6 +246,13 @@ fn every_disk_of_the_corpus_has_one_of_no_more_energy_than_two_pins_give() {
         let settings = Settings::new(Method::Natural, Family::Conformal);
         let natural = solve_once(&mesh, &settings, &Pins::new(), Control::unattended()).unwrap().embedding;
         let energy = energy_at_boundary_norm(&mesh, &natural);
-        assert!(energy >= found.eigenvalue * (1.0 - 1e-6), "{}: {energy} for {}", entry.file, found.eigenvalue);
+        // A flat disk has none but for rounding, on either side of zero.
+        let rounding = 1e-15;
+        assert!(
+            energy >= found.eigenvalue * (1.0 - 1e-6) - rounding,
+            "{}: {energy} for {}",
+            entry.file,
+            found.eigenvalue
+        );
     }
 }
