@@ -8,7 +8,7 @@ use super::say::warn;
 use super::standard::name_of_input;
 use crate::io::{ConstraintsError, EdgesError, MemoryShortage, PictureError, ReadError, TextureError, WriteError};
 use crate::mesh::{Diagnosis, Done, Repairs};
-use crate::session::Model;
+use crate::session::{Model, MorphShortage};
 use crate::solver::{Choice as _, Method, SolveError};
 
 /// Our fault, or the system's.
@@ -35,6 +35,9 @@ pub(super) const METHOD_REMEDY: &str = "try --method auto";
 /// What to do where there is no morph through the maps of the methods.
 pub(super) const MORPH_REMEDY: &str =
     "choose with --methods those with planar maps that lie alike, such as convex,schnyder,auto";
+
+/// What to do where the frames of a morph take too much memory.
+pub(super) const FRAMES_REMEDY: &str = "ask for fewer --frames, or name fewer --methods";
 
 /// Ended by Ctrl-C.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -114,6 +117,14 @@ pub enum Failure {
         /// Why there is none.
         what: String,
     },
+    /// The frames of a morph would take more than half of the machine's memory.
+    #[error("{path}: {shortage}; {FRAMES_REMEDY}")]
+    MorphMemory {
+        /// The file.
+        path: String,
+        /// What they would take, and what there is.
+        shortage: MorphShortage,
+    },
     /// A result could not be written, or a file that is copied with it could not be read.
     #[error("{0}")]
     Write(#[from] WriteError),
@@ -176,7 +187,7 @@ impl Failure {
             | Self::Picture(_)
             | Self::Texture { .. }
             | Self::NotADisk { .. } => UNUSABLE_INPUT,
-            Self::NoMorph { .. } => FALLS_SHORT,
+            Self::NoMorph { .. } | Self::MorphMemory { .. } => FALLS_SHORT,
             Self::Write(error) if error.is_not_finite() => FALLS_SHORT,
             Self::Write(error) if error.is_of_input() => UNUSABLE_INPUT,
             Self::Write(_) | Self::StandardOutput(_) => INTERNAL,

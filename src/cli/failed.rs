@@ -7,7 +7,8 @@ use std::sync::Mutex;
 
 use super::Failure;
 use super::exit::{
-    FALLS_SHORT, MEMORY_REMEDY, METHOD_REMEDY, MORPH_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE, message_of,
+    FALLS_SHORT, FRAMES_REMEDY, MEMORY_REMEDY, METHOD_REMEDY, MORPH_REMEDY, TEXTURE_REMEDY, UNUSABLE_INPUT, WRONG_USE,
+    message_of,
 };
 use super::say::warn;
 use super::standard::name_of_input;
@@ -92,6 +93,7 @@ fn remedy_and_faults(failure: &Failure) -> (Option<&'static str>, Vec<FaultRepor
         Failure::Memory { .. } => (Some(MEMORY_REMEDY), Vec::new()),
         Failure::Method { .. } => (Some(METHOD_REMEDY), Vec::new()),
         Failure::NoMorph { .. } => (Some(MORPH_REMEDY), Vec::new()),
+        Failure::MorphMemory { .. } => (Some(FRAMES_REMEDY), Vec::new()),
         _ => (None, Vec::new()),
     }
 }
@@ -106,7 +108,7 @@ fn kind_of(failure: &Failure) -> &'static str {
             ReadError::TooLarge => "too-large",
             _ => "not-understood",
         },
-        Failure::Memory { .. } => "too-large-for-memory",
+        Failure::Memory { .. } | Failure::MorphMemory { .. } => "too-large-for-memory",
         Failure::Constraints(_) => "constraints",
         Failure::Edges(_) => "edges",
         Failure::Picture(_) => "picture",
@@ -117,5 +119,23 @@ fn kind_of(failure: &Failure) -> &'static str {
         Failure::Write(error) if error.is_of_input() => "unreadable",
         Failure::Write(_) | Failure::StandardOutput(_) => "not-written",
         Failure::Usage(_) => "wrong-use",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::MorphShortage;
+
+    #[test]
+    fn frames_that_take_too_much_memory_are_no_result_and_the_remedy_is_fewer() {
+        let shortage = MorphShortage { frames: 1000, needed: 3 << 30, memory: 4 << 30 };
+        let failure = Failure::MorphMemory { path: "mesh.obj".to_owned(), shortage };
+        let words = "mesh.obj: 1000 frames from map to map take 3.0 GiB in all, more than half of the machine's memory of 4.0 GiB; \
+                     ask for fewer --frames, or name fewer --methods";
+        assert_eq!(failure.to_string(), words);
+        assert_eq!((failure.code(), kind_of(&failure)), (FALLS_SHORT, "too-large-for-memory"));
+        let (remedy, faults) = remedy_and_faults(&failure);
+        assert!(remedy == Some(FRAMES_REMEDY) && faults.is_empty());
     }
 }

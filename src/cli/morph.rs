@@ -3,7 +3,7 @@
 use super::Failure;
 use super::args::CompareArguments;
 use super::progress::{INTERRUPTED, Progress};
-use crate::io::LeftOutReport;
+use crate::io::{LeftOutReport, machine_memory_bytes};
 use crate::session::{Compared, MORPH_FRAMES, MissingLeg, Model, MorphStops, MorphTour};
 use crate::solver::{Control, NoMorph, Phase, SolveError};
 
@@ -11,7 +11,7 @@ use crate::solver::{Control, NoMorph, Phase, SolveError};
 ///
 /// # Errors
 ///
-/// Fewer than two planar maps; two without a morph between them; the user asked to stop.
+/// Fewer than two planar maps; more frames than there is memory for; two without a morph between them; the user asked to stop.
 ///
 /// # Panics
 ///
@@ -31,9 +31,11 @@ pub(super) fn tour_of(
     if stops.stops.len() < 2 {
         return Err(failure(too_few(&stops)));
     }
+    let frames = arguments.frames.map_or(MORPH_FRAMES, usize::from);
+    let too_many = |shortage| Failure::MorphMemory { path: model.path_words(), shortage };
+    stops.check_memory(mesh, frames, machine_memory_bytes()).map_err(too_many)?;
     let report_phase = |phase: Phase| progress.enter(phase.words());
     progress.reach("morph".to_owned());
-    let frames = arguments.frames.map_or(MORPH_FRAMES, usize::from);
     let found = MorphTour::through(mesh, stops, frames, Control::new(&INTERRUPTED, &report_phase));
     found.map(Some).map_err(|missing| match missing {
         MissingLeg { reason: NoMorph::Cancelled, .. } => SolveError::Cancelled.into(),

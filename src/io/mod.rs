@@ -73,7 +73,7 @@ pub use constraints::{ConstraintFault, Constraints, ConstraintsError, write_cons
 pub use edges::{EdgeFault, EdgesError, parse_edges, read_edges, write_edges};
 pub use error_report::{ErrorReport, ErrorWords, FaultElements, FaultReport, MeshName};
 pub use gltf::write_glb;
-pub use machine::{machine_memory_bytes, peak_memory_bytes};
+pub use machine::{bytes_in_words, machine_memory_bytes, peak_memory_bytes};
 pub use mesh_file::{
     LabelError, LayoutError, MAX_PARSE_FAULTS, MemoryShortage, MeshFile, NO_TEXTURE, ParseFault, ParseFaultKind,
     Progress, ReadError, Refined, RefinedChart, Source, Statement, Texture, TextureError, TextureMesh, check_memory,

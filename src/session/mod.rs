@@ -110,7 +110,7 @@ pub use messages::{Message, Place, Severity, named};
 use messages::{Messages, Written};
 pub use model::{ChartOf, Model, Surface};
 pub use morphing::MorphState;
-pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphStop, MorphStops, MorphTour, morph_end};
+pub use morphs::{MORPH_FRAMES, MissingLeg, MorphLeg, MorphShortage, MorphStop, MorphStops, MorphTour, morph_end};
 pub use outcome::{Outcome, Problem};
 pub use preferences::Preferences;
 pub use recent::RecentFiles;

@@ -5,7 +5,8 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::{
-    Background, Compared, ContenderState, MORPH_FRAMES, MissingLeg, MorphStops, MorphTour, Session, Wake, morph_end,
+    Background, Compared, ContenderState, MORPH_FRAMES, MissingLeg, Model, MorphShortage, MorphStops, MorphTour,
+    Session, Wake, morph_end,
 };
 use crate::solver::{Control, Phase, Variant};
 
@@ -24,6 +25,8 @@ pub enum MorphState {
     Done(Arc<MorphTour>),
     /// There is none, for this reason.
     Failed(String),
+    /// It is not sought: its frames would take too much memory.
+    TooLarge(MorphShortage),
 }
 
 /// The morph that is wanted.
@@ -77,7 +80,7 @@ impl Morphing {
     }
 
     /// Finds the morph between two maps of a model's disk.
-    fn begin(&mut self, model: Arc<super::Model>, ends: Ends) {
+    fn begin(&mut self, model: Arc<Model>, ends: Ends) {
         let progress = Arc::new(Mutex::new(Progress::default()));
         let (of_job, wake) = (Arc::clone(&progress), Arc::clone(&self.wake));
         let maps = ends.clone();
@@ -157,15 +160,23 @@ impl Session {
         }
         morphing.poll();
         let Some(ends) = now.filter(|_| morphing.ends.is_none()) else { return };
-        let stops = MorphStops::of(&[&ends[0], &ends[1]]);
-        if let Some(left_out) = stops.left_out.first() {
-            morphing.state = MorphState::Failed(format!("{}: {}", left_out.name, left_out.why));
-            morphing.ends = Some(ends);
+        let Some(model) = self.model().cloned() else { return };
+        if let Some(refused) = refused(&model, &ends, self.files.memory) {
+            let morphing = &mut self.comparing.morphing;
+            (morphing.state, morphing.ends) = (refused, Some(ends));
             return;
         }
-        let is_free = !self.is_comparing() && !self.is_running() && self.busy().is_none();
-        if let Some(model) = self.model().filter(|_| is_free).cloned() {
+        if !self.is_comparing() && !self.is_running() && self.busy().is_none() {
             self.comparing.morphing.begin(model, ends);
         }
     }
+}
+
+/// Why no morph between two maps is sought within half of this memory, bytes; none where one is.
+fn refused(model: &Model, ends: &Ends, memory: Option<u64>) -> Option<MorphState> {
+    let stops = MorphStops::of(&[&ends[0], &ends[1]]);
+    if let Some(left_out) = stops.left_out.first() {
+        return Some(MorphState::Failed(format!("{}: {}", left_out.name, left_out.why)));
+    }
+    stops.check_memory(model.disk()?, MORPH_FRAMES, memory).err().map(MorphState::TooLarge)
 }

@@ -5,15 +5,22 @@
 //! says whether polygons are convex and whether it holds in 32 bits.
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use super::{Compared, Outcome};
-use crate::io::{LeftOutReport, LegReport, MorphReport};
+use crate::io::{LeftOutReport, LegReport, MorphReport, bytes_in_words};
 use crate::mesh::DiskMesh;
-use crate::solver::{Control, Embedding, MorphOptions, NoMorph, Phase, Route, Verdict, distortion, morph, verdict};
+use crate::solver::{Control, Embedding, MorphOptions, NoMorph, Route, Verdict, distortion, morph, verdict};
 
-/// Frames of a morph between two maps where nobody says how many, both maps included.
-pub const MORPH_FRAMES: usize = 48;
+/// Frames of a morph between two maps where nobody says how many, both maps included: an odd number, so that one is half way.
+pub const MORPH_FRAMES: usize = 49;
+
+/// Bytes of a vertex in a frame: two coordinates of 64 bits. All frames of a tour are kept.
+const BYTES_PER_VERTEX: u64 = 16;
+
+/// The share of the machine's memory that they may take: one half.
+const SHARE: u64 = 2;
 
 /// A map that a morph begins or ends with.
 #[derive(Clone, Debug)]
@@ -52,6 +59,34 @@ impl MorphStops {
         }
         found
     }
+
+    /// Whether all frames of a tour through these maps of a mesh fit into half of this memory, bytes; without a number they do.
+    ///
+    /// # Errors
+    ///
+    /// [`MorphShortage`] says what they would take.
+    pub fn check_memory(&self, mesh: &DiskMesh, frames: usize, memory: Option<u64>) -> Result<(), MorphShortage> {
+        let Some(memory) = memory else { return Ok(()) };
+        let counts = [frames, mesh.vertex_count(), self.stops.len().saturating_sub(1)];
+        let needed = counts.iter().fold(BYTES_PER_VERTEX, |bytes, &count| bytes.saturating_mul(count as u64));
+        if needed > memory / SHARE { Err(MorphShortage { frames, needed, memory }) } else { Ok(()) }
+    }
+}
+
+/// Frames that would take more than half of the machine's memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{frames} frames from map to map take {} in all, more than half of the machine's memory of {}",
+    bytes_in_words(*needed),
+    bytes_in_words(*memory)
+)]
+pub struct MorphShortage {
+    /// From one map to the next, both included.
+    pub frames: usize,
+    /// What all of them take, bytes.
+    pub needed: u64,
+    /// What the machine has, bytes.
+    pub memory: u64,
 }
 
 /// The map of a method, where a morph can begin or end with it; else why not, in a few lower-case words.
@@ -107,7 +142,10 @@ impl MorphLeg {
         let mut verdicts = Vec::with_capacity(found.frames.len());
         let mut least_determinant = f64::INFINITY;
         for frame in &found.frames {
-            control.enter(Phase::Verify).map_err(|_| NoMorph::Cancelled)?;
+            // Not announced: each frame was, when the search proved it.
+            if control.cancel().load(Ordering::Relaxed) {
+                return Err(NoMorph::Cancelled);
+            }
             verdicts.push(verdict(mesh, frame));
             // At equal total areas the determinant of a face's map is the ratio of its areas.
             let least = distortion(mesh, frame).faces.iter().map(|face| face.area).fold(f64::INFINITY, f64::min);

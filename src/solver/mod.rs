@@ -23,7 +23,7 @@
 //! | `coarse/` | a surface with fewer vertices, and the way back from it, one-to-one throughout |
 //! | `continuation`, `matchmaker/`, `relaxing` | one-to-one on the way to constraints; new vertices; lower distortion |
 //! | `ladder/`, `flatten` | a plan of rungs over all of these, each step proved; all of them in one call |
-//! | `morph/` | a way between two planar embeddings, planar throughout |
+//! | `morph/` | a way between two planar embeddings, every frame proved one-to-one |
 //! | `verdict`, `atlas`, `distortion`, `vertex_equation` | what is said of an embedding |
 //! | `hull_condition`, `one_form` | vertices outside the hull of their neighbours; indices of one-forms |
 //! | `study/` | the iteration on many random trials: the paper's open question (§7) |

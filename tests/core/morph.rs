@@ -122,6 +122,24 @@ fn what_is_only_turned_and_scaled_is_turned_and_scaled_along() {
     }
 }
 
+#[test]
+fn a_map_and_its_half_turn_have_no_straight_way_however_few_frames_there_are() {
+    let mesh = DiskMesh::try_from(grid(5, 3)).unwrap();
+    let from: Embedding = mesh.mesh().positions.iter().map(|p| p.truncate()).collect();
+    // Straight ways all meet at t = 1/2 in one point.
+    let to: Embedding = from.iter().map(|&z| DVec2::new(5.0, 3.0) - z).collect();
+    let with = |frame_count: usize, routes: &[Route]| {
+        let options = MorphOptions { frame_count, routes: routes.to_vec() };
+        morph(&mesh, [&from, &to], &options, Control::unattended())
+    };
+    for frame_count in [2, 3, 4, 8, 9, 48] {
+        assert_eq!(with(frame_count, &[Route::Straight]), Err(NoMorph::NoWay), "{frame_count} frames");
+        let found = with(frame_count, &Route::ALL).unwrap();
+        assert_eq!((found.route, found.frames.len()), (Route::Turned, frame_count));
+        assert!(found.frames.iter().all(|frame| verdict(&mesh, frame).is_one_to_one()));
+    }
+}
+
 /// A bar that is wound up: so many turns, to the left, or to the right where they are negative.
 fn wound(mesh: &DiskMesh, turns: f64) -> Embedding {
     let place = |p: &glam::DVec3| {

@@ -10,20 +10,23 @@
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use freebound::geom::Picture;
 use freebound::io::figure::{CellContent, Still, TintedDrawing, Window};
 use freebound::io::{AnimationForm, AnimationFrame, write_animation};
 use freebound::mesh::{DiskMesh, Form, VertexId};
-use freebound::session::{Compared, Document, Model, MorphStops, MorphTour};
-use freebound::solver::{Control, Embedding, Route, Settings, Variant};
+use freebound::session::{Compared, Document, MORPH_FRAMES, Model, MorphStops, MorphTour};
+use freebound::solver::{
+    BoundaryShape, Choice as _, Control, Embedding, Family, Method, Phase, Route, Settings, Variant,
+};
 use freebound::view::{CellShading, MorphPicture, Quantity};
 use serde_json::Value;
 
 use super::verdict_oracle::examine;
 use crate::makers::{sheet, write_obj};
 use crate::program::Program;
-use crate::report_schema::TENT;
+use crate::report_schema::{Schema, TENT};
 
 /// The mesh.
 const IN: &str = "sheet.obj";
@@ -196,21 +199,28 @@ fn fewer_than_two_planar_maps_are_an_error_with_a_remedy_and_nothing_is_written(
     program.write("tent.obj", TENT);
     let pins = ["--pin", "0:0,0", "--pin", "1:1,0.2", "--pin", "2:0.9,1"];
     let list = "virtual-boundary,auto";
-    let files = ["--morph", "m.png", "--csv", "all.csv"];
+    let files = ["--morph", "m.png", "--csv", "all.csv", "--report", "r.json"];
     let run = program.run(&[&["compare", "tent.obj", "--methods", list], &pins[..], &files[..]].concat()).expect(4);
     assert!(run.stderr.contains("one method alone has it (virtual-boundary: no map)"), "{}", run.stderr);
     assert!(run.stderr.contains("choose with --methods those with planar maps"), "{}", run.stderr);
     assert_eq!(run.stdout, "");
-    assert_eq!(program.files(), ["tent.obj"]);
+    assert_eq!(program.files(), ["r.json", "tent.obj"], "nothing but the report of that");
+    let report = report(&program, "r.json");
+    assert_eq!(Schema::of_reports().faults(&report), Vec::<String>::new(), "{report:#}");
+    let error = &report["error"];
+    assert_eq!((&error["kind"], &error["exit_status"]), (&Value::from("no-morph"), &Value::from(4)));
+    let remedy = error["remedy"].as_str().expect("a remedy");
+    assert!(remedy.starts_with("choose with --methods those with planar maps"), "{remedy}");
 }
 
 #[test]
 fn wrong_use_of_a_morph_ends_with_2_and_writes_nothing() {
     let program = with_sheet();
-    let cases: [(&[&str], &str); 6] = [
+    let cases: [(&[&str], &str); 7] = [
         (&["--methods", "natural", "--morph", "m.png"], "name two or more"),
         (&["--methods", "natural,convex", "--frames", "5"], "--morph"),
-        (&["--methods", "natural,convex", "--morph", "m.png", "--frames", "1"], "2..=1000"),
+        (&["--methods", "natural,convex", "--morph", "m.png", "--frames", "2"], "3..=1000"),
+        (&["--methods", "natural,convex", "--morph", "m.png", "--frames", "1001"], "3..=1000"),
         (&["--methods", "natural,convex", "--morph", "m.png", "--png", "m.png"], "both write"),
         (&["--methods", "natural,convex", "--morph", IN], "would write over the mesh"),
         (&["--methods", "natural,convex", "--morph", "-", "--csv", "-"], "cannot both go there"),
@@ -220,6 +230,84 @@ fn wrong_use_of_a_morph_ends_with_2_and_writes_nothing() {
         assert!(run.stderr.contains(word), "{arguments:?}: {}", run.stderr);
         assert_eq!(program.files(), [IN], "{arguments:?}");
     }
+}
+
+/// The longest names that a method is typed by, on shapes with a name.
+fn longest_names() -> [String; 2] {
+    let shapes = || BoundaryShape::ALL.iter().filter(|shape| !matches!(shape, BoundaryShape::Polygon(_)));
+    let methods = Method::ALL.iter().flat_map(|method| shapes().map(|&shape| method.on_shape(shape)));
+    let variants = methods.flat_map(|method| {
+        let suited = Family::ALL.iter().filter(move |family| family.check_for(method).is_ok() && method.uses_family());
+        suited.map(move |&family| Variant { method, family: Some(family) })
+    });
+    let mut names: Vec<String> = variants.map(|variant| variant.to_string()).collect();
+    names.sort_by_key(|name| std::cmp::Reverse(name.len()));
+    names.dedup();
+    [names[0].clone(), names[1].clone()]
+}
+
+#[test]
+fn the_longest_names_stay_on_the_page_and_all_frames_have_one_size() {
+    let program = with_sheet();
+    let (model, methods) = compared(&program.path(IN), &["natural", "convex/uniform"]);
+    let mut stops = MorphStops::of(&methods.iter().collect::<Vec<_>>());
+    let longest = longest_names();
+    assert_eq!(longest, ["convex/shape-preserving@square", "convex/shape-preserving@hull"]);
+    for (stop, name) in stops.stops.iter_mut().zip(longest) {
+        stop.name = name;
+    }
+    let mesh = model.disk().unwrap();
+    let tour = MorphTour::through(mesh, stops, 3, Control::unattended()).unwrap();
+    let picture = MorphPicture::new(mesh, &tour, CellShading::default());
+    let pages: Vec<Picture> = picture.places().into_iter().map(|place| picture.frame(place).picture).collect();
+    let paper = pages[0].pixels[..4].to_vec();
+    // Half of the margin, so that a stroke may be rounded off into it.
+    let free = ((DRAWING[1] + 7.0) * PIXELS) as usize;
+    for (number, page) in pages.iter().enumerate() {
+        let width = page.width as usize;
+        assert_eq!((page.width, page.height), (pages[0].width, pages[0].height));
+        assert!(free + 5 < width);
+        let rows = page.pixels.chunks_exact(4 * width);
+        assert!(rows.into_iter().all(|row| row[4 * free..].chunks_exact(4).all(|at| at == paper)), "frame {number}");
+    }
+}
+
+#[test]
+fn the_search_announces_each_frame_that_it_looks_at_once() {
+    let program = with_sheet();
+    let (model, methods) = compared(&program.path(IN), &["natural", "convex/uniform"]);
+    for frames in [5, 6] {
+        let (cancel, proofs) = (AtomicBool::new(false), AtomicUsize::new(0));
+        let count = |phase: Phase| {
+            proofs.fetch_add(usize::from(phase == Phase::Verify), Ordering::Relaxed);
+        };
+        let stops = MorphStops::of(&methods.iter().collect::<Vec<_>>());
+        let tour = MorphTour::through(model.disk().unwrap(), stops, frames, Control::new(&cancel, &count)).unwrap();
+        assert_eq!((tour.legs[0].route, tour.legs[0].frames.len()), (Route::Straight, frames));
+        // Both ends are proved already. Of an even number none is half way: what is there is looked at, too.
+        let half_way = usize::from(frames % 2 == 0);
+        assert_eq!(proofs.load(Ordering::Relaxed), frames - 2 + half_way);
+    }
+}
+
+#[test]
+fn frames_are_refused_that_would_take_more_than_half_of_the_memory() {
+    let program = with_sheet();
+    let (model, methods) = compared(&program.path(IN), &["natural", "convex/uniform", "convex"]);
+    let mesh = model.disk().unwrap();
+    let stops = MorphStops::of(&methods.iter().collect::<Vec<_>>());
+    assert_eq!((stops.stops.len(), mesh.vertex_count()), (3, 25));
+    assert_eq!(MORPH_FRAMES % 2, 1, "one is half way");
+    // From map to map twice.
+    let needed = 2 * 1000 * 25 * 16;
+    assert_eq!(stops.check_memory(mesh, 1000, None), Ok(()));
+    assert_eq!(stops.check_memory(mesh, 1000, Some(2 * needed)), Ok(()));
+    let shortage = stops.check_memory(mesh, 1000, Some(2 * needed - 1)).unwrap_err();
+    assert_eq!((shortage.frames, shortage.needed, shortage.memory), (1000, needed, 2 * needed - 1));
+    let tour = MorphTour::through(mesh, stops, 5, Control::unattended()).unwrap();
+    let bytes = |frame: &Embedding| size_of_val(&frame[..]);
+    let kept: usize = tour.legs.iter().flat_map(|leg| &leg.frames).map(bytes).sum();
+    assert_eq!(kept, 2 * 5 * 25 * 16, "what is counted is what is kept");
 }
 
 #[test]

@@ -29,19 +29,19 @@ const KEYWORDS: [&str; 15] = [
 ];
 
 /// A schema, and the fields of it that were met.
-struct Schema {
+pub(crate) struct Schema {
     root: Value,
     met: BTreeSet<String>,
 }
 
 impl Schema {
-    fn of_reports() -> Self {
+    pub(crate) fn of_reports() -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/report.schema.json");
         Self { root: serde_json::from_slice(&fs::read(path).unwrap()).unwrap(), met: BTreeSet::new() }
     }
 
     /// What is wrong with a report.
-    fn faults(&mut self, report: &Value) -> Vec<String> {
+    pub(crate) fn faults(&mut self, report: &Value) -> Vec<String> {
         let root = self.root.clone();
         self.check(&root, "#", report)
     }
@@ -230,7 +230,7 @@ const RUNS: [(&[&str], i32); 28] = [
             "--morph",
             "morph.png",
             "--frames",
-            "2",
+            "3",
         ],
         0,
     ),

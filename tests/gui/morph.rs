@@ -82,29 +82,33 @@ fn a_click_finds_the_morph_between_two_maps_and_the_slider_goes_through_its_prov
     let tour = tour(&window);
     let mesh = window.editor().session.model().and_then(|model| model.disk()).expect("a disk").clone();
     let frames = &tour.legs[0].frames;
-    assert_eq!(frames.len(), 48);
+    assert_eq!(frames.len(), 49);
     assert!(frames.iter().all(|frame| verdict(&mesh, frame).planar));
-    assert_eq!([&frames[0], &frames[47]], [&map_of(&window, METHODS[0]), &map_of(&window, METHODS[1])]);
-    assert!(says(&window, "Frame 1 of 48 · planar: proved one-to-one"), "{:?}", window.words());
-    assert!(window.shows("Frame 1 of 48 · planar: proved one-to-one") && window.shows("Angle distortion"));
-    for (share, number) in [(0.5, 25), (1.0, 48), (0.013, 2), (0.0, 1)] {
+    assert_eq!([&frames[0], &frames[48]], [&map_of(&window, METHODS[0]), &map_of(&window, METHODS[1])]);
+    assert!(says(&window, "Frame 1 of 49 · planar: proved one-to-one"), "{:?}", window.words());
+    assert!(window.shows("Frame 1 of 49 · planar: proved one-to-one") && window.shows("Angle distortion"));
+    for (share, number) in [(0.5, 25), (1.0, 49), (0.013, 2), (0.0, 1)] {
         window.editor_mut().handle(Request::Morph(MorphRequest::Seek(share)));
         window.settle();
-        assert!(says(&window, &format!("Frame {number} of 48")), "{share}: {:?}", window.words());
+        assert!(says(&window, &format!("Frame {number} of 49")), "{share}: {:?}", window.words());
         assert_eq!(view(&window).bounds_drawn(), Some(frames[number - 1].bounds()));
     }
     // By hand.
-    let slider = window.rect(Role::Slider, "Time of the morph");
+    let slider = window.rect(Role::Slider, "Frame of the morph");
     let at = |share: f32| slider.left_center() + egui::vec2(8.0 + share * (slider.width() - 70.0), 0.0);
     window.drag(at(0.1), at(0.7), Modifiers::NONE);
     assert!((0.3..1.0).contains(&view(&window).share()), "{}", view(&window).share());
     // By the keyboard.
     window.editor_mut().handle(Request::Morph(MorphRequest::Seek(0.0)));
     window.settle();
-    window.harness.get_by_role_and_label(Role::Slider, "Time of the morph").focus();
+    window.harness.get_by_role_and_label(Role::Slider, "Frame of the morph").focus();
     window.step();
-    window.key(Key::ArrowRight);
-    assert!(view(&window).share() > 0.0);
+    for number in [2, 3] {
+        window.key(Key::ArrowRight);
+        assert!(says(&window, &format!("Frame {number} of 49")), "{:?}", window.words());
+    }
+    window.key(Key::ArrowLeft);
+    assert!(says(&window, "Frame 2 of 49"), "{:?}", window.words());
 }
 
 #[test]
@@ -120,8 +124,8 @@ fn both_ends_are_chosen_from_the_planar_maps_and_change_places() {
     assert_eq!(names(&window), ["schnyder", "natural/mean-value"], "no method is both");
     let back = tour(&window);
     assert_eq!(
-        (&there.legs[0].frames[0], &there.legs[0].frames[47]),
-        (&back.legs[0].frames[47], &back.legs[0].frames[0])
+        (&there.legs[0].frames[0], &there.legs[0].frames[48]),
+        (&back.legs[0].frames[48], &back.legs[0].frames[0])
     );
 }
 
@@ -145,7 +149,7 @@ fn it_plays_to_its_end_and_again_from_its_beginning() {
     window.step();
     window.frame_after(5.0, []);
     window.frame_after(0.1, []);
-    assert!(!view(&window).is_playing() && says(&window, "Frame 48 of 48"), "{}", view(&window).share());
+    assert!(!view(&window).is_playing() && says(&window, "Frame 49 of 49"), "{}", view(&window).share());
     window.harness.get_by_role_and_label(Role::Button, "Play the morph").click();
     window.step();
     window.frame_after(0.1, []);
@@ -164,13 +168,15 @@ fn where_the_document_changes_the_morph_goes_and_comes_again_between_the_new_map
     window.step();
     assert!(!matches!(window.editor().session.morph(), MorphState::Done(_)), "maps of other pins are none of these");
     assert!(!says(&window, "Frame"), "and nothing old shows: {:?}", window.words());
+    assert_eq!(view(&window).bounds_drawn(), None, "nor is it kept");
+    assert!(window.shows("The morph waits until the change is finished"), "{:?}", window.words());
     window.editor_mut().session.handle(Action::EndGesture);
     window.settle();
     let after = tour(&window);
     assert!(!Arc::ptr_eq(&before, &after));
     let frames = &after.legs[0].frames;
     assert_ne!(frames[0], before.legs[0].frames[0]);
-    assert_eq!([&frames[0], &frames[47]], [&map_of(&window, METHODS[0]), &map_of(&window, METHODS[1])]);
+    assert_eq!([&frames[0], &frames[48]], [&map_of(&window, METHODS[0]), &map_of(&window, METHODS[1])]);
     // A method that takes no part any more is none of its ends.
     window.editor_mut().session.handle(Action::CompareMethods(variants(&METHODS[1..])));
     window.settle();
@@ -184,7 +190,7 @@ fn escape_and_the_switch_lead_back_to_the_cells() {
     assert!(!view(&window).is_shown() && window.editor().plane.comparison.is_shown());
     assert_eq!(window.editor().session.morph_between(), None);
     window.click("Morph");
-    assert!(says(&window, "Frame 1 of 48"));
+    assert!(says(&window, "Frame 1 of 49"));
     window.click("Morph");
     assert!(!view(&window).is_shown() && !says(&window, "Frame"));
     window.click("Morph");
@@ -209,9 +215,44 @@ fn without_two_planar_maps_it_says_what_there_is_to_do() {
     window.editor_mut().session.handle(Action::CompareMethods(variants(&["natural", "levy", "lscm"])));
     window.settle();
     window.click("Morph");
-    assert!(window.shows("A morph needs two planar maps"), "{:?}", window.words());
+    let words = "A morph needs two planar maps";
+    assert!(window.shows(words), "{:?}", window.words());
+    let remedy = "Take part methods that give one, such as Convex boundary or Auto: under Methods";
+    window.harness.get_by_role_and_label(Role::Label, &format!("{words}. {remedy}"));
     window.click("Export the comparison");
     assert!(!window.is_enabled("Animated picture…"));
+}
+
+#[test]
+fn while_something_is_dragged_the_morph_waits_for_the_end_of_that() {
+    let mut window = morphing();
+    window.editor_mut().session.handle(Action::Fix([0, 4].map(VertexId::new).to_vec()));
+    window.settle();
+    tour(&window);
+    for step in 1..4 {
+        let target = DVec2::new(-0.1 * f64::from(step), 0.1);
+        window.editor_mut().session.handle(Action::MovePin { vertex: VertexId::new(0), target });
+        window.step();
+        assert!(!says(&window, "Frame"));
+        window.harness.get_by_role_and_label(Role::Label, "The morph waits until the change is finished");
+    }
+    window.editor_mut().session.handle(Action::EndGesture);
+    window.settle();
+    assert!(says(&window, "Frame 1 of 49"), "{:?}", window.words());
+}
+
+#[test]
+fn a_morph_that_would_take_more_than_half_of_the_memory_is_not_sought() {
+    let mut window = comparing(&METHODS);
+    // 49 frames of 25 vertices of 16 bytes.
+    window.editor_mut().session.heed_memory(2 * 49 * 25 * 16 - 1);
+    window.click("Morph");
+    let words = "49 frames from map to map take 19.1 KiB in all, more than half of the machine's memory of 38.3 KiB";
+    assert!(window.shows(words), "{:?}", window.words());
+    window.click("Morph");
+    window.editor_mut().session.heed_memory(2 * 49 * 25 * 16);
+    window.click("Morph");
+    assert!(says(&window, "Frame 1 of 49"), "{:?}", window.words());
 }
 
 #[test]
@@ -224,7 +265,7 @@ fn the_morph_that_shows_is_written_as_an_animated_picture() {
     let file = BufReader::new(File::open(path).expect("it was written"));
     let reader = png::Decoder::new(file).read_info().expect("a PNG");
     let control = reader.info().animation_control.expect("it is animated");
-    assert_eq!((control.num_frames, control.num_plays), (94, 0), "48 there and 46 back");
+    assert_eq!((control.num_frames, control.num_plays), (96, 0), "49 there and 47 back");
 }
 
 #[test]

@@ -52,8 +52,8 @@ pub struct CompareArguments {
     /// `-`. Methods without a planar map are left out.
     #[arg(long, value_name = "FILE|-")]
     pub morph: Option<PathBuf>,
-    /// Frames from one map to the next, both included; 48 without it.
-    #[arg(long, value_name = "N", requires = "morph", value_parser = clap::value_parser!(u16).range(2..=1000))]
+    /// Frames from one map to the next, both included; 49 without it.
+    #[arg(long, value_name = "N", requires = "morph", value_parser = clap::value_parser!(u16).range(3..=1000))]
     pub frames: Option<u16>,
     /// What the faces are coloured by in pictures.
     #[arg(long, value_parser = choice::<CellShading>())]

@@ -13,6 +13,8 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use crate::io::machine::bytes_in_words;
+
 /// Bytes of memory per byte of the file, by the ending of its name.
 const BYTES_PER_BYTE: [(&str, u64); 5] = [("stl", 5), ("off", 7), ("obj", 8), ("ply", 13), ("glb", 13)];
 
@@ -22,12 +24,9 @@ const MOST_BYTES_PER_BYTE: u64 = 13;
 /// The share of the machine's memory that a mesh may take without a question: one half.
 const SHARE: u64 = 2;
 
-/// Units of memory, with the power of two that each stands for.
-const UNITS: [(&str, u32); 6] = [("KiB", 10), ("MiB", 20), ("GiB", 30), ("TiB", 40), ("PiB", 50), ("EiB", 60)];
-
 /// A file that may take more than half of the machine's memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("reading it may take {}, more than half of the machine's memory of {}", in_units(*needed), in_units(*memory))]
+#[error("reading it may take {}, more than half of the machine's memory of {}", bytes_in_words(*needed), bytes_in_words(*memory))]
 pub struct MemoryShortage {
     /// What reading it may take, bytes.
     pub needed: u64,
@@ -62,13 +61,5 @@ pub fn check_memory(path: &Path, memory: Option<u64>) -> Result<(), MemoryShorta
     match memory_to_read(path) {
         Ok(needed) if needed > memory / SHARE => Err(MemoryShortage { needed, memory }),
         _ => Ok(()),
-    }
-}
-
-/// Bytes in the largest unit that they fill.
-fn in_units(bytes: u64) -> String {
-    match UNITS.iter().rev().find(|&&(_, power)| bytes >> power > 0) {
-        Some((unit, power)) => format!("{:.1} {unit}", bytes as f64 / (1_u64 << power) as f64),
-        None => format!("{bytes} bytes"),
     }
 }

@@ -6,13 +6,14 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::geom::Bounds;
+use crate::io::figure::Window;
 use crate::mesh::DiskMesh;
 use crate::session::{Action, Compared, MorphState, MorphTour};
-use crate::solver::{Variant, distortion};
+use crate::solver::{Embedding, Variant, distortion};
 use crate::ui::Editor;
 use crate::ui::editor::paint::Legend;
 use crate::ui::editor::scene::MeshScene;
-use crate::view::{FacePaint, MorphSight, PlaneArrays, PlaneCamera, Quantity, UnitPlane};
+use crate::view::{FacePaint, MorphSight, PlaneArrays, PlaneCamera, Quantity, Range, UnitPlane};
 
 /// How long it is played, seconds.
 const SECONDS: f64 = 3.0;
@@ -40,18 +41,51 @@ pub struct MorphView {
     share: f64,
     /// When it would have been at its beginning, while it is played; seconds of the window's clock.
     playing_since: Option<f64>,
-    drawn: Option<DrawnFrame>,
+    drawn: Option<DrawnTour>,
     camera: Option<PlaneCamera>,
     /// The camera as the window chose it, and for what size of the view.
     framed: Option<(PlaneCamera, DVec2)>,
 }
 
-/// A frame, ready to be drawn.
+/// Which frame, and what its faces are coloured by.
+type FrameKey = (usize, Option<Quantity>);
+
+/// A tour as it is drawn: what all of its frames have in common, found once, and the frame that was drawn last.
 #[derive(Debug)]
-struct DrawnFrame {
+struct DrawnTour {
     tour: Arc<MorphTour>,
-    key: (usize, Option<Quantity>),
-    frame: MorphFrame,
+    sight: MorphSight,
+    /// The range of the quantity that was asked for last.
+    range: Option<(Quantity, Option<Range>)>,
+    frame: Option<(FrameKey, MorphFrame)>,
+}
+
+impl DrawnTour {
+    fn new(tour: &Arc<MorphTour>) -> Self {
+        Self { tour: Arc::clone(tour), sight: MorphSight::new(tour), range: None, frame: None }
+    }
+
+    /// The range of colours of all frames: that of the maps.
+    fn range_of(&mut self, quantity: Quantity) -> Option<Range> {
+        if let Some((_, range)) = self.range.filter(|(of, _)| *of == quantity) {
+            return range;
+        }
+        let ends = self.tour.stops.stops.iter().map(|stop| &stop.outcome.distortion);
+        let range = quantity.common_range(ends);
+        self.range = Some((quantity, range));
+        range
+    }
+
+    /// A frame, made where it is not the one that was drawn last.
+    fn frame(&mut self, mesh: Option<&Arc<MeshScene>>, key: FrameKey) -> Option<MorphFrame> {
+        if self.frame.as_ref().is_none_or(|(of, _)| *of != key) {
+            let (number, quantity) = key;
+            let colours = quantity.and_then(|quantity| Some((quantity, self.range_of(quantity)?)));
+            let embedding = self.tour.legs.first()?.frames.get(number)?;
+            self.frame = Some((key, MorphFrame::new(mesh?, embedding, self.sight.window(embedding), colours)?));
+        }
+        self.frame.as_ref().map(|(_, frame)| frame.clone())
+    }
 }
 
 /// What is drawn of a frame.
@@ -67,15 +101,15 @@ pub(in crate::ui) struct MorphFrame {
 }
 
 impl MorphFrame {
-    fn new(mesh: &Arc<MeshScene>, tour: &MorphTour, number: usize, quantity: Option<Quantity>) -> Option<Self> {
+    fn new(
+        mesh: &Arc<MeshScene>,
+        embedding: &Embedding,
+        window: Window,
+        colours: Option<(Quantity, Range)>,
+    ) -> Option<Self> {
         let disk: &DiskMesh = mesh.model.disk()?;
-        let leg = tour.legs.first()?;
-        let embedding = leg.frames.get(number)?;
-        let window = MorphSight::new(tour).window(embedding);
         let unit = UnitPlane::of(Bounds::at(window.centre - window.half, DVec2::splat(2.0 * window.half)));
-        let ends = tour.stops.stops.iter().map(|stop| &stop.outcome.distortion);
-        let range = quantity.and_then(|quantity| quantity.common_range(ends));
-        let (faces, legend) = match quantity.zip(range) {
+        let (faces, legend) = match colours {
             Some((by, range)) => {
                 let values = by.values(&distortion(disk, embedding));
                 (FacePaint::by_value(&values, by.scale(), range, &[]), Some(Legend::new(by.scale(), range, &values)))
@@ -109,9 +143,9 @@ impl MorphView {
         self.share
     }
 
-    /// The box around the frame that was drawn last, in its plane.
+    /// The box around the frame that was drawn last, in its plane; none where the morph has gone.
     pub fn bounds_drawn(&self) -> Option<Bounds> {
-        self.drawn.as_ref().map(|drawn| drawn.frame.arrays.bounds)
+        self.drawn.as_ref()?.frame.as_ref().map(|(_, frame)| frame.arrays.bounds)
     }
 
     /// Whether it is being played.
@@ -135,12 +169,10 @@ impl MorphView {
         quantity: Option<Quantity>,
     ) -> Option<MorphFrame> {
         let key = (self.frame_of(tour.legs.first()?.frames.len()), quantity);
-        let is_right = |drawn: &DrawnFrame| Arc::ptr_eq(&drawn.tour, tour) && drawn.key == key;
-        if !self.drawn.as_ref().is_some_and(is_right) {
-            let frame = MorphFrame::new(mesh?, tour, key.0, quantity)?;
-            self.drawn = Some(DrawnFrame { tour: Arc::clone(tour), key, frame });
+        if self.drawn.as_ref().is_none_or(|drawn| !Arc::ptr_eq(&drawn.tour, tour)) {
+            self.drawn = Some(DrawnTour::new(tour));
         }
-        self.drawn.as_ref().map(|drawn| drawn.frame.clone())
+        self.drawn.as_mut()?.frame(mesh, key)
     }
 
     /// The camera of all frames, in a view of a size; it goes along with the size where nobody has moved it.
@@ -233,6 +265,8 @@ impl Editor {
         let now = self.host.now();
         let view = &mut self.plane.comparison.morph;
         view.playing_since = view.playing_since.filter(|_| is_there);
+        // What has gone is not kept in memory.
+        view.drawn = view.drawn.take().filter(|_| is_there);
         if let Some(since) = view.playing_since {
             view.share = ((now - since) / SECONDS).clamp(0.0, 1.0);
             view.playing_since = view.playing_since.filter(|_| view.share < 1.0);

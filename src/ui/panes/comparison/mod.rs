@@ -121,8 +121,9 @@ fn numbers_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request
 /// Whether the morph shows.
 fn morph_switch(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
     let switch = ui.selectable_label(editor.plane.comparison.morph.is_shown(), "Morph");
-    let switch =
-        switch.on_hover_text("Glide from one method's map to another's, planar throughout, or show all methods again");
+    let switch = switch.on_hover_text(
+        "Glide from one method's map to another's, every frame proved one-to-one, or show all methods again",
+    );
     switch.asks(Request::Morph(MorphRequest::Toggle), requests);
 }
 

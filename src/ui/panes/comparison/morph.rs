@@ -8,7 +8,7 @@ use eframe::egui::{self, Rect, Role, Vec2, WidgetInfo};
 use super::LEGEND;
 use super::cell::quiet;
 use crate::render::{self, PaneId, PlaneFrame, Shading, Style};
-use crate::session::{Compared, MorphState, MorphTour};
+use crate::session::{Compared, Contender, ContenderState, MorphState, MorphTour};
 use crate::solver::{Phase, Variant};
 use crate::ui::editor::comparison::MorphFrame;
 use crate::ui::editor::views::picture_box;
@@ -73,6 +73,11 @@ fn nothing_yet(ui: &mut egui::Ui, room: Rect, editor: &Editor, state: &MorphStat
             (format!("Finding the morph: {phase}, {frames} frames looked at"), "Esc stops it".to_owned())
         }
         MorphState::Failed(why) => (format!("No morph: {why}"), "Choose other methods above".to_owned()),
+        MorphState::TooLarge(shortage) => (
+            format!("No morph: {shortage}"),
+            "With fewer frames the command line finds it: freebound compare --morph --frames".to_owned(),
+        ),
+        _ if awaits_change(editor) => ("The morph waits until the change is finished".to_owned(), String::new()),
         _ if editor.session.is_comparing() => {
             ("The methods are still running".to_owned(), "The morph is found once they have".to_owned())
         }
@@ -82,8 +87,21 @@ fn nothing_yet(ui: &mut egui::Ui, room: Rect, editor: &Editor, state: &MorphStat
             "Take part methods that give one, such as Convex boundary or Auto: under Methods".to_owned(),
         ),
     };
-    pane::empty_state(ui, room, &[&first, &second]);
-    ui.interact(room, ui.scope_id().with("no morph"), egui::Sense::hover()).named(Role::Label, &first);
+    let lines: Vec<&str> = [first.as_str(), second.as_str()].into_iter().filter(|line| !line.is_empty()).collect();
+    pane::empty_state(ui, room, &lines);
+    let region = ui.interact(room, ui.scope_id().with("no morph"), egui::Sense::hover());
+    region.named(Role::Label, &lines.join(". "));
+}
+
+/// Whether both methods still take part, but what they have come to is of a document that is being changed.
+fn awaits_change(editor: &Editor) -> bool {
+    let session = &editor.session;
+    let Some(between) = session.morph_between() else { return false };
+    let ends = between.map(|variant| session.contenders().iter().find(|of| of.variant() == variant));
+    let [Some(first), Some(second)] = ends else { return false };
+    // Without a method that is yet to run, one waits for the mesh to have the form that is wanted.
+    let waits = |of: &Contender| session.contender_state(of) == ContenderState::Waiting;
+    session.is_in_gesture() || (!session.is_comparing() && (waits(first) || waits(second)))
 }
 
 /// The frame that shows, the slider, and the verdict on that frame.
@@ -108,7 +126,7 @@ fn found(ui: &mut egui::Ui, room: Rect, editor: &mut Editor, tour: &Arc<MorphTou
         ui.add(egui::Label::new(&words).truncate());
     });
     let controls = Rect::from_min_max(line.left_bottom(), room.max);
-    row(ui, controls, |ui| controls_row(ui, editor, requests));
+    row(ui, controls, |ui| controls_row(ui, editor, leg.frames.len(), requests));
 }
 
 /// The embedding of a frame.
@@ -145,21 +163,20 @@ fn drawing(ui: &egui::Ui, editor: &Editor, frame: &MorphFrame, camera: PlaneCame
     }
 }
 
-/// Plays it, and the slider over its time.
-fn controls_row(ui: &mut egui::Ui, editor: &Editor, requests: &mut Vec<Request>) {
+/// Plays it, and the slider over its frames, of which there are so many.
+fn controls_row(ui: &mut egui::Ui, editor: &Editor, count: usize, requests: &mut Vec<Request>) {
     let morph = &editor.plane.comparison.morph;
     let (words, name) = if morph.is_playing() { ("Pause", "Pause the morph") } else { ("Play", "Play the morph") };
     let play = ui.add(egui::Button::new(words).min_size(Vec2::new(56.0, 0.0)));
     let play = play.on_hover_text("Play it from where it stands to its end, or stop there");
     play.named(Role::Button, name).asks(Request::Morph(MorphRequest::Play), requests);
-    let mut share = morph.share();
+    let mut number = morph.frame_of(count) + 1;
     ui.spacing_mut().slider_width = (ui.available_width() - 70.0).max(40.0);
-    // Not by decimals: these round the time itself, in every frame.
-    let slider = egui::Slider::new(&mut share, 0.0..=1.0).custom_formatter(|value, _| format!("{value:.2}"));
-    let slider =
-        ui.add(slider).on_hover_text("From the one map, at 0, to the other, at 1: the nearest frame that is proved");
+    let slider = ui.add(egui::Slider::new(&mut number, 1..=count));
+    let slider = slider.on_hover_text("From the one map, the first frame, to the other, the last: each is proved");
     if slider.changed() {
+        let share = number.saturating_sub(1) as f64 / count.saturating_sub(1).max(1) as f64;
         requests.push(Request::Morph(MorphRequest::Seek(share)));
     }
-    slider.widget_info(|| WidgetInfo::slider(true, share, "Time of the morph"));
+    slider.widget_info(|| WidgetInfo::slider(true, number as f64, "Frame of the morph"));
 }
