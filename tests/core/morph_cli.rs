@@ -166,7 +166,7 @@ fn between_two_maps_the_picture_goes_there_and_back_through_frames_that_the_orac
     let least = tour.legs[0].frames.iter().map(|frame| least_ratio(mesh, frame)).fold(f64::INFINITY, f64::min);
     let reported = leg["least_determinant"].as_f64().unwrap();
     assert!((reported - least).abs() < 1e-9 * least && reported > 0.0, "{reported} and {least}");
-    let words = "morph natural → convex/uniform: 4 of 4 frames proved one-to-one, route ";
+    let words = "morph natural to convex/uniform: 4 of 4 frames proved one-to-one, route ";
     assert!(run.stdout.contains(words), "{}", run.stdout);
 }
 

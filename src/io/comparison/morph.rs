@@ -45,7 +45,7 @@ impl MorphReport {
         let leg = |leg: &LegReport| {
             let LegReport { from, to, route, frames, proved, least_determinant, seconds } = leg;
             format!(
-                "morph {from} → {to}: {proved} of {frames} frames proved one-to-one, route {route}, \
+                "morph {from} to {to}: {proved} of {frames} frames proved one-to-one, route {route}, \
                  smallest determinant {least_determinant:.2e}, {seconds:.3} s"
             )
         };
