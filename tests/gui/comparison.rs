@@ -275,7 +275,10 @@ fn a_comparison_is_written_as_a_picture_and_as_tables() {
         let path = window.path(name);
         window.menu(&["Export the comparison", what]);
         window.fill_in(Role::TextInput, "Name", path.to_str().expect("a path of text"));
+        // What was written before does not lie over the dialog.
+        assert!(!window.shows("Show in folder"));
         window.key(Key::Enter);
+        assert!(path.is_file(), "{what}");
     }
     let lines = |name: &str| fs::read_to_string(window.path(name)).unwrap().lines().count();
     assert_eq!(lines("sheet-comparison.csv"), 7);

@@ -37,6 +37,11 @@ pub(in crate::ui) fn toast(context: &egui::Context, editor: &mut Editor, request
     };
     let now = editor.host.now();
     let begun = Toast { id: message.id, since: now };
+    if editor.files.dialogs.is_open() {
+        // It would lie over the dialog; its time begins when that is closed.
+        editor.layout.toast = Some(begun);
+        return;
+    }
     let shown = *editor.layout.toast.get_or_insert(begun);
     let shown = if shown.id == message.id { shown } else { begun };
     let strip = if editor.has_disk() { editor.timeline.height() } else { 0.0 };
