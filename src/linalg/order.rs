@@ -70,7 +70,7 @@ impl Pattern {
         let are_pairs =
             |rows: &[u32]| rows.chunks(2).all(|pair| pair[0] % 2 == 0 && pair.get(1) == Some(&(pair[0] + 1)));
         let is_pair = |k: usize| self.column(2 * k) == self.column(2 * k + 1) && are_pairs(self.column(2 * k));
-        if n == 0 || n % 2 != 0 || !(0..n / 2).all(is_pair) {
+        if n == 0 || !n.is_multiple_of(2) || !(0..n / 2).all(is_pair) {
             return None;
         }
         let rows = (0..n / 2).flat_map(|k| self.column(2 * k).iter().step_by(2).map(|&row| row / 2)).collect();
@@ -194,13 +194,11 @@ pub(super) fn order(pattern: &Pattern) -> Result<Elimination, LinalgError> {
 pub(super) fn in_order(pattern: &Pattern, given: &Order) -> Elimination {
     let has_pairs = given.new_to_old.chunks(2).all(|pair| pair.iter().all(|&old| old / 2 == pair[0] / 2));
     let pairs = if has_pairs { pattern.of_pairs() } else { None };
-    match &pairs {
-        None => Elimination::new(pattern, None, given),
-        Some(_) => {
-            let of_pairs = given.new_to_old.iter().step_by(2).map(|&old| old / 2).collect();
-            Elimination::new(pattern, pairs, &Order::from_new_to_old(of_pairs))
-        }
+    if pairs.is_none() {
+        return Elimination::new(pattern, None, given);
     }
+    let of_pairs = given.new_to_old.iter().step_by(2).map(|&old| old / 2).collect();
+    Elimination::new(pattern, pairs, &Order::from_new_to_old(of_pairs))
 }
 
 impl Elimination {

@@ -49,7 +49,7 @@ pub(super) struct Frame {
 
 /// What a frame begins with.
 enum Beginning {
-    Held(Held),
+    Held(Box<Held>),
     Screen(Screen),
 }
 
@@ -85,7 +85,7 @@ impl LiveDrag {
         let is_continued = matches!(problem.settings.method, Method::Auto | Method::Continuation);
         let can_begin = is_continued && !self.has_no_beginning && problem.settings.are_constraints(&problem.pins());
         let begin = || pull.base().filter(|screen| can_begin && screen.is_planar).cloned().map(Beginning::Screen);
-        let Some(beginning) = held.map(Beginning::Held).or_else(begin) else { return Some(pull) };
+        let Some(beginning) = held.map(Box::new).map(Beginning::Held).or_else(begin) else { return Some(pull) };
         let mesh = Arc::clone(&pull.task.mesh);
         self.start(mesh, beginning, Towards { problem: pull.task.problem, dragged: pull.dragged });
         None
@@ -95,7 +95,7 @@ impl LiveDrag {
         self.frames.start(to.clone(), move |cancel| {
             let Towards { problem, dragged } = to;
             let mut held = match beginning {
-                Beginning::Held(held) => held,
+                Beginning::Held(held) => *held,
                 Beginning::Screen(Screen { embedding, problem, .. }) => {
                     let live = Live::new(&mesh, Embedding::clone(&embedding), &dragged, problem.aim())?;
                     Held { live, problem }

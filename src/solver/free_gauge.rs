@@ -76,7 +76,7 @@ impl FreeProblem<'_> {
                 Err(_) => None,
             };
             // The same again would end as this did.
-            let is_new = |gauge: &[VertexId; 2]| !way.own_places.as_ref().is_some_and(|places| is_at(places, gauge));
+            let is_new = |gauge: &[VertexId; 2]| !way.own_places.as_ref().is_some_and(|places| is_at(places, *gauge));
             let Some(gauge) = gauge.filter(is_new) else { return outcome };
             way = self.with_gauge(way, gauge);
         }
@@ -163,6 +163,6 @@ impl FreeProblem<'_> {
     }
 }
 
-fn is_at(places: &PinPositions, gauge: &[VertexId; 2]) -> bool {
+fn is_at(places: &PinPositions, gauge: [VertexId; 2]) -> bool {
     gauge.iter().all(|vertex| places.contains_key(vertex))
 }

@@ -86,15 +86,15 @@ pub(super) fn better_gauge(
     }
     factored.factor.substitute_adjoint(&mut kernel);
     let (first, second) = kernel.split_at(n);
-    let whole = |v: VertexId| mesh.links_from(v).map(|h| equations.coefficients[h.index()].norm()).sum::<f64>();
-    let (wholes, [at_a, at_b]): (Vec<f64>, _) = (system.free().iter().map(|&v| whole(v)).collect(), held.map(whole));
-    let size = |i: usize| wholes[i] * f64::hypot(first[i].norm() / at_a, second[i].norm() / at_b);
-    let a = largest(n, size)?;
-    if size(a) <= MOST_GROWTH {
+    let sum_at = |v: VertexId| mesh.links_from(v).map(|h| equations.coefficients[h.index()].norm()).sum::<f64>();
+    let (wholes, [at_a, at_b]): (Vec<f64>, _) = (system.free().iter().map(|&v| sum_at(v)).collect(), held.map(sum_at));
+    let growth = |i: usize| wholes[i] * f64::hypot(first[i].norm() / at_a, second[i].norm() / at_b);
+    let a = largest(n, growth)?;
+    if growth(a) <= MOST_GROWTH {
         return None;
     }
     // Not of the products, which could leave the range of numbers.
-    let minor = |i: usize| wholes[i] * (first[a] / size(a) * second[i] - second[a] / size(a) * first[i]).norm();
+    let minor = |i: usize| wholes[i] * (first[a] / growth(a) * second[i] - second[a] / growth(a) * first[i]).norm();
     let best = minor(largest(n, minor)?);
     let distance = |i: usize| mesh.position(system.free()[a]).distance(mesh.position(system.free()[i]));
     let b = largest(n, |i| if minor(i) >= NEARLY_AS_GOOD * best { distance(i) } else { -1.0 })?;

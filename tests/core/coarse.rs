@@ -160,7 +160,7 @@ proptest! {
             let before = coarse[vertex];
             let reach = coarsest.disk.outgoing(vertex).map(|side| coarse[coarsest.disk.head(side)].distance(before));
             let by = scatter * reach.fold(f64::INFINITY, f64::min) * random.unit();
-            coarse[vertex] += by * DVec2::from_angle(6.28 * random.unit());
+            coarse[vertex] += by * DVec2::from_angle(std::f64::consts::TAU * random.unit());
             if !is_one_to_one(&coarsest.disk, &coarse) {
                 coarse[vertex] = before;
             }

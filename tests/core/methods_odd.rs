@@ -155,7 +155,7 @@ fn faults(model: &Model, document: &Document, variant: Variant) -> Vec<String> {
     let mut faults = Vec::new();
     let mut expect = |holds: bool, what: String| {
         if !holds {
-            faults.push(what)
+            faults.push(what);
         }
     };
     let report = &compared.report;
@@ -184,12 +184,12 @@ fn faults(model: &Model, document: &Document, variant: Variant) -> Vec<String> {
         faults.push("what is written is not finite".to_owned());
         return faults;
     }
-    let triangles: Vec<[u32; 3]> = chart.mesh.faces().map(|face| chart.mesh.face(face).map(|v| v.number())).collect();
+    let triangles: Vec<[u32; 3]> = chart.mesh.faces().map(|face| chart.mesh.face(face).map(VertexId::number)).collect();
     let Answer { injective, mirrored, .. } = examine(&triangles, &chart.coordinates);
     let verdict = &chart.verdict;
     let mut expect = |holds: bool, what: &str| {
         if !holds {
-            faults.push(format!("{what}: {}", verdict.summary()))
+            faults.push(format!("{what}: {}", verdict.summary()));
         }
     };
     expect(verdict.is_one_to_one() == injective, "the verdict and the rational numbers disagree");

@@ -95,9 +95,10 @@ fn least_ratio(mesh: &DiskMesh, embedding: &Embedding) -> f64 {
     let areas: Vec<[f64; 2]> = mesh
         .faces()
         .map(|face| {
-            let [a, b, c] = mesh.face(face).map(|v| mesh.position(v));
-            let [p, q, r] = mesh.face(face).map(|v| embedding[v]);
-            [(b - a).cross(c - a).length(), (q - p).perp_dot(r - p)]
+            let corners = mesh.face(face);
+            let [in_space, in_space_too] = [1, 2].map(|k| mesh.position(corners[k]) - mesh.position(corners[0]));
+            let [in_plane, in_plane_too] = [1, 2].map(|k| embedding[corners[k]] - embedding[corners[0]]);
+            [in_space.cross(in_space_too).length(), in_plane.perp_dot(in_plane_too)]
         })
         .collect();
     let [surface, plane] = [0, 1].map(|k| areas.iter().map(|of| of[k]).sum::<f64>());

@@ -157,7 +157,9 @@ impl Surface<'_> {
     /// Takes vertices away.
     fn take(&mut self, removed: &[Removed], left: &mut Vec<u32>) {
         let mut is_gone = vec![false; self.vertex_count()];
-        removed.iter().for_each(|removed| is_gone[removed.vertex as usize] = true);
+        for removed in removed {
+            is_gone[removed.vertex as usize] = true;
+        }
         self.inner.retain(|corners| corners.iter().all(|&v| !is_gone[v as usize]));
         for removed in removed {
             self.inner.extend(removed.fan().map(|corners| corners.map(|k| removed.polygon[k])));

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::super::outside::{FRAME_POINTS, frame_around};
 use crate::geom::outside_triangles;
-use crate::mesh::DiskMesh;
+use crate::mesh::{DiskMesh, VertexId};
 
 /// A surface in the plane with its outside up to a frame. Vertices have the numbers of the mesh as given; the frame's
 /// points follow.
@@ -58,7 +58,7 @@ impl Ring {
 impl<'a> Surface<'a> {
     /// The faces of a mesh in an embedding.
     pub(super) fn new(mesh: &'a DiskMesh, embedding: &[DVec2]) -> Self {
-        let inner = mesh.faces().map(|face| mesh.face(face).map(|v| v.number())).collect();
+        let inner = mesh.faces().map(|face| mesh.face(face).map(VertexId::number)).collect();
         let boundary: Vec<u32> = mesh.boundary_loop().iter().map(|v| v.number()).collect();
         let mut points = embedding.to_vec();
         points.extend(frame_around(boundary.iter().map(|&v| embedding[v as usize]), FRAME_POINTS));

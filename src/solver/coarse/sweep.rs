@@ -32,7 +32,7 @@ impl<'a> Sweeps<'a> {
         for vertex in disk.vertices().filter(moves) {
             let is_taken =
                 |colour: &usize| disk.outgoing(vertex).any(|side| colour_of[disk.head(side).index()] == *colour);
-            let colour = (0..).find(|colour| !is_taken(colour)).unwrap_or(colours.len());
+            let colour = (0..colours.len()).find(|colour| !is_taken(colour)).unwrap_or(colours.len());
             colour_of[vertex.index()] = colour;
             if colour == colours.len() {
                 colours.push(Vec::new());

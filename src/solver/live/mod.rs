@@ -191,7 +191,7 @@ impl Live {
                 self.settle(mesh, aim, control)?;
             }
             largest = largest.max(last.largest);
-            if last.share == 1.0 {
+            if last.share >= 1.0 {
                 break;
             }
         }
@@ -245,7 +245,7 @@ impl Live {
         for _ in 0..=HALVINGS {
             let Some(patch) = &self.patch else { break };
             let mut z: Vec<DVec2> = patch.z().iter().zip(&moves).map(|(z, by)| *z + share * *by).collect();
-            if share == 1.0 {
+            if share >= 1.0 {
                 patch.put_on(&mut z, target);
             }
             if self.take(mesh, z, &aim.sheet) {

@@ -209,16 +209,20 @@ impl Patch {
     /// What moves by how much, of vertices that move by themselves.
     pub(super) fn shift(&self, of: impl Fn(VertexId, DVec2) -> DVec2) -> Vec<DVec2> {
         let mut shift = vec![DVec2::ZERO; self.points.len()];
-        for place in self.free_count..self.moving_count {
-            shift[place] = of(self.points[place], self.z[place]);
+        let own = self.free_count..self.moving_count;
+        for (shift, (&point, &z)) in
+            shift[own.clone()].iter_mut().zip(self.points[own.clone()].iter().zip(&self.z[own]))
+        {
+            *shift = of(point, z);
         }
         shift
     }
 
     /// Puts the vertices that move by themselves on their targets.
     pub(super) fn put_on(&self, z: &mut [DVec2], target: impl Fn(VertexId) -> Option<DVec2>) {
-        for place in self.free_count..self.moving_count {
-            z[place] = target(self.points[place]).unwrap_or(z[place]);
+        let own = self.free_count..self.moving_count;
+        for (z, &point) in z[own.clone()].iter_mut().zip(&self.points[own]) {
+            *z = target(point).unwrap_or(*z);
         }
     }
 

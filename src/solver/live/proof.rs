@@ -91,7 +91,7 @@ impl Moved<'_> {
     /// The same in 32 bits of every number.
     pub(super) fn in_f32(&self, is_outside_positive: bool) -> Self {
         let places = self.places.iter().map(|z| z.as_vec2().as_dvec2()).collect();
-        Self { places, is_outside_positive, ..*self }
+        Self { is_outside_positive, places, ..*self }
     }
 
     /// Whether faces and ears are positive.

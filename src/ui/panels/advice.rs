@@ -26,11 +26,13 @@ impl Advice {
         let session = &editor.session;
         let is_at_rest = matches!(session.status(), Status::Held | Status::Current) && !editor.plane.is_moving(session);
         let step = editor.step_on_screen().filter(|_| is_at_rest && editor.tools.dragged().is_none())?;
-        if !step.step.verdict.planar {
-            if session.can_repair() { Some(Self::Repair) } else { Change::of(session).map(Self::Change) }
-        } else {
+        if step.step.verdict.planar {
             let ratio = step.distortion.summary.bad_ratio_of_areas().filter(|_| session.can_relax());
             ratio.map(Self::Relax)
+        } else if session.can_repair() {
+            Some(Self::Repair)
+        } else {
+            Change::of(session).map(Self::Change)
         }
     }
 

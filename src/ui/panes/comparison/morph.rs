@@ -49,11 +49,9 @@ fn row(ui: &mut egui::Ui, part: Rect, add: impl FnOnce(&mut egui::Ui)) {
 fn ends_row(ui: &mut egui::Ui, editor: &Editor, ends: &[(Variant, Arc<Compared>)], requests: &mut Vec<Request>) {
     let Some(between) = editor.session.morph_between() else { return };
     let width = ((ui.available_width() - 130.0) / 2.0).clamp(60.0, 240.0);
-    let both: [(&str, &str, fn(Variant) -> MorphRequest); 2] = [
-        ("From", "Method that the morph begins with", MorphRequest::From),
-        ("to", "Method that the morph ends with", MorphRequest::To),
-    ];
-    for ((words, name, request), now) in both.into_iter().zip(between) {
+    let names = [("From", "Method that the morph begins with"), ("to", "Method that the morph ends with")];
+    let requests_of: [fn(Variant) -> MorphRequest; 2] = [MorphRequest::From, MorphRequest::To];
+    for (((words, name), request), now) in names.into_iter().zip(requests_of).zip(between) {
         ui.label(words);
         let menu = list(ui, name, width, &now.title(), |ui| {
             for (variant, _) in ends {
