@@ -11,9 +11,9 @@ use eframe::egui;
 use egui::accesskit::{Role, Toggled};
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use freebound::session::{Action, Outcome, Preview, Status};
-use freebound::solver::{Settings, Verdict, verdict};
-use freebound::ui::{BINDINGS, Editor, Pane, Tab};
+use freebound::session::{Action, Outcome};
+use freebound::solver::{Embedding, Settings, Verdict, verdict};
+use freebound::ui::{BINDINGS, Pane, Tab};
 
 use crate::harness::{Window, sheet};
 use crate::makers::Random;
@@ -199,15 +199,16 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
     let plane = &editor.plane;
     let pill = pill(window);
     let drawn = plane.scene().map(|scene| &scene.outcome);
-    if let Some(preview) = live_preview(editor) {
-        // The sheet under a dragged pin: what is drawn is that frame, and the whole verdict on it is the one that shows.
-        let is_drawn =
-            plane.drawn().is_none_or(|sheet| sheet.positions()[..preview.embedding.len()] == preview.embedding[..]);
-        check(is_drawn, &|| "a frame of a drag that is not drawn".to_owned());
+    let is_live = |pill: &str| pill.starts_with("Planar: proved") && editor.shows_preview();
+    if pill.as_deref().is_some_and(is_live) {
+        // The sheet under a dragged pin, as it is drawn: the whole verdict on it is the one that the pill has.
         let disk = editor.session.model().and_then(|model| model.disk().cloned());
-        let is_so = disk.is_some_and(|disk| verdict(&disk, &preview.embedding).planar);
-        let says = pill.as_deref().is_none_or(|pill| pill.starts_with("Planar: proved"));
-        check(is_so && says, &|| format!("{pill:?} over a frame of a drag, which is planar: {is_so}"));
+        let sheet = plane.drawn().filter(|_| !plane.is_easing());
+        let is_so = disk.zip(sheet).is_some_and(|(disk, sheet)| {
+            let embedding: Embedding = sheet.positions()[..disk.vertex_count()].iter().copied().collect();
+            verdict(&disk, &embedding).planar
+        });
+        check(is_so, &|| format!("{pill:?} over a sheet under a pin that is not"));
     } else if let Some(pill) = pill.as_deref() {
         let at_rest = drawn.filter(|_| !plane.is_easing() && !editor.shows_preview());
         let verdict = at_rest.map(|outcome| &outcome.step.verdict);
@@ -245,21 +246,13 @@ fn disagreements(window: &Window, is_quiet: bool) -> Vec<String> {
     found
 }
 
-/// The planar sheet under a dragged pin, where that is what the window shows.
-fn live_preview(editor: &Editor) -> Option<&Preview> {
-    match editor.session.status() {
-        Status::Preview(preview) => preview.filter(|preview| preview.live.is_some()),
-        _ => None,
-    }
-}
-
 fn session_disagreements(window: &Window, pill: Option<&str>) -> Vec<String> {
     let mut found = Vec::new();
     let editor = window.editor();
     let (session, timeline) = (&editor.session, editor.session.timeline());
     let drawn = editor.plane.scene().map(|scene| scene.outcome_revision);
     if let Some(pill) = pill {
-        let is_of_step = live_preview(editor).is_none() && pill.starts_with("Planar")
+        let is_of_step = !editor.shows_preview() && pill.starts_with("Planar")
             || pill.contains("flipped") && !pill.contains("preview");
         let is_there = drawn == Some(session.outcome_revision()) && session.is_current();
         if is_of_step && !is_there {
