@@ -35,17 +35,22 @@ pub fn clip_polygon(polygon: &[DVec2], bounds: Bounds) -> Vec<DVec2> {
     let mut kept = polygon.to_vec();
     for (inwards, limit) in sides {
         let mut cut = Vec::with_capacity(kept.len() + 4);
-        for (k, &b) in kept.iter().enumerate() {
-            let a = kept[(k + kept.len() - 1) % kept.len()];
-            let (depth_a, depth_b) = (a.dot(inwards) - limit, b.dot(inwards) - limit);
-            if (depth_a < 0.0) != (depth_b < 0.0) {
-                cut.push(a.lerp(b, depth_a / (depth_a - depth_b)));
-            }
-            if depth_b >= 0.0 {
-                cut.push(b);
-            }
-        }
+        cut_by_line(&kept, |z| z.dot(inwards) - limit, &mut cut);
         kept = cut;
     }
     kept
+}
+
+/// Adds to `cut` the part of a polygon on one side of a line: where `depth`, which is linear, is not negative.
+pub(super) fn cut_by_line(polygon: &[DVec2], depth: impl Fn(DVec2) -> f64, cut: &mut Vec<DVec2>) {
+    for (k, &b) in polygon.iter().enumerate() {
+        let a = polygon[(k + polygon.len() - 1) % polygon.len()];
+        let (depth_a, depth_b) = (depth(a), depth(b));
+        if (depth_a < 0.0) != (depth_b < 0.0) {
+            cut.push(a.lerp(b, depth_a / (depth_a - depth_b)));
+        }
+        if depth_b >= 0.0 {
+            cut.push(b);
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::Bounds;
+use super::clip::cut_by_line;
 
 /// The kernel of a polygon whose corners run counter-clockwise, as a convex polygon: what lies to the left of all its
 /// sides. Empty where there is none, but for rounding.
@@ -12,16 +13,7 @@ pub fn kernel(polygon: &[DVec2]) -> Vec<DVec2> {
     let mut cut = Vec::with_capacity(kept.len() + polygon.len());
     for (k, &from) in polygon.iter().enumerate() {
         let along = polygon[(k + 1) % polygon.len()] - from;
-        for (i, &b) in kept.iter().enumerate() {
-            let a = kept[(i + kept.len() - 1) % kept.len()];
-            let [left_a, left_b] = [a, b].map(|z| along.perp_dot(z - from));
-            if (left_a < 0.0) != (left_b < 0.0) {
-                cut.push(a.lerp(b, left_a / (left_a - left_b)));
-            }
-            if left_b >= 0.0 {
-                cut.push(b);
-            }
-        }
+        cut_by_line(&kept, |z| along.perp_dot(z - from), &mut cut);
         std::mem::swap(&mut kept, &mut cut);
         cut.clear();
     }
